@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+# Every kernel file by its path below kernels/. cmake/embed_kernels.cmake puts their text into the library;
+# a test compares this list with the folder.
+set(CLRT_KERNEL_FILES
+  camera/camera.h
+  film/film.h
+  film/tile.h
+  geometry/box.h
+  geometry/ray.h
+  geometry/scene.h
+  geometry/surface.h
+  geometry/texture.h
+  geometry/traverse.h
+  geometry/traverse_bvh2.h
+  geometry/traverse_bvh8.h
+  geometry/triangle.h
+  geometry/visibility.h
+  integrators/aov.cl
+  integrators/direct.h
+  integrators/path.cl
+  integrators/path.h
+  integrators/pixel.h
+  integrators/raycast.cl
+  integrators/raycast.h
+  integrators/whitted.cl
+  integrators/whitted.h
+  lights/delta_light.h
+  lights/emitter.h
+  lights/environment.h
+  lights/light_sample.h
+  lights/lights.h
+  numerics/device.h
+  numerics/frame.h
+  numerics/real.h
+  numerics/sampler.h
+  numerics/vector.h
+  numerics/warp.h
+  path/mis.h
+  scattering/bsdf.h
+  scattering/bsdf_dielectric.h
+  scattering/bsdf_glossy.h
+  scattering/bsdf_matte.h
+  scattering/bsdf_types.h
+  scattering/fresnel.h
+  scattering/material.h
+  scattering/microfacet.h
+  shared/bvh_types.h
+  shared/effects.h
+  shared/render_types.h
+  shared/scene_types.h
+  shared/types.h
+)

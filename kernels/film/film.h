@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film: 64-bit fixed-point sums of radiance, three a pixel and replicate, and the counters. Adding integers is exact and
+// order-free, so passes, launch sizes and merged runs give the same bits.
+#ifndef CLRT_FILM_FILM_H
+#define CLRT_FILM_FILM_H
+
+#include "numerics/sampler.h"
+#include "numerics/vector.h"
+#include "shared/render_types.h"
+
+/* Rays of one work-item. */
+typedef struct {
+    uint primary, secondary, shadow;
+} RayCount;
+
+/* Adds to a 64-bit counter kept as two words. */
+static inline void film_count_long(global volatile uint* counter, uint value)
+{
+    const uint before = atomic_add(counter, value);
+    if (before + value < before)
+        atomic_inc(counter + 1);
+}
+
+static inline void film_count_rays(global volatile uint* counters, const RayCount* rays)
+{
+    film_count_long(counters + COUNT_RAYS_PRIMARY_LOW, rays->primary);
+    film_count_long(counters + COUNT_RAYS_SECONDARY_LOW, rays->secondary);
+    film_count_long(counters + COUNT_RAYS_SHADOW_LOW, rays->shadow);
+}
+
+/* Which counter a bad sample belongs to; COUNT_WORDS for a good one. */
+static inline uint film_fault(const RenderParams* params, real3 radiance)
+{
+    if (real_is_nan(radiance.x) || real_is_nan(radiance.y) || real_is_nan(radiance.z))
+        return COUNT_NAN;
+    if (!vector_is_finite(radiance))
+        return COUNT_INFINITE;
+    if (fmin(radiance.x, fmin(radiance.y, radiance.z)) < REAL(0.0))
+        return COUNT_NEGATIVE;
+    if (vector_max_component(radiance) > (real)params->largest_contribution)
+        return COUNT_OVERFLOW;
+    return COUNT_WORDS;
+}
+
+/* Counts a bad sample and notes its address for replay. */
+static inline void film_report_fault(global volatile uint* counters, uint fault, uint pixel, uint sample)
+{
+    atomic_inc(counters + fault);
+    const uint slot = atomic_inc(counters + COUNT_BAD_SAMPLES);
+    if (slot < REPLAY_CAPACITY) {
+        counters[COUNT_WORDS + 2u * slot] = pixel;
+        counters[COUNT_WORDS + 2u * slot + 1u] = sample;
+    }
+}
+
+/* Rounds a value in quanta up or down with the probability of its fraction: dark pixels stay unbiased. */
+static inline long film_round(real quanta, uint word) { return convert_long(floor(quanta + sampler_unit(word))); }
+
+/* Adds one sample's radiance to its pixel's sums. A bad sample counts as 0 and is reported. `slot` is the pixel's place in
+   the window, `pixel` its number in the whole picture. */
+static inline void film_add(const RenderParams* params, global long* film, global volatile uint* counters,
+                            const Sampler* sampler, uint slot, uint pixel, uint sample, real3 radiance)
+{
+    const uint fault = film_fault(params, radiance);
+    if (fault != COUNT_WORDS) {
+        film_report_fault(counters, fault, pixel, sample);
+        return;
+    }
+    const ulong pixels = (ulong)params->crop_width * params->crop_height;
+    const uint replicate = sample % params->film_replicates;
+    global long* sums = film + 3u * (replicate * pixels + slot);
+    const real3 quanta = radiance * (real)params->inverse_quantum;
+    sums[0] += film_round(quanta.x, sampler_word(sampler, 0u, SAMPLE_ROUNDING));
+    sums[1] += film_round(quanta.y, sampler_word(sampler, 0u, SAMPLE_ROUNDING + 1u));
+    sums[2] += film_round(quanta.z, sampler_word(sampler, 0u, SAMPLE_ROUNDING + 2u));
+}
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conservative slab test: a ray that meets a triangle, in the arithmetic of triangle.h, meets its boxes.
+#ifndef CLRT_GEOMETRY_BOX_H
+#define CLRT_GEOMETRY_BOX_H
+
+#include "ray.h"
+
+/* Smallest |component| of a direction in slab tests: 1/d stays finite, and a ray within a face's plane is decided by
+   the pad. */
+#define BOX_SMALLEST_DIRECTION REAL(1e-18)
+
+/* Units of u by which planes move out, as a share of max(|origin|, extent): 8 for the shear of the triangle test
+   (each sheared corner is off by at most 8 u |corner - origin| and that distance is at most 2 max), times 2, plus
+   3 for rounding of origin * reciprocal and 5 for the reciprocal's own error on planes up to max away. */
+#define BOX_PAD_ROUNDINGS REAL(24.0)
+
+/* 1 + 2 gamma(7): the exit distance's share of the rounding of products and reciprocals (Ize 2013). */
+#define BOX_EXIT_FACTOR (REAL(1.0) + REAL(14.0) * REAL_ROUNDING * REAL(1.0000005))
+
+/* Per-ray constants: distance to a plane = fma(plane, reciprocal, entry or exit). */
+typedef struct {
+    real3 reciprocal;
+    real3 entry;
+    real3 exit;
+} BoxRay;
+
+static inline BoxRay box_ray_make(const Ray* ray, real scene_extent)
+{
+    BoxRay box;
+    const real3 d = ray->direction;
+    const real3 clamped = copysign(fmax(fabs(d), (real3)(BOX_SMALLEST_DIRECTION)), d);
+    box.reciprocal = REAL(1.0) / clamped;
+    const real reach = fmax(vector_max_abs(ray->origin), scene_extent);
+    const real3 pad = fabs(box.reciprocal) * (BOX_PAD_ROUNDINGS * FLOAT_ROUNDING * reach);
+    const real3 offset = ray->origin * box.reciprocal;
+    box.entry = -offset - pad;
+    box.exit = pad - offset;
+    return box;
+}
+
+/* True for rays that may be traced: finite origin and direction, direction not zero. */
+static inline bool ray_is_valid(const Ray* ray)
+{
+    return vector_is_finite(ray->origin) && vector_is_finite(ray->direction) &&
+           !vector_is_zero(ray->direction) && ray->t_max > REAL(0.0);
+}
+
+#endif

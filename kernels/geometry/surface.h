@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// The point of a surface that a ray has hit: position with its error bound, normals, texture coordinates.
+#ifndef CLRT_GEOMETRY_SURFACE_H
+#define CLRT_GEOMETRY_SURFACE_H
+
+#include "ray.h"
+#include "scene.h"
+
+typedef struct {
+    real3 position;   /* on the triangle */
+    real3 normal_g;   /* unit, of the plane, on wo's side */
+    real3 normal_s;   /* unit, for shading, on wo's side */
+    real3 tangent;    /* direction of growing texture u; any length, 0 without texture coordinates */
+    real3 bitangent;  /* direction of growing texture v */
+    real3 bulge;      /* from position to the curved surface that the corner normals describe; points to wo's side */
+    float2 uv;
+    real offset;      /* bound of position's distance to the plane that the triangle test sees */
+    uint triangle;
+    uint material;
+    bool front;       /* wo is on the front side (winding, or vn where given) */
+} Surface;
+
+/* Corner positions. */
+static inline void surface_corners(const Scene* scene, global const Triangle* triangle, real3* p0, real3* p1, real3* p2)
+{
+    *p0 = vector_from(scene->positions[triangle->v0]);
+    *p1 = vector_from(scene->positions[triangle->v1]);
+    *p2 = vector_from(scene->positions[triangle->v2]);
+}
+
+/* How far a point on the triangle must move along the normal so that a ray leaving it cannot meet the triangle's own
+   plane again. With u = 2^-24, M the largest |coordinate| and E the largest extent of the triangle:
+   - the point b0 p0 + b1 p1 + b2 p2 = p0 + b1 e1 + b2 e2 is off the plane by its last rounding, u M per axis, and by
+     products and sums of edge terms, at most 4 u E per axis;
+   - moving it rounds once more: u M;
+   - the next ray's test subtracts the new origin from the corners (u (E + d)), shears (4 u E) and weights the depths
+     (4 u E), which may shift the plane it sees by at most 9 u E.
+   Per axis that is u (2 M + 13 E); the normal's 1-norm is at most sqrt(3), so delta = u (4 M + 24 E) is enough. */
+static inline real surface_offset_bound(real3 p0, real3 p1, real3 p2)
+{
+    const real3 lower = fmin(p0, fmin(p1, p2));
+    const real3 upper = fmax(p0, fmax(p1, p2));
+    const real largest = vector_max_component(fmax(fabs(lower), fabs(upper)));
+    const real extent = vector_max_component(upper - lower);
+    return FLOAT_ROUNDING * fma(REAL(4.0), largest, REAL(24.0) * extent);
+}
+
+/* Interpolates texture coordinates and their derivatives along the surface. */
+static inline void surface_uv(const Scene* scene, global const Triangle* triangle, real b1, real b2, real3 e1, real3 e2,
+                              Surface* surface)
+{
+    if (triangle->t0 == NO_INDEX)
+        return;
+    const float2 t0 = scene->uvs[triangle->t0];
+    const float2 d1 = scene->uvs[triangle->t1] - t0;
+    const float2 d2 = scene->uvs[triangle->t2] - t0;
+    surface->uv = t0 + (float)b1 * d1 + (float)b2 * d2;
+    if (!HAS(EFFECT_NORMAL_MAP | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))
+        return;
+    /* Solve e1 = d1.u tangent + d1.v bitangent, e2 alike; no tangent where the map is degenerate. */
+    const real det = real_difference_of_products(d1.x, d2.y, d1.y, d2.x);
+    if (det == REAL(0.0))
+        return;
+    surface->tangent = ((real)d2.y * e1 - (real)d1.y * e2) / det;
+    surface->bitangent = ((real)d1.x * e2 - (real)d2.x * e1) / det;
+}
+
+/* Interpolated shading normal, and the displacement to the curved surface: the point is projected on the tangent planes
+   of the corners, and the projections are interpolated (Hanika 2021, Ray Tracing Gems II, ch. 4). Without it
+   coarse meshes shade themselves near the terminator. */
+static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, const real3* p, real b1, real b2,
+                                  Surface* surface)
+{
+    if (!HAS(EFFECT_SMOOTH_NORMALS) || triangle->n0 == NO_INDEX)
+        return;
+    const real3 n0 = vector_from(scene->normals[triangle->n0]);
+    const real3 n1 = vector_from(scene->normals[triangle->n1]);
+    const real3 n2 = vector_from(scene->normals[triangle->n2]);
+    const real b0 = REAL(1.0) - b1 - b2;
+    const real3 sum = b0 * n0 + b1 * n1 + b2 * n2;
+    const real length_squared = vector_dot(sum, sum);
+    /* Corner normals that cancel describe no direction: keep the plane's. */
+    if (!(length_squared > REAL_ROUNDING))
+        return;
+    const real side = surface->front ? REAL(1.0) : REAL(-1.0);
+    surface->normal_s = sum * (side / real_sqrt(length_squared));
+    const real3 lift = b0 * fmin(vector_dot(surface->position - p[0], n0) * side, REAL(0.0)) * n0 +
+                       b1 * fmin(vector_dot(surface->position - p[1], n1) * side, REAL(0.0)) * n1 +
+                       b2 * fmin(vector_dot(surface->position - p[2], n2) * side, REAL(0.0)) * n2;
+    surface->bulge = -lift * side;
+}
+
+/* True where the given normals say that the winding's normal points inward. */
+static inline bool surface_winding_is_reversed(const Scene* scene, global const Triangle* triangle, real3 normal)
+{
+    if (triangle->n0 == NO_INDEX)
+        return false;
+    const real3 sum = vector_from(scene->normals[triangle->n0]) + vector_from(scene->normals[triangle->n1]) +
+                      vector_from(scene->normals[triangle->n2]);
+    return vector_dot(sum, normal) < REAL(0.0);
+}
+
+/* Reconstructs the surface at a hit; wo points back along the ray. The position comes from the barycentric weights, not
+   from the distance, so its error depends on the triangle's size and place alone. */
+static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real3 wo)
+{
+    global const Triangle* triangle = scene->triangles + hit->triangle;
+    real3 p[3];
+    surface_corners(scene, triangle, &p[0], &p[1], &p[2]);
+    const real3 e1 = p[1] - p[0];
+    const real3 e2 = p[2] - p[0];
+    const real3 normal = vector_normalize(vector_cross(e1, e2));
+    const real side = vector_dot(normal, wo) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
+
+    Surface surface;
+    surface.position = p[0] + fma((real3)(hit->b1), e1, hit->b2 * e2);
+    surface.offset = surface_offset_bound(p[0], p[1], p[2]);
+    surface.normal_g = normal * side;
+    surface.normal_s = surface.normal_g;
+    surface.tangent = (real3)(REAL(0.0));
+    surface.bitangent = (real3)(REAL(0.0));
+    surface.bulge = (real3)(REAL(0.0));
+    surface.uv = (float2)(0.0f);
+    surface.triangle = hit->triangle;
+    surface.material = triangle->material;
+    surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
+    if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))
+        surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
+    surface_smooth(scene, triangle, p, hit->b1, hit->b2, &surface);
+    return surface;
+}
+
+/* Where a ray in direction w leaves the surface: on w's side of the plane by the error bound, and, when it stays on wo's
+   side, lifted to the curved surface. */
+static inline real3 surface_origin(const Surface* surface, real3 w)
+{
+    const bool reflects = vector_dot(w, surface->normal_g) >= REAL(0.0);
+    const real3 step = surface->normal_g * (reflects ? surface->offset : -surface->offset);
+    return (reflects ? surface->position + surface->bulge : surface->position) + step;
+}
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture lookup: bilinear, in buffers (images are optional in OpenCL and differ between devices).
+#ifndef CLRT_GEOMETRY_TEXTURE_H
+#define CLRT_GEOMETRY_TEXTURE_H
+
+#include "scene.h"
+
+#define TEXTURE_LUMINANCE 4u /* Texture.channel of maps read as grey */
+
+/* One texel, linear, as (r, g, b, a). */
+static inline float4 texture_texel(const Scene* scene, global const Texture* texture, uint x, uint y)
+{
+    const uint texel = y * texture->width + x;
+    if (texture->format == TEXEL_FLOAT)
+        return as_float4(vload4(0, scene->texel_words + texture->first_word + 4u * texel));
+    const uint word = scene->texel_words[texture->first_word + texel];
+    const uint4 bytes = (uint4)(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24);
+    if (texture->format == TEXEL_LINEAR8)
+        return convert_float4(bytes) / 255.0f;
+    /* The first 256 words are the sRGB curve. */
+    return (float4)(as_float(scene->texel_words[bytes.x]), as_float(scene->texel_words[bytes.y]),
+                    as_float(scene->texel_words[bytes.z]), (float)bytes.w / 255.0f);
+}
+
+/* Wraps a texel coordinate that is at most one picture off. */
+static inline uint texture_wrap(int i, uint size, bool clamp_to_edge)
+{
+    const int n = (int)size;
+    if (clamp_to_edge)
+        return (uint)clamp(i, 0, n - 1);
+    return (uint)(i < 0 ? i + n : (i >= n ? i - n : i));
+}
+
+/* (r, g, b, a) at uv, where (0, 0) is the lower left corner of the picture; base + gain * value. */
+static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, float2 uv)
+{
+    global const Texture* texture = scene->textures + index;
+    float u = fma(uv.x, texture->scale_u, texture->offset_u);
+    float v = fma(uv.y, texture->scale_v, texture->offset_v);
+    const bool clamped = texture->clamp != 0u;
+    if (clamped && !(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f))
+        return (float4)(0.0f);
+    if (!clamped) {
+        /* A coordinate that is not finite reads the corner texel. */
+        u = real_is_finite((real)u) ? u - floor(u) : 0.0f;
+        v = real_is_finite((real)v) ? v - floor(v) : 0.0f;
+    }
+    /* Texel centres lie at half-integers; rows go down while v goes up. */
+    const float x = u * (float)texture->width - 0.5f;
+    const float y = (1.0f - v) * (float)texture->height - 0.5f;
+    const float fx = x - floor(x);
+    const float fy = y - floor(y);
+    const uint x0 = texture_wrap((int)floor(x), texture->width, clamped);
+    const uint y0 = texture_wrap((int)floor(y), texture->height, clamped);
+    const uint x1 = texture_wrap((int)floor(x) + 1, texture->width, clamped);
+    const uint y1 = texture_wrap((int)floor(y) + 1, texture->height, clamped);
+    const float4 a = texture_texel(scene, texture, x0, y0);
+    const float4 b = texture_texel(scene, texture, x1, y0);
+    const float4 c = texture_texel(scene, texture, x0, y1);
+    const float4 d = texture_texel(scene, texture, x1, y1);
+    const float4 upper = a + fx * (b - a);
+    const float4 lower = c + fx * (d - c);
+    return texture->base + texture->gain * (upper + fy * (lower - upper));
+}
+
+static inline real3 texture_color(const Scene* scene, uint index, float2 uv)
+{
+    return fmax(convert_real3(texture_lookup(scene, index, uv).xyz), (real3)(REAL(0.0)));
+}
+
+/* The channel a scalar map asks for. */
+static inline real texture_scalar(const Scene* scene, uint index, float2 uv)
+{
+    const float4 value = texture_lookup(scene, index, uv);
+    const uint channel = scene->textures[index].channel;
+    if (channel == TEXTURE_LUMINANCE)
+        return vector_luminance(convert_real3(value.xyz));
+    return (real)(channel == 0u ? value.x : channel == 1u ? value.y : channel == 2u ? value.z : value.w);
+}
+
+#endif

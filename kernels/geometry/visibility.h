@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hits and shadow rays that see through cut-outs.
+#ifndef CLRT_GEOMETRY_VISIBILITY_H
+#define CLRT_GEOMETRY_VISIBILITY_H
+
+#include "numerics/sampler.h"
+#include "scattering/material.h"
+#include "traverse.h"
+
+/* Coverage of the surface at a hit. */
+static inline real visibility_coverage(const Scene* scene, const Hit* hit)
+{
+    global const Triangle* triangle = scene->triangles + hit->triangle;
+    global const Material* material = scene->materials + triangle->material;
+    if (!(material->flags & MATERIAL_CUT_OUT))
+        return REAL(1.0);
+    float2 uv = (float2)(0.0f);
+    if (triangle->t0 != NO_INDEX) {
+        const float2 t0 = scene->uvs[triangle->t0];
+        uv = t0 + (float)hit->b1 * (scene->uvs[triangle->t1] - t0) + (float)hit->b2 * (scene->uvs[triangle->t2] - t0);
+    }
+    return material_coverage(scene, material, uv);
+}
+
+/* The first hit that is not passed: a surface of coverage c is passed with probability 1 - c. The search goes on behind the
+   passed hit in the order of hits, so no layer is missed or met twice. */
+static inline Hit visible_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint bounce,
+                              const Ray* ray)
+{
+    Hit after = hit_none(REAL(0.0));
+    Hit hit = scene_closest_hit(scene, params, ray, &after);
+    if (!HAS(EFFECT_CUT_OUT))
+        return hit;
+    for (uint layer = 0; hit.triangle != NO_INDEX; ++layer) {
+        const real coverage = visibility_coverage(scene, &hit);
+        if (coverage >= REAL(1.0))
+            break;
+        const uint word = sampler_word(sampler, bounce, SAMPLE_COVERAGE);
+        if (sampler_unit(sampler_hash(word + layer)) < coverage)
+            break;
+        after = hit;
+        hit = scene_closest_hit(scene, params, ray, &after);
+    }
+    return hit;
+}
+
+/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass. */
+static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+{
+    if (!HAS(EFFECT_CUT_OUT))
+        return scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
+    real share = REAL(1.0);
+    Hit after = hit_none(REAL(0.0));
+    while (share > REAL(0.0)) {
+        const Hit hit = scene_closest_hit(scene, params, ray, &after);
+        if (hit.triangle == NO_INDEX)
+            break;
+        share *= REAL(1.0) - visibility_coverage(scene, &hit);
+        after = hit;
+    }
+    return share;
+}
+
+#endif

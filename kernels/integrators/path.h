@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path tracing (Kajiya 1986) with next-event estimation and multiple importance sampling (Veach 1997): simulates
+// L(D|G|S)*E. One path a sample; a segment is one ray, so a path of max_depth segments scatters max_depth - 1 times.
+#ifndef CLRT_INTEGRATORS_PATH_H
+#define CLRT_INTEGRATORS_PATH_H
+
+#include "film/film.h"
+#include "geometry/visibility.h"
+#include "lights/lights.h"
+
+/* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
+#define PATH_SMALLEST_SURVIVAL REAL(0.05)
+
+/* Emission of the hit surface, weighted against the light sampling that could have found it. */
+static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                  const Bsdf* bsdf, const Hit* hit, real3 wo, real pdf_w)
+{
+    if (!HAS(EFFECT_AREA_LIGHT) || vector_is_zero(bsdf->emission))
+        return (real3)(REAL(0.0));
+    real light_pdf_w = REAL(0.0);
+    if (pdf_w > REAL(0.0))
+        light_pdf_w = (real)params->choose_emitter * emitter_hit_pdf_w(scene, surface, hit->t, wo);
+    return bsdf->emission * mis_weight(pdf_w, light_pdf_w);
+}
+
+/* Radiance that one sampled light sends to wo by way of this surface, weighted against BSDF sampling. */
+static CLRT_NOINLINE real3 path_direct(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint segment,
+                                       const Surface* surface, const Bsdf* bsdf, real3 wo, RayCount* rays)
+{
+    const LightSample light = lights_sample(scene, params, sampler, segment, surface, bsdf->frame.z);
+    if (vector_is_zero(light.radiance))
+        return (real3)(REAL(0.0));
+    const real3 value = bsdf_eval(bsdf, wo, light.wi);
+    if (vector_is_zero(value))
+        return (real3)(REAL(0.0));
+    const Ray shadow = light_shadow_ray(surface, &light);
+    ++rays->shadow;
+    const real share = visible_share(scene, params, &shadow);
+    if (share == REAL(0.0))
+        return (real3)(REAL(0.0));
+    const real weight = light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, bsdf_pdf_w(bsdf, wo, light.wi));
+    return value * light.radiance * (share * weight / light.pdf_w);
+}
+
+/* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios crossed so far
+   are taken out: light inside glass is not lost, only compressed. */
+static inline bool path_survives(const RenderParams* params, const Sampler* sampler, uint segment, real eta_squared,
+                                 real3* throughput)
+{
+    if (segment < params->roulette_depth)
+        return true;
+    const real survival =
+        clamp(vector_max_component(*throughput) / eta_squared, PATH_SMALLEST_SURVIVAL, REAL(1.0));
+    if (sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival)
+        return false;
+    *throughput /= survival;
+    return true;
+}
+
+static CLRT_NOINLINE real3 path_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler, Ray ray,
+                                         RayCount* rays)
+{
+    real3 radiance = (real3)(REAL(0.0));
+    real3 throughput = (real3)(REAL(1.0));
+    real eta_squared = REAL(1.0);
+    real pdf_w = REAL(0.0); /* of the ray's direction; 0 for camera rays and delta lobes */
+    for (uint segment = 1u;; ++segment) {
+        const real3 wo = -ray.direction;
+
+        /* Find the next vertex. */
+        const Hit hit = visible_hit(scene, params, sampler, segment, &ray);
+        if (hit.triangle == NO_INDEX) {
+            radiance += throughput * lights_escape(scene, params, ray.direction, pdf_w);
+            break;
+        }
+        const Surface surface = surface_at(scene, &hit, wo);
+        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+
+        /* Add what it emits. */
+        radiance += throughput * path_emission(scene, params, &surface, &bsdf, &hit, wo, pdf_w);
+        if (segment >= params->max_depth || bsdf.lobes == 0u)
+            break;
+
+        /* Connect it to a light. */
+        if (bsdf_has_smooth_lobe(&bsdf))
+            radiance += throughput * path_direct(scene, params, sampler, segment, &surface, &bsdf, wo, rays);
+
+        /* Choose the next direction. */
+        const real u_lobe = sampler_number(sampler, segment, SAMPLE_LOBE);
+        const BsdfSample sample = bsdf_sample(&bsdf, wo, u_lobe, sampler_pair(sampler, segment, SAMPLE_DIRECTION));
+        if (!sample.is_valid)
+            break;
+        throughput *= sample.weight;
+        pdf_w = sample.is_delta ? REAL(0.0) : sample.pdf_w;
+        eta_squared *= sample.eta * sample.eta;
+
+        /* Play Russian roulette. */
+        if (!path_survives(params, sampler, segment, eta_squared, &throughput))
+            break;
+        ray = ray_make(surface_origin(&surface, sample.wi), sample.wi);
+        ++rays->secondary;
+    }
+    return radiance;
+}
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ray casting (Appel 1968): the first hit, lit locally with shadows. Simulates L(D|G)?E and traces no secondary ray.
+#ifndef CLRT_INTEGRATORS_RAYCAST_H
+#define CLRT_INTEGRATORS_RAYCAST_H
+
+#include "direct.h"
+
+static CLRT_NOINLINE real3 raycast_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                            Ray ray, RayCount* rays)
+{
+    const real3 wo = -ray.direction;
+    const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
+    if (hit.triangle == NO_INDEX)
+        return lights_escape(scene, params, ray.direction, REAL(0.0));
+    const Surface surface = surface_at(scene, &hit, wo);
+    const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    if (params->max_depth < 2u)
+        return bsdf.emission;
+    return bsdf.emission + direct_light(scene, params, sampler, 1u, &surface, &bsdf, wo, true, rays);
+}
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recursive ray tracing (Whitted 1980): I = I_direct + k_s I_reflected + k_t I_refracted over a tree of rays, here with
+// a stack. Simulates L(D|G)?S*E. The tree ends at surfaces that only scatter diffusely, at max_depth segments, at weights
+// below min_contribution, and outside the scene.
+#ifndef CLRT_INTEGRATORS_WHITTED_H
+#define CLRT_INTEGRATORS_WHITTED_H
+
+#include "direct.h"
+
+/* The deepest tree; every level leaves at most one ray waiting. The command line refuses more. */
+#define WHITTED_MAX_DEPTH 64
+
+typedef struct {
+    Ray ray;
+    real3 weight;
+    uint segment; /* of the ray, from 1 */
+    uint node;    /* number of the ray in the tree: children of n are 2n and 2n + 1 */
+} WhittedRay;
+
+/* The child of a ray: same tree, one segment on. */
+static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* surface, real3 wi, real3 weight,
+                                       uint which)
+{
+    WhittedRay child;
+    child.ray = ray_make(surface_origin(surface, wi), wi);
+    child.weight = weight;
+    child.segment = parent->segment + 1u;
+    child.node = 2u * parent->node + which;
+    return child;
+}
+
+/* Puts a ray on the stack if it can still matter. */
+static inline uint whitted_push(const RenderParams* params, WhittedRay child, WhittedRay* stack, uint top)
+{
+    if (vector_max_component(child.weight) < (real)params->min_contribution || vector_is_zero(child.weight))
+        return top;
+    stack[top] = child;
+    return top + 1u;
+}
+
+/* Spawns the reflected and the refracted ray; gives the new stack size. */
+static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* parent, const Surface* surface,
+                                 const Bsdf* bsdf, real3 wo_world, WhittedRay* stack, uint top)
+{
+    const bool dielectric = HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC);
+    const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
+    if (!dielectric && !mirror)
+        return top;
+    const real3 n = bsdf->frame.z;
+    const real cos_o = clamp(vector_dot(n, wo_world), REAL(0.0), REAL(1.0));
+    real cos_t = REAL(0.0);
+    const real f = dielectric ? fresnel_dielectric(cos_o, bsdf->eta, &cos_t) : REAL(1.0);
+
+    const real3 reflected = REAL(2.0) * cos_o * n - wo_world;
+    if (vector_dot(reflected, surface->normal_g) > REAL(0.0)) {
+        const real3 color = dielectric ? bsdf->specular * f : bsdf_reflection_color(bsdf, cos_o);
+        top = whitted_push(params, whitted_child(parent, surface, reflected, parent->weight * color, 0u), stack, top);
+    }
+    if (!dielectric || f >= REAL(1.0))
+        return top;
+    const real3 refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
+    if (vector_dot(refracted, surface->normal_g) >= REAL(0.0))
+        return top;
+    const real3 color = bsdf->transmission * ((REAL(1.0) - f) * bsdf->eta * bsdf->eta);
+    return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack, top);
+}
+
+static CLRT_NOINLINE real3 whitted_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                            Ray ray, RayCount* rays)
+{
+    real3 radiance = (real3)(REAL(0.0));
+    WhittedRay stack[WHITTED_MAX_DEPTH + 1];
+    uint top = 1u;
+    stack[0].ray = ray;
+    stack[0].weight = (real3)(REAL(1.0));
+    stack[0].segment = 1u;
+    stack[0].node = 1u;
+    while (top != 0u) {
+        const WhittedRay current = stack[--top];
+        const real3 wo = -current.ray.direction;
+        if (current.segment > 1u)
+            ++rays->secondary;
+
+        /* Find the surface, or the light outside the scene. */
+        const Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
+        if (hit.triangle == NO_INDEX) {
+            radiance += current.weight * lights_escape(scene, params, current.ray.direction, REAL(0.0));
+            continue;
+        }
+        const Surface surface = surface_at(scene, &hit, wo);
+        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+        radiance += current.weight * bsdf.emission;
+        if (current.segment >= params->max_depth)
+            continue;
+
+        /* Light it, then follow reflection and refraction. */
+        const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
+        radiance += current.weight *
+                    direct_light(scene, params, sampler, current.node, &surface, &bsdf, wo, highlight, rays);
+        top = whitted_spawn(params, &current, &surface, &bsdf, wo, stack, top);
+    }
+    return radiance;
+}
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emissive triangles: chosen by power, sampled by area.
+#ifndef CLRT_LIGHTS_EMITTER_H
+#define CLRT_LIGHTS_EMITTER_H
+
+#include "light_sample.h"
+#include "scattering/material.h"
+
+/* Density per steradian at distance d of a density per area; cos_l is the cosine on the light. */
+static inline real emitter_pdf_w(real pdf_a, real distance_squared, real cos_l)
+{
+    return pdf_a * distance_squared / cos_l;
+}
+
+/* Chooses a triangle by the alias table and a point on it. Words: index and alias; u: the point. */
+static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const RenderParams* params, real3 position,
+                                                uint word, uint alias_word, real2 u)
+{
+    LightSample sample = light_sample_none();
+    /* Choose. */
+    const uint slot = warp_index(word, params->emitter_count);
+    const uint chosen = alias_word < scene->emitters[slot].threshold ? slot : scene->emitters[slot].alias;
+    global const Emitter* emitter = scene->emitters + chosen;
+    global const Triangle* triangle = scene->triangles + emitter->triangle;
+    /* A uniform point, moved off the triangle towards the surface by its error bound. */
+    real3 p0, p1, p2;
+    surface_corners(scene, triangle, &p0, &p1, &p2);
+    const real2 b = warp_triangle(u);
+    const real3 e1 = p1 - p0;
+    const real3 e2 = p2 - p0;
+    const real3 point = p0 + fma((real3)(b.x), e1, b.y * e2);
+    const real3 normal = vector_normalize(vector_cross(e1, e2));
+    const real3 way = point - position;
+    const real distance_squared = vector_dot(way, way);
+    if (!(distance_squared > REAL(0.0)))
+        return sample;
+    sample.wi = way / real_sqrt(distance_squared);
+    const real cos_l = -vector_dot(sample.wi, normal);
+    const bool front = (cos_l > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
+    global const Material* material = scene->materials + triangle->material;
+    if (cos_l == REAL(0.0) || !material_emits(material, front))
+        return sample;
+    sample.target = point + normal * copysign(surface_offset_bound(p0, p1, p2), cos_l);
+    sample.is_distant = false;
+    sample.is_delta = false;
+    sample.pdf_w = emitter_pdf_w((real)emitter->pdf_a, distance_squared, fabs(cos_l));
+    float2 uv = (float2)(0.0f);
+    if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
+        const float2 t0 = scene->uvs[triangle->t0];
+        uv = t0 + (float)b.x * (scene->uvs[triangle->t1] - t0) + (float)b.y * (scene->uvs[triangle->t2] - t0);
+    }
+    sample.radiance = material_emission(scene, material, uv);
+    return sample;
+}
+
+/* Density with which emitter_sample chooses the direction of a hit at distance t; 0 for triangles that are no emitter. */
+static inline real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real t, real3 wo)
+{
+    const uint index = scene->triangles[surface->triangle].emitter;
+    if (index == NO_INDEX)
+        return REAL(0.0);
+    const real cos_l = vector_dot(surface->normal_g, wo);
+    return cos_l > REAL(0.0) ? emitter_pdf_w((real)scene->emitters[index].pdf_a, t * t, cos_l) : REAL(0.0);
+}
+
+#endif

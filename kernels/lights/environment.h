@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light from outside the scene: constant, or a lat-long map with bilinear lookup that is sampled by texels.
+// +Y is up; a direction d reads u = 0.5 + atan2(d.z, d.x) / (2 pi), v = acos(d.y) / pi, v = 0 in the top row.
+#ifndef CLRT_LIGHTS_ENVIRONMENT_H
+#define CLRT_LIGHTS_ENVIRONMENT_H
+
+#include "light_sample.h"
+#include "numerics/frame.h"
+
+/* Turns a world direction into the map's frame. */
+static inline real3 environment_to_map(const RenderParams* params, real3 d)
+{
+    const real c = (real)params->environment_cos;
+    const real s = (real)params->environment_sin;
+    return vector_make(fma(c, d.x, -(s * d.z)), d.y, fma(s, d.x, c * d.z));
+}
+
+static inline real3 environment_to_world(const RenderParams* params, real3 d)
+{
+    const real c = (real)params->environment_cos;
+    const real s = (real)params->environment_sin;
+    return vector_make(fma(c, d.x, s * d.z), d.y, fma(-s, d.x, c * d.z));
+}
+
+/* Map coordinates of a unit direction in the map's frame, in [0, 1]. */
+static inline real2 environment_uv(real3 d)
+{
+    return (real2)(fma(atan2(d.z, d.x), REAL(0.5) * REAL_INVERSE_PI, REAL(0.5)),
+                   acos(clamp(d.y, REAL(-1.0), REAL(1.0))) * REAL_INVERSE_PI);
+}
+
+/* Solid angle of one texel of a row. */
+static inline real environment_texel_solid_angle(const RenderParams* params, uint row)
+{
+    const real step = REAL_PI / (real)params->environment_height;
+    /* cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2) */
+    const real band = REAL(2.0) * sin(step * ((real)row + REAL(0.5))) * sin(REAL(0.5) * step);
+    return REAL(2.0) * REAL_PI * band / (real)params->environment_width;
+}
+
+/* Radiance of the map at map coordinates, bilinear; wraps around, ends at the poles. */
+static CLRT_NOINLINE real3 environment_map_lookup(const Scene* scene, const RenderParams* params, real2 uv)
+{
+    const int width = (int)params->environment_width;
+    const int height = (int)params->environment_height;
+    const real x = uv.x * (real)width - REAL(0.5);
+    const real y = uv.y * (real)height - REAL(0.5);
+    const real fx = x - floor(x);
+    const real fy = y - floor(y);
+    const int column = (int)floor(x);
+    const int row = (int)floor(y);
+    const int x0 = column < 0 ? column + width : (column >= width ? column - width : column);
+    const int x1 = x0 + 1 == width ? 0 : x0 + 1;
+    const int y0 = clamp(row, 0, height - 1);
+    const int y1 = clamp(row + 1, 0, height - 1);
+    const real3 a = vector_from(scene->environment[y0 * width + x0].radiance);
+    const real3 b = vector_from(scene->environment[y0 * width + x1].radiance);
+    const real3 c = vector_from(scene->environment[y1 * width + x0].radiance);
+    const real3 d = vector_from(scene->environment[y1 * width + x1].radiance);
+    return vector_mix(vector_mix(a, b, fx), vector_mix(c, d, fx), fy);
+}
+
+/* Radiance that arrives along a ray leaving the scene in direction wi. */
+static inline real3 environment_eval(const Scene* scene, const RenderParams* params, real3 wi)
+{
+    const real3 factor = vector_from(params->environment);
+    if (!HAS(EFFECT_ENVIRONMENT_MAP) || params->environment_width == 0u)
+        return factor;
+    return factor * environment_map_lookup(scene, params, environment_uv(environment_to_map(params, wi)));
+}
+
+/* Chooses a texel by the alias table and a direction uniformly within it. */
+static inline LightSample environment_map_sample(const Scene* scene, const RenderParams* params, uint word, uint alias_word,
+                                                 real2 u)
+{
+    const uint width = params->environment_width;
+    const uint slot = warp_index(word, width * params->environment_height);
+    const uint texel = alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
+    const uint row = texel / width;
+    const uint column = texel - row * width;
+    /* cos theta is uniform between the row's edges. */
+    const real step = REAL_PI / (real)params->environment_height;
+    const real upper = cos(step * (real)row);
+    const real lower = cos(step * (real)(row + 1u));
+    const real y = clamp(fma(u.y, lower - upper, upper), REAL(-1.0), REAL(1.0));
+    const real r = real_root((REAL(1.0) - y) * (REAL(1.0) + y));
+    const real map_u = ((real)column + u.x) / (real)width;
+    /* u = 0.5 + phi / (2 pi): phi = 0 lies in the middle of the map. */
+    const real2 sc = real_sin_cos_turn(map_u < REAL(0.5) ? map_u + REAL(0.5) : map_u - REAL(0.5));
+    const real3 d = vector_make(r * sc.y, y, r * sc.x);
+    LightSample sample = light_sample_none();
+    sample.wi = environment_to_world(params, d);
+    sample.pdf_w = (real)scene->environment[texel].radiance.w / environment_texel_solid_angle(params, row);
+    sample.radiance = vector_from(params->environment) *
+                      environment_map_lookup(scene, params, (real2)(map_u, acos(y) * REAL_INVERSE_PI));
+    sample.is_delta = false;
+    return sample;
+}
+
+/* One direction to the environment for a surface: the map's by its alias table, the constant's by the cosine around the
+   shading normal n. */
+static CLRT_NOINLINE LightSample environment_sample(const Scene* scene, const RenderParams* params, real3 n, uint word,
+                                                    uint alias_word, real2 u)
+{
+    if (HAS(EFFECT_ENVIRONMENT_MAP) && params->environment_width != 0u)
+        return environment_map_sample(scene, params, word, alias_word, u);
+    const Frame frame = frame_make(n);
+    const real3 d = warp_cosine_hemisphere(u);
+    LightSample sample = light_sample_none();
+    sample.wi = frame_to_world(&frame, d);
+    sample.pdf_w = warp_cosine_hemisphere_pdf_w(d.z);
+    sample.radiance = sample.pdf_w > REAL(0.0) ? vector_from(params->environment) : (real3)(REAL(0.0));
+    sample.is_delta = false;
+    return sample;
+}
+
+/* Density of environment_map_sample for a direction. */
+static inline real environment_map_pdf_w(const Scene* scene, const RenderParams* params, real3 wi)
+{
+    const real2 uv = environment_uv(environment_to_map(params, wi));
+    const uint column = min((uint)(uv.x * (real)params->environment_width), params->environment_width - 1u);
+    const uint row = min((uint)(uv.y * (real)params->environment_height), params->environment_height - 1u);
+    return (real)scene->environment[row * params->environment_width + column].radiance.w /
+           environment_texel_solid_angle(params, row);
+}
+
+#endif

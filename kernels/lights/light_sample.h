@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What sampling a light gives, and the alias table that all lights are chosen by.
+#ifndef CLRT_LIGHTS_LIGHT_SAMPLE_H
+#define CLRT_LIGHTS_LIGHT_SAMPLE_H
+
+#include "geometry/surface.h"
+#include "numerics/warp.h"
+#include "shared/types.h"
+
+typedef struct {
+    real3 wi;       /* world, unit, from the surface */
+    real3 radiance; /* arriving if nothing is in between; irradiance at normal incidence for a delta light */
+    real3 target;   /* where the shadow ray ends; unused when distant */
+    real pdf_w;     /* per steradian as seen from the surface; 1 for a delta light */
+    bool is_distant;
+    bool is_delta;
+} LightSample;
+
+/* No light: nothing arrives. */
+static inline LightSample light_sample_none(void)
+{
+    LightSample sample;
+    sample.wi = (real3)(REAL(0.0), REAL(0.0), REAL(1.0));
+    sample.radiance = (real3)(REAL(0.0));
+    sample.target = (real3)(REAL(0.0));
+    sample.pdf_w = REAL(1.0);
+    sample.is_distant = true;
+    sample.is_delta = true;
+    return sample;
+}
+
+/* The shadow ray from a surface to the sampled light; it ends a few roundings before the target. */
+static inline Ray light_shadow_ray(const Surface* surface, const LightSample* sample)
+{
+    const real3 origin = surface_origin(surface, sample->wi);
+    if (sample->is_distant)
+        return ray_make(origin, sample->wi);
+    const real3 way = sample->target - origin;
+    const real distance = vector_length(way);
+    Ray ray = ray_make(origin, distance > REAL(0.0) ? way / distance : sample->wi);
+    ray.t_max = distance * (REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING);
+    return ray;
+}
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// All lights together: one of them chosen for next-event estimation, and what a ray that leaves the scene sees.
+#ifndef CLRT_LIGHTS_LIGHTS_H
+#define CLRT_LIGHTS_LIGHTS_H
+
+#include "delta_light.h"
+#include "emitter.h"
+#include "environment.h"
+#include "numerics/sampler.h"
+#include "path/mis.h"
+
+/* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities, then a
+   light of that kind, then a point on it. The probability of the choice is in pdf_w, and for delta lights in the
+   radiance. */
+static inline LightSample lights_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                        uint bounce, const Surface* surface, real3 n)
+{
+    const uint2 words = sampler_pair_words(sampler, bounce, SAMPLE_LIGHT_CHOICE);
+    const uint alias_word = sampler_word(sampler, bounce, SAMPLE_LIGHT_ALIAS);
+    const real2 u = sampler_pair(sampler, bounce, SAMPLE_LIGHT_POINT);
+    const real kind = sampler_unit(words.y);
+    LightSample sample = light_sample_none();
+    if (HAS(EFFECT_AREA_LIGHT) && kind < (real)params->choose_emitter) {
+        sample = emitter_sample(scene, params, surface->position, words.x, alias_word, u);
+        sample.pdf_w *= (real)params->choose_emitter;
+    } else if (HAS(EFFECT_ENVIRONMENT_MAP) && kind < (real)(params->choose_emitter + params->choose_environment)) {
+        sample = environment_sample(scene, params, n, words.x, alias_word, u);
+        sample.pdf_w *= (real)params->choose_environment;
+    } else if (HAS(EFFECT_DELTA_LIGHT) && params->choose_light > 0.0f) {
+        const uint index = delta_light_choose(scene, params, words.x, alias_word);
+        sample = delta_light_sample(scene, index, surface->position, u);
+        sample.pdf_w *= (real)(params->choose_light * scene->lights[index].probability);
+    }
+    return sample;
+}
+
+/* Radiance from outside the scene along wi: the environment and the discs of suns. pdf_w is the density with which the
+   direction was sampled, 0 for camera rays and delta lobes; each part is weighted against next-event estimation. */
+static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams* params, real3 wi, real pdf_w)
+{
+    real3 radiance = (real3)(REAL(0.0));
+    if (HAS(EFFECT_ENVIRONMENT)) {
+        real light_pdf_w = REAL(0.0);
+        if (HAS(EFFECT_ENVIRONMENT_MAP) && pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
+            light_pdf_w = (real)params->choose_environment * environment_map_pdf_w(scene, params, wi);
+        radiance = environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);
+    }
+    if (!HAS(EFFECT_DELTA_LIGHT))
+        return radiance;
+    for (uint i = 0; i < params->light_count; ++i) {
+        if (!delta_light_covers(scene, i, wi))
+            continue;
+        const real choose = (real)(params->choose_light * scene->lights[i].probability);
+        const real light_pdf_w = choose * warp_cone_pdf_w((real)scene->lights[i].one_minus_cos);
+        radiance += vector_from(scene->lights[i].emission) * mis_weight(pdf_w, light_pdf_w);
+    }
+    return radiance;
+}
+
+#endif

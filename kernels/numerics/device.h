@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What differs between compilers, in one place: each entry says which one wants it and why.
+#ifndef CLRT_NUMERICS_DEVICE_H
+#define CLRT_NUMERICS_DEVICE_H
+
+/* PoCL compiles a kernel's body several times (kernel, work-group launchers), but a function once; other CPU and
+   NVIDIA compilers shorten their build alike. So every large function is kept out of line. */
+#define CLRT_NOINLINE __attribute__((noinline))
+
+#ifndef __has_builtin
+#define __has_builtin(x) 0
+#endif
+
+/* x86 targets of PoCL: vmovmskps gathers eight sign bits in one instruction. Elsewhere, and for double, four
+   portable scalar operations. */
+#if __has_builtin(__builtin_ia32_movmskps256) && !defined(REAL_IS_DOUBLE)
+#define CLRT_HAS_MOVMSKPS 1
+#endif
+
+/* Clang-based compilers for CPUs: start loading a node that will be visited soon. */
+#if __has_builtin(__builtin_prefetch) && defined(CLRT_HAS_MOVMSKPS)
+#define CLRT_PREFETCH(pointer) __builtin_prefetch((const void*)(ulong)(pointer))
+#else
+#define CLRT_PREFETCH(pointer)
+#endif
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random numbers by address: every number is a pure function of (seed, pixel, replicate, sample, bounce, purpose).
+// Pairs come from Owen-scrambled Sobol points (Owen 1995; hashed scrambling: Laine and Karras 2011; padding with
+// shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash.
+#ifndef CLRT_NUMERICS_SAMPLER_H
+#define CLRT_NUMERICS_SAMPLER_H
+
+#include "real.h"
+
+/* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number. */
+#define SAMPLE_FILM 0u
+#define SAMPLE_DIRECTION 1u      /* direction within a lobe */
+#define SAMPLE_LOBE 2u           /* which lobe */
+#define SAMPLE_LIGHT_POINT 3u    /* point on a light, direction to the environment */
+#define SAMPLE_LIGHT_CHOICE 4u   /* which light */
+#define SAMPLE_LIGHT_ALIAS 5u    /* second word of an alias table */
+#define SAMPLE_ROULETTE 6u
+#define SAMPLE_ROUNDING 7u       /* of the film's fixed point; three words */
+#define SAMPLE_COVERAGE 10u      /* cut-outs; hashed on with their number along the ray */
+#define SAMPLER_PURPOSES 16u
+
+typedef struct {
+    uint key;            /* of pixel, replicate and seed */
+    uint index_reversed; /* bits of the sample's number within its replicate, reversed */
+    uint word_key;       /* key and sample: for single words */
+} Sampler;
+
+/* A bijection of 32-bit words with good avalanche (Wellons 2018, "lowbias32"). */
+static inline uint sampler_hash(uint x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    x ^= x >> 16;
+    return x;
+}
+
+static inline uint sampler_reverse_bits(uint x)
+{
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    return (x >> 16) | (x << 16);
+}
+
+/* Owen scrambling of a number whose bits are reversed: bit k is flipped depending on the bits below it
+   (constants: Vegdahl 2021). */
+static inline uint sampler_scramble_reversed(uint x, uint seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/* The second Sobol dimension of an index, bits reversed: Pascal's triangle modulo 2 times the index bits, which is a
+   Kronecker power of [1 1; 0 1] and so a butterfly. */
+static inline uint sampler_pascal_reversed(uint index)
+{
+    index ^= (index >> 1) & 0x55555555u;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    index ^= (index >> 16) & 0x0000ffffu;
+    return index;
+}
+
+/* Maps a word to the odd multiples of 2^-24: exact, never 0, never 1, and 1 - u is exact. */
+static inline real sampler_unit(uint word) { return (real)((word >> 8) | 1u) * REAL(5.9604644775390625e-8); }
+
+/* The sampler of one sample. `pixel` counts in the whole picture; sample s is number s / replicates of
+   replicate s mod replicates. Distinct pixels of a replicate never share a key. */
+static inline Sampler sampler_make(uint seed, uint pixel, uint sample, uint replicates)
+{
+    const uint replicate = sample % replicates;
+    const uint index = sample / replicates;
+    Sampler sampler;
+    sampler.key = sampler_hash(pixel ^ sampler_hash(replicate + sampler_hash(seed + 0x9e3779b9u)));
+    sampler.index_reversed = sampler_reverse_bits(index);
+    sampler.word_key = sampler_hash(sampler.key ^ sampler_hash(index + 0x85ebca6bu));
+    return sampler;
+}
+
+static inline uint sampler_address(uint bounce, uint purpose) { return bounce * SAMPLER_PURPOSES + purpose; }
+
+/* A word that is independent of all others. */
+static inline uint sampler_word(const Sampler* sampler, uint bounce, uint purpose)
+{
+    return sampler_hash(sampler->word_key + sampler_address(bounce, purpose) * 0x9e3779b9u);
+}
+
+/* One number of its own in (0, 1). */
+static inline real sampler_number(const Sampler* sampler, uint bounce, uint purpose)
+{
+    return sampler_unit(sampler_word(sampler, bounce, purpose));
+}
+
+/* A pair of words: over a replicate's first 2^m samples, a scrambled (0, m, 2)-net. */
+static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
+{
+    const uint key = sampler_hash(sampler->key + sampler_address(bounce, purpose) * 0x9e3779b9u);
+    /* Shuffle the index, so that different addresses are independent of each other. */
+    const uint index = sampler_reverse_bits(sampler_scramble_reversed(sampler->index_reversed, key));
+    /* Scramble both dimensions of the Sobol point. */
+    const uint x = sampler_scramble_reversed(index, sampler_hash(key ^ 0x68bc21ebu));
+    const uint y = sampler_scramble_reversed(sampler_pascal_reversed(index), sampler_hash(key ^ 0x02e5be93u));
+    return (uint2)(sampler_reverse_bits(x), sampler_reverse_bits(y));
+}
+
+static inline real2 sampler_pair(const Sampler* sampler, uint bounce, uint purpose)
+{
+    const uint2 words = sampler_pair_words(sampler, bounce, purpose);
+    return (real2)(sampler_unit(words.x), sampler_unit(words.y));
+}
+
+#endif

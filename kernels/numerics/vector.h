@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three-component vectors. Own dot and cross products: the built-in ones may round differently on every device.
+#ifndef CLRT_NUMERICS_VECTOR_H
+#define CLRT_NUMERICS_VECTOR_H
+
+#include "real.h"
+
+static inline real3 vector_make(real x, real y, real z) { return (real3)(x, y, z); }
+
+/* The first three components of a shared struct's vec4. */
+static inline real3 vector_from(float4 v) { return convert_real3(v.xyz); }
+
+static inline real vector_dot(real3 a, real3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+
+static inline real vector_length(real3 v) { return real_sqrt(vector_dot(v, v)); }
+
+/* Unit vector; v is neither zero nor so small that its square underflows. */
+static inline real3 vector_normalize(real3 v) { return v / vector_length(v); }
+
+/* a x b by differences of products: each component within 1.5 ulp, so nearly parallel edges keep a normal. */
+static inline real3 vector_cross(real3 a, real3 b)
+{
+    return vector_make(real_difference_of_products(a.y, b.z, a.z, b.y),
+                       real_difference_of_products(a.z, b.x, a.x, b.z),
+                       real_difference_of_products(a.x, b.y, a.y, b.x));
+}
+
+static inline real vector_max_component(real3 v) { return fmax(v.x, fmax(v.y, v.z)); }
+
+static inline real vector_max_abs(real3 v) { return vector_max_component(fabs(v)); }
+
+/* Luminance of linear RGB with the primaries of sRGB (ITU-R BT.709). */
+static inline real vector_luminance(real3 rgb)
+{
+    return fma(REAL(0.2126), rgb.x, fma(REAL(0.7152), rgb.y, REAL(0.0722) * rgb.z));
+}
+
+/* a + t (b - a), exactly a where t is 0. */
+static inline real3 vector_mix(real3 a, real3 b, real t) { return a + t * (b - a); }
+
+static inline bool vector_is_zero(real3 v) { return v.x == REAL(0.0) && v.y == REAL(0.0) && v.z == REAL(0.0); }
+
+static inline bool vector_is_finite(real3 v)
+{
+    return real_is_finite(v.x) && real_is_finite(v.y) && real_is_finite(v.z);
+}
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A material at one surface point, ready to be evaluated, and what sampling it gives.
+#ifndef CLRT_SCATTERING_BSDF_TYPES_H
+#define CLRT_SCATTERING_BSDF_TYPES_H
+
+#include "numerics/frame.h"
+#include "shared/effects.h"
+#include "shared/scene_types.h"
+
+typedef struct {
+    Frame frame;        /* z is the shading normal, on wo's side */
+    real3 normal_g;     /* geometric normal, on wo's side */
+    real3 matte;        /* reflectance */
+    real3 specular;     /* reflection colour, or F0 */
+    real3 transmission; /* tint of a crossing */
+    real3 emission;     /* radiance towards wo */
+    real alpha_x, alpha_y;
+    real eta;           /* index on wo's side over index on the other side */
+    real exponent;      /* of Phong's highlight; 0: none */
+    uint lobes;         /* LOBE_* that are not black here */
+    uint fresnel;       /* FRESNEL_* */
+    uint flags;         /* MATERIAL_* */
+    real choose_matte, choose_glossy; /* probabilities of the lobes; the rest is the mirror or the dielectric */
+} Bsdf;
+
+/* A sampled direction. */
+typedef struct {
+    real3 wi;      /* world */
+    real3 weight;  /* BSDF times |cos| over pdf, all factors inside */
+    real pdf_w;    /* per steradian; 0 for a delta lobe */
+    real eta;      /* relative index crossed; 1 for reflection */
+    bool is_delta;
+    bool is_valid; /* false: no direction, the path ends */
+} BsdfSample;
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fresnel reflectance and Snell's law.
+#ifndef CLRT_SCATTERING_FRESNEL_H
+#define CLRT_SCATTERING_FRESNEL_H
+
+#include "numerics/vector.h"
+
+/* cos of the refracted angle, squared: 1 - eta^2 (1 - cos_i^2), where eta = index on the incident side over index on the
+   other; not positive under total internal reflection. Both products are carried with their rounding errors,
+   so the critical angle is met to the last float. */
+static inline real fresnel_cos_t_squared(real cos_i, real eta)
+{
+    const real ec = eta * cos_i;
+    const real ec_error = fma(eta, cos_i, -ec);
+    const real p = ec * ec;
+    const real p_error = fma(ec, ec, -p);
+    /* eta^2 - 1 as a sum of two numbers (two-product, then two-sum). */
+    const real q = eta * eta;
+    const real q_error = fma(eta, eta, -q);
+    const real m = q - REAL(1.0);
+    const real t = m - q;
+    const real m_error = ((q - (m - t)) - (REAL(1.0) + t)) + q_error;
+    return (p - m) + (fma(REAL(2.0) * ec, ec_error, p_error) - m_error);
+}
+
+/* Reflectance of a smooth dielectric for unpolarised light, and the cosine of the refracted angle; 1 and 0 under
+   total internal reflection. cos_i in [0, 1]; eta as above. */
+static inline real fresnel_dielectric(real cos_i, real eta, real* cos_t)
+{
+    /* Equal indices: nothing is reflected at any angle. */
+    if (eta == REAL(1.0)) {
+        *cos_t = cos_i;
+        return REAL(0.0);
+    }
+    const real cos_t_squared = fresnel_cos_t_squared(cos_i, eta);
+    if (cos_t_squared <= REAL(0.0)) {
+        *cos_t = REAL(0.0);
+        return REAL(1.0);
+    }
+    *cos_t = real_sqrt(cos_t_squared);
+    const real ec = eta * cos_i;
+    const real s = (ec - *cos_t) / (ec + *cos_t);
+    const real et = eta * *cos_t;
+    const real p = (cos_i - et) / (cos_i + et);
+    return REAL(0.5) * fma(s, s, p * p);
+}
+
+/* Schlick's approximation (1994): f0 head-on, 1 at grazing incidence. */
+static inline real3 fresnel_schlick(real3 f0, real cos_i)
+{
+    const real m = clamp(REAL(1.0) - cos_i, REAL(0.0), REAL(1.0));
+    const real m2 = m * m;
+    return f0 + ((real3)(REAL(1.0)) - f0) * (m2 * m2 * m);
+}
+
+/* Reflectance head-on between media whose indices have this ratio. */
+static inline real fresnel_head_on(real index)
+{
+    const real r = (index - REAL(1.0)) / (index + REAL(1.0));
+    return r * r;
+}
+
+/* The refracted direction of wo about the normal n on wo's side; cos_t as given by fresnel_dielectric. */
+static inline real3 fresnel_refract(real3 wo, real3 n, real cos_i, real cos_t, real eta)
+{
+    return vector_normalize(n * fma(eta, cos_i, -cos_t) - eta * wo);
+}
+
+#endif

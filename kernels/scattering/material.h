@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// A material's constants and maps -> the BSDF at a surface point.
+#ifndef CLRT_SCATTERING_MATERIAL_H
+#define CLRT_SCATTERING_MATERIAL_H
+
+#include "bsdf.h"
+#include "geometry/surface.h"
+#include "geometry/texture.h"
+
+/* Smallest cosine between wo and a shading normal: an interpolated or mapped normal that wo does not see is bent
+   towards wo until it does, by an angle that no picture shows. */
+#define MATERIAL_SMALLEST_COS REAL(1e-3)
+
+/* Below this a mapped alpha is raised: the microfacet formulas keep seven digits down to it. */
+#define MATERIAL_SMALLEST_ALPHA REAL(1e-4)
+
+/* Coverage in [0, 1]: 0 lets everything pass. */
+static inline real material_coverage(const Scene* scene, global const Material* material, float2 uv)
+{
+    real coverage = (real)material->matte.w;
+    if (HAS(EFFECT_TEXTURES) && material->map_coverage != NO_INDEX)
+        coverage *= texture_scalar(scene, material->map_coverage, uv);
+    return clamp(coverage, REAL(0.0), REAL(1.0));
+}
+
+/* Emitted radiance at uv, both sides alike; the caller knows the side. */
+static inline real3 material_emission(const Scene* scene, global const Material* material, float2 uv)
+{
+    real3 emission = vector_from(material->emission);
+    if (HAS(EFFECT_TEXTURES) && material->map_emission != NO_INDEX)
+        emission *= texture_color(scene, material->map_emission, uv);
+    return emission;
+}
+
+/* True if the material shines on this side. */
+static inline bool material_emits(global const Material* material, bool front)
+{
+    return front || (material->flags & MATERIAL_EMITS_BOTH_SIDES);
+}
+
+/* The normal of a bump map (Blinn 1978): heights at the point and one texel further along u and v. */
+static inline real3 material_bump_normal(const Scene* scene, global const Material* material, const Surface* surface,
+                                         real3 n)
+{
+    global const Texture* texture = scene->textures + material->map_bump;
+    const float du = 1.0f / ((float)texture->width * fmax(fabs(texture->scale_u), 1e-6f));
+    const float dv = 1.0f / ((float)texture->height * fmax(fabs(texture->scale_v), 1e-6f));
+    const float2 uv = surface->uv;
+    const real height = texture_scalar(scene, material->map_bump, uv);
+    const real along_u = texture_scalar(scene, material->map_bump, (float2)(uv.x + du, uv.y));
+    const real along_v = texture_scalar(scene, material->map_bump, (float2)(uv.x, uv.y + dv));
+    const real scale = (real)material->bump_scale;
+    /* Displaced tangents; their cross product is the new normal. */
+    const real3 tu = surface->tangent + n * (scale * (along_u - height) / (real)du);
+    const real3 tv = surface->bitangent + n * (scale * (along_v - height) / (real)dv);
+    const real3 bumped = vector_cross(tu, tv);
+    const real length_squared = vector_dot(bumped, bumped);
+    if (!(length_squared > REAL(0.0)))
+        return n;
+    /* Mirrored texture coordinates turn the cross product round. */
+    const real side = vector_dot(bumped, n) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
+    return bumped * (side / real_sqrt(length_squared));
+}
+
+/* The normal of a tangent-space normal map. */
+static inline real3 material_mapped_normal(const Scene* scene, global const Material* material, const Surface* surface,
+                                           real3 n)
+{
+    const real3 rgb = convert_real3(texture_lookup(scene, material->map_normal, surface->uv).xyz);
+    const real3 m = REAL(2.0) * rgb - (real3)(REAL(1.0));
+    const Frame frame = frame_make_tangent(n, surface->tangent);
+    /* Green grows with v, also where the texture coordinates are mirrored. */
+    const real handed = vector_dot(frame.y, surface->bitangent) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
+    const real3 mapped = m.x * frame.x + m.y * handed * frame.y + m.z * n;
+    const real length_squared = vector_dot(mapped, mapped);
+    return length_squared > REAL(0.0) ? mapped / real_sqrt(length_squared) : n;
+}
+
+/* The shading normal: interpolated, mapped, and bent where wo would see its back. */
+static inline real3 material_normal(const Scene* scene, global const Material* material, const Surface* surface, real3 wo)
+{
+    real3 n = surface->normal_s;
+    const bool has_tangent = !vector_is_zero(surface->tangent);
+    if (HAS(EFFECT_NORMAL_MAP) && has_tangent && material->map_bump != NO_INDEX)
+        n = material_bump_normal(scene, material, surface, n);
+    if (HAS(EFFECT_NORMAL_MAP) && has_tangent && material->map_normal != NO_INDEX)
+        n = material_mapped_normal(scene, material, surface, n);
+    if (!HAS(EFFECT_SMOOTH_NORMALS | EFFECT_NORMAL_MAP))
+        return n;
+    const real cos_o = vector_dot(n, wo);
+    if (cos_o < MATERIAL_SMALLEST_COS && !vector_is_zero(n - surface->normal_g))
+        n = vector_normalize(n + (MATERIAL_SMALLEST_COS - cos_o) * wo);
+    return n;
+}
+
+/* Reads colours and roughness, maps included. */
+static inline void material_parameters(const Scene* scene, global const Material* material, const Surface* surface,
+                                       Bsdf* bsdf)
+{
+    real metallic = (real)material->emission.w;
+    real roughness = REAL(1.0);
+    if (HAS(EFFECT_TEXTURES)) {
+        if (material->map_matte != NO_INDEX)
+            bsdf->matte *= texture_color(scene, material->map_matte, surface->uv);
+        if (material->map_specular != NO_INDEX)
+            bsdf->specular *= texture_color(scene, material->map_specular, surface->uv);
+        if (material->map_metallic != NO_INDEX)
+            metallic *= clamp(texture_scalar(scene, material->map_metallic, surface->uv), REAL(0.0), REAL(1.0));
+        if (material->map_roughness != NO_INDEX)
+            roughness = clamp(texture_scalar(scene, material->map_roughness, surface->uv), REAL(0.0), REAL(1.0));
+    }
+    if (material->flags & MATERIAL_METALLIC_ROUGHNESS) {
+        bsdf->specular = vector_mix((real3)(REAL(0.04)), bsdf->matte, metallic);
+        bsdf->matte *= REAL(1.0) - metallic;
+    }
+    if (roughness != REAL(1.0)) {
+        const real x = (real)material->roughness_sqrt_x * roughness;
+        const real y = (real)material->roughness_sqrt_y * roughness;
+        bsdf->alpha_x = fmax(x * x, MATERIAL_SMALLEST_ALPHA);
+        bsdf->alpha_y = fmax(y * y, MATERIAL_SMALLEST_ALPHA);
+    }
+}
+
+/* Builds the BSDF of a surface point as wo sees it. */
+static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo)
+{
+    global const Material* material = scene->materials + surface->material;
+    Bsdf bsdf;
+    bsdf.matte = vector_from(material->matte);
+    bsdf.specular = vector_from(material->specular);
+    bsdf.transmission = vector_from(material->transmission);
+    bsdf.emission = (real3)(REAL(0.0));
+    bsdf.alpha_x = (real)material->alpha_x;
+    bsdf.alpha_y = (real)material->alpha_y;
+    bsdf.exponent = (real)material->specular.w;
+    bsdf.lobes = material->lobes;
+    bsdf.fresnel = material->fresnel;
+    bsdf.flags = material->flags;
+    bsdf.normal_g = surface->normal_g;
+    const real index = (real)material->transmission.w;
+    bsdf.eta = surface->front ? REAL(1.0) / index : index;
+    material_parameters(scene, material, surface, &bsdf);
+    if (HAS(EFFECT_AREA_LIGHT) && material_emits(material, surface->front))
+        bsdf.emission = material_emission(scene, material, surface->uv);
+    const real3 n = material_normal(scene, material, surface, wo);
+    /* Only stretched highlights need to know where u grows. */
+    bsdf.frame = bsdf.alpha_x != bsdf.alpha_y ? frame_make_tangent(n, surface->tangent) : frame_make(n);
+    bsdf_choose_lobes(&bsdf, wo);
+    return bsdf;
+}
+
+#endif

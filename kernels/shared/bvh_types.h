@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Node layouts of the bounding volume hierarchy. Both are trees over the same triangles; a layout is chosen
+// with -DBVH_LAYOUT when a kernel is compiled.
+#ifndef CLRT_SHARED_BVH_TYPES_H
+#define CLRT_SHARED_BVH_TYPES_H
+
+#include "types.h"
+
+#define BVH_LAYOUT_BVH8 8 /* eight children a node, tested with float8: for CPU devices */
+#define BVH_LAYOUT_BVH2 2 /* pairs of children in 64 bytes (Aila and Laine 2009): for GPUs */
+
+#define BVH_LEAF_BIT 0x80000000u
+#define BVH_MAX_DEPTH 64 /* levels of the binary tree; the builder guarantees it, stacks are sized by it */
+
+/* An empty child has lower = +BVH_EMPTY, upper = -BVH_EMPTY: no ray enters it. Products with the clamped
+   reciprocal direction (at most 1e18) stay finite. */
+#define BVH_EMPTY 1e18f
+
+/* bvh8 node: 64 words.
+   Words 0..47: planes in the order lower x, upper x, lower y, upper y, lower z, upper z, eight floats each.
+   Words 48..55: children: a node's index, or BVH_LEAF_BIT | index of a triangle block. Empty: BVH_LEAF_BIT.
+   Words 56..63: unused, 0 (keeps a node at four cache lines). */
+#define BVH8_WIDTH 8
+#define BVH8_NODE_WORDS 64
+#define BVH8_CHILD_WORD 48
+
+/* bvh8 leaf: one block of up to eight triangles, 80 words.
+   Words 0..71: [axis x,y,z][corner 0,1,2][lane], words 72..79: triangle index by lane.
+   Unused lanes hold zeros (a degenerate triangle, never hit) and NO_INDEX. */
+#define BVH8_BLOCK_WORDS 80
+#define BVH8_BLOCK_ID_WORD 72
+
+/* bvh2 node: 16 words: lower x, upper x, lower y, upper y of child 0; the same of child 1; lower z, upper z
+   of child 0, of child 1; child 0, child 1 as in bvh8 but a leaf's low 31 bits index the leaf triangles;
+   triangle count of child 0, of child 1 (0 for an inner or an empty child). */
+#define BVH2_NODE_WORDS 16
+#define BVH2_CHILD_WORD 12
+#define BVH2_COUNT_WORD 14
+#define BVH2_LEAF_TRIANGLES 4 /* most triangles a leaf holds */
+
+/* bvh2 leaf triangle: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz, 0. */
+#define BVH2_TRIANGLE_WORDS 12
+
+#endif

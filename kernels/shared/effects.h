@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Effects a kernel can be built with. The host proves which ones a scene cannot show (src/effects) and leaves
+// their bits out of CLRT_EFFECTS; kernels guard the code with `if (HAS(EFFECT_X))`, which type-checks all of
+// it in every build. A cleared bit only removes code whose run-time condition is never true in this scene.
+#ifndef CLRT_SHARED_EFFECTS_H
+#define CLRT_SHARED_EFFECTS_H
+
+#define EFFECT_AREA_LIGHT 0x0001u      /* emissive triangles */
+#define EFFECT_DELTA_LIGHT 0x0002u     /* point lights and suns */
+#define EFFECT_ENVIRONMENT 0x0004u     /* light from outside the scene */
+#define EFFECT_ENVIRONMENT_MAP 0x0008u /* ... that varies with direction */
+#define EFFECT_MATTE 0x0010u           /* Lambertian lobes */
+#define EFFECT_GLOSSY 0x0020u          /* rough reflection */
+#define EFFECT_MIRROR 0x0040u          /* delta reflection */
+#define EFFECT_REFRACTION 0x0080u      /* dielectrics */
+#define EFFECT_ROUGH_REFRACTION 0x0100u
+#define EFFECT_TEXTURES 0x0200u        /* any map */
+#define EFFECT_NORMAL_MAP 0x0400u      /* normal and bump maps */
+#define EFFECT_SMOOTH_NORMALS 0x0800u  /* vn that differ from the face's normal */
+#define EFFECT_CUT_OUT 0x1000u         /* coverage below 1 */
+#define EFFECT_FILTER 0x2000u          /* pixel filter other than the box */
+#define EFFECT_ALL 0x3fffu
+
+#ifndef __cplusplus
+#ifndef CLRT_EFFECTS
+#define CLRT_EFFECTS EFFECT_ALL
+#endif
+#define HAS(effects) ((CLRT_EFFECTS & (effects)) != 0) /* any of them */
+#endif
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one launch needs besides the scene's arrays. Passed to every kernel by value.
+#ifndef CLRT_SHARED_RENDER_TYPES_H
+#define CLRT_SHARED_RENDER_TYPES_H
+
+#include "types.h"
+
+SHARED_BEGIN
+
+#define FILTER_BOX 0u
+#define FILTER_TENT 1u
+#define FILTER_GAUSSIAN 2u
+
+typedef struct {
+    /* Camera in the normalised frame: the ray through film position (x, y), in pixels from the top left, has
+       the direction film_corner + x film_dx + y film_dy, not of unit length. */
+    vec4 eye;
+    vec4 film_corner;
+    vec4 film_dx;
+    vec4 film_dy;
+    vec4 look; /* unit */
+
+    vec4 environment; /* rgb: radiance of a constant environment, or factor of the map; w: unused, 0 */
+
+    u32 width, height;          /* of the whole picture, pixels */
+    u32 crop_x, crop_y;         /* top left pixel of the rendered window */
+    u32 crop_width, crop_height;
+    u32 first_sample;           /* of this launch */
+    u32 sample_count;           /* of this launch: samples first_sample .. first_sample + sample_count - 1 */
+    u32 replicates;             /* sample s belongs to replicate s mod replicates */
+    u32 film_replicates;        /* replicates whose sums are kept apart: a power of two below or equal to replicates */
+    u32 seed;
+    u32 max_depth;              /* path segments */
+    float min_contribution;     /* whitted: smallest weight worth a ray */
+    u32 filter;                 /* FILTER_* */
+    float filter_radius;        /* pixels */
+    float scene_extent;         /* largest |coordinate| of the geometry */
+
+    u32 emitter_count, light_count;
+    u32 environment_width, environment_height; /* 0: constant */
+    float environment_cos, environment_sin;    /* rotation of the map about +Y */
+    float choose_emitter, choose_environment;  /* probabilities of the kinds in next-event estimation; */
+    float choose_light;                        /* they sum to 1, or are all 0 */
+    u32 roulette_depth;         /* first path segment that Russian roulette may end */
+
+    float quantum;              /* radiance of one unit of the fixed-point film; a power of two */
+    float inverse_quantum;
+    float largest_contribution; /* in radiance; larger samples count as overflow */
+    u32 tile_count;             /* 8x8 tiles of the window */
+    u32 tiles_x;                /* tiles a row */
+    u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
+    u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
+    u32 unused0, unused1;
+} RenderParams;
+ASSERT_SIZE(RenderParams, 240);
+
+/* Counters of a run, u32 each. */
+#define COUNT_NAN 0
+#define COUNT_INFINITE 1
+#define COUNT_NEGATIVE 2
+#define COUNT_OVERFLOW 3
+#define COUNT_RAYS_PRIMARY_LOW 4 /* 64-bit counts as two words: low, high */
+#define COUNT_RAYS_SECONDARY_LOW 6
+#define COUNT_RAYS_SHADOW_LOW 8
+#define COUNT_BAD_SAMPLES 10     /* entries written to the replay list, may exceed its capacity */
+#define COUNT_WORDS 16
+#define REPLAY_CAPACITY 64       /* (pixel, sample) pairs after the counters */
+
+SHARED_END
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as the kernels see it: flat arrays of these structs. Positions are in the normalised frame
+// (centred, scaled by a power of two; see src/scene/normalise.h), colours are linear RGB.
+#ifndef CLRT_SHARED_SCENE_TYPES_H
+#define CLRT_SHARED_SCENE_TYPES_H
+
+#include "types.h"
+
+SHARED_BEGIN
+
+/* Corner indices into the position, normal and uv arrays. Normals or uvs are given for all three corners or
+   for none (all three NO_INDEX). */
+typedef struct {
+    u32 v0, v1, v2;
+    u32 n0, n1, n2;
+    u32 t0, t1, t2;
+    u32 material;
+    u32 emitter; /* index into the emitters, NO_INDEX when dark or of zero area */
+    u32 object;  /* index of the `o` or `g` statement, for the objectId layer */
+} Triangle;
+ASSERT_SIZE(Triangle, 48);
+
+/* Lobes of a material: the BSDF is their sum. */
+#define LOBE_MATTE 1u      /* Lambert, reflectance `matte` */
+#define LOBE_GLOSSY 2u     /* GGX reflection, colour `specular`, alpha_x, alpha_y > 0 */
+#define LOBE_MIRROR 4u     /* delta reflection, colour `specular` */
+#define LOBE_DIELECTRIC 8u /* reflection and refraction with exact Fresnel, smooth when alpha_x = 0; alone */
+
+/* What scales LOBE_GLOSSY and LOBE_MIRROR. */
+#define FRESNEL_NONE 0u    /* colour `specular` at every angle */
+#define FRESNEL_SCHLICK 1u /* F0 = `specular`, 1 at grazing */
+
+#define MATERIAL_METALLIC_ROUGHNESS 1u /* specular = mix(0.04, matte, metallic), matte = matte (1 - metallic) */
+#define MATERIAL_EMITS_BOTH_SIDES 2u
+#define MATERIAL_WHITTED_MIRROR 4u     /* `whitted` sends one mirror ray for the reflection lobe, no highlight */
+#define MATERIAL_CUT_OUT 8u            /* coverage below 1 somewhere */
+
+typedef struct {
+    vec4 matte;        /* rgb: Kd in [0,1]; w: coverage d in [0,1] */
+    vec4 specular;     /* rgb: Ks, or F0 with FRESNEL_SCHLICK; w: Phong exponent Ns (0: no highlight) */
+    vec4 transmission; /* rgb: Tf, tint of each crossing; w: index of refraction Ni */
+    vec4 emission;     /* rgb: Ke, emitted radiance; w: metallic Pm */
+    float alpha_x, alpha_y; /* GGX roughness along the tangent (direction of growing u) and across it */
+    u32 lobes;              /* LOBE_* */
+    u32 fresnel;            /* FRESNEL_* */
+    u32 flags;              /* MATERIAL_* */
+    u32 map_matte, map_specular, map_emission; /* indices into the textures, multiply the constants above */
+    u32 map_coverage, map_roughness, map_metallic; /* map_roughness holds Pr: alpha = (Pr map)^2 */
+    u32 map_normal, map_bump;
+    float bump_scale;     /* height of a full-range bump map in normalised scene units (-bm) */
+    float roughness_sqrt_x, roughness_sqrt_y; /* Pr along x and y: sqrt(alpha), multiplied by map_roughness */
+} Material;
+ASSERT_SIZE(Material, 128);
+
+/* How texels are stored in the word array. */
+#define TEXEL_SRGB8 0u   /* one word: r, g, b, a bytes from the lowest; r, g, b are sRGB-encoded, a is linear */
+#define TEXEL_LINEAR8 1u /* the same, all four linear */
+#define TEXEL_FLOAT 2u   /* four words: r, g, b, a as floats */
+
+/* One use of an image: rows from top to bottom; uv = (0,0) is the lower left corner.
+   The lookup is at u' = scale_u u + offset_u, v' = scale_v v + offset_v; value' = base + gain value (-mm). */
+typedef struct {
+    u32 first_word; /* into the texel words */
+    u32 width, height;
+    u32 format;  /* TEXEL_* */
+    float scale_u, scale_v, offset_u, offset_v;
+    float base, gain;
+    u32 clamp;   /* 0: repeat; 1: black (zero) outside [0,1] (-clamp on) */
+    u32 channel; /* for scalar maps: 0..3 = r, g, b, a; 4 = luminance (-imfchan) */
+} Texture;
+ASSERT_SIZE(Texture, 48);
+
+/* An emissive triangle. Choosing: i = floor(u n); keep i where the second random word is below `threshold`,
+   else take `alias` (Walker 1977, Vose 1991). */
+typedef struct {
+    u32 triangle;
+    u32 alias;
+    u32 threshold;
+    float pdf_a; /* probability of choosing this triangle over its area, per unit area of the normalised frame */
+} Emitter;
+ASSERT_SIZE(Emitter, 16);
+
+#define LIGHT_POINT 0u
+#define LIGHT_SUN 1u
+
+/* Lights that are no geometry. */
+typedef struct {
+    vec4 vector;   /* LIGHT_POINT: position; LIGHT_SUN: unit direction towards the sun. w: unused, 0 */
+    vec4 emission; /* LIGHT_POINT: radiant intensity, W/sr in the normalised frame; LIGHT_SUN with radius 0:
+                      irradiance at normal incidence; with a radius: radiance of the disc. w: unused, 0 */
+    u32 kind;           /* LIGHT_* */
+    float probability;  /* of choosing this light among the lights of this array */
+    u32 alias, threshold; /* as in Emitter */
+    float one_minus_cos; /* LIGHT_SUN: 1 - cos(angular radius); 0: a delta light */
+    u32 unused0, unused1, unused2;
+} Light;
+ASSERT_SIZE(Light, 64);
+
+/* A texel of a lat-long environment map, rows from +Y down. The choice is piecewise constant over texels,
+   the lookup bilinear. */
+typedef struct {
+    vec4 radiance; /* rgb; w: probability of choosing this texel */
+    u32 alias, threshold;
+    u32 unused0, unused1;
+} EnvironmentTexel;
+ASSERT_SIZE(EnvironmentTexel, 32);
+
+SHARED_END
+
+#endif

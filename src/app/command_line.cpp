@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// argv and the options file -> Options.
+#include "app/command_line.h"
+
+#include "app/arguments.h"
+#include "app/help_text.h"
+#include "app/option_checks.h"
+#include "app/options_file.h"
+#include "app/terminal.h"
+#include "error.h"
+#include "output/image.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <unistd.h>
+
+namespace clrt {
+
+namespace {
+
+/// As wide as the terminal, within what reads well.
+size_t help_columns() {
+    return std::clamp<size_t>(terminal_columns(STDOUT_FILENO, 80), 80, 100);
+}
+
+bool is_given(const std::vector<GivenOption>& options, const std::string& long_name) {
+    return std::any_of(options.begin(), options.end(),
+                       [&](const GivenOption& given) { return given.value.option == long_name; });
+}
+
+std::string only_scene(const std::vector<std::string>& scenes, bool list_devices) {
+    if (scenes.empty() && list_devices)
+        return "";
+    if (scenes.empty())
+        throw UsageError("expected a scene: clrt [options] scene.obj; `clrt --help` lists the options");
+    if (scenes.size() > 1)
+        throw UsageError("expected one scene, found " + std::to_string(scenes.size()) + ": '" + scenes[0] +
+                         "' and '" + scenes[1] + "'" + (scenes.size() > 2 ? " and more" : ""));
+    if (std::filesystem::path(scenes[0]).extension() == ".clrt")
+        throw UsageError("expected a scene such as STEM.obj, found the options file '" + scenes[0] +
+                         "'; it is read by itself beside its scene");
+    return scenes[0];
+}
+
+void reject_exclusive(const std::vector<GivenOption>& options) {
+    for (const auto& [a, b] : exclusive_options())
+        if (is_given(options, a) && is_given(options, b)) {
+            const auto last =
+                std::find_if(options.rbegin(), options.rend(), [&, a = a, b = b](const auto& given) {
+                    return given.value.option == a || given.value.option == b;
+                });
+            throw UsageError(last->value.origin + "options " + a + " and " + b +
+                             ": expected one of them, found both");
+        }
+}
+
+/// Whether the command line says something about what the file's option says.
+bool overruled(const GivenOption& from_file, const std::vector<GivenOption>& command_line) {
+    const std::string& name = from_file.value.option;
+    for (const auto& [a, b] : exclusive_options())
+        if ((name == a && is_given(command_line, b)) || (name == b && is_given(command_line, a)))
+            return true;
+    return is_given(command_line, name);
+}
+
+/// A render of minutes must not end in "no such folder".
+void check_folders(const Options& options) {
+    for (const std::string& path : options.outputs)
+        check_output_folder(path);
+    if (!options.stats_path.empty())
+        check_output_folder(options.stats_path);
+}
+
+} // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+    // Split the command line; help and version need nothing else.
+    const Arguments arguments = split_arguments(argc, argv);
+    CommandLine result;
+    if (is_given(arguments.options, "--help"))
+        result.print = help_text(help_columns());
+    else if (is_given(arguments.options, "--version"))
+        result.print = version_text();
+    if (result.print)
+        return result;
+    reject_exclusive(arguments.options);
+
+    // Read the options file beside the scene, less what the command line overrules.
+    Options& options = result.options;
+    options.command.assign(argv, argv + argc);
+    const bool list_devices = is_given(arguments.options, "--list-devices");
+    options.scene_path = only_scene(arguments.scenes, list_devices);
+    if (!list_devices && !is_given(arguments.options, "--no-sidecar"))
+        options.sidecar_path = find_options_file(options.scene_path);
+    std::vector<GivenOption> given;
+    if (!options.sidecar_path.empty()) {
+        given = read_options_file(options.sidecar_path);
+        reject_exclusive(given);
+        given.erase(
+            std::remove_if(given.begin(), given.end(),
+                           [&](const GivenOption& line) { return overruled(line, arguments.options); }),
+            given.end());
+    }
+    given.insert(given.end(), arguments.options.begin(), arguments.options.end());
+
+    // Understand the values (the last one counts unless they make a list), fill in the picture's name, and
+    // see whether all of it fits together and can be written.
+    for (const GivenOption& option : given)
+        option.spec->apply(options, option.value);
+    if (options.outputs.empty() && !options.scene_path.empty())
+        options.outputs.push_back(std::filesystem::path(options.scene_path).stem().string() + ".png");
+    check_combinations(options);
+    if (!options.scene_path.empty() && !list_devices && options.explain == Explain::NO)
+        check_folders(options);
+    return result;
+}
+
+} // namespace clrt

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that are fine one by one and make no sense together.
+#include "app/option_checks.h"
+
+#include "error.h"
+
+#include <filesystem>
+
+namespace clrt {
+
+namespace {
+
+/// The ray stack of the whitted kernel holds one ray a segment.
+constexpr int WHITTED_STACK_DEPTH = 64;
+/// Samples a pixel are counted in 32 bits.
+constexpr std::uint64_t SAMPLE_LIMIT = std::uint64_t(1) << 32;
+constexpr std::uint32_t DEFAULT_SPP = 64;
+
+[[noreturn]] void reject(const Options& options, const std::string& message) {
+    const bool from_file = !options.sidecar_path.empty();
+    throw UsageError(message + (from_file ? " (options also come from " + options.sidecar_path + ")" : ""));
+}
+
+void check_crop(const Options& options) {
+    if (!options.crop)
+        return;
+    const Crop& c = *options.crop;
+    if (c.x1 <= options.size.x && c.y1 <= options.size.y)
+        return;
+    const auto text = [](int x) { return std::to_string(x); };
+    reject(options, "option --crop: expected a window inside the picture of " + text(options.size.x) + "x" +
+                        text(options.size.y) + " pixels, found " + text(c.x0) + "," + text(c.y0) + "," +
+                        text(c.x1) + "," + text(c.y1));
+}
+
+void check_lens(const Options& options) {
+    if (options.camera.focal_length.has_value() == options.camera.film_width.has_value())
+        return;
+    const bool has_focal = options.camera.focal_length.has_value();
+    reject(options, std::string("option ") + (has_focal ? "--focal-length" : "--film-width") +
+                        ": expected together with " + (has_focal ? "--film-width" : "--focal-length") +
+                        ", found alone");
+}
+
+void check_samples(const Options& options) {
+    const std::uint64_t end = std::uint64_t(options.first_sample) + options.spp.value_or(DEFAULT_SPP);
+    if (end >= SAMPLE_LIMIT)
+        reject(options, "options --first-sample and --spp: expected a sum below " +
+                            std::to_string(SAMPLE_LIMIT) + ", found " + std::to_string(end));
+}
+
+void check_statistics_path(const Options& options) {
+    std::error_code error; // a file that is not there yet is no other file
+    for (const std::string& input : {options.scene_path, options.sidecar_path})
+        if (!options.stats_path.empty() && std::filesystem::equivalent(options.stats_path, input, error))
+            reject(options, "option --stats: expected a file to write, found the input " + input);
+}
+
+} // namespace
+
+void check_combinations(const Options& options) {
+    check_crop(options);
+    check_lens(options);
+    check_samples(options);
+    check_statistics_path(options);
+    if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)
+        reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
+                            " with --integrator whitted, found " + std::to_string(*options.max_depth));
+    if (options.camera.eye && options.camera.eye == options.camera.at)
+        reject(options, "options --eye and --at: expected two different points, found the same");
+}
+
+} // namespace clrt

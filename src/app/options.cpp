@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values that follow from several options.
+#include "app/options.h"
+
+namespace clrt {
+
+int effective_max_depth(const Options& options) {
+    switch (options.integrator) {
+    case Integrator::RAYCAST:
+        return 2;
+    case Integrator::WHITTED:
+        return options.max_depth.value_or(10);
+    case Integrator::PATH:
+        break;
+    }
+    return options.max_depth.value_or(64);
+}
+
+} // namespace clrt

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything a user can ask for, with defaults and units. Filled by command_line.h, read by every stage.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+enum class Integrator { RAYCAST, WHITTED, PATH };
+enum class Precision { SINGLE, DOUBLE, FAST };
+enum class Toggle { AUTO, ON, OFF };
+enum class BvhChoice { AUTO, BVH8, BVH2 };
+enum class Filter { BOX, TENT, GAUSSIAN };
+enum class Tonemap { NONE, REINHARD, ACES };
+enum class Check { OFF, COUNT, STRICT };
+enum class Explain { NO, TABLE, JSON };
+
+/// Camera parts as given; absent ones are fitted to the scene, each on its own.
+struct CameraOptions {
+    std::optional<glm::dvec3> eye, at, up;          ///< scene units
+    std::optional<double> fov_degrees;              ///< vertical angle of view
+    std::optional<double> focal_length, film_width; ///< any common unit; fov = 2 atan(width H / (2 W focal))
+};
+
+/// The sun: a disc at infinity.
+struct SunOptions {
+    glm::dvec3 towards{0, 1, 0}; ///< direction to the sun, any length but 0
+    glm::dvec3 irradiance{0};    ///< at normal incidence, linear RGB
+    double diameter_degrees = 0; ///< angular diameter; 0 is a delta light
+};
+
+/// A point light.
+struct PointOptions {
+    glm::dvec3 position{0};  ///< scene units
+    glm::dvec3 intensity{0}; ///< W/sr per channel, lengths in scene units
+};
+
+struct LightOptions {
+    std::string environment_file;          ///< lat-long map; empty: none
+    std::optional<glm::dvec3> environment; ///< constant radiance
+    double environment_scale = 1;
+    double environment_rotation_degrees = 0; ///< about +Y
+    std::vector<SunOptions> suns;
+    std::vector<PointOptions> points;
+    bool two_sided = false; ///< emissive faces shine on both sides
+};
+
+/// A window of the picture in pixels; x1, y1 excluded.
+struct Crop {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+struct Options {
+    // Work
+    std::string scene_path;
+    std::string device; ///< as given to --device; empty: CLRT_DEVICE, else the first GPU, else the CPU
+    bool list_devices = false;
+    Integrator integrator = Integrator::PATH;
+    std::optional<std::uint32_t> spp;   ///< 64 if neither spp nor time is given
+    std::optional<double> time_seconds; ///< bounds the render stage
+    std::optional<int> max_depth;       ///< path segments; 64, whitted 10, raycast always 2
+    int roulette_depth = 5;             ///< path: first segment that Russian roulette may end
+    double min_contribution = 0.002;    ///< whitted: smallest weight worth a ray
+    std::uint32_t seed = 0;
+    std::uint32_t first_sample = 0;
+    int replicates = 8;
+    Precision precision = Precision::SINGLE;
+    int threads = 0; ///< 0: all
+    BvhChoice bvh = BvhChoice::AUTO;
+
+    // Picture
+    glm::ivec2 size{800, 600};
+    std::vector<std::string> outputs; ///< default STEM.png in the current folder
+    std::optional<Crop> crop;
+    Filter filter = Filter::BOX;
+    std::optional<double> filter_radius; ///< pixels; box 0.5, tent 1, gaussian 1.5
+    double exposure_ev = 0;              ///< stops, PNG and other 8-bit files only
+    Tonemap tonemap = Tonemap::NONE;
+    std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
+
+    CameraOptions camera;
+    LightOptions light;
+
+    // The promises
+    Explain explain = Explain::NO;
+    bool all_effects = false; ///< --effects all: the full kernel
+    std::string stats_path;   ///< JSON; empty: none
+    Check check = Check::COUNT;
+
+    // Runs
+    std::string kernels_folder; ///< replaces the embedded kernels
+    std::string dump_folder;    ///< writes exactly what was compiled
+    Toggle cache = Toggle::AUTO;
+    std::string cache_folder; ///< default: the user's cache folder
+    Toggle progress = Toggle::AUTO;
+    int verbosity = 0; ///< -1 quiet, 0, 1 verbose
+    bool no_sidecar = false;
+    std::string sidecar_path;         ///< options file that was read; empty: none
+    std::vector<std::string> command; ///< argv as given, for the metadata
+};
+
+/// The largest path length in segments for these options (INTERFACE: raycast 2, whitted 10, path 64).
+int effective_max_depth(const Options& options);
+
+} // namespace clrt

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and SIGTERM: the first asks the render to stop and save, the second ends at once.
+#pragma once
+
+namespace clrt {
+
+/// Installs handlers for SIGINT and SIGTERM. A second signal ends the process with 128 + its number.
+/// Also ignores SIGXFSZ: a file that grows beyond the limit of `ulimit -f` is then an error message and no
+/// crash.
+void catch_stop_signals();
+
+/// 0, or the number of the signal that came.
+int stop_signal();
+
+} // namespace clrt

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The binary tree from which every layout is made.
+#pragma once
+
+#include "bvh/binned_split.h"
+#include "bvh/bvh.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace clrt {
+
+/// A node over `count` consecutive triangles of BinaryTree::order. Children are stored in pairs; where a
+/// node's range begins follows from its parent's: the left child's begins there, the right child's after the
+/// left's.
+struct BinaryNode {
+    float lower[3];
+    u32 child; ///< index of the left child, the right one follows it; 0: a leaf (the root is nobody's child)
+    float upper[3];
+    u32 count; ///< triangles below
+};
+
+/// A tree over the usable triangles. The tree is the same for any number of threads; the indices of its nodes
+/// are not, so layouts must walk it from the root (node 0).
+struct BinaryTree {
+    std::unique_ptr<BinaryNode[]> nodes; ///< no root when `order` is empty
+    u32 node_count = 0;
+    std::vector<u32> order; ///< triangle indices, leaf by leaf
+    int depth = 0;          ///< levels: 0 for an empty tree, 1 for a root that is a leaf
+};
+
+/// Builds the tree by binned SAH, and by object medians where centres coincide or the depth that is left
+/// demands it. Leaves hold at most `leaf_cost.max_leaf` triangles. Time is at most BVH_MAX_DEPTH passes.
+BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                             const LeafCost& leaf_cost);
+
+/// Half the surface of a node's box.
+double half_area(const BinaryNode& node);
+
+} // namespace clrt

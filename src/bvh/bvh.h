@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounding volume hierarchies over a scene's triangles; independent of OpenCL.
+#pragma once
+
+#include "kernels/shared/bvh_types.h"
+#include "kernels/shared/scene_types.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace clrt {
+
+enum class BvhLayout { BVH8 = BVH_LAYOUT_BVH8, BVH2 = BVH_LAYOUT_BVH2 };
+
+/// A tree in a device layout (kernels/shared/bvh_types.h) with the figures of its construction.
+struct Bvh {
+    BvhLayout layout = BvhLayout::BVH8;
+    std::vector<u32> nodes;    ///< node 0 is the root; floats are stored by their bits
+    std::vector<u32> leaves;   ///< triangle blocks or leaf triangles; floats are stored by their bits
+    int depth = 0;             ///< levels of the binary tree, at most BVH_MAX_DEPTH
+    size_t triangle_count = 0; ///< in the tree; degenerate and non-finite ones are left out
+    double sah_cost = 0; ///< expected node and triangle tests of a random ray (MacDonald and Booth 1990)
+    double seconds = 0;
+};
+
+/// Builds a tree over all triangles that have finite corners and are not of zero area.
+///
+/// Deterministic: the same input gives the same bits for any number of threads. Never deeper than
+/// BVH_MAX_DEPTH and never quadratic, whatever the input (coincident triangles included). Boxes enclose
+/// their triangles exactly (no rounding: corners are floats); the slack for the traversal's arithmetic is
+/// the traversal's own. An empty scene gives a root with empty children.
+Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout);
+
+} // namespace clrt

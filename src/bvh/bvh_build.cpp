@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// From triangles to a device layout.
+#include "bvh/binary_tree.h"
+#include "bvh/bvh.h"
+#include "bvh/layout.h"
+#include "error.h"
+
+#include <chrono>
+
+namespace clrt {
+
+Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
+    const auto start = std::chrono::steady_clock::now();
+    // A layout has at most one leaf and one node a triangle, and their indices 31 bits.
+    if (triangles.size() >= BVH_LEAF_BIT)
+        throw SceneError("scene", 0,
+                         "expected at most 2147483647 triangles, found " + std::to_string(triangles.size()) +
+                             "; split the scene or simplify its meshes");
+    const bool wide = layout == BvhLayout::BVH8;
+    BinaryTree tree = build_binary_tree(positions, triangles, wide ? BVH8_LEAF_COST : BVH2_LEAF_COST);
+    Bvh bvh;
+    bvh.layout = layout;
+    bvh.depth = tree.depth;
+    bvh.triangle_count = tree.order.size();
+    if (wide)
+        write_bvh8(positions, triangles, tree, bvh);
+    else
+        write_bvh2(positions, triangles, tree, bvh);
+    bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return bvh;
+}
+
+} // namespace clrt

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dynamic programming over the binary tree, and the order of children.
+#include "bvh/collapse.h"
+
+#include <algorithm>
+#include <tbb/parallel_invoke.h>
+
+namespace clrt {
+namespace {
+
+constexpr u32 PARALLEL_SUBTREE = 1u << 14; // triangles below which a subtree is not worth a task
+
+float relative_area(const BinaryNode& node, double root_area) {
+    return float(half_area(node) / root_area);
+}
+
+} // namespace
+
+WideCollapse::WideCollapse(const BinaryTree& tree)
+    : nodes_(tree.nodes.get()), root_area_(half_area(nodes_[0])), costs_(tree.node_count) {
+    find_costs(0);
+}
+
+void WideCollapse::find_costs(u32 node) {
+    const BinaryNode& n = nodes_[node];
+    const float area = relative_area(n, root_area_);
+    Costs& costs = costs_[node];
+    if (n.child == 0) {
+        costs.fill(area);
+        return;
+    }
+    if (n.count < PARALLEL_SUBTREE) {
+        find_costs(n.child);
+        find_costs(n.child + 1);
+    } else {
+        tbb::parallel_invoke([&] { find_costs(n.child); }, [&] { find_costs(n.child + 1); });
+    }
+    // One child: a block of triangles, or a wide node of its own.
+    costs[0] = area + distribute(n, BVH8_WIDTH).cost;
+    if (n.count <= BVH8_WIDTH)
+        costs[0] = std::min(costs[0], area);
+    // More children: shared by both sides, unless fewer are cheaper.
+    for (int children = 2; children < BVH8_WIDTH; ++children)
+        costs[children - 1] = std::min(costs[children - 2], distribute(n, children).cost);
+}
+
+WideCollapse::Distribution WideCollapse::distribute(const BinaryNode& node, int children) const {
+    const Costs& left = costs_[node.child];
+    const Costs& right = costs_[node.child + 1];
+    Distribution best{left[0] + right[children - 2], 1};
+    for (int i = 2; i < children; ++i) {
+        const float cost = left[i - 1] + right[children - i - 1];
+        if (cost < best.cost)
+            best = {cost, i};
+    }
+    return best;
+}
+
+bool WideCollapse::is_leaf(u32 node) const {
+    const BinaryNode& n = nodes_[node];
+    return n.child == 0 || (n.count <= BVH8_WIDTH && costs_[node][0] == relative_area(n, root_area_));
+}
+
+void WideCollapse::expand(WideChild subtree, int children, ChildList& list) const {
+    const Costs& costs = costs_[subtree.node];
+    while (children > 1 && costs[children - 2] == costs[children - 1])
+        --children;
+    if (children == 1) {
+        list.items[list.size++] = subtree;
+        return;
+    }
+    const BinaryNode& n = nodes_[subtree.node];
+    const int left = distribute(n, children).left;
+    expand({n.child, subtree.first}, left, list);
+    expand({n.child + 1, subtree.first + nodes_[n.child].count}, children - left, list);
+}
+
+WideChildren WideCollapse::children(WideChild parent) const {
+    ChildList list;
+    if (is_leaf(parent.node)) {
+        list.items[list.size++] = parent;
+    } else {
+        const BinaryNode& n = nodes_[parent.node];
+        const int left = distribute(n, BVH8_WIDTH).left;
+        expand({n.child, parent.first}, left, list);
+        expand({n.child + 1, parent.first + nodes_[n.child].count}, BVH8_WIDTH - left, list);
+    }
+    return assign_slots(list, parent.node);
+}
+
+WideChildren WideCollapse::assign_slots(const ChildList& list, u32 parent) const {
+    // How far each child lies from the parent's centre in the direction of each slot's octant.
+    float distance[BVH8_WIDTH][BVH8_WIDTH];
+    const BinaryNode& p = nodes_[parent];
+    for (int child = 0; child < list.size; ++child) {
+        const BinaryNode& c = nodes_[list.items[child].node];
+        float offset[3];
+        for (int axis = 0; axis < 3; ++axis)
+            offset[axis] = (c.lower[axis] - p.lower[axis]) + (c.upper[axis] - p.upper[axis]);
+        for (int slot = 0; slot < BVH8_WIDTH; ++slot) {
+            distance[child][slot] = 0;
+            for (int axis = 0; axis < 3; ++axis)
+                distance[child][slot] += (slot >> axis & 1) ? offset[axis] : -offset[axis];
+        }
+    }
+    // Greedily seat the child that gains most.
+    WideChildren result;
+    std::array<bool, BVH8_WIDTH> seated{};
+    for (int round = 0; round < list.size; ++round) {
+        int best_child = -1, best_slot = -1;
+        for (int child = 0; child < list.size; ++child)
+            for (int slot = 0; slot < BVH8_WIDTH; ++slot) {
+                if (seated[child] || result.used[slot])
+                    continue;
+                if (best_child < 0 || distance[child][slot] > distance[best_child][best_slot]) {
+                    best_child = child;
+                    best_slot = slot;
+                }
+            }
+        seated[best_child] = true;
+        result.used[best_slot] = true;
+        result.slots[best_slot] = list.items[best_child];
+    }
+    return result;
+}
+
+} // namespace clrt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writing the binary tree in a device layout (kernels/shared/bvh_types.h).
+#pragma once
+
+#include "bvh/binary_tree.h"
+#include "bvh/bvh.h"
+
+#include <cstring>
+#include <vector>
+
+namespace clrt {
+
+/// A leaf's triangles: a range of BinaryTree::order.
+struct LeafRange {
+    u32 first, count;
+};
+
+inline u32 float_bits(float x) {
+    u32 bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/// Leaf costs that suit the layouts. bvh8: one block of triangles costs as much as an eight-wide node, and
+/// the collapse decides about small subtrees; bvh2: triangles are tested one by one.
+constexpr LeafCost BVH8_LEAF_COST{3, BVH8_WIDTH / 2, BVH8_WIDTH, 0.0f};
+constexpr LeafCost BVH2_LEAF_COST{0, 1, BVH2_LEAF_TRIANGLES, 1.0f};
+
+/// Fills nodes, leaves and sah_cost. Sorts the ranges of `tree.order` that become leaves.
+void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
+                Bvh& bvh);
+void write_bvh2(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
+                Bvh& bvh);
+
+} // namespace clrt

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eight-wide nodes over blocks of up to eight triangles.
+#include "bvh/collapse.h"
+#include "bvh/layout.h"
+
+#include <algorithm>
+#include <tbb/parallel_for.h>
+
+namespace clrt {
+namespace {
+
+void write_box(u32* node, int slot, const float* lower, const float* upper) {
+    for (int axis = 0; axis < 3; ++axis) {
+        node[(2 * axis) * BVH8_WIDTH + slot] = float_bits(lower[axis]);
+        node[(2 * axis + 1) * BVH8_WIDTH + slot] = float_bits(upper[axis]);
+    }
+}
+
+// Appends a node without children and returns its index.
+u32 append_node(std::vector<u32>& nodes) {
+    const u32 index = u32(nodes.size() / BVH8_NODE_WORDS);
+    nodes.resize(nodes.size() + BVH8_NODE_WORDS, 0u);
+    u32* node = &nodes[size_t(index) * BVH8_NODE_WORDS];
+    const float lower[3] = {BVH_EMPTY, BVH_EMPTY, BVH_EMPTY}, upper[3] = {-BVH_EMPTY, -BVH_EMPTY, -BVH_EMPTY};
+    for (int slot = 0; slot < BVH8_WIDTH; ++slot) {
+        write_box(node, slot, lower, upper);
+        node[BVH8_CHILD_WORD + slot] = BVH_LEAF_BIT;
+    }
+    return index;
+}
+
+// Writes all nodes, siblings side by side and otherwise depth first, and returns the leaves in the same
+// order.
+std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
+    struct Pending {
+        WideChild subtree;
+        u32 node;
+    };
+    const WideCollapse collapse(tree);
+    const BinaryNode* binary = tree.nodes.get();
+    double area_tested = 0;
+    std::vector<LeafRange> leaves;
+    std::vector<Pending> stack{{{0, 0}, append_node(bvh.nodes)}};
+    while (!stack.empty()) {
+        const Pending parent = stack.back();
+        stack.pop_back();
+        area_tested += half_area(binary[parent.subtree.node]);
+        const WideChildren children = collapse.children(parent.subtree);
+        const size_t first_pending = stack.size();
+        for (int slot = 0; slot < BVH8_WIDTH; ++slot) {
+            if (!children.used[slot])
+                continue;
+            const WideChild child = children.slots[slot];
+            const BinaryNode& b = binary[child.node];
+            u32 reference;
+            if (collapse.is_leaf(child.node)) {
+                reference = BVH_LEAF_BIT | u32(leaves.size());
+                leaves.push_back({child.first, b.count});
+                area_tested += half_area(b);
+            } else {
+                reference = append_node(bvh.nodes);
+                stack.push_back({child, reference});
+            }
+            u32* node = &bvh.nodes[size_t(parent.node) * BVH8_NODE_WORDS];
+            write_box(node, slot, b.lower, b.upper);
+            node[BVH8_CHILD_WORD + slot] = reference;
+        }
+        std::reverse(stack.begin() + std::ptrdiff_t(first_pending), stack.end());
+    }
+    bvh.sah_cost = area_tested / half_area(binary[0]);
+    return leaves;
+}
+
+void write_block(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                 const u32* indices, u32 count, u32* block) {
+    for (u32 lane = 0; lane < count; ++lane) {
+        const Triangle& t = triangles[indices[lane]];
+        const u32 corners[3] = {t.v0, t.v1, t.v2};
+        for (int corner = 0; corner < 3; ++corner) {
+            const vec4& p = positions[corners[corner]];
+            block[(0 + corner) * BVH8_WIDTH + lane] = float_bits(p.x);
+            block[(3 + corner) * BVH8_WIDTH + lane] = float_bits(p.y);
+            block[(6 + corner) * BVH8_WIDTH + lane] = float_bits(p.z);
+        }
+        block[BVH8_BLOCK_ID_WORD + lane] = indices[lane];
+    }
+    for (u32 lane = count; lane < BVH8_WIDTH; ++lane)
+        block[BVH8_BLOCK_ID_WORD + lane] = NO_INDEX;
+}
+
+} // namespace
+
+void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
+                Bvh& bvh) {
+    if (tree.order.empty()) {
+        append_node(bvh.nodes);
+        return;
+    }
+    const std::vector<LeafRange> leaves = write_nodes(tree, bvh);
+    bvh.leaves.resize(leaves.size() * BVH8_BLOCK_WORDS, 0u);
+    tbb::parallel_for(size_t(0), leaves.size(), [&](size_t i) {
+        u32* indices = &tree.order[leaves[i].first];
+        std::sort(indices, indices + leaves[i].count);
+        write_block(positions, triangles, indices, leaves[i].count, &bvh.leaves[i * BVH8_BLOCK_WORDS]);
+    });
+}
+
+} // namespace clrt

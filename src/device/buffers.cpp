@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Device buffers, checked against what the device can hold before they are made.
+#include "device/device.h"
+
+#include "device/opencl_error.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+/// Size of the stand-in for an empty buffer: one element of the largest basic type, a float16.
+constexpr size_t EMPTY_BUFFER_BYTES = 64;
+
+double mebibytes(size_t bytes) {
+    return static_cast<double>(bytes) / (1 << 20);
+}
+
+/// Throws when `bytes` exceed the device's largest allocation or its memory.
+void check_size(const DeviceInfo& device, const char* name, size_t bytes) {
+    const size_t possible = std::min(device.largest_buffer_bytes, device.memory_bytes);
+    if (bytes > possible)
+        throw DeviceError(
+            fmt::format("The buffer \"{}\" needs {:.1f} MiB, but device {}:{} ({}) allows {:.1f} MiB for "
+                        "one buffer and has {:.1f} MiB of memory. Choose a device with more memory "
+                        "(--list-devices), a smaller picture or a smaller scene.",
+                        name, mebibytes(bytes), device.platform_index, device.device_index, device.name,
+                        mebibytes(device.largest_buffer_bytes), mebibytes(device.memory_bytes)));
+}
+
+std::string making(const char* name, size_t bytes) {
+    return fmt::format("making the buffer \"{}\" of {:.1f} MiB", name, mebibytes(bytes));
+}
+
+} // namespace
+
+cl::Buffer upload_buffer(const Device& device, const char* name, const void* data, size_t bytes) {
+    if (bytes == 0)
+        return create_buffer(device, name, 0);
+    check_size(device.info, name, bytes);
+    return check_opencl(making(name, bytes), [&] {
+        // OpenCL takes the host pointer as non-const, though COPY_HOST_PTR only reads.
+        return cl::Buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes,
+                          const_cast<void*>(data));
+    });
+}
+
+cl::Buffer create_buffer(const Device& device, const char* name, size_t bytes) {
+    const size_t size = bytes == 0 ? EMPTY_BUFFER_BYTES : bytes;
+    check_size(device.info, name, size);
+    return check_opencl(making(name, size), [&] {
+        cl::Buffer buffer(device.context, CL_MEM_READ_WRITE, size);
+        // The filled size must be a multiple of the pattern's.
+        if (size % sizeof(cl_uint) == 0)
+            device.queue.enqueueFillBuffer(buffer, cl_uint{0}, 0, size);
+        else
+            device.queue.enqueueFillBuffer(buffer, cl_uchar{0}, 0, size);
+        device.queue.finish();
+        return buffer;
+    });
+}
+
+} // namespace clrt

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenCL devices: what there is, which one a name means, and an open one.
+#pragma once
+
+#include "device/opencl.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+struct Options;
+
+/// What clrt asks a device about itself; nothing is guessed from names.
+struct DeviceInfo {
+    int platform_index = 0, device_index = 0; ///< as `clinfo -l` counts, empty platforms included
+    std::string platform, platform_vendor, icd_suffix;
+    std::string name, vendor, driver, version;
+    std::string type; ///< "CPU", "GPU", "accelerator", "other"
+    unsigned compute_units = 0;
+    size_t memory_bytes = 0, largest_buffer_bytes = 0;
+    bool fp64 = false;
+    bool int64_atomics = false;              ///< cl_khr_int64_base_atomics
+    bool correctly_rounded_division = false; ///< CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+    std::vector<std::string> extensions;
+};
+
+/// A platform, or the reason why it has nothing to offer.
+struct PlatformInfo {
+    int index = 0;
+    std::string name, vendor, icd_suffix;
+    std::vector<DeviceInfo> devices;
+    std::string note; ///< why devices is empty; else empty
+};
+
+/// Sets the environment variables by which drivers take --threads and --cache off. Drivers read them once, so
+/// call it before anything else of OpenCL.
+void set_driver_environment(const Options& options);
+
+/// True if the device's driver keeps compiled programs on disk by itself, so that a cache of ours only costs.
+bool driver_caches_programs(const DeviceInfo& device);
+
+/// All platforms in `clinfo -l` order. Empty and failing platforms are listed with a note, never thrown.
+/// No ICD loader entry at all gives an empty list.
+std::vector<PlatformInfo> list_platforms();
+
+/// The table that --list-devices prints, one line a device, notes below.
+std::string format_device_table(const std::vector<PlatformInfo>& platforms);
+
+/// Finds the device that `spec` means (INTERFACE.md, Devices; empty: CLRT_DEVICE, else first GPU, else CPU).
+/// Throws DeviceError with the table when nothing matches or several platforms do. A choice among several
+/// devices of one platform is said in `notice`.
+DeviceInfo choose_device(const std::vector<PlatformInfo>& platforms, const std::string& spec,
+                         std::string& notice);
+
+/// A device with its context and one in-order queue with profiling.
+struct Device {
+    DeviceInfo info;
+    cl::Device handle;
+    cl::Context context;
+    cl::CommandQueue queue;
+};
+
+/// Opens a device. Throws DeviceError.
+Device open_device(const DeviceInfo& info);
+
+/// Makes a read-only buffer of `bytes` and fills it. `name` is how an error names it. Zero bytes give a
+/// buffer of one dummy element (OpenCL has no empty buffers). Throws DeviceError naming the buffer, its size
+/// and the limit when it exceeds the device's largest allocation or memory.
+cl::Buffer upload_buffer(const Device& device, const char* name, const void* data, size_t bytes);
+
+/// The same for a vector.
+template <class T>
+cl::Buffer upload_buffer(const Device& device, const char* name, const std::vector<T>& data) {
+    return upload_buffer(device, name, data.data(), data.size() * sizeof(T));
+}
+
+/// Makes a zeroed read-write buffer; errors as in upload_buffer.
+cl::Buffer create_buffer(const Device& device, const char* name, size_t bytes);
+
+} // namespace clrt

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled programs on disk. An entry that is missing, damaged or from elsewhere is a miss, never an error.
+#pragma once
+
+#include "device/program.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// What an entry holds: OpenCL 1.2 gives argument names only for programs built from source, so they are kept
+/// beside the binary.
+struct CachedProgram {
+    std::vector<unsigned char> binary;
+    KernelArguments arguments;
+};
+
+/// True if our cache is to be used: AUTO is off where the driver caches by itself.
+bool uses_program_cache(const ProgramCache& cache, const DeviceInfo& device);
+
+/// The folder of the cache; empty if there is no place for one (no folder given, neither XDG_CACHE_HOME nor
+/// HOME set).
+std::string program_cache_folder(const ProgramCache& cache);
+
+/// 32 hexadecimal digits: the hash of all that decides about the binary, which is the expanded source, the
+/// options, platform, device, driver version, and the version of the entries' layout.
+std::string program_cache_key(const DeviceInfo& device, const std::string& source,
+                              const std::string& options);
+
+/// The entry of this key, if there is a sound one.
+std::optional<CachedProgram> read_cached_program(const std::string& folder, const std::string& key);
+
+/// Writes an entry under a temporary name and renames it, so that readers never see half of one. A folder
+/// that cannot be written is a debug message.
+void write_cached_program(const std::string& folder, const std::string& key, const CachedProgram& program);
+
+} // namespace clrt

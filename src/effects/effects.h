@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which effects a scene calls for under the given options, each with its witness: the proof that switches kernel
+// code on or off (kernels/shared/effects.h).
+#pragma once
+
+#include "app/options.h"
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// One effect and why it is present or absent.
+struct Effect {
+    u32 bit = 0;         ///< EFFECT_*
+    std::string name;    ///< as in messages and files, such as "rough refraction"
+    bool present = false;
+    std::string witness; ///< what calls for it, such as `material "glass" (room.mtl:12)`, or why nothing does
+};
+
+/// All effects, in the order of their bits.
+struct Effects {
+    std::vector<Effect> list;
+    /// Bits to compile with: the present effects, or all of them with --effects all.
+    u32 mask = 0;
+};
+
+/// Examines materials on triangles, lights, environment and options. Pure.
+Effects find_effects(const Scene& scene, const Options& options);
+
+/// The table of --explain, one line an effect.
+std::string format_effects(const Effects& effects);
+
+} // namespace clrt

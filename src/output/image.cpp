@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses the writer by extension.
+#include "output/image.h"
+
+#include "error.h"
+#include "output/atomic_file.h"
+#include "output/writers.h"
+
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <OpenImageIO/strutil.h>
+#include <unistd.h>
+
+namespace clrt {
+
+namespace {
+
+enum class Kind { UNKNOWN, EXR, DISPLAY, LINEAR, PFM };
+
+Kind kind_of(const std::string& path) {
+    static const std::vector<std::pair<std::string, Kind>> KINDS = {
+        {".exr", Kind::EXR},     {".png", Kind::DISPLAY}, {".jpg", Kind::DISPLAY}, {".jpeg", Kind::DISPLAY},
+        {".bmp", Kind::DISPLAY}, {".tga", Kind::DISPLAY}, {".ppm", Kind::DISPLAY}, {".tif", Kind::LINEAR},
+        {".tiff", Kind::LINEAR}, {".hdr", Kind::LINEAR},  {".pfm", Kind::PFM}};
+    const std::string extension = OIIO::Strutil::lower(std::filesystem::path(path).extension().string());
+    for (const auto& [known, kind] : KINDS)
+        if (extension == known)
+            return kind;
+    return Kind::UNKNOWN;
+}
+
+/// The renderer's duty, not the user's.
+void assert_consistent([[maybe_unused]] const Picture& picture) {
+    assert(picture.width > 0 && picture.height > 0 && !picture.layers.empty());
+    assert(picture.layers[0].channel_names.size() == 3);
+    for ([[maybe_unused]] const Layer& layer : picture.layers)
+        assert(layer.values.size() == static_cast<size_t>(picture.width) *
+                                          static_cast<size_t>(picture.height) * layer.channel_names.size());
+}
+
+} // namespace
+
+bool is_output_path(const std::string& path) {
+    return kind_of(path) != Kind::UNKNOWN;
+}
+
+void check_output_path(const std::string& path) {
+    if (!is_output_path(path))
+        throw UsageError("output '" + path + "': expected a name that ends in " + OUTPUT_EXTENSIONS);
+}
+
+void check_output_folder(const std::string& path) {
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const std::string folder = parent.empty() ? "." : parent.string();
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw SceneError(path, 0,
+                         "cannot write into the folder '" + folder + "': " + std::strerror(errno) +
+                             (errno == ENOENT ? "; make it first" : "; choose another one"));
+}
+
+void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap) {
+    check_output_path(path);
+    assert_consistent(picture);
+    switch (kind_of(path)) {
+    case Kind::EXR:
+        return write_exr(picture, path);
+    case Kind::DISPLAY:
+        return write_display(picture, path, exposure_ev, tonemap);
+    case Kind::LINEAR:
+        return write_linear(picture, path);
+    case Kind::PFM:
+        return write_pfm(picture, path);
+    case Kind::UNKNOWN:
+        break;
+    }
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+    AtomicFile file(path);
+    file.write_at(text.data(), text.size(), 0);
+    file.commit();
+}
+
+} // namespace clrt

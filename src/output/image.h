@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures in memory and on disk (OpenImageIO). Files are written under a temporary name and renamed.
+#pragma once
+
+#include "app/options.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clrt {
+
+/// A layer of a picture: `channels` values a pixel, rows from the top.
+struct Layer {
+    std::string name; ///< "" for the picture itself
+    std::vector<std::string>
+        channel_names;         ///< such as {"R","G","B"}; in the file "name.R", or "R" if name is empty
+    std::vector<float> values; ///< width * height * channels
+    bool is_id = false;        ///< written as uint; values are exact integers below 2^24
+};
+
+/// One metadata entry; numbers are written as their text.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// A rendered picture: linear radiance in layers[0], then the other layers.
+struct Picture {
+    int width = 0, height = 0; ///< of the window
+    int x0 = 0, y0 = 0;        ///< the window's place in the whole picture
+    int full_width = 0, full_height = 0;
+    std::vector<Layer> layers;
+    Metadata metadata;
+};
+
+/// The extensions of pictures, in any case, as words for messages.
+inline constexpr const char* OUTPUT_EXTENSIONS =
+    ".png, .jpg, .jpeg, .bmp, .tga, .ppm, .exr, .tif, .tiff, .hdr or .pfm";
+
+/// Whether the name ends in one of them.
+bool is_output_path(const std::string& path);
+
+/// Throws UsageError when the name ends in none of them, before any work is done.
+void check_output_path(const std::string& path);
+
+/// Throws SceneError when the file's folder is not there or cannot be written, before any work is done.
+void check_output_folder(const std::string& path);
+
+/// Writes the picture. 8-bit formats get exposure, tone map and the sRGB curve and only layer 0; .hdr, .pfm
+/// and float TIFF get linear layer 0; .exr gets every layer as float and the metadata. The file appears whole
+/// or not at all: temporary name in the same folder, flush, rename. Throws SceneError with the reason (no
+/// such folder, disk full, ...).
+void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap);
+
+/// Writes text under a temporary name and renames it. Throws SceneError.
+void write_text_file(const std::string& path, const std::string& text);
+
+} // namespace clrt

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenEXR with layers and metadata.
+#include "output/image_stream.h"
+#include "output/writers.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace clrt {
+
+namespace {
+
+/// Rows handed to the encoder at once: four of OpenEXR's ZIP blocks.
+constexpr int ROWS_AT_ONCE = 64;
+
+OIIO::ImageSpec exr_spec(const Picture& picture) {
+    OIIO::ImageSpec spec(picture.width, picture.height, 0, OIIO::TypeFloat);
+    for (const Layer& layer : picture.layers)
+        for (const std::string& channel : layer.channel_names) {
+            spec.channelnames.push_back(layer.name.empty() ? channel : layer.name + "." + channel);
+            spec.channelformats.push_back(layer.is_id ? OIIO::TypeUInt32 : OIIO::TypeFloat);
+        }
+    spec.nchannels = static_cast<int>(spec.channelnames.size());
+
+    // The window is the data window, the whole picture the display window.
+    spec.x = picture.x0;
+    spec.y = picture.y0;
+    spec.full_width = picture.full_width;
+    spec.full_height = picture.full_height;
+
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("Software", "clrt " CLRT_VERSION);
+    for (const auto& [name, value] : picture.metadata)
+        spec.attribute("clrt." + name, value);
+    return spec;
+}
+
+/// The 32 bits of a value in the file.
+std::uint32_t word(float value, bool is_id) {
+    if (is_id)
+        return value > 0 ? static_cast<std::uint32_t>(value) : 0;
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/// Puts the channels of rows [first, first + count) side by side, pixel by pixel.
+void gather_rows(const Picture& picture, int first, int count, size_t channels,
+                 std::vector<std::uint32_t>& words) {
+    const size_t pixels = static_cast<size_t>(count) * static_cast<size_t>(picture.width);
+    const size_t first_pixel = static_cast<size_t>(first) * static_cast<size_t>(picture.width);
+    words.resize(pixels * channels);
+    size_t channel = 0;
+    for (const Layer& layer : picture.layers) {
+        const size_t width = layer.channel_names.size();
+        for (size_t i = 0; i < pixels; ++i)
+            for (size_t c = 0; c < width; ++c)
+                words[i * channels + channel + c] =
+                    word(layer.values[(first_pixel + i) * width + c], layer.is_id);
+        channel += width;
+    }
+}
+
+} // namespace
+
+void write_exr(const Picture& picture, const std::string& path) {
+    const OIIO::ImageSpec spec = exr_spec(picture);
+    ImageStream stream(path, spec);
+    std::vector<std::uint32_t> words;
+    for (int row = 0; row < picture.height; row += ROWS_AT_ONCE) {
+        const int count = std::min(ROWS_AT_ONCE, picture.height - row);
+        gather_rows(picture, row, count, static_cast<size_t>(spec.nchannels), words);
+        stream.write_rows(row, count, OIIO::TypeUnknown, words.data());
+    }
+    stream.finish();
+}
+
+} // namespace clrt

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Linear pictures without layers.
+#include "output/image_stream.h"
+#include "output/writers.h"
+
+#include <cmath>
+#include <OpenImageIO/fmath.h>
+
+namespace clrt {
+
+namespace {
+
+/// Radiance HDR stores powers of two up to 2^127.
+constexpr float LARGEST_HDR = 1e38f;
+
+float storable_in_hdr(float x) {
+    return x > 0 ? std::fmin(x, LARGEST_HDR) : 0;
+}
+
+} // namespace
+
+void write_linear(const Picture& picture, const std::string& path) {
+    OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeFloat);
+    spec.attribute("oiio:ColorSpace", "Linear");
+    ImageStream stream(path, spec);
+    const bool is_hdr = OIIO::Strutil::iends_with(path, ".hdr");
+    const size_t row_length = 3 * static_cast<size_t>(picture.width);
+    std::vector<float> row(row_length);
+    for (int y = 0; y < picture.height; ++y) {
+        const float* first = picture.layers[0].values.data() + static_cast<size_t>(y) * row_length;
+        for (size_t i = 0; i < row_length; ++i)
+            row[i] = is_hdr ? storable_in_hdr(first[i]) : first[i];
+        stream.write_rows(y, 1, OIIO::TypeFloat, row.data());
+    }
+    stream.finish();
+}
+
+void write_pfm(const Picture& picture, const std::string& path) {
+    // "PF" is RGB; the sign of the scale tells the byte order, negative for little-endian. Rows go from the
+    // bottom up.
+    const std::string header = "PF\n" + std::to_string(picture.width) + " " + std::to_string(picture.height) +
+                               "\n" + (OIIO::littleendian() ? "-1.0\n" : "1.0\n");
+    AtomicFile file(path);
+    file.write_at(header.data(), header.size(), 0);
+    const size_t row_length = 3 * static_cast<size_t>(picture.width), row_bytes = row_length * sizeof(float);
+    auto position = static_cast<std::int64_t>(header.size());
+    for (int y = picture.height - 1; y >= 0; --y, position += static_cast<std::int64_t>(row_bytes))
+        file.write_at(picture.layers[0].values.data() + static_cast<size_t>(y) * row_length, row_bytes,
+                      position);
+    file.commit();
+}
+
+} // namespace clrt

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kinds of image files, one function each; write_picture (image.h) chooses. All throw SceneError.
+#pragma once
+
+#include "output/image.h"
+
+#include <string>
+
+namespace clrt {
+
+/// Every layer as float or uint, ZIP-compressed; the window's place in the whole picture; metadata as text
+/// attributes "clrt.NAME".
+void write_exr(const Picture& picture, const std::string& path);
+
+/// Layer 0 as 8-bit sRGB after exposure and tone map: PNG, JPEG, BMP, TGA, PPM.
+void write_display(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap);
+
+/// Layer 0 as linear numbers: float TIFF, or Radiance HDR, which holds no negative and no non-finite numbers.
+void write_linear(const Picture& picture, const std::string& path);
+
+/// Layer 0 as linear floats: Portable Float Map.
+void write_pfm(const Picture& picture, const std::string& path);
+
+} // namespace clrt

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/kernels.h"
+
+#include "device/kernel_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+/// Layers that come from the primary hits; the others are made from the film.
+bool is_hit_layer(const std::string& name) {
+    return name != "variance" && name != "samples" && name != "alpha";
+}
+
+} // namespace
+
+const char* integrator_name(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::RAYCAST:
+        return "raycast";
+    case Integrator::WHITTED:
+        return "whitted";
+    case Integrator::PATH:
+        break;
+    }
+    return "path";
+}
+
+BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
+    if (choice == BvhChoice::AUTO)
+        return device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2;
+    return choice == BvhChoice::BVH8 ? BvhLayout::BVH8 : BvhLayout::BVH2;
+}
+
+bool wants_layers(const Options& options) {
+    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+        return std::filesystem::path(path).extension() == ".exr";
+    });
+    if (!has_exr || !options.aovs)
+        return has_exr;
+    return std::any_of(options.aovs->begin(), options.aovs->end(),
+                       [](const std::string& name) { return is_hit_layer(name) || name == "alpha"; });
+}
+
+RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout) {
+    const auto start = std::chrono::steady_clock::now();
+    const KernelFiles files =
+        options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
+    const auto build = [&](const std::string& name) {
+        ProgramRequest request;
+        request.name = name;
+        request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
+        request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout))};
+        request.precision = options.precision;
+        request.dump_folder = options.dump_folder;
+        request.cache = {options.cache, options.cache_folder};
+        return build_program(device, request);
+    };
+    RenderPrograms programs;
+    programs.picture = build(integrator_name(options.integrator));
+    if (wants_layers(options))
+        programs.layers = build("aov");
+    programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return programs;
+}
+
+} // namespace clrt

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The programs of a render: which entry point, with which defines.
+#pragma once
+
+#include "app/options.h"
+#include "bvh/bvh.h"
+#include "device/program.h"
+
+#include <optional>
+
+namespace clrt {
+
+/// The compiled programs of one run.
+struct RenderPrograms {
+    Program picture;
+    std::optional<Program> layers; ///< auxiliary layers, when a file wants them
+    double seconds = 0;            ///< wall time of building both
+};
+
+/// Name of an integrator as on the command line; its kernel is "render_" + name in integrators/NAME.cl.
+const char* integrator_name(Integrator integrator);
+
+/// The tree's layout: as chosen, else eight-wide on CPUs and binary elsewhere.
+BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device);
+
+/// True if some output file can hold auxiliary layers and the options want one.
+bool wants_layers(const Options& options);
+
+/// Compiles what the options ask for with this effects mask.
+RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout);
+
+} // namespace clrt

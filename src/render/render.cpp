@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/render.h"
+
+#include "app/signals.h"
+#include "device/opencl_error.h"
+#include "error.h"
+#include "render/render_params.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace clrt {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t DEFAULT_SPP = 64;
+constexpr u32 TILE = 8;
+/// Launches aim at this long: short enough for progress, Ctrl-C and the watchdogs of display drivers.
+constexpr double LAUNCH_SECONDS = 0.25;
+/// Work-groups a row of the launch grid; keeps both grid dimensions below 65535 work-items, beyond which some drivers
+/// compile another variant.
+constexpr u32 GRID_COLUMNS = 2048;
+/// Samples a pixel that the auxiliary layers average.
+constexpr std::uint32_t LAYER_SAMPLES = 16;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// One kernel with its parameters; launches tiles and samples of them.
+class Launcher {
+public:
+    Launcher(const Device& device, const Program& program, const std::string& name, const RenderParams& params,
+             const SceneBuffers& buffers)
+        : device_(device), kernel_(program, name), params_(params) {
+        bind_scene(buffers, kernel_);
+    }
+    Kernel& kernel() { return kernel_; }
+
+    /// Runs `count` samples from `first` on tiles [first_tile, end_tile) and waits.
+    void run(std::uint32_t first, std::uint32_t count, u32 first_tile, u32 end_tile) {
+        params_.first_sample = first;
+        params_.sample_count = count;
+        params_.first_tile = first_tile;
+        params_.end_tile = end_tile;
+        kernel_.set("params", params_);
+        const u32 groups = std::max(end_tile - first_tile, 1u);
+        const u32 columns = std::min(groups, GRID_COLUMNS);
+        const u32 rows = (groups + columns - 1) / columns;
+        check_opencl("rendering", [&] {
+            device_.queue.enqueueNDRangeKernel(kernel_.handle(), cl::NullRange, cl::NDRange(columns * TILE, rows * TILE),
+                                               cl::NDRange(TILE, TILE));
+            device_.queue.finish();
+        });
+    }
+
+private:
+    const Device& device_;
+    Kernel kernel_;
+    RenderParams params_;
+};
+
+/// Halves the number of replicates kept apart until their sums fit the device.
+int fitting_replicates(const Device& device, const RenderParams& params) {
+    const size_t plane = size_t(params.crop_width) * params.crop_height * 3 * sizeof(std::int64_t);
+    const size_t most = std::min(device.info.largest_buffer_bytes, device.info.memory_bytes / 2);
+    int replicates = int(params.replicates);
+    while (size_t(replicates) * plane > most && replicates % 2 == 0)
+        replicates /= 2;
+    if (replicates != int(params.replicates))
+        spdlog::warn("the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
+                     params.replicates, replicates);
+    return replicates;
+}
+
+std::uint64_t long_count(const std::vector<u32>& words, size_t low) {
+    return words[low] | (std::uint64_t(words[low + 1]) << 32);
+}
+
+RenderCounts read_counts(const std::vector<u32>& words) {
+    RenderCounts counts;
+    counts.nan = words[COUNT_NAN];
+    counts.infinite = words[COUNT_INFINITE];
+    counts.negative = words[COUNT_NEGATIVE];
+    counts.overflow = words[COUNT_OVERFLOW];
+    counts.primary = long_count(words, COUNT_RAYS_PRIMARY_LOW);
+    counts.secondary = long_count(words, COUNT_RAYS_SECONDARY_LOW);
+    counts.shadow = long_count(words, COUNT_RAYS_SHADOW_LOW);
+    const u32 noted = std::min<u32>(words[COUNT_BAD_SAMPLES], REPLAY_CAPACITY);
+    for (u32 i = 0; i < noted; ++i)
+        counts.bad_samples.emplace_back(words[COUNT_WORDS + 2 * i], words[COUNT_WORDS + 2 * i + 1]);
+    return counts;
+}
+
+/// Decides how much each launch does and when to stop.
+class Schedule {
+public:
+    Schedule(const Options& options, u32 tiles) : options_(options), tiles_(tiles) {
+        const bool bounded = options.spp || options.time_seconds;
+        target_ = options.spp ? *options.spp : (bounded ? UINT32_MAX - options.first_sample : DEFAULT_SPP);
+    }
+    std::uint64_t target() const { return target_; }
+
+    /// Samples of the next launch on all tiles; 0 ends the render. `done` samples took `seconds`.
+    std::uint32_t next_samples(std::uint64_t done, double seconds) const {
+        if (done >= target_ || (done > 0 && stop_signal()))
+            return 0;
+        if (done == 0)
+            return 1;
+        const double pass = std::max(seconds / double(done), 1e-6);
+        double samples = std::max(1.0, LAUNCH_SECONDS / pass);
+        // Grow slowly: the first passes may be unlike the later ones.
+        samples = std::min(samples, 2.0 * double(done));
+        if (options_.time_seconds) {
+            const double left = *options_.time_seconds - seconds;
+            if (left < 0.5 * pass)
+                return 0;
+            samples = std::min(samples, std::max(1.0, left / pass));
+        }
+        return std::uint32_t(std::min(double(target_ - done), samples));
+    }
+
+    /// Tiles of a launch when one pass takes `pass_seconds` (0: not known yet, a cautious first share).
+    u32 launch_tiles(double pass_seconds) const {
+        if (pass_seconds <= 0)
+            return std::max(tiles_ / 16, std::min(tiles_, 64u));
+        const double share = LAUNCH_SECONDS / pass_seconds;
+        return share >= 1 ? tiles_ : std::max(u32(share * tiles_), 1u);
+    }
+
+    /// Progress in [0, 1] by whichever limit is nearer.
+    double fraction(double done, double seconds) const {
+        double fraction = done / double(target_);
+        if (options_.time_seconds)
+            fraction = std::max(fraction, seconds / *options_.time_seconds);
+        return std::min(fraction, 1.0);
+    }
+
+private:
+    const Options& options_;
+    u32 tiles_;
+    std::uint64_t target_ = 0;
+};
+
+void check_film_capacity(const Options& options, std::uint64_t samples) {
+    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.replicates);
+    if (options.spp && samples > most)
+        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with --replicates {}; "
+                                     "render disjoint ranges with --first-sample",
+                                     samples, most, options.replicates));
+}
+
+/// Runs all passes on a film buffer.
+void run_passes(const Options& options, const RenderParams& params, Launcher& launcher, Progress& progress,
+                Render& result) {
+    const Schedule schedule(options, params.tile_count);
+    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.replicates);
+    const auto start = Clock::now();
+    double pass_seconds = 0;
+    while (result.passes < most) {
+        const std::uint32_t samples = schedule.next_samples(result.passes, result.seconds);
+        if (samples == 0)
+            break;
+        for (u32 tile = 0; tile < params.tile_count;) {
+            const u32 end = std::min(params.tile_count, tile + schedule.launch_tiles(pass_seconds * samples));
+            const auto launch = Clock::now();
+            launcher.run(options.first_sample + std::uint32_t(result.passes), samples, tile, end);
+            pass_seconds = seconds_since(launch) / samples * params.tile_count / (end - tile);
+            tile = end;
+            const double done = double(result.passes) + double(samples) * tile / params.tile_count;
+            progress.update({"render", schedule.fraction(done, seconds_since(start)), std::uint64_t(done), -1});
+        }
+        result.passes += samples;
+        result.seconds = seconds_since(start);
+    }
+    result.stop_signal = result.passes < schedule.target() ? stop_signal() : 0;
+}
+
+/// The auxiliary layers of the primary hits.
+void render_layers(const Device& device, const Program& program, const SceneBuffers& buffers, const RenderParams& params,
+                   const Options& options, Render& result) {
+    const size_t floats = size_t(params.crop_width) * params.crop_height * HIT_LAYER_FLOATS;
+    const cl::Buffer layers = create_buffer(device, "layers", floats * sizeof(float));
+    Launcher launcher(device, program, "render_aov", params, buffers);
+    launcher.kernel().set("layers", layers);
+    result.layer_samples = std::uint32_t(std::min<std::uint64_t>(LAYER_SAMPLES, result.passes));
+    launcher.run(options.first_sample, result.layer_samples, 0, params.tile_count);
+    result.layers.resize(floats);
+    check_opencl("reading the picture back", [&] {
+        device.queue.enqueueReadBuffer(layers, CL_TRUE, 0, floats * sizeof(float), result.layers.data());
+    });
+}
+
+} // namespace
+
+Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
+              const Options& options, Progress& progress) {
+    check_film_capacity(options, options.spp.value_or(DEFAULT_SPP));
+    Render result;
+    Film& film = result.film;
+    film.scale = film_scale(scene);
+    RenderParams params = make_render_params(scene, options, film.scale);
+    film.width = int(params.crop_width);
+    film.height = int(params.crop_height);
+    film.replicates = fitting_replicates(device, params);
+    film.first_sample = options.first_sample;
+    params.film_replicates = u32(film.replicates);
+
+    film.sums.resize(size_t(film.replicates) * film.width * film.height * 3);
+    const cl::Buffer sums = create_buffer(device, "film", film.sums.size() * sizeof(film.sums[0]));
+    std::vector<u32> words(COUNT_WORDS + 2 * REPLAY_CAPACITY, 0);
+    const cl::Buffer counters = create_buffer(device, "counters", words.size() * sizeof(u32));
+    Launcher launcher(device, programs.picture, std::string("render_") + integrator_name(options.integrator), params,
+                      buffers);
+    launcher.kernel().set("film", sums);
+    launcher.kernel().set("counters", counters);
+
+    // A launch without samples makes the driver finish its compilation.
+    progress.update({"compile", -1, 0, -1});
+    const auto start = Clock::now();
+    launcher.run(0, 0, 0, 0);
+    result.first_launch_seconds = seconds_since(start);
+
+    run_passes(options, params, launcher, progress, result);
+    film.samples = result.passes;
+    check_opencl("reading the picture back", [&] {
+        device.queue.enqueueReadBuffer(sums, CL_TRUE, 0, film.sums.size() * sizeof(film.sums[0]), film.sums.data());
+        device.queue.enqueueReadBuffer(counters, CL_TRUE, 0, words.size() * sizeof(u32), words.data());
+    });
+    result.counts = read_counts(words);
+    if (programs.layers && result.passes > 0)
+        render_layers(device, *programs.layers, buffers, params, options, result);
+    return result;
+}
+
+} // namespace clrt

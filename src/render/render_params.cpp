@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/render_params.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+namespace clrt {
+
+namespace {
+
+constexpr double RADIANS = 3.14159265358979323846 / 180;
+constexpr u32 TILE = 8;
+
+vec4 to_vec4(const glm::dvec3& v) {
+    return {float(v.x), float(v.y), float(v.z), 0.0f};
+}
+
+/// Puts the camera into the normalised frame: the eye, and directions to film positions in pixels.
+void set_camera(const Scene& scene, const Options& options, RenderParams& params) {
+    const Camera& camera = scene.camera;
+    const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
+    const glm::dvec3 right = glm::normalize(glm::cross(look, camera.up));
+    const glm::dvec3 up = glm::cross(right, look);
+    const double width = options.size.x, height = options.size.y;
+    const double pixel = 2 * std::tan(0.5 * camera.fov_degrees * RADIANS) / height;
+    params.eye = to_vec4((camera.eye - scene.normalisation.centre) * scene.normalisation.scale);
+    params.film_corner = to_vec4(look - right * (0.5 * width * pixel) + up * (0.5 * height * pixel));
+    params.film_dx = to_vec4(right * pixel);
+    params.film_dy = to_vec4(up * -pixel);
+    params.look = to_vec4(look);
+}
+
+/// Shares next-event estimation evenly between the kinds of light that it can find. A constant sky is left to BSDF
+/// sampling, which follows its only feature, the cosine.
+void set_lights(const Scene& scene, RenderParams& params) {
+    const Environment& sky = scene.environment;
+    params.environment = to_vec4(sky.radiance);
+    params.environment_width = sky.texels.empty() ? 0 : u32(sky.width);
+    params.environment_height = sky.texels.empty() ? 0 : u32(sky.height);
+    params.environment_cos = float(std::cos(sky.rotation_degrees * RADIANS));
+    params.environment_sin = float(std::sin(sky.rotation_degrees * RADIANS));
+    params.emitter_count = u32(scene.emitters.size());
+    params.light_count = u32(scene.lights.size());
+    const bool has_map = !sky.texels.empty() && (sky.radiance.x > 0 || sky.radiance.y > 0 || sky.radiance.z > 0);
+    const int kinds = int(!scene.emitters.empty()) + int(has_map) + int(!scene.lights.empty());
+    const float share = kinds ? 1.0f / float(kinds) : 0.0f;
+    params.choose_emitter = scene.emitters.empty() ? 0.0f : share;
+    params.choose_environment = has_map ? share : 0.0f;
+    params.choose_light = scene.lights.empty() ? 0.0f : share;
+}
+
+/// A stride near the golden section of the tile count that has no factor in common with it.
+u32 tile_stride(u32 tiles) {
+    u32 stride = u32(0.6180339887 * tiles) | 1u;
+    while (std::gcd(stride, tiles) != 1)
+        ++stride;
+    return stride;
+}
+
+void set_window(const Options& options, RenderParams& params) {
+    const Crop window = render_window(options);
+    params.width = u32(options.size.x);
+    params.height = u32(options.size.y);
+    params.crop_x = u32(window.x0);
+    params.crop_y = u32(window.y0);
+    params.crop_width = u32(window.x1 - window.x0);
+    params.crop_height = u32(window.y1 - window.y0);
+    params.tiles_x = (params.crop_width + TILE - 1) / TILE;
+    params.tile_count = params.tiles_x * ((params.crop_height + TILE - 1) / TILE);
+    params.tile_stride = tile_stride(params.tile_count);
+}
+
+void set_filter(const Options& options, RenderParams& params) {
+    switch (options.filter) {
+    case Filter::BOX:
+        params.filter = FILTER_BOX;
+        params.filter_radius = float(options.filter_radius.value_or(0.5));
+        break;
+    case Filter::TENT:
+        params.filter = FILTER_TENT;
+        params.filter_radius = float(options.filter_radius.value_or(1.0));
+        break;
+    case Filter::GAUSSIAN:
+        params.filter = FILTER_GAUSSIAN;
+        params.filter_radius = float(options.filter_radius.value_or(1.5));
+        break;
+    }
+}
+
+} // namespace
+
+Crop render_window(const Options& options) {
+    return options.crop.value_or(Crop{0, 0, options.size.x, options.size.y});
+}
+
+RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {
+    RenderParams params{};
+    set_camera(scene, options, params);
+    set_lights(scene, params);
+    set_window(options, params);
+    set_filter(options, params);
+    params.seed = options.seed;
+    params.replicates = u32(options.replicates);
+    params.film_replicates = u32(options.replicates);
+    params.max_depth = u32(effective_max_depth(options));
+    params.min_contribution = float(options.min_contribution);
+    params.roulette_depth = u32(options.roulette_depth);
+    params.scene_extent = scene.extent;
+    params.quantum = float(scale.quantum);
+    params.inverse_quantum = float(1 / scale.quantum);
+    params.largest_contribution = float(scale.largest);
+    return params;
+}
+
+} // namespace clrt

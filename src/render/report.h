@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run did: printed after the render, written as JSON, stored in the picture's metadata.
+#pragma once
+
+#include "bvh/bvh.h"
+#include "effects/effects.h"
+#include "output/image.h"
+#include "render/render.h"
+
+#include <optional>
+#include <string>
+
+namespace clrt {
+
+/// Everything the report tells about; stages fill their part.
+struct Report {
+    const Options& options;
+    const Scene& scene;
+    const Effects& effects;
+    const DeviceInfo& device;
+    const Bvh& bvh;
+    const Render& render;
+    std::optional<FilmError> error;
+    double load_seconds = 0, compile_seconds = 0, total_seconds = 0;
+};
+
+/// Largest resident memory of this process so far, bytes.
+std::uint64_t peak_memory_bytes();
+
+/// The lines that end a run, for stdout.
+std::string format_report(const Report& report);
+
+/// The --stats file: JSON in SI units.
+std::string report_json(const Report& report);
+
+/// The same facts as metadata of a picture.
+Metadata report_metadata(const Report& report);
+
+} // namespace clrt

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/lights.h"
+
+#include "error.h"
+#include "scene/alias_table.h"
+#include "scene/colour.h"
+#include "scene/normalise.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+namespace clrt {
+namespace {
+
+constexpr double PI = glm::pi<double>();
+
+vec4 to_vec4(const glm::dvec3& v) {
+    return {float(v.x), float(v.y), float(v.z), 0};
+}
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void check_colour(const glm::dvec3& colour, const char* option, const char* what) {
+    if (!is_finite(colour) || colour.x < 0 || colour.y < 0 || colour.z < 0)
+        throw UsageError(fmt::format("{}: expected {} of finite numbers not below 0, found {},{},{}", option,
+                                     what, colour.x, colour.y, colour.z));
+}
+
+/// Radiant intensity scales with the square of lengths: radiance on the surfaces stays what it was.
+Light point_light(const PointOptions& option, const Normalisation& frame) {
+    check_colour(option.intensity, "--point", "an intensity");
+    if (!is_finite(option.position))
+        throw UsageError(fmt::format("--point: expected a position of finite numbers, found {},{},{}",
+                                     option.position.x, option.position.y, option.position.z));
+    Light light{};
+    light.kind = LIGHT_POINT;
+    light.vector = to_vec4(to_normalised(frame, option.position));
+    light.emission = to_vec4(option.intensity * frame.scale * frame.scale);
+    return light;
+}
+
+/// A disc of angular radius r and radiance L gives, at normal incidence, the irradiance L pi sin^2 r.
+Light sun_light(const SunOptions& option) {
+    check_colour(option.irradiance, "--sun", "an irradiance");
+    const double length = glm::length(option.towards);
+    if (!std::isfinite(length) || length <= 0)
+        throw UsageError(fmt::format("--sun: expected a direction that is not 0, found {},{},{}",
+                                     option.towards.x, option.towards.y, option.towards.z));
+    if (!(option.diameter_degrees >= 0 && option.diameter_degrees < 180))
+        throw UsageError(
+            fmt::format("--sun: expected an angular diameter from 0 to below 180 degrees, found {}",
+                        option.diameter_degrees));
+    Light light{};
+    light.kind = LIGHT_SUN;
+    light.vector = to_vec4(option.towards / length);
+    light.emission = to_vec4(option.irradiance);
+    const double r = 0.5 * option.diameter_degrees * PI / 180;
+    if (r >= SMALLEST_SUN_RADIUS) {
+        const double half_sine = std::sin(0.5 * r);
+        light.one_minus_cos = float(2 * half_sine * half_sine); // without the cancellation of 1 - cos r
+        light.emission = to_vec4(option.irradiance / (PI * std::sin(r) * std::sin(r)));
+    }
+    return light;
+}
+
+} // namespace
+
+double triangle_area(const vec4& a, const vec4& b, const vec4& c) {
+    const glm::dvec3 origin(a.x, a.y, a.z);
+    const glm::dvec3 normal =
+        glm::cross(glm::dvec3(b.x, b.y, b.z) - origin, glm::dvec3(c.x, c.y, c.z) - origin);
+    const double area = 0.5 * glm::length(normal);
+    return std::isfinite(area) ? area : 0;
+}
+
+Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle>& triangles,
+                        const std::vector<double>& exitance) {
+    Emitters result;
+    std::vector<double> powers, areas;
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        Triangle& triangle = triangles[i];
+        triangle.emitter = NO_INDEX;
+        if (!(exitance[triangle.material] > 0))
+            continue;
+        const double area =
+            triangle_area(positions[triangle.v0], positions[triangle.v1], positions[triangle.v2]);
+        if (area < SMALLEST_EMITTER_AREA)
+            continue;
+        triangle.emitter = u32(result.emitters.size());
+        result.emitters.push_back({u32(i), 0, 0, 0});
+        areas.push_back(area);
+        powers.push_back(PI * area * exitance[triangle.material]);
+        result.power += powers.back();
+    }
+    const AliasTable table = build_alias_table(powers);
+    for (size_t i = 0; i < result.emitters.size(); ++i) {
+        Emitter& emitter = result.emitters[i];
+        emitter.alias = table.entries[i].alias;
+        emitter.threshold = table.entries[i].threshold;
+        emitter.pdf_a = float(table.probability[i] / areas[i]);
+    }
+    return result;
+}
+
+Lights build_lights(const LightOptions& options, const Normalisation& frame, double radius,
+                    NoticeList& notices) {
+    Lights result;
+    std::vector<double> powers;
+    const auto add = [&](const Light& light, double power, const char* option) {
+        if (power > 0) {
+            result.lights.push_back(light);
+            powers.push_back(power);
+            result.power += power;
+        } else {
+            notices.add(fmt::format("{}: a light without power is left out", option));
+        }
+    };
+    for (const PointOptions& option : options.points) {
+        const Light light = point_light(option, frame);
+        add(light, 4 * PI * luminance(option.intensity) * frame.scale * frame.scale, "--point");
+    }
+    for (const SunOptions& option : options.suns)
+        add(sun_light(option), luminance(option.irradiance) * PI * radius * radius, "--sun");
+
+    const AliasTable table = build_alias_table(powers);
+    for (size_t i = 0; i < result.lights.size(); ++i) {
+        result.lights[i].probability = float(table.probability[i]);
+        result.lights[i].alias = table.entries[i].alias;
+        result.lights[i].threshold = table.entries[i].threshold;
+    }
+    return result;
+}
+
+} // namespace clrt

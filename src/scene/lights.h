@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emissive triangles, point lights and suns, each with the table that chooses among them by power.
+#pragma once
+
+#include "app/options.h"
+#include "scene/notices.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace clrt {
+
+/// Triangles smaller than this (area in the normalised frame, whose radius is 1 to 2) are never chosen as
+/// lights: their side is below 1e-15, far under the spacing of floats near 1, and 1 / area must stay finite.
+constexpr double SMALLEST_EMITTER_AREA = 1e-30;
+
+/// Discs of a smaller angular radius (radians) become delta suns: their 1 - cos is below 1e-12, their
+/// radiance would exceed 1e11 times their irradiance, and no shadow shows the difference.
+constexpr double SMALLEST_SUN_RADIUS = 1e-6;
+
+/// Area of a triangle in the frame of its corners, computed in double; 0 if a corner is not finite.
+double triangle_area(const vec4& a, const vec4& b, const vec4& c);
+
+struct Emitters {
+    std::vector<Emitter> emitters; ///< in the order of the triangles
+    double power = 0;              ///< pi area luminance, summed
+};
+
+/// Lists the emissive triangles and sets their `emitter`. `exitance` holds, for each material, the luminance
+/// that it emits on average over its maps, times its coverage, doubled where both sides shine; 0: dark.
+Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle>& triangles,
+                        const std::vector<double>& exitance);
+
+struct Lights {
+    std::vector<Light> lights;
+    double power = 0; ///< luminance; normalised frame
+};
+
+/// Point lights and suns of the options in the normalised frame, `radius` its bounding sphere. A light
+/// without power is left out with a notice. Throws UsageError for values that are no light: not finite,
+/// negative, a sun without direction or as wide as the sky.
+Lights build_lights(const LightOptions& options, const Normalisation& frame, double radius,
+                    NoticeList& notices);
+
+} // namespace clrt

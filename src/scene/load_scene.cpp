@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/load_scene.h"
+
+#include "scene/assemble_geometry.h"
+#include "scene/camera_fit.h"
+#include "scene/colour.h"
+#include "scene/environment.h"
+#include "scene/lights.h"
+#include "scene/material_rules.h"
+#include "scene/mtl_libraries.h"
+#include "scene/normalise.h"
+#include "scene/obj_reader.h"
+#include "scene/text_scanner.h"
+#include "scene/texture_store.h"
+
+#include <chrono>
+#include <fmt/format.h>
+
+namespace clrt {
+namespace {
+
+/// Seconds since it was made.
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The material behind a usemtl name; a name that no library defines is grey, with a notice.
+RuledMaterial material_by_name(const std::string& name, size_t line, const std::string& obj_path,
+                               const std::map<std::string, MtlMaterial>& library,
+                               const MaterialContext& context, const LoadMap& load_map, SourcePlace& place,
+                               NoticeList& notices) {
+    const auto found = library.find(name);
+    if (found != library.end()) {
+        place = found->second.place;
+        return rule_material(found->second, context, load_map, notices);
+    }
+    place = {obj_path, line};
+    if (!name.empty())
+        notices.add(
+            fmt::format("usemtl {}: no library defines it, matte grey (Kd 0.8) is taken", clrt::quoted(name)),
+            place);
+    return default_material();
+}
+
+/// Reads the libraries and gives every material that a face uses its meaning. Returns what each emits:
+/// luminance, mean over its map, times coverage, doubled where both sides shine.
+std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, Progress& progress,
+                                   Scene& scene, NoticeList& notices) {
+    const auto library = read_mtl_libraries(options.scene_path, mesh.libraries, notices);
+    const MaterialContext context{scene.normalisation.scale, options.light.two_sided};
+    TextureStore store;
+    const LoadMap load_map = [&](const MtlTexture& use, TextureRole role) {
+        const Stopwatch watch;
+        const u32 index = store.add(use, role, notices);
+        scene.statistics.texture_seconds += watch.seconds();
+        return index;
+    };
+    std::vector<double> exitance;
+    for (size_t i = 0; i < mesh.material_names.size(); ++i) {
+        progress.update({"load", double(i) / double(mesh.material_names.size())});
+        SourcePlace place;
+        const RuledMaterial ruled =
+            material_by_name(mesh.material_names[i], mesh.material_lines[i], options.scene_path, library,
+                             context, load_map, place, notices);
+        const Material& m = ruled.material;
+        glm::dvec3 emission(m.emission.x, m.emission.y, m.emission.z);
+        if (m.map_emission != NO_INDEX)
+            emission *= store.mean(m.map_emission);
+        exitance.push_back(luminance(emission) * double(m.matte.w) *
+                           (m.flags & MATERIAL_EMITS_BOTH_SIDES ? 2 : 1));
+        scene.materials.push_back(m);
+        scene.material_names.push_back(mesh.material_names[i]);
+        scene.material_places.push_back(place);
+        scene.material_rules.push_back(ruled.rule);
+    }
+    scene.textures = store.take_textures();
+    scene.texture_names = store.take_names();
+    scene.texel_words = store.take_words();
+    return exitance;
+}
+
+void load_lights(const Options& options, const std::vector<double>& exitance, double radius, Scene& scene,
+                 NoticeList& notices) {
+    Emitters emitters = build_emitters(scene.positions, scene.triangles, exitance);
+    Lights lights = build_lights(options.light, scene.normalisation, radius, notices);
+    const bool has_light =
+        !emitters.emitters.empty() || !options.light.points.empty() || !options.light.suns.empty();
+    scene.emitters = std::move(emitters.emitters);
+    scene.lights = std::move(lights.lights);
+    scene.emitted_power = emitters.power + lights.power;
+    scene.environment = load_environment(options.light, has_light, notices);
+}
+
+} // namespace
+
+Scene load_scene(const Options& options, Progress& progress) {
+    Scene scene;
+    NoticeList notices;
+
+    // Geometry and names.
+    const Stopwatch watch;
+    ObjMesh mesh = read_obj(options.scene_path, progress);
+    scene.statistics.obj_seconds = watch.seconds();
+    scene.statistics.obj_bytes = mesh.bytes;
+    scene.statistics.dropped_faces = mesh.dropped_faces;
+    for (const std::string& line : mesh.notices)
+        notices.add_line(line);
+    scene.object_names = mesh.object_names;
+
+    // The frame, then everything that is measured in it.
+    const Bounds bounds = bounds_of_triangles(mesh);
+    scene.normalisation = fit_normalisation(bounds);
+    const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
+    assemble_geometry(mesh, scene.normalisation, options.scene_path, scene, notices);
+    load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
+
+    const bool whole_camera = options.camera.eye && options.camera.at;
+    const BoxCover cover = whole_camera ? BoxCover{} : measure_box_cover(scene.positions, scene.triangles);
+    scene.camera = fit_camera(options.camera, options.size, bounds, cover, notices);
+    scene.notices = notices.lines();
+    return scene;
+}
+
+} // namespace clrt

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The materials of a scene in words.
+#include "scene/material_rules.h"
+
+#include "scene/colour.h"
+#include "scene/text_scanner.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace clrt {
+namespace {
+
+std::string colour(const vec4& v) {
+    return fmt::format("{:.4g} {:.4g} {:.4g}", v.x, v.y, v.z);
+}
+
+std::string roughness(const Material& m) {
+    return m.alpha_x == m.alpha_y ? fmt::format("alpha {:.4g}", m.alpha_x)
+                                  : fmt::format("alpha {:.4g} x {:.4g}", m.alpha_x, m.alpha_y);
+}
+
+std::string reflection(const Material& m, const char* name) {
+    const std::string kind = m.flags & MATERIAL_METALLIC_ROUGHNESS
+                                 ? fmt::format("F0 from Kd and Pm {:.4g}", m.emission.w)
+                             : m.fresnel == FRESNEL_SCHLICK ? "F0 " + colour(m.specular)
+                                                            : colour(m.specular);
+    return fmt::format("{} {}", name, kind);
+}
+
+std::vector<std::string> parts_of(const Material& m) {
+    std::vector<std::string> parts;
+    if (m.lobes & LOBE_MATTE)
+        parts.push_back("matte " + colour(m.matte));
+    if (m.lobes & LOBE_GLOSSY)
+        parts.push_back(reflection(m, "glossy") + " " + roughness(m));
+    if (m.lobes & LOBE_MIRROR)
+        parts.push_back(reflection(m, "mirror"));
+    if (m.lobes & LOBE_DIELECTRIC)
+        parts.push_back(fmt::format("dielectric Ni {:.4g} Tf {}{}", m.transmission.w, colour(m.transmission),
+                                    m.alpha_x > 0 ? " " + roughness(m) : ""));
+    if (!m.lobes)
+        parts.push_back("black");
+    if (m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0)
+        parts.push_back("emits " + colour(m.emission) +
+                        (m.flags & MATERIAL_EMITS_BOTH_SIDES ? " on both sides" : ""));
+    if (m.flags & MATERIAL_CUT_OUT)
+        parts.push_back(fmt::format("coverage {:.4g}", m.matte.w));
+    return parts;
+}
+
+std::string maps_of(const Material& m, const Scene& scene) {
+    const std::pair<const char*, u32> maps[] = {
+        {"Kd", m.map_matte},     {"Ks", m.map_specular}, {"Ke", m.map_emission},   {"d", m.map_coverage},
+        {"Pr", m.map_roughness}, {"Pm", m.map_metallic}, {"normal", m.map_normal}, {"bump", m.map_bump},
+    };
+    std::string text;
+    for (const auto& [name, index] : maps)
+        if (index != NO_INDEX)
+            text += fmt::format(", {} map {}", name, clrt::quoted(scene.texture_names[index]));
+    return text;
+}
+
+} // namespace
+
+std::string material_table(const Scene& scene) {
+    size_t name_width = 8, rule_width = 4;
+    std::vector<std::string> names;
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        names.push_back(scene.material_names[i].empty() ? "(none)" : scene.material_names[i]);
+        name_width = std::max(name_width, names[i].size());
+        rule_width = std::max(rule_width, scene.material_rules[i].size());
+    }
+    std::string table =
+        fmt::format("{:<{}}  {:<{}}  {}\n", "material", name_width, "rule", rule_width, "became");
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        table +=
+            fmt::format("{:<{}}  {:<{}}  {}{}\n", names[i], name_width, scene.material_rules[i], rule_width,
+                        fmt::join(parts_of(scene.materials[i]), ", "), maps_of(scene.materials[i], scene));
+    return table;
+}
+
+} // namespace clrt

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavefront MTL text -> materials exactly as written: an absent key stays absent (material_rules.h gives it
+// meaning).
+#pragma once
+
+#include "scene/notices.h"
+#include "scene/scene.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// A map_* statement: a file name and its options.
+struct MtlTexture {
+    std::string file; ///< as written
+    SourcePlace place;
+    glm::dvec2 scale{1}, offset{0}; ///< -s, -o
+    double base = 0, gain = 1;      ///< -mm
+    double bump_multiplier = 1;     ///< -bm
+    bool clamp = false;             ///< -clamp on
+    std::optional<u32> channel;     ///< -imfchan: 0..3 = r, g, b, m; 4 = l
+};
+
+/// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their
+/// ranges: Kd Ks Tf d Tr Pr Pm aniso in [0,1], Ke and Ns not below 0, Ni above 0.
+struct MtlMaterial {
+    std::string name;
+    SourcePlace place;
+    std::optional<glm::dvec3> kd, ks, ke, tf;
+    std::optional<double> ns, ni, d, tr, pr, pm, aniso;
+    std::optional<int> illum; ///< 0..9
+    std::optional<MtlTexture> map_kd, map_ks, map_ke, map_d, map_pr, map_pm, map_normal, map_bump;
+};
+
+/// Reads a material library. Keys in any case; Kt is another name of Tf. What has no meaning here is noted
+/// once and ignored: Ps Pc Pcr anisor, maps of Ka, Ns and others, spectral colours, statements before the
+/// first newmtl, unknown keys; values outside their range are clamped with a notice. Throws SceneError
+/// (file:line) for a missing file and for text where a number belongs.
+std::vector<MtlMaterial> read_mtl(const std::string& path, NoticeList& notices);
+
+/// The same for text that was read already; `path` only names it.
+std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& path, NoticeList& notices);
+
+} // namespace clrt

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavefront OBJ text -> triangles. Parallel, safe on any bytes, exact in its file:line errors.
+#pragma once
+
+#include "app/progress.h"
+#include "kernels/shared/types.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// A triangle of the OBJ: indices from 0 into ObjMesh's arrays; NO_INDEX where a face gives none.
+struct ObjTriangle {
+    u32 v[3], n[3], t[3];
+    u32 material; ///< into ObjMesh::material_names
+    u32 object;   ///< into ObjMesh::object_names
+};
+
+/// A mtllib statement: the text after the keyword, for the caller to resolve (one name with spaces, or
+/// several).
+struct ObjLibrary {
+    std::string names;
+    size_t line = 0;
+};
+
+/// The geometry and names of an OBJ file, exactly as written (world units, no fallbacks for materials).
+struct ObjMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uvs;
+    std::vector<ObjTriangle> triangles;      ///< in file order
+    std::vector<std::string> material_names; ///< by first use; "" is "no usemtl"
+    std::vector<size_t> material_lines;      ///< line of the first usemtl of each that has faces; 0 for ""
+    std::vector<std::string>
+        object_names; ///< of `o` and `g` statements that have faces; "" is the unnamed first
+    std::vector<ObjLibrary> libraries;
+    std::vector<std::string>
+        notices; ///< "file:line: ..." or "file: ..." one line each, every kind once with a count
+    size_t bytes = 0;
+    size_t dropped_faces = 0; ///< fewer than three corners, or a non-finite position
+};
+
+/// How much text one task reads: enough to hide the cost of a task, little enough for many of them.
+constexpr size_t OBJ_CHUNK_BYTES = size_t(1) << 20;
+
+/// Reads an OBJ file. Polygons become triangles (concave ones by ear clipping), negative indices count back,
+/// CR, LF and CRLF end lines, a backslash at a line's end continues it. Points, lines, curves and unknown
+/// statements are counted in a notice. A vn or vt index out of range is dropped with a notice, a position
+/// index out of range or 0, a number that is none, and a file without a single face throw SceneError
+/// (file:line, what was expected, what was found). The result is the same for any number of threads and any
+/// `chunk_bytes` (at least 1).
+ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes = OBJ_CHUNK_BYTES);
+
+} // namespace clrt

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene ready for the device: plain vectors of the shared structs, indices instead of pointers, no behaviour.
+#pragma once
+
+#include "kernels/shared/scene_types.h"
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// World to normalised frame: p' = (p - centre) * scale, scale a power of two, half-diagonal in [1, 2).
+/// Computed in double, so that scaling a scene by a power of two gives the same normalised bits.
+struct Normalisation {
+    glm::dvec3 centre{0};
+    double scale = 1;
+};
+
+/// A pinhole camera in world units.
+struct Camera {
+    glm::dvec3 eye{0}, at{0, 0, -1}, up{0, 1, 0};
+    double fov_degrees = 40; ///< vertical
+};
+
+/// A lat-long environment or, without texels, a constant one.
+struct Environment {
+    glm::dvec3 radiance{0}; ///< constant radiance, or the factor of the map
+    int width = 0, height = 0;
+    std::vector<EnvironmentTexel> texels;
+    double rotation_degrees = 0; ///< about +Y
+    double mean_radiance = 0;    ///< over the sphere, luminance, factor included
+};
+
+/// Where a material was defined, for witnesses and messages.
+struct SourcePlace {
+    std::string file;
+    size_t line = 0; ///< from 1; 0: none
+};
+
+/// How long the parts of loading took and how much was read.
+struct LoadStatistics {
+    size_t obj_bytes = 0;
+    double obj_seconds = 0;     ///< reading and triangulating the OBJ text
+    double texture_seconds = 0;
+    size_t degenerate_triangles = 0; ///< of zero area: kept out of the tree and of the lights
+    size_t dropped_faces = 0;        ///< with a non-finite vertex or fewer than three corners
+};
+
+struct Scene {
+    std::vector<vec4> positions; ///< normalised frame, w = 0
+    std::vector<vec4> normals;   ///< unit or zero, w = 0
+    std::vector<float> uvs;      ///< u, v pairs
+    std::vector<Triangle> triangles;
+    std::vector<Material> materials;
+    std::vector<std::string> material_names;
+    std::vector<SourcePlace> material_places;
+    std::vector<std::string> material_rules; ///< the row of the MTL table that made each material
+    std::vector<std::string> object_names;
+    std::vector<Texture> textures;
+    std::vector<u32> texel_words;
+    std::vector<std::string> texture_names;
+    std::vector<Emitter> emitters;
+    std::vector<Light> lights;
+    Environment environment;
+    Camera camera;
+    Normalisation normalisation;
+    float extent = 0;                 ///< largest |coordinate| of the geometry, normalised frame
+    double emitted_power = 0;         ///< luminance of all lights but the environment, normalised frame
+    std::vector<std::string> notices; ///< every fallback, one line each, for the log and --explain
+    LoadStatistics statistics;
+};
+
+} // namespace clrt

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/texture_store.h"
+
+#include "error.h"
+#include "scene/colour.h"
+#include "scene/find_file.h"
+#include "scene/text_scanner.h"
+
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace clrt {
+namespace {
+
+constexpr u32 CHANNEL_ALPHA = 3, CHANNEL_LUMINANCE = 4;
+
+u32 float_bits(float value) {
+    u32 bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+float bits_float(u32 bits) {
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+ImageEncoding encoding_of(TextureRole role) {
+    return role == TextureRole::COLOUR ? ImageEncoding::COLOUR : ImageEncoding::DATA;
+}
+
+} // namespace
+
+TextureStore::TextureStore() {
+    words_.resize(SRGB_TABLE_WORDS);
+    for (u32 i = 0; i < SRGB_TABLE_WORDS; ++i)
+        words_[i] = float_bits(float(srgb_to_linear(i / 255.0)));
+}
+
+u32 TextureStore::add(const MtlTexture& use, TextureRole role, NoticeList& notices) {
+    const StoredImage* image = find_or_read(use, role, notices);
+    if (!image)
+        return NO_INDEX;
+    Texture texture{};
+    texture.first_word = image->first_word;
+    texture.width = image->width;
+    texture.height = image->height;
+    texture.format = image->format;
+    texture.scale_u = float(use.scale.x);
+    texture.scale_v = float(use.scale.y);
+    texture.offset_u = float(use.offset.x);
+    texture.offset_v = float(use.offset.y);
+    texture.base = float(use.base);
+    texture.gain = float(use.gain);
+    texture.clamp = use.clamp ? 1 : 0;
+    texture.channel = role == TextureRole::COVERAGE && image->has_alpha ? CHANNEL_ALPHA
+                      : image->is_grey                                  ? 0
+                                                                        : CHANNEL_LUMINANCE;
+    if (use.channel)
+        texture.channel = *use.channel;
+    textures_.push_back(texture);
+    names_.push_back(use.file);
+    return u32(textures_.size() - 1);
+}
+
+const TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& use, TextureRole role,
+                                                            NoticeList& notices) {
+    const auto path = find_file(use.file, use.place.file);
+    if (!path) {
+        notices.add(fmt::format("no file {} found, the map is ignored", clrt::quoted(use.file)), use.place);
+        return nullptr;
+    }
+    // Alpha is linear in both encodings: a mask shares the texels of the colours beside it.
+    const auto as_colour = images_.find({*path, ImageEncoding::COLOUR});
+    if (role == TextureRole::COVERAGE && as_colour != images_.end() && as_colour->second.has_alpha &&
+        !use.channel)
+        return &as_colour->second;
+
+    const ImageEncoding encoding = encoding_of(role);
+    const auto known = images_.find({*path, encoding});
+    if (known != images_.end())
+        return &known->second;
+    Image image;
+    try {
+        image = read_image(*path, encoding);
+    } catch (const SceneError& error) {
+        notices.add(fmt::format("{}; the map is ignored", error.what()), use.place);
+        return nullptr;
+    }
+    return &images_.emplace(std::make_pair(*path, encoding), store(image, encoding, *path, notices))
+                .first->second;
+}
+
+TextureStore::StoredImage TextureStore::store(const Image& image, ImageEncoding encoding,
+                                              const std::string& path, NoticeList& notices) {
+    const bool is_float = image.bytes.empty();
+    const size_t pixels = size_t(image.width) * size_t(image.height);
+    const size_t needed = pixels * (is_float ? 4 : 1);
+    if (words_.size() + needed > NO_INDEX)
+        throw SceneError(path, 0,
+                         "the textures need more than 2^32 words of texels: expected smaller or fewer "
+                         "pictures");
+    StoredImage stored{u32(words_.size()), u32(image.width), u32(image.height),
+                       TEXEL_FLOAT,        image.has_alpha,  image.is_grey};
+    words_.resize(words_.size() + needed);
+    u32* word = &words_[stored.first_word];
+    if (is_float) {
+        size_t non_finite = 0;
+        for (const vec4& texel : image.floats)
+            for (float value : {texel.x, texel.y, texel.z, texel.w}) {
+                non_finite += !std::isfinite(value);
+                *word++ = float_bits(std::isfinite(value) ? value : 0.f);
+            }
+        if (non_finite)
+            notices.add(fmt::format("{} values are NaN or infinite and became 0", non_finite), {path, 0});
+        return stored;
+    }
+    stored.format = encoding == ImageEncoding::COLOUR ? TEXEL_SRGB8 : TEXEL_LINEAR8;
+    for (size_t i = 0; i < pixels; ++i) {
+        const std::uint8_t* byte = &image.bytes[4 * i];
+        *word++ = u32(byte[0]) | u32(byte[1]) << 8 | u32(byte[2]) << 16 | u32(byte[3]) << 24;
+    }
+    return stored;
+}
+
+vec4 TextureStore::texel(const Texture& texture, u32 x, u32 y) const {
+    const size_t pixel = size_t(y) * texture.width + x;
+    if (texture.format == TEXEL_FLOAT) {
+        const u32* word = &words_[texture.first_word + 4 * pixel];
+        return {bits_float(word[0]), bits_float(word[1]), bits_float(word[2]), bits_float(word[3])};
+    }
+    const u32 word = words_[texture.first_word + pixel];
+    const auto value = [&](u32 shift) {
+        const u32 byte = word >> shift & 0xff;
+        return texture.format == TEXEL_SRGB8 ? bits_float(words_[byte]) : float(byte) / 255.f;
+    };
+    return {value(0), value(8), value(16), float(word >> 24) / 255.f};
+}
+
+glm::dvec3 TextureStore::mean(u32 index) const {
+    const Texture& texture = textures_[index];
+    glm::dvec3 sum(0);
+    for (u32 y = 0; y < texture.height; ++y)
+        for (u32 x = 0; x < texture.width; ++x) {
+            const vec4 value = texel(texture, x, y);
+            const glm::dvec3 mapped = glm::dvec3(value.x, value.y, value.z) * double(texture.gain) +
+                                      glm::dvec3(double(texture.base));
+            for (int c = 0; c < 3; ++c)
+                if (std::isfinite(mapped[c]) && mapped[c] > 0)
+                    sum[c] += mapped[c];
+        }
+    return sum / (double(texture.width) * double(texture.height));
+}
+
+} // namespace clrt

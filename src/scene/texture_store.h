@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image files -> texel words and Texture records; every file is read once for each way of storing it.
+#pragma once
+
+#include "scene/mtl_reader.h"
+#include "scene/notices.h"
+#include "scene/read_image.h"
+
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clrt {
+
+/// What a map is for: it decides how its numbers are stored and which channel is read.
+enum class TextureRole {
+    COLOUR,   ///< sRGB where the file holds integers
+    NORMAL,   ///< three linear channels
+    COVERAGE, ///< the alpha channel where there is one, else luminance
+    SCALAR    ///< the only channel, else luminance
+};
+
+/// The first words hold the sRGB curve: word i is the linear value of byte i as the bits of a float.
+constexpr u32 SRGB_TABLE_WORDS = 256;
+
+class TextureStore {
+public:
+    TextureStore();
+
+    /// Adds a use of a map and returns its index; NO_INDEX, with one notice per file, if it cannot be read.
+    /// The file is looked for relative to the MTL file (find_file.h). Throws SceneError if the texels exceed
+    /// 2^32 words.
+    u32 add(const MtlTexture& use, TextureRole role, NoticeList& notices);
+
+    /// Mean of the texture's values over its picture: linear, with base and gain, negative values as 0.
+    glm::dvec3 mean(u32 texture) const;
+
+    /// Linear r, g, b, a of a texel, as a kernel decodes it; without base and gain.
+    vec4 texel(const Texture& texture, u32 x, u32 y) const;
+
+    std::vector<Texture> take_textures() { return std::move(textures_); }
+    std::vector<u32> take_words() { return std::move(words_); }
+    std::vector<std::string> take_names() { return std::move(names_); }
+    const std::vector<Texture>& textures() const { return textures_; }
+    const std::vector<u32>& words() const { return words_; }
+
+private:
+    struct StoredImage {
+        u32 first_word, width, height, format;
+        bool has_alpha, is_grey;
+    };
+
+    const StoredImage* find_or_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
+    StoredImage store(const Image& image, ImageEncoding encoding, const std::string& path,
+                      NoticeList& notices);
+
+    std::vector<Texture> textures_;
+    std::vector<std::string> names_;
+    std::vector<u32> words_;
+    std::map<std::pair<std::string, ImageEncoding>, StoredImage> images_;
+};
+
+} // namespace clrt
