@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line: every option, its values, and what is refused.
+#include "app/command_line.h"
+
+#include "app/help_text.h"
+#include "app/nearest_name.h"
+#include "app/option_table.h"
+#include "error.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+#include <map>
+
+namespace clrt {
+
+namespace {
+
+/// Parses "clrt" and the arguments.
+CommandLine parse_all(const std::vector<std::string>& arguments) {
+    std::vector<const char*> argv = {"clrt"};
+    for (const std::string& argument : arguments)
+        argv.push_back(argument.c_str());
+    return parse_command_line(static_cast<int>(argv.size()), argv.data());
+}
+
+/// Parses the arguments and a scene.
+Options parse(std::vector<std::string> arguments) {
+    arguments.emplace_back("scene.obj");
+    return parse_all(arguments).options;
+}
+
+/// The message of the UsageError that parsing ends with.
+std::string refusal(const std::vector<std::string>& arguments) {
+    try {
+        parse_all(arguments);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+/// A valid value of every option; flags have "".
+const std::map<std::string, std::string>& samples() {
+    static const std::map<std::string, std::string> values = {
+        {"--device", "pocl"},
+        {"--list-devices", ""},
+        {"--integrator", "whitted"},
+        {"--spp", "16"},
+        {"--time", "5m"},
+        {"--max-depth", "12"},
+        {"--min-contribution", "0.5%"},
+        {"--seed", "4294967295"},
+        {"--first-sample", "32"},
+        {"--replicates", "4"},
+        {"--precision", "double"},
+        {"--threads", "2"},
+        {"--bvh", "bvh2"},
+        {"--size", "320x200"},
+        {"--output", "a.exr"},
+        {"--crop", "10,20,30,40"},
+        {"--filter", "gaussian:2"},
+        {"--exposure", "-1.5"},
+        {"--tonemap", "aces"},
+        {"--aov", "albedo,N"},
+        {"--eye", "-1,2,-3.5"},
+        {"--at", "-0,.5,1e2"},
+        {"--up", "0,0,1"},
+        {"--fov", "35"},
+        {"--focal-length", "50"},
+        {"--film-width", "36"},
+        {"--env", "0.1,0.2,0.3"},
+        {"--env-scale", "2"},
+        {"--env-rotate", "-90"},
+        {"--sun", "1,2,3,4,5,6,0.5"},
+        {"--point", "-1,2,3,4,5,6"},
+        {"--two-sided-lights", ""},
+        {"--explain", ""},
+        {"--effects", "all"},
+        {"--stats", "run.json"},
+        {"--check", "strict"},
+        {"--kernels", "kernels"},
+        {"--dump-kernels", "dump"},
+        {"--cache", "on"},
+        {"--no-cache", ""},
+        {"--cache-dir", "cache"},
+        {"--progress", "off"},
+        {"--quiet", ""},
+        {"--verbose", ""},
+        {"--no-sidecar", ""},
+        {"--help", ""},
+        {"--version", ""},
+    };
+    return values;
+}
+
+/// What an option needs beside it.
+std::vector<std::string> companions(const std::string& option) {
+    if (option == "--focal-length")
+        return {"--film-width", "36"};
+    if (option == "--film-width")
+        return {"--focal-length", "50"};
+    return {};
+}
+
+} // namespace
+
+TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
+    const Options o = parse({});
+    EXPECT_EQ(o.scene_path, "scene.obj");
+    EXPECT_EQ(o.integrator, Integrator::PATH);
+    EXPECT_FALSE(o.spp);
+    EXPECT_FALSE(o.time_seconds);
+    EXPECT_EQ(effective_max_depth(o), 64);
+    EXPECT_EQ(o.min_contribution, 0.002);
+    EXPECT_EQ(o.replicates, 8);
+    EXPECT_EQ(o.size, glm::ivec2(800, 600));
+    EXPECT_EQ(o.outputs, std::vector<std::string>{"scene.png"});
+    EXPECT_EQ(o.filter, Filter::BOX);
+    EXPECT_EQ(o.check, Check::COUNT);
+    EXPECT_FALSE(o.aovs);
+    EXPECT_EQ(o.command, (std::vector<std::string>{"clrt", "scene.obj"}));
+}
+
+TEST(CommandLine, PictureIsNamedAfterTheSceneInTheCurrentFolder) {
+    EXPECT_EQ(parse_all({"some/folder/my hall.v2.obj"}).options.outputs,
+              std::vector<std::string>{"my hall.v2.png"});
+}
+
+TEST(CommandLine, DepthDefaultsDependOnTheIntegrator) {
+    EXPECT_EQ(effective_max_depth(parse({"-i", "whitted"})), 10);
+    EXPECT_EQ(effective_max_depth(parse({"-i", "whitted", "--max-depth", "3"})), 3);
+    EXPECT_EQ(effective_max_depth(parse({"-i", "raycast", "--max-depth", "3"})), 2);
+    EXPECT_EQ(effective_max_depth(parse({"--max-depth", "3"})), 3);
+}
+
+TEST(CommandLine, WorkOptionsArrive) {
+    const Options o = parse({"-d",
+                             "pocl",
+                             "-i",
+                             "raycast",
+                             "-s",
+                             "7",
+                             "-t",
+                             "90",
+                             "--seed",
+                             "3",
+                             "-j",
+                             "2",
+                             "--precision",
+                             "fast",
+                             "--replicates",
+                             "64",
+                             "--bvh",
+                             "bvh8",
+                             "--min-contribution",
+                             "2%",
+                             "--first-sample",
+                             "8"});
+    EXPECT_EQ(o.device, "pocl");
+    EXPECT_EQ(o.integrator, Integrator::RAYCAST);
+    EXPECT_EQ(o.spp, 7u);
+    EXPECT_EQ(o.time_seconds, 90.0);
+    EXPECT_EQ(o.seed, 3u);
+    EXPECT_EQ(o.threads, 2);
+    EXPECT_EQ(o.precision, Precision::FAST);
+    EXPECT_EQ(o.replicates, 64);
+    EXPECT_EQ(o.bvh, BvhChoice::BVH8);
+    EXPECT_EQ(o.min_contribution, 0.02);
+    EXPECT_EQ(o.first_sample, 8u);
+}
+
+TEST(CommandLine, PictureOptionsArrive) {
+    const Options o =
+        parse({"-r", "1280X720", "-o", "a.PNG", "--output=b.exr", "--crop", "1,2,1280,720", "--filter",
+               "tent:1.25", "--exposure", "-2", "--tonemap", "reinhard", "--aov", "N, Z"});
+    EXPECT_EQ(o.size, glm::ivec2(1280, 720));
+    EXPECT_EQ(o.outputs, (std::vector<std::string>{"a.PNG", "b.exr"}));
+    ASSERT_TRUE(o.crop);
+    EXPECT_EQ(o.crop->x0, 1);
+    EXPECT_EQ(o.crop->y0, 2);
+    EXPECT_EQ(o.crop->x1, 1280);
+    EXPECT_EQ(o.crop->y1, 720);
+    EXPECT_EQ(o.filter, Filter::TENT);
+    EXPECT_EQ(o.filter_radius, 1.25);
+    EXPECT_EQ(o.exposure_ev, -2);
+    EXPECT_EQ(o.tonemap, Tonemap::REINHARD);
+    EXPECT_EQ(o.aovs, (std::vector<std::string>{"N", "Z"}));
+    EXPECT_TRUE(parse({"--aov", "none"}).aovs->empty());
+}
+
+TEST(CommandLine, CameraOptionsArrive) {
+    const Options o = parse({"--eye", "-1,-2,-3", "--at=-.5,+1,1e2", "--up", "-0,1,-0", "--focal-length",
+                             "35", "--film-width", "24"});
+    EXPECT_EQ(o.camera.eye, glm::dvec3(-1, -2, -3));
+    EXPECT_EQ(o.camera.at, glm::dvec3(-0.5, 1, 100));
+    EXPECT_EQ(o.camera.up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(o.camera.focal_length, 35.0);
+    EXPECT_EQ(o.camera.film_width, 24.0);
+    EXPECT_EQ(parse({"--fov", "39.3"}).camera.fov_degrees, 39.3);
+}
+
+TEST(CommandLine, LightOptionsArrive) {
+    const Options o = parse({"--env", "sky, blue.exr", "--env-scale", "2", "--env-rotate", "-90", "--sun",
+                             "-1,2,3,4,5,6", "--sun=1,0,0,1,1,1,0.53", "--point", "-1,0,0,1,2,3", "--point",
+                             "5,6,7,8,9,10", "--two-sided-lights"});
+    EXPECT_EQ(o.light.environment_file, "sky, blue.exr");
+    EXPECT_FALSE(o.light.environment);
+    EXPECT_EQ(o.light.environment_scale, 2);
+    EXPECT_EQ(o.light.environment_rotation_degrees, -90);
+    ASSERT_EQ(o.light.suns.size(), 2u);
+    EXPECT_EQ(o.light.suns[0].towards, glm::dvec3(-1, 2, 3));
+    EXPECT_EQ(o.light.suns[0].irradiance, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(o.light.suns[0].diameter_degrees, 0);
+    EXPECT_EQ(o.light.suns[1].diameter_degrees, 0.53);
+    ASSERT_EQ(o.light.points.size(), 2u);
+    EXPECT_EQ(o.light.points[1].position, glm::dvec3(5, 6, 7));
+    EXPECT_EQ(o.light.points[1].intensity, glm::dvec3(8, 9, 10));
+    EXPECT_TRUE(o.light.two_sided);
+}
+
+TEST(CommandLine, EnvironmentIsAColourWhereItLooksLikeNumbers) {
+    const Options o = parse({"--env", "0.1, 0,1e1"});
+    EXPECT_EQ(o.light.environment, glm::dvec3(0.1, 0, 10));
+    EXPECT_TRUE(o.light.environment_file.empty());
+    EXPECT_NE(refusal({"--env", "0.1,0.2", "s.obj"}).find("a radiance r,g,b"), std::string::npos);
+    EXPECT_NE(refusal({"--env", "1,1,-1", "s.obj"}).find("a radiance r,g,b"), std::string::npos);
+}
+
+TEST(CommandLine, PromisesAndRunOptionsArrive) {
+    const Options o =
+        parse({"--effects", "all", "--stats", "s.json", "--check", "off", "--kernels", "k", "--dump-kernels",
+               "d", "--cache", "on", "--cache-dir", "c", "--progress", "on", "-v"});
+    EXPECT_TRUE(o.all_effects);
+    EXPECT_EQ(o.stats_path, "s.json");
+    EXPECT_EQ(o.check, Check::OFF);
+    EXPECT_EQ(o.kernels_folder, "k");
+    EXPECT_EQ(o.dump_folder, "d");
+    EXPECT_EQ(o.cache, Toggle::ON);
+    EXPECT_EQ(o.cache_folder, "c");
+    EXPECT_EQ(o.progress, Toggle::ON);
+    EXPECT_EQ(o.verbosity, 1);
+    EXPECT_EQ(parse({"-q"}).verbosity, -1);
+    EXPECT_EQ(parse({"--no-cache"}).cache, Toggle::OFF);
+    EXPECT_EQ(parse({"--check", "strict"}).check, Check::STRICT);
+}
+
+TEST(CommandLine, ExplainDoesNotSwallowTheScene) {
+    EXPECT_EQ(parse({"--explain"}).explain, Explain::TABLE);
+    EXPECT_EQ(parse({"--explain"}).scene_path, "scene.obj");
+    EXPECT_EQ(parse({"--explain=json"}).explain, Explain::JSON);
+    EXPECT_NE(refusal({"--explain=xml", "s.obj"}).find("--explain=json"), std::string::npos);
+}
+
+TEST(CommandLine, DurationsHaveUnits) {
+    EXPECT_EQ(parse({"-t", "90s"}).time_seconds, 90.0);
+    EXPECT_EQ(parse({"-t", "5m"}).time_seconds, 300.0);
+    EXPECT_EQ(parse({"-t", "1.5h"}).time_seconds, 5400.0);
+}
+
+TEST(CommandLine, ShortOptionsCanBeGlued) {
+    const Options o = parse({"-s4", "-r16x8", "-lv"});
+    EXPECT_EQ(o.spp, 4u);
+    EXPECT_EQ(o.size, glm::ivec2(16, 8));
+    EXPECT_TRUE(o.list_devices);
+    EXPECT_EQ(o.verbosity, 1);
+}
+
+TEST(CommandLine, LastValueCounts) {
+    EXPECT_EQ(parse({"--spp", "4", "--spp", "8"}).spp, 8u);
+    EXPECT_FALSE(parse({"--filter", "tent:2", "--filter", "box"}).filter_radius);
+    EXPECT_TRUE(parse({"--env", "1,1,1", "--env", "a.exr"}).light.environment == std::nullopt);
+}
+
+TEST(CommandLine, EveryOptionOfTheTableIsAccepted) {
+    for (const OptionSpec& spec : option_table()) {
+        ASSERT_TRUE(samples().count(spec.long_name)) << spec.long_name << " has no sample value in this test";
+        const std::string name = spec.long_name, value = samples().at(name);
+        std::vector<std::string> apart = companions(name), joined = apart;
+        apart.push_back(name);
+        if (!value.empty())
+            apart.push_back(value);
+        joined.push_back(value.empty() ? name : name + "=" + value);
+        apart.emplace_back("scene.obj");
+        joined.emplace_back("scene.obj");
+        EXPECT_EQ(refusal(apart), "accepted") << name;
+        EXPECT_EQ(refusal(joined), "accepted") << name;
+    }
+    EXPECT_EQ(samples().size(), option_table().size());
+}
+
+TEST(CommandLine, HelpNamesEveryOptionAndFitsTheTerminal) {
+    for (const size_t columns : {80, 100}) {
+        const std::string help = help_text(columns);
+        for (const OptionSpec& spec : option_table())
+            EXPECT_NE(help.find(std::string(spec.long_name) + (is_flag(spec) ? "" : " ") + spec.value_name),
+                      std::string::npos)
+                << spec.long_name;
+        for (const char* heading :
+             {"Work:", "Picture:", "Camera:", "Light:", "The promises:", "Runs:", "Exit codes:"})
+            EXPECT_NE(help.find(std::string("\n") + heading + "\n"), std::string::npos) << heading;
+        std::istringstream lines(help);
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_LE(line.size(), columns) << line;
+    }
+}
+
+TEST(CommandLine, HelpAndVersionNeedNoScene) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"-h"}, {"--nonsense", "--help"}}) {
+        const std::optional<std::string> text = parse_all(arguments).print;
+        ASSERT_TRUE(text);
+        EXPECT_EQ(text->find("Usage: clrt [options] scene.obj\n"), 0u);
+    }
+    EXPECT_EQ(parse_all({"--version"}).print, "clrt " CLRT_VERSION "\n");
+    EXPECT_TRUE(parse_all({"-l"}).options.list_devices);
+}
+
+TEST(CommandLine, OneSceneIsExpected) {
+    EXPECT_NE(refusal({}).find("expected a scene"), std::string::npos);
+    EXPECT_NE(refusal({"a.obj", "b.obj"}).find("expected one scene, found 2: 'a.obj' and 'b.obj'"),
+              std::string::npos);
+    EXPECT_NE(refusal({"a.clrt"}).find("expected a scene such as STEM.obj"), std::string::npos);
+    EXPECT_EQ(parse_all({"--", "-odd.obj"}).options.scene_path, "-odd.obj");
+}
+
+TEST(CommandLine, UnknownOptionsNameTheNearest) {
+    EXPECT_EQ(refusal({"--szie", "3", "s.obj"}),
+              "unknown option --szie; the nearest is --size, and `clrt --help` lists all");
+    EXPECT_NE(refusal({"--integratr=path", "s.obj"})
+                  .find("unknown option --integratr; the nearest is --integrator"),
+              std::string::npos);
+    EXPECT_NE(refusal({"--dev", "pocl", "s.obj"}).find("the nearest is --device"), std::string::npos);
+    EXPECT_EQ(refusal({"-x", "s.obj"}), "unknown option -x; `clrt --help` lists all");
+}
+
+TEST(CommandLine, MissingValuesAreNamed) {
+    EXPECT_EQ(refusal({"s.obj", "--spp"}),
+              "option --spp: expected a value, found the end of the command line");
+    EXPECT_EQ(refusal({"--spp", "--time", "5", "s.obj"}),
+              "option --spp: expected a value N, found the option --time");
+    EXPECT_EQ(refusal({"--device=", "s.obj"}), "option --device: expected a value after '=', found none");
+    EXPECT_EQ(refusal({"--device", "", "s.obj"}), "option --device: expected a name, found ''");
+    EXPECT_EQ(refusal({"--no-sidecar=3", "s.obj"}), "option --no-sidecar takes no value, found '3'");
+}
+
+TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
+    const std::vector<std::pair<std::string, std::string>> bad = {
+        {"--integrator", "pth"},
+        {"--spp", "0"},
+        {"--spp", "4.5"},
+        {"--spp", "4294967296"},
+        {"--spp", "-1"},
+        {"--spp", "99999999999999999999"},
+        {"--time", "0"},
+        {"--time", "5d"},
+        {"--time", "-5s"},
+        {"--time", "s"},
+        {"--time", "inf"},
+        {"--max-depth", "0"},
+        {"--max-depth", "65536"},
+        {"--min-contribution", "1.1"},
+        {"--min-contribution", "-1%"},
+        {"--seed", "-1"},
+        {"--seed", "0x10"},
+        {"--replicates", "0"},
+        {"--replicates", "65"},
+        {"--precision", "half"},
+        {"--threads", "-1"},
+        {"--bvh", "bvh4"},
+        {"--size", "800"},
+        {"--size", "0x600"},
+        {"--size", "800x65536"},
+        {"--size", "800x600x3"},
+        {"--size", "-800x600"},
+        {"--crop", "0,0,10"},
+        {"--crop", "5,0,5,10"},
+        {"--crop", "-1,0,5,10"},
+        {"--crop", "0,0,1.5,10"},
+        {"--filter", "sinc"},
+        {"--filter", "box:0"},
+        {"--filter", "tent:"},
+        {"--filter", "tent:nan"},
+        {"--exposure", "1e9"},
+        {"--exposure", "bright"},
+        {"--tonemap", "filmic"},
+        {"--aov", "albedo,depth"},
+        {"--aov", "N,N"},
+        {"--aov", "N,none"},
+        {"--aov", ""},
+        {"--eye", "1,2"},
+        {"--eye", "1,2,x"},
+        {"--eye", "1,2,nan"},
+        {"--at", "1,2,1e39"},
+        {"--eye", "1,2,3,4"},
+        {"--up", "0,0,-0"},
+        {"--fov", "0"},
+        {"--fov", "180"},
+        {"--fov", "inf"},
+        {"--focal-length", "0"},
+        {"--film-width", "-1"},
+        {"--env-scale", "-1"},
+        {"--env-rotate", "north"},
+        {"--sun", "0,0,0,1,1,1"},
+        {"--sun", "0,1,0,1,1"},
+        {"--sun", "0,1,0,1,1,-1"},
+        {"--sun", "0,1,0,1,1,1,-1"},
+        {"--sun", "0,1,0,1,1,1,91"},
+        {"--point", "0,1,0,1,1"},
+        {"--point", "0,1,0,1,1,-1"},
+        {"--effects", "most"},
+        {"--check", "yes"},
+        {"--cache", "maybe"},
+        {"--progress", "1"},
+        {"--output", "a.gif"},
+        {"--output", "picture"},
+        {"--kernels", ""},
+        {"--stats", ""},
+    };
+    for (const auto& [option, value] : bad) {
+        const std::string message = refusal({option, value, "s.obj"});
+        EXPECT_EQ(message.find("option " + option + ": expected "), 0u)
+            << option << " " << value << ": " << message;
+        EXPECT_NE(message.find(", found '"), std::string::npos) << message;
+    }
+    EXPECT_EQ(refusal({"--integrator", "pth", "s.obj"}),
+              "option --integrator: expected raycast, whitted or path, found 'pth'");
+}
+
+TEST(CommandLine, ContradictionsAreNamed) {
+    const auto expect = [](const std::vector<std::string>& arguments, const std::string& part) {
+        std::vector<std::string> all = arguments;
+        all.emplace_back("s.obj");
+        const std::string message = refusal(all);
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+    };
+    expect({"-q", "-v"}, "options --quiet and --verbose: expected one of them");
+    expect({"--cache", "on", "--no-cache"}, "options --cache and --no-cache");
+    expect({"--fov", "40", "--focal-length", "35", "--film-width", "24"}, "options --fov and --focal-length");
+    expect({"--focal-length", "35"}, "option --focal-length: expected together with --film-width");
+    expect({"--film-width", "35"}, "option --film-width: expected together with --focal-length");
+    expect({"--crop", "0,0,801,10"}, "option --crop: expected a window inside the picture of 800x600 pixels");
+    expect({"-r", "65501x2", "-o", "a.JPG"},
+           "option --output: expected at most 65500 pixels a side for 'a.JPG'");
+    expect({"-i", "whitted", "--max-depth", "65"}, "option --max-depth: expected at most 64");
+    expect({"--first-sample", "4294967232"}, "expected a sum below 4294967296, found 4294967296");
+    expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
+    expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
+    EXPECT_EQ(parse({"--first-sample", "4294967231"}).first_sample, 4294967231u);
+    EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).max_depth, 64);
+}
+
+TEST(CommandLine, MissingOutputFolderStopsBeforeAnyWork) {
+    ScratchFolder folder;
+    EXPECT_THROW(parse({"-o", folder.file("absent/a.png")}), SceneError);
+    EXPECT_THROW(parse({"--stats", folder.file("absent/s.json")}), SceneError);
+    EXPECT_NO_THROW(parse({"-o", folder.file("a.png"), "--stats", folder.file("s.json")}));
+    EXPECT_NO_THROW(parse({"-o", folder.file("absent/a.png"), "--explain"}));
+}
+
+TEST(CommandLine, StatisticsNeverReplaceTheScene) {
+    ScratchFolder folder;
+    const std::string scene = folder.write("box.obj", "v 0 0 0\n");
+    EXPECT_NE(refusal({"--stats", folder.file("./box.obj"), scene}).find("found the input"),
+              std::string::npos);
+}
+
+TEST(NearestName, CountsEditsAndSwaps) {
+    EXPECT_EQ(edit_distance("", "abc"), 3);
+    EXPECT_EQ(edit_distance("abc", "abc"), 0);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+    EXPECT_EQ(edit_distance("szie", "size"), 1);
+    EXPECT_EQ(edit_distance("ab", "ba"), 1);
+    EXPECT_EQ(nearest_name("tent", {"box", "rent", "tents"}), "tents");
+}
+
+} // namespace clrt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The first signal asks, the second ends.
+#include "app/signals.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// Catches two signals; the process must end at the second one.
+[[noreturn]] void raise_both(int first, int second) {
+    catch_stop_signals();
+    std::raise(first);
+    if (stop_signal() != first)
+        _exit(1);
+    std::raise(second);
+    _exit(2);
+}
+
+} // namespace
+
+TEST(Signals, SecondSignalEndsTheProcess) {
+    testing::FLAGS_gtest_death_test_style = "threadsafe"; // starts afresh: a library may have threads
+    EXPECT_EXIT(raise_both(SIGINT, SIGINT), testing::ExitedWithCode(130), "");
+    EXPECT_EXIT(raise_both(SIGINT, SIGTERM), testing::ExitedWithCode(143), "");
+    EXPECT_EXIT(raise_both(SIGTERM, SIGINT), testing::ExitedWithCode(130), "");
+}
+
+TEST(Signals, NoneHasComeAtFirst) {
+    EXPECT_EQ(stop_signal(), 0);
+}
+
+} // namespace clrt

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
+#include "kernels/shared/render_types.h"
+#include "kernels/shared/scene_types.h"
+#include "support/kernel_probe.h"
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <regex>
+#include <set>
+
+using namespace clrt;
+
+namespace {
+
+struct Member {
+    std::string name;
+    size_t offset, size;
+};
+
+/// A shared struct as the host's compiler lays it out.
+struct Layout {
+    std::string name;
+    size_t size;
+    std::vector<Member> members;
+};
+
+// clang-format off
+#define MEMBER(type, name) {#name, offsetof(type, name), sizeof(type::name)}
+#define M(name) MEMBER(Triangle, name)
+const Layout TRIANGLE = {
+    "Triangle",
+    sizeof(Triangle),
+    {M(v0), M(v1), M(v2), M(n0), M(n1), M(n2), M(t0), M(t1), M(t2), M(material), M(emitter), M(object)}};
+#undef M
+#define M(name) MEMBER(Material, name)
+const Layout MATERIAL = {
+    "Material",
+    sizeof(Material),
+    {M(matte), M(specular), M(transmission), M(emission), M(alpha_x), M(alpha_y), M(lobes), M(fresnel),
+     M(flags), M(map_matte), M(map_specular), M(map_emission), M(map_coverage), M(map_roughness),
+     M(map_metallic), M(map_normal), M(map_bump), M(bump_scale), M(roughness_sqrt_x), M(roughness_sqrt_y)}};
+#undef M
+#define M(name) MEMBER(Texture, name)
+const Layout TEXTURE = {
+    "Texture",
+    sizeof(Texture),
+    {M(first_word), M(width), M(height), M(format), M(scale_u), M(scale_v), M(offset_u), M(offset_v),
+     M(base), M(gain), M(clamp), M(channel)}};
+#undef M
+#define M(name) MEMBER(Emitter, name)
+const Layout EMITTER = {
+    "Emitter",
+    sizeof(Emitter),
+    {M(triangle), M(alias), M(threshold), M(pdf_a)}};
+#undef M
+#define M(name) MEMBER(Light, name)
+const Layout LIGHT = {
+    "Light",
+    sizeof(Light),
+    {M(vector), M(emission), M(kind), M(probability), M(alias), M(threshold), M(one_minus_cos), M(unused0),
+     M(unused1), M(unused2)}};
+#undef M
+#define M(name) MEMBER(EnvironmentTexel, name)
+const Layout ENVIRONMENT_TEXEL = {
+    "EnvironmentTexel",
+    sizeof(EnvironmentTexel),
+    {M(radiance), M(alias), M(threshold), M(unused0), M(unused1)}};
+#undef M
+#define M(name) MEMBER(RenderParams, name)
+const Layout RENDER_PARAMS = {
+    "RenderParams",
+    sizeof(RenderParams),
+    {M(eye), M(film_corner), M(film_dx), M(film_dy), M(look), M(environment), M(width), M(height),
+     M(crop_x), M(crop_y), M(crop_width), M(crop_height), M(first_sample), M(sample_count), M(replicates),
+     M(film_replicates), M(seed), M(max_depth), M(min_contribution), M(filter), M(filter_radius),
+     M(scene_extent), M(emitter_count), M(light_count), M(environment_width), M(environment_height),
+     M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
+     M(roulette_depth), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
+     M(tile_stride), M(first_tile), M(end_tile), M(unused0), M(unused1)}};
+#undef M
+// clang-format on
+
+const std::vector<Layout> LAYOUTS = {TRIANGLE, MATERIAL,          TEXTURE,      EMITTER,
+                                     LIGHT,    ENVIRONMENT_TEXEL, RENDER_PARAMS};
+
+/// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
+/// offsetof.
+std::string layout_kernel(const Layout& layout) {
+    std::string text = fmt::format("__kernel void layout_{0}(__global u32 *restrict out) {{\n"
+                                   "    {0} object;\n"
+                                   "    out[0] = (u32)sizeof(object);\n",
+                                   layout.name);
+    for (size_t i = 0; i < layout.members.size(); ++i)
+        text += fmt::format("    out[{}] = (u32)((const uchar *)&object.{} - (const uchar *)&object);\n",
+                            i + 1, layout.members[i].name);
+    return text + "}\n";
+}
+
+KernelProbe& probe() {
+    static KernelProbe instance = [] {
+        KernelProbe made(test_device(), {"shared/scene_types.h", "shared/render_types.h"});
+        for (const Layout& layout : LAYOUTS)
+            made.add_text(layout_kernel(layout));
+        made.add_text(
+            "__kernel void receive_params(const RenderParams params, __global RenderParams *restrict out) {\n"
+            "    *out = params;\n}\n");
+        return made;
+    }();
+    return instance;
+}
+
+} // namespace
+
+TEST(SharedTypes, EveryStructOfTheSharedHeadersIsListedHere) {
+    const std::regex definition("\\}\\s*(\\w+)\\s*;");
+    std::set<std::string> in_headers, listed;
+    for (const auto& [file, text] : embedded_kernel_files())
+        if (file.rfind("shared/", 0) == 0 && file != "shared/types.h")
+            for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match)
+                in_headers.insert((*match)[1]);
+    for (const Layout& layout : LAYOUTS)
+        listed.insert(layout.name);
+    EXPECT_EQ(listed, in_headers);
+}
+
+TEST(SharedTypes, MembersFillTheirStructs) {
+    for (const Layout& layout : LAYOUTS) {
+        size_t end = 0;
+        for (const Member& member : layout.members) {
+            EXPECT_EQ(member.offset, end)
+                << layout.name << "." << member.name << ": unnamed padding before it";
+            end = member.offset + member.size;
+        }
+        EXPECT_EQ(layout.size, end) << layout.name
+                                    << ": a member is not listed here, or unnamed padding at the end";
+        EXPECT_EQ(layout.size % 16, 0u) << layout.name;
+    }
+}
+
+TEST(SharedTypes, TheDeviceLaysStructsOutLikeTheHost) {
+    for (const Layout& layout : LAYOUTS) {
+        const cl::Buffer out =
+            create_buffer(test_device(), "layout", (layout.members.size() + 1) * sizeof(u32));
+        Kernel kernel = probe().kernel("layout_" + layout.name);
+        kernel.set("out", out);
+        probe().launch(kernel, 1, 1);
+        const std::vector<u32> on_device = probe().read<u32>(out, layout.members.size() + 1);
+        EXPECT_EQ(on_device[0], layout.size) << layout.name;
+        for (size_t i = 0; i < layout.members.size(); ++i)
+            EXPECT_EQ(on_device[i + 1], layout.members[i].offset)
+                << layout.name << "." << layout.members[i].name;
+    }
+}
+
+TEST(SharedTypes, ParametersPassedByValueArriveIntact) {
+    std::array<u32, sizeof(RenderParams) / sizeof(u32)> words;
+    for (size_t i = 0; i < words.size(); ++i)
+        words[i] = static_cast<u32>(0x40000000u + i * 0x10001u); // ordinary floats, all different
+    RenderParams params;
+    std::memcpy(&params, words.data(), sizeof params);
+
+    const cl::Buffer out = create_buffer(test_device(), "params", sizeof params);
+    Kernel kernel = probe().kernel("receive_params");
+    kernel.set("params", params);
+    kernel.set("out", out);
+    probe().launch(kernel, 1, 1);
+    EXPECT_EQ(probe().read<u32>(out, words.size()), std::vector<u32>(words.begin(), words.end()));
+}
