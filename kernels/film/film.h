@@ -56,23 +56,23 @@ static inline void film_report_fault(global volatile uint* counters, uint fault,
 /* Rounds a value in quanta up or down with the probability of its fraction: dark pixels stay unbiased. */
 static inline long film_round(real quanta, uint word) { return convert_long(floor(quanta + sampler_unit(word))); }
 
-/* Adds one sample's radiance to its pixel's sums. A bad sample counts as 0 and is reported. `slot` is the pixel's place in
-   the window, `pixel` its number in the whole picture. */
-static inline void film_add(const RenderParams* params, global long* film, global volatile uint* counters,
-                            const Sampler* sampler, uint slot, uint pixel, uint sample, real3 radiance)
+/* The three sums of a pixel in a replicate; `slot` is the pixel's place in the window. Replicates are folded where not all
+   are kept apart. */
+static inline global long* film_sums(const RenderParams* params, global long* film, uint slot, uint replicate)
 {
-    const uint fault = film_fault(params, radiance);
-    if (fault != COUNT_WORDS) {
-        film_report_fault(counters, fault, pixel, sample);
-        return;
-    }
     const ulong pixels = (ulong)params->crop_width * params->crop_height;
-    const uint replicate = sample % params->film_replicates;
-    global long* sums = film + 3u * (replicate * pixels + slot);
+    const uint kept = replicate < params->film_replicates ? replicate : replicate % params->film_replicates;
+    return film + 3u * (kept * pixels + slot);
+}
+
+/* Adds the radiance of a good sample. */
+static inline void film_add(const RenderParams* params, global long* sums, const Sampler* sampler, real3 radiance)
+{
     const real3 quanta = radiance * (real)params->inverse_quantum;
-    sums[0] += film_round(quanta.x, sampler_word(sampler, 0u, SAMPLE_ROUNDING));
-    sums[1] += film_round(quanta.y, sampler_word(sampler, 0u, SAMPLE_ROUNDING + 1u));
-    sums[2] += film_round(quanta.z, sampler_word(sampler, 0u, SAMPLE_ROUNDING + 2u));
+    const uint word = sampler_word(sampler, 0u, SAMPLE_ROUNDING);
+    sums[0] += film_round(quanta.x, word);
+    sums[1] += film_round(quanta.y, word * 0x9e3779b9u);
+    sums[2] += film_round(quanta.z, word * 0x85ebca6bu);
 }
 
 #endif

@@ -15,7 +15,7 @@ typedef struct {
     real3 bulge;      /* from position to the curved surface that the corner normals describe; points to wo's side */
     float2 uv;
     real offset;      /* bound of position's distance to the plane that the triangle test sees */
-    uint triangle;
+    uint emitter;     /* index into the emitters, NO_INDEX for a dark triangle */
     uint material;
     bool front;       /* wo is on the front side (winding, or vn where given) */
 } Surface;
@@ -121,7 +121,7 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface.bitangent = (real3)(REAL(0.0));
     surface.bulge = (real3)(REAL(0.0));
     surface.uv = (float2)(0.0f);
-    surface.triangle = hit->triangle;
+    surface.emitter = triangle->emitter;
     surface.material = triangle->material;
     surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
     if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))

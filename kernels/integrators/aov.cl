@@ -30,7 +30,8 @@ static inline void aov_add(global float* out, real3 v)
 static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* params, uint x, uint y, uint sample,
                                      global float* out)
 {
-    const Sampler sampler = sampler_make(params->seed, y * params->width + x, sample, params->replicates);
+    const Sampler sampler = sampler_make(params->seed, y * params->width + x, sample % params->replicates,
+                                         sample / params->replicates);
     const Ray ray = camera_ray(params, &sampler, x, y);
     const Hit hit = visible_hit(scene, params, &sampler, 1u, &ray);
     if (hit.triangle == NO_INDEX)

@@ -8,10 +8,9 @@
 #include "geometry/visibility.h"
 #include "lights/lights.h"
 
-/* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. World directions. */
-static inline real3 direct_eval(const Bsdf* bsdf, real3 wo_world, real3 wi_world, bool highlight)
+/* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. */
+static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight)
 {
-    const real3 wo = frame_to_local(&bsdf->frame, wo_world);
     const real3 wi = frame_to_local(&bsdf->frame, wi_world);
     real3 value = (real3)(REAL(0.0));
     if (!(wi.z > REAL(0.0)) || !bsdf_sides_agree(bsdf, wi_world, wi))
@@ -19,7 +18,7 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wo_world, real3 wi_world
     if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE))
         value += bsdf_matte_eval(bsdf->matte, wi);
     if (highlight && bsdf->exponent > REAL(0.0)) {
-        const real cos_r = vector_dot(vector_make(-wo.x, -wo.y, wo.z), wi);
+        const real cos_r = vector_dot(vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z), wi);
         if (cos_r > REAL(0.0))
             value += bsdf->specular * ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
                                        real_pow(cos_r, bsdf->exponent) * wi.z);
@@ -27,45 +26,45 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wo_world, real3 wi_world
     return value;
 }
 
-/* What one sampled light sends to wo by way of the surface. */
+/* What one sampled light sends towards the eye by way of the surface. */
 static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                       const Bsdf* bsdf, real3 wo, bool highlight, const LightSample* light,
-                                       RayCount* rays)
+                                       const Bsdf* bsdf, bool highlight, const LightSample* light, RayCount* rays)
 {
-    if (vector_is_zero(light->radiance))
-        return (real3)(REAL(0.0));
-    const real3 value = direct_eval(bsdf, wo, light->wi, highlight);
-    if (vector_is_zero(value))
-        return (real3)(REAL(0.0));
+    const real3 nothing = (real3)(REAL(0.0));
+    if (light->pdf_w == REAL(0.0))
+        return nothing;
+    const real3 contribution = direct_eval(bsdf, light->wi, highlight) * light->radiance;
+    if (vector_is_black(contribution))
+        return nothing;
     const Ray shadow = light_shadow_ray(surface, light);
     ++rays->shadow;
-    return value * light->radiance * (visible_share(scene, params, &shadow) / light->pdf_w);
+    return contribution * (visible_share(scene, params, &shadow) / light->pdf_w);
 }
 
 /* Sums over all lights; `node` addresses the random numbers of this surface. */
 static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint node,
-                                        const Surface* surface, const Bsdf* bsdf, real3 wo, bool highlight,
-                                        RayCount* rays)
+                                        const Surface* surface, const Bsdf* bsdf, bool highlight, RayCount* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
-    const uint2 words = sampler_pair_words(sampler, node, SAMPLE_LIGHT_CHOICE);
     const uint alias_word = sampler_word(sampler, node, SAMPLE_LIGHT_ALIAS);
-    const real2 u = sampler_pair(sampler, node, SAMPLE_LIGHT_POINT);
     if (HAS(EFFECT_AREA_LIGHT) && params->emitter_count != 0u) {
-        const LightSample light = emitter_sample(scene, params, surface->position, words.x, alias_word, u);
-        radiance += direct_from(scene, params, surface, bsdf, wo, highlight, &light, rays);
+        const uint2 words = sampler_pair_words(sampler, node, SAMPLE_LIGHT);
+        const LightSample light =
+            emitter_sample(scene, params, surface->position, words.x, alias_word, sampler_unit(words.y));
+        radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     if (HAS(EFFECT_ENVIRONMENT)) {
-        const real2 u_sky = sampler_pair(sampler, node, SAMPLE_DIRECTION);
-        const LightSample light = environment_sample(scene, params, bsdf->frame.z, words.y, alias_word, u_sky);
-        radiance += direct_from(scene, params, surface, bsdf, wo, highlight, &light, rays);
+        const uint2 words = sampler_pair_words(sampler, node, SAMPLE_SKY);
+        const LightSample light =
+            environment_sample(scene, params, bsdf->frame.z, words.x, alias_word, sampler_unit(words.y));
+        radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     if (!HAS(EFFECT_DELTA_LIGHT))
         return radiance;
     for (uint i = 0; i < params->light_count; ++i) {
         const LightSample light =
-            delta_light_sample(scene, i, surface->position, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_LOBE));
-        radiance += direct_from(scene, params, surface, bsdf, wo, highlight, &light, rays);
+            delta_light_sample(scene, i, surface->position, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION));
+        radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     return radiance;
 }

@@ -11,35 +11,36 @@
 /* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
 #define PATH_SMALLEST_SURVIVAL REAL(0.05)
 
-/* Emission of the hit surface, weighted against the light sampling that could have found it. */
-static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                  const Bsdf* bsdf, const Hit* hit, real3 wo, real pdf_w)
+/* Emission of a surface hit at distance t, weighted against the light sampling that could have found it. */
+static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface, real t, real3 wo,
+                                  real pdf_w)
 {
-    if (!HAS(EFFECT_AREA_LIGHT) || vector_is_zero(bsdf->emission))
-        return (real3)(REAL(0.0));
-    real light_pdf_w = REAL(0.0);
-    if (pdf_w > REAL(0.0))
-        light_pdf_w = (real)params->choose_emitter * emitter_hit_pdf_w(scene, surface, hit->t, wo);
-    return bsdf->emission * mis_weight(pdf_w, light_pdf_w);
+    const real3 emitted = material_emitted(scene, surface);
+    if (pdf_w == REAL(0.0))
+        return emitted;
+    const real light_pdf_w = (real)params->choose_emitter * emitter_hit_pdf_w(scene, surface, t, wo);
+    return emitted * mis_weight(pdf_w, light_pdf_w);
 }
 
-/* Radiance that one sampled light sends to wo by way of this surface, weighted against BSDF sampling. */
+/* Radiance that one sampled light sends towards the eye by way of this surface, weighted against BSDF sampling. */
 static CLRT_NOINLINE real3 path_direct(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint segment,
-                                       const Surface* surface, const Bsdf* bsdf, real3 wo, RayCount* rays)
+                                       const Surface* surface, const Bsdf* bsdf, RayCount* rays)
 {
+    const real3 nothing = (real3)(REAL(0.0));
     const LightSample light = lights_sample(scene, params, sampler, segment, surface, bsdf->frame.z);
-    if (vector_is_zero(light.radiance))
-        return (real3)(REAL(0.0));
-    const real3 value = bsdf_eval(bsdf, wo, light.wi);
-    if (vector_is_zero(value))
-        return (real3)(REAL(0.0));
+    if (light.pdf_w == REAL(0.0))
+        return nothing;
+    const BsdfValue eval = bsdf_eval(bsdf, light.wi);
+    const real3 contribution = eval.value * light.radiance;
+    if (vector_is_black(contribution))
+        return nothing;
     const Ray shadow = light_shadow_ray(surface, &light);
     ++rays->shadow;
     const real share = visible_share(scene, params, &shadow);
     if (share == REAL(0.0))
-        return (real3)(REAL(0.0));
-    const real weight = light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, bsdf_pdf_w(bsdf, wo, light.wi));
-    return value * light.radiance * (share * weight / light.pdf_w);
+        return nothing;
+    const real weight = light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w);
+    return contribution * (share * weight / light.pdf_w);
 }
 
 /* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios crossed so far
@@ -74,24 +75,27 @@ static CLRT_NOINLINE real3 path_radiance(const Scene* scene, const RenderParams*
             break;
         }
         const Surface surface = surface_at(scene, &hit, wo);
-        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
 
         /* Add what it emits. */
-        radiance += throughput * path_emission(scene, params, &surface, &bsdf, &hit, wo, pdf_w);
-        if (segment >= params->max_depth || bsdf.lobes == 0u)
+        if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+            radiance += throughput * path_emission(scene, params, &surface, hit.t, wo, pdf_w);
+        if (segment >= params->max_depth)
+            break;
+        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+        if (bsdf.lobes == 0u)
             break;
 
         /* Connect it to a light. */
         if (bsdf_has_smooth_lobe(&bsdf))
-            radiance += throughput * path_direct(scene, params, sampler, segment, &surface, &bsdf, wo, rays);
+            radiance += throughput * path_direct(scene, params, sampler, segment, &surface, &bsdf, rays);
 
         /* Choose the next direction. */
         const real u_lobe = sampler_number(sampler, segment, SAMPLE_LOBE);
-        const BsdfSample sample = bsdf_sample(&bsdf, wo, u_lobe, sampler_pair(sampler, segment, SAMPLE_DIRECTION));
+        const BsdfSample sample = bsdf_sample(&bsdf, u_lobe, sampler_pair(sampler, segment, SAMPLE_DIRECTION));
         if (!sample.is_valid)
             break;
         throughput *= sample.weight;
-        pdf_w = sample.is_delta ? REAL(0.0) : sample.pdf_w;
+        pdf_w = sample.pdf_w;
         eta_squared *= sample.eta * sample.eta;
 
         /* Play Russian roulette. */

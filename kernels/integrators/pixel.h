@@ -10,6 +10,29 @@
 #include "film/tile.h"
 #include "geometry/scene.h"
 
+/* Counts through samples: sample s is number s / replicates of replicate s mod replicates. */
+typedef struct {
+    uint sample, replicate, index;
+} SampleCounter;
+
+static inline SampleCounter sample_counter_make(const RenderParams* params)
+{
+    SampleCounter counter;
+    counter.sample = params->first_sample;
+    counter.replicate = params->first_sample % params->replicates;
+    counter.index = params->first_sample / params->replicates;
+    return counter;
+}
+
+static inline void sample_counter_next(const RenderParams* params, SampleCounter* counter)
+{
+    ++counter->sample;
+    if (++counter->replicate == params->replicates) {
+        counter->replicate = 0u;
+        ++counter->index;
+    }
+}
+
 /* Defines the loop over samples and the entry point. The entry point is thin and the loop is out of line, because some
    compilers compile an entry point's body several times. */
 #define RENDER_KERNEL(KERNEL, RADIANCE)                                                                       \
@@ -21,13 +44,19 @@
         const uint pixel = y * params->width + x;                                                             \
         const uint slot = place.y * params->crop_width + place.x;                                             \
         RayCount rays = {0u, 0u, 0u};                                                                         \
-        for (uint i = 0; i < params->sample_count; ++i) {                                                     \
-            const uint sample = params->first_sample + i;                                                     \
-            const Sampler sampler = sampler_make(params->seed, pixel, sample, params->replicates);            \
+        SampleCounter counter = sample_counter_make(params);                                                  \
+        for (uint i = 0; i < params->sample_count; ++i, sample_counter_next(params, &counter)) {              \
+            global long* sums = film_sums(params, film, slot, counter.replicate);                             \
+            CLRT_PREFETCH(sums);                                                                              \
+            const Sampler sampler = sampler_make(params->seed, pixel, counter.replicate, counter.index);      \
             const Ray ray = camera_ray(params, &sampler, x, y);                                               \
             ++rays.primary;                                                                                   \
             const real3 radiance = RADIANCE(scene, params, &sampler, ray, &rays);                             \
-            film_add(params, film, counters, &sampler, slot, pixel, sample, radiance);                        \
+            const uint fault = film_fault(params, radiance);                                                  \
+            if (fault == COUNT_WORDS)                                                                         \
+                film_add(params, sums, &sampler, radiance);                                                   \
+            else                                                                                              \
+                film_report_fault(counters, fault, pixel, counter.sample);                                    \
         }                                                                                                     \
         film_count_rays(counters, &rays);                                                                     \
     }                                                                                                         \

@@ -13,10 +13,13 @@ static CLRT_NOINLINE real3 raycast_radiance(const Scene* scene, const RenderPara
     if (hit.triangle == NO_INDEX)
         return lights_escape(scene, params, ray.direction, REAL(0.0));
     const Surface surface = surface_at(scene, &hit, wo);
-    const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    real3 radiance = (real3)(REAL(0.0));
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+        radiance = material_emitted(scene, &surface);
     if (params->max_depth < 2u)
-        return bsdf.emission;
-    return bsdf.emission + direct_light(scene, params, sampler, 1u, &surface, &bsdf, wo, true, rays);
+        return radiance;
+    const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    return radiance + direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays);
 }
 
 #endif

@@ -47,7 +47,7 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     if (!dielectric && !mirror)
         return top;
     const real3 n = bsdf->frame.z;
-    const real cos_o = clamp(vector_dot(n, wo_world), REAL(0.0), REAL(1.0));
+    const real cos_o = clamp(bsdf->wo.z, REAL(0.0), REAL(1.0));
     real cos_t = REAL(0.0);
     const real f = dielectric ? fresnel_dielectric(cos_o, bsdf->eta, &cos_t) : REAL(1.0);
 
@@ -88,15 +88,16 @@ static CLRT_NOINLINE real3 whitted_radiance(const Scene* scene, const RenderPara
             continue;
         }
         const Surface surface = surface_at(scene, &hit, wo);
-        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
-        radiance += current.weight * bsdf.emission;
+        if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+            radiance += current.weight * material_emitted(scene, &surface);
         if (current.segment >= params->max_depth)
             continue;
 
         /* Light it, then follow reflection and refraction. */
+        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
         const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
         radiance += current.weight *
-                    direct_light(scene, params, sampler, current.node, &surface, &bsdf, wo, highlight, rays);
+                    direct_light(scene, params, sampler, current.node, &surface, &bsdf, highlight, rays);
         top = whitted_spawn(params, &current, &surface, &bsdf, wo, stack, top);
     }
     return radiance;

@@ -13,6 +13,7 @@ static CLRT_NOINLINE LightSample delta_light_sample(const Scene* scene, uint ind
     LightSample sample = light_sample_none();
     const real3 vector = vector_from(light->vector);
     sample.radiance = vector_from(light->emission);
+    sample.pdf_w = REAL(1.0);
     if (light->kind == LIGHT_POINT) {
         const real3 way = vector - position;
         const real distance_squared = vector_dot(way, way);

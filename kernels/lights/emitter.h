@@ -12,9 +12,10 @@ static inline real emitter_pdf_w(real pdf_a, real distance_squared, real cos_l)
     return pdf_a * distance_squared / cos_l;
 }
 
-/* Chooses a triangle by the alias table and a point on it. Words: index and alias; u: the point. */
+/* Chooses a triangle by the alias table and a point on it. `word` gives the index and, by its rest, the point's first
+   coordinate; v is the second. */
 static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const RenderParams* params, real3 position,
-                                                uint word, uint alias_word, real2 u)
+                                                uint word, uint alias_word, real v)
 {
     LightSample sample = light_sample_none();
     /* Choose. */
@@ -25,7 +26,7 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     /* A uniform point, moved off the triangle towards the surface by its error bound. */
     real3 p0, p1, p2;
     surface_corners(scene, triangle, &p0, &p1, &p2);
-    const real2 b = warp_triangle(u);
+    const real2 b = warp_triangle((real2)(warp_rest(word, params->emitter_count, alias_word), v));
     const real3 e1 = p1 - p0;
     const real3 e2 = p2 - p0;
     const real3 point = p0 + fma((real3)(b.x), e1, b.y * e2);
@@ -53,14 +54,11 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     return sample;
 }
 
-/* Density with which emitter_sample chooses the direction of a hit at distance t; 0 for triangles that are no emitter. */
+/* Density with which emitter_sample chooses the direction to a point of an emitter that was hit at distance t. */
 static inline real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real t, real3 wo)
 {
-    const uint index = scene->triangles[surface->triangle].emitter;
-    if (index == NO_INDEX)
-        return REAL(0.0);
     const real cos_l = vector_dot(surface->normal_g, wo);
-    return cos_l > REAL(0.0) ? emitter_pdf_w((real)scene->emitters[index].pdf_a, t * t, cos_l) : REAL(0.0);
+    return cos_l > REAL(0.0) ? emitter_pdf_w((real)scene->emitters[surface->emitter].pdf_a, t * t, cos_l) : REAL(0.0);
 }
 
 #endif

@@ -71,10 +71,12 @@ static inline real3 environment_eval(const Scene* scene, const RenderParams* par
 
 /* Chooses a texel by the alias table and a direction uniformly within it. */
 static inline LightSample environment_map_sample(const Scene* scene, const RenderParams* params, uint word, uint alias_word,
-                                                 real2 u)
+                                                 real v)
 {
     const uint width = params->environment_width;
-    const uint slot = warp_index(word, width * params->environment_height);
+    const uint count = width * params->environment_height;
+    const uint slot = warp_index(word, count);
+    const real2 u = (real2)(warp_rest(word, count, alias_word), v);
     const uint texel = alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
     const uint row = texel / width;
     const uint column = texel - row * width;
@@ -98,18 +100,18 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
 }
 
 /* One direction to the environment for a surface: the map's by its alias table, the constant's by the cosine around the
-   shading normal n. */
+   shading normal n. `word` and v as in emitter_sample. */
 static CLRT_NOINLINE LightSample environment_sample(const Scene* scene, const RenderParams* params, real3 n, uint word,
-                                                    uint alias_word, real2 u)
+                                                    uint alias_word, real v)
 {
     if (HAS(EFFECT_ENVIRONMENT_MAP) && params->environment_width != 0u)
-        return environment_map_sample(scene, params, word, alias_word, u);
+        return environment_map_sample(scene, params, word, alias_word, v);
     const Frame frame = frame_make(n);
-    const real3 d = warp_cosine_hemisphere(u);
+    const real3 d = warp_cosine_hemisphere((real2)(sampler_unit(word), v));
     LightSample sample = light_sample_none();
     sample.wi = frame_to_world(&frame, d);
     sample.pdf_w = warp_cosine_hemisphere_pdf_w(d.z);
-    sample.radiance = sample.pdf_w > REAL(0.0) ? vector_from(params->environment) : (real3)(REAL(0.0));
+    sample.radiance = vector_from(params->environment);
     sample.is_delta = false;
     return sample;
 }

@@ -11,7 +11,7 @@ typedef struct {
     real3 wi;       /* world, unit, from the surface */
     real3 radiance; /* arriving if nothing is in between; irradiance at normal incidence for a delta light */
     real3 target;   /* where the shadow ray ends; unused when distant */
-    real pdf_w;     /* per steradian as seen from the surface; 1 for a delta light */
+    real pdf_w;     /* per steradian as seen from the surface; 1 for a delta light, 0 where no light was found */
     bool is_distant;
     bool is_delta;
 } LightSample;
@@ -23,7 +23,7 @@ static inline LightSample light_sample_none(void)
     sample.wi = (real3)(REAL(0.0), REAL(0.0), REAL(1.0));
     sample.radiance = (real3)(REAL(0.0));
     sample.target = (real3)(REAL(0.0));
-    sample.pdf_w = REAL(1.0);
+    sample.pdf_w = REAL(0.0);
     sample.is_distant = true;
     sample.is_delta = true;
     return sample;

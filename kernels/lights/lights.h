@@ -10,26 +10,29 @@
 #include "path/mis.h"
 
 /* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities, then a
-   light of that kind, then a point on it. The probability of the choice is in pdf_w, and for delta lights in the
-   radiance. */
+   light of that kind, then a point on it. The probability of the choice is in pdf_w. One pair of words serves all: what is
+   left of the first after choosing the light, and of the second after choosing the kind, gives the point. */
 static inline LightSample lights_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
                                         uint bounce, const Surface* surface, real3 n)
 {
-    const uint2 words = sampler_pair_words(sampler, bounce, SAMPLE_LIGHT_CHOICE);
+    const uint2 words = sampler_pair_words(sampler, bounce, SAMPLE_LIGHT);
     const uint alias_word = sampler_word(sampler, bounce, SAMPLE_LIGHT_ALIAS);
-    const real2 u = sampler_pair(sampler, bounce, SAMPLE_LIGHT_POINT);
-    const real kind = sampler_unit(words.y);
+    const real v = sampler_unit(words.y);
+    const real emitter = (real)params->choose_emitter;
+    const real sky = (real)params->choose_environment;
+    const real light = (real)params->choose_light;
     LightSample sample = light_sample_none();
-    if (HAS(EFFECT_AREA_LIGHT) && kind < (real)params->choose_emitter) {
-        sample = emitter_sample(scene, params, surface->position, words.x, alias_word, u);
-        sample.pdf_w *= (real)params->choose_emitter;
-    } else if (HAS(EFFECT_ENVIRONMENT_MAP) && kind < (real)(params->choose_emitter + params->choose_environment)) {
-        sample = environment_sample(scene, params, n, words.x, alias_word, u);
-        sample.pdf_w *= (real)params->choose_environment;
-    } else if (HAS(EFFECT_DELTA_LIGHT) && params->choose_light > 0.0f) {
+    if (HAS(EFFECT_AREA_LIGHT) && v < emitter) {
+        sample = emitter_sample(scene, params, surface->position, words.x, alias_word, v / emitter);
+        sample.pdf_w *= emitter;
+    } else if (HAS(EFFECT_ENVIRONMENT_MAP) && v < emitter + sky) {
+        sample = environment_sample(scene, params, n, words.x, alias_word, (v - emitter) / sky);
+        sample.pdf_w *= sky;
+    } else if (HAS(EFFECT_DELTA_LIGHT) && light > REAL(0.0)) {
         const uint index = delta_light_choose(scene, params, words.x, alias_word);
+        const real2 u = (real2)(warp_rest(words.x, params->light_count, alias_word), (v - emitter - sky) / light);
         sample = delta_light_sample(scene, index, surface->position, u);
-        sample.pdf_w *= (real)(params->choose_light * scene->lights[index].probability);
+        sample.pdf_w *= light * (real)scene->lights[index].probability;
     }
     return sample;
 }

@@ -9,14 +9,14 @@
 
 /* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number. */
 #define SAMPLE_FILM 0u
-#define SAMPLE_DIRECTION 1u      /* direction within a lobe */
-#define SAMPLE_LOBE 2u           /* which lobe */
-#define SAMPLE_LIGHT_POINT 3u    /* point on a light, direction to the environment */
-#define SAMPLE_LIGHT_CHOICE 4u   /* which light */
-#define SAMPLE_LIGHT_ALIAS 5u    /* second word of an alias table */
+#define SAMPLE_DIRECTION 1u   /* direction within a lobe */
+#define SAMPLE_LOBE 2u        /* which lobe */
+#define SAMPLE_LIGHT 3u       /* which light, and the point on it */
+#define SAMPLE_LIGHT_ALIAS 4u /* second word of an alias table */
+#define SAMPLE_SKY 5u         /* direction to the environment, where it is sampled beside the other lights */
 #define SAMPLE_ROULETTE 6u
-#define SAMPLE_ROUNDING 7u       /* of the film's fixed point; three words */
-#define SAMPLE_COVERAGE 10u      /* cut-outs; hashed on with their number along the ray */
+#define SAMPLE_ROUNDING 7u    /* of the film's fixed point */
+#define SAMPLE_COVERAGE 8u    /* cut-outs; hashed on with their number along the ray */
 #define SAMPLER_PURPOSES 16u
 
 typedef struct {
@@ -72,16 +72,14 @@ static inline uint sampler_pascal_reversed(uint index)
 /* Maps a word to the odd multiples of 2^-24: exact, never 0, never 1, and 1 - u is exact. */
 static inline real sampler_unit(uint word) { return (real)((word >> 8) | 1u) * REAL(5.9604644775390625e-8); }
 
-/* The sampler of one sample. `pixel` counts in the whole picture; sample s is number s / replicates of
-   replicate s mod replicates. Distinct pixels of a replicate never share a key. */
-static inline Sampler sampler_make(uint seed, uint pixel, uint sample, uint replicates)
+/* The sampler of sample number `index` of a replicate. `pixel` counts in the whole picture. Distinct pixels of a
+   replicate never share a key. */
+static inline Sampler sampler_make(uint seed, uint pixel, uint replicate, uint index)
 {
-    const uint replicate = sample % replicates;
-    const uint index = sample / replicates;
     Sampler sampler;
     sampler.key = sampler_hash(pixel ^ sampler_hash(replicate + sampler_hash(seed + 0x9e3779b9u)));
     sampler.index_reversed = sampler_reverse_bits(index);
-    sampler.word_key = sampler_hash(sampler.key ^ sampler_hash(index + 0x85ebca6bu));
+    sampler.word_key = sampler_hash(sampler.key ^ (index * 0x85ebca6bu));
     return sampler;
 }
 
@@ -106,8 +104,8 @@ static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint
     /* Shuffle the index, so that different addresses are independent of each other. */
     const uint index = sampler_reverse_bits(sampler_scramble_reversed(sampler->index_reversed, key));
     /* Scramble both dimensions of the Sobol point. */
-    const uint x = sampler_scramble_reversed(index, sampler_hash(key ^ 0x68bc21ebu));
-    const uint y = sampler_scramble_reversed(sampler_pascal_reversed(index), sampler_hash(key ^ 0x02e5be93u));
+    const uint x = sampler_scramble_reversed(index, key * 0x9e3779b9u);
+    const uint y = sampler_scramble_reversed(sampler_pascal_reversed(index), key * 0x85ebca6bu);
     return (uint2)(sampler_reverse_bits(x), sampler_reverse_bits(y));
 }
 

@@ -3,6 +3,7 @@
 #ifndef CLRT_NUMERICS_WARP_H
 #define CLRT_NUMERICS_WARP_H
 
+#include "sampler.h"
 #include "vector.h"
 
 /* Uniform point of the unit disc by concentric squares (Shirley and Chiu 1997). */
@@ -51,5 +52,12 @@ static inline real2 warp_triangle(real2 u)
 
 /* An index below count from a word, each with the probability of its share of 2^32. */
 static inline uint warp_index(uint word, uint count) { return mul_hi(word, count); }
+
+/* The number in (0, 1) that is left of a word after warp_index took its share; `fill` replaces the digits that a large count
+   has used up. */
+static inline real warp_rest(uint word, uint count, uint fill)
+{
+    return sampler_unit(word * count + mul_hi(fill, count));
+}
 
 #endif

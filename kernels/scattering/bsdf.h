@@ -16,111 +16,94 @@ static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf)
     return HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) && bsdf->alpha_x > REAL(0.0);
 }
 
-/* True if the world direction and its local form are on the same side of both normals. */
+/* True if a world direction and its local form are on the same side of both normals. */
 static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
 {
     return (vector_dot(wi_world, bsdf->normal_g) > REAL(0.0)) == (wi.z > REAL(0.0));
 }
 
-/* BSDF times |cos_i| of all lobes that are no delta functions. World directions. */
-static inline real3 bsdf_eval(const Bsdf* bsdf, real3 wo_world, real3 wi_world)
+/* Sum of the lobes and density of the mixture; wi local, sides already compared. */
+static inline BsdfValue bsdf_eval_local(const Bsdf* bsdf, real3 wi)
 {
-    const real3 wo = frame_to_local(&bsdf->frame, wo_world);
-    const real3 wi = frame_to_local(&bsdf->frame, wi_world);
-    real3 value = (real3)(REAL(0.0));
-    if (!bsdf_sides_agree(bsdf, wi_world, wi))
-        return value;
-    if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE))
-        value += bsdf_matte_eval(bsdf->matte, wi);
-    if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY))
-        value += bsdf_glossy_eval(bsdf, wo, wi);
+    BsdfValue sum;
+    sum.value = (real3)(REAL(0.0));
+    sum.pdf_w = REAL(0.0);
+    if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE)) {
+        sum.value = bsdf_matte_eval(bsdf->matte, wi);
+        sum.pdf_w = bsdf->choose_matte * bsdf_matte_pdf_w(wi);
+    }
+    if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY)) {
+        const BsdfValue glossy = bsdf_glossy_eval(bsdf, wi);
+        sum.value += glossy.value;
+        sum.pdf_w += bsdf->choose_glossy * glossy.pdf_w;
+    }
     if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC))
-        value += bsdf_dielectric_eval(bsdf, wo, wi);
-    return value;
+        sum = bsdf_dielectric_eval(bsdf, wi);
+    return sum;
 }
 
-/* Density of bsdf_sample, delta lobes left out. World directions. */
-static inline real bsdf_pdf_w(const Bsdf* bsdf, real3 wo_world, real3 wi_world)
+/* The same for a world direction. */
+static inline BsdfValue bsdf_eval(const Bsdf* bsdf, real3 wi_world)
 {
-    const real3 wo = frame_to_local(&bsdf->frame, wo_world);
     const real3 wi = frame_to_local(&bsdf->frame, wi_world);
-    real pdf_w = REAL(0.0);
-    if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE))
-        pdf_w += bsdf->choose_matte * bsdf_matte_pdf_w(wi);
-    if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY))
-        pdf_w += bsdf->choose_glossy * bsdf_glossy_pdf_w(bsdf, wo, wi);
-    if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC))
-        pdf_w += bsdf_dielectric_pdf_w(bsdf, wo, wi);
-    return pdf_w;
+    if (bsdf_sides_agree(bsdf, wi_world, wi))
+        return bsdf_eval_local(bsdf, wi);
+    BsdfValue none;
+    none.value = (real3)(REAL(0.0));
+    none.pdf_w = REAL(0.0);
+    return none;
 }
 
 /* Sets the lobes' probabilities by how much each reflects towards wo. */
-static inline void bsdf_choose_lobes(Bsdf* bsdf, real3 wo)
+static inline void bsdf_choose_lobes(Bsdf* bsdf)
 {
-    bsdf->choose_matte = REAL(0.0);
-    bsdf->choose_glossy = REAL(0.0);
-    if (bsdf->lobes & LOBE_DIELECTRIC)
+    bsdf->choose_matte = (bsdf->lobes == LOBE_MATTE) ? REAL(1.0) : REAL(0.0);
+    bsdf->choose_glossy = (bsdf->lobes == LOBE_GLOSSY) ? REAL(1.0) : REAL(0.0);
+    if (!HAS(EFFECT_GLOSSY | EFFECT_MIRROR) || !(bsdf->lobes & LOBE_MATTE) || bsdf->lobes == LOBE_MATTE)
         return;
-    const real cos_o = clamp(vector_dot(bsdf->frame.z, wo), REAL(0.0), REAL(1.0));
-    const real matte = (bsdf->lobes & LOBE_MATTE) ? vector_luminance(bsdf->matte) : REAL(0.0);
-    const real reflection = (bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR))
-                                ? vector_luminance(bsdf_reflection_color(bsdf, cos_o))
-                                : REAL(0.0);
+    const real matte = vector_luminance(bsdf->matte);
+    const real reflection = vector_luminance(bsdf_reflection_color(bsdf, bsdf->wo.z));
     const real sum = matte + reflection;
-    if (!(sum > REAL(0.0)))
-        return;
-    bsdf->choose_matte = matte / sum;
-    bsdf->choose_glossy = (bsdf->lobes & LOBE_GLOSSY) ? reflection / sum : REAL(0.0);
+    bsdf->choose_matte = sum > REAL(0.0) ? matte / sum : REAL(1.0);
+    bsdf->choose_glossy = (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) - bsdf->choose_matte : REAL(0.0);
 }
 
-/* Samples a delta reflection or a dielectric. */
-static inline void bsdf_sample_specular(const Bsdf* bsdf, real3 wo, real u_lobe, real2 u, real3* wi, BsdfSample* sample)
+/* Completes a sample of the matte or the glossy lobe: density and weight of the mixture. */
+static inline void bsdf_complete(const Bsdf* bsdf, real3 wi, BsdfSample* sample)
 {
-    if (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) {
-        *wi = bsdf_dielectric_sample(bsdf, wo, u_lobe, u, &sample->weight, &sample->eta);
-        sample->is_delta = !HAS(EFFECT_ROUGH_REFRACTION) || bsdf->alpha_x == REAL(0.0);
+    /* Alone, Lambert's lobe is sampled exactly. */
+    if (bsdf->lobes == LOBE_MATTE) {
+        sample->pdf_w = bsdf_matte_pdf_w(wi);
+        sample->weight = bsdf->matte;
         return;
     }
-    const real choose = REAL(1.0) - bsdf->choose_matte;
-    *wi = vector_make(-wo.x, -wo.y, wo.z);
-    sample->weight = bsdf_reflection_color(bsdf, wo.z) / choose;
-    sample->is_delta = true;
+    const BsdfValue eval = bsdf_eval_local(bsdf, wi);
+    sample->pdf_w = eval.pdf_w;
+    sample->weight = eval.pdf_w > REAL(0.0) ? eval.value / eval.pdf_w : (real3)(REAL(0.0));
 }
 
 /* Samples a direction. u_lobe chooses the lobe, u the direction. */
-static CLRT_NOINLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real3 wo_world, real u_lobe, real2 u)
+static CLRT_NOINLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2 u)
 {
-    const real3 wo = frame_to_local(&bsdf->frame, wo_world);
     BsdfSample sample;
     sample.pdf_w = REAL(0.0);
     sample.eta = REAL(1.0);
-    sample.is_delta = false;
-    sample.is_valid = false;
     sample.weight = (real3)(REAL(0.0));
-    if (bsdf->lobes == 0u)
-        return sample;
     real3 wi = (real3)(REAL(0.0));
-    const bool matte = HAS(EFFECT_MATTE) && u_lobe < bsdf->choose_matte;
-    const bool glossy = HAS(EFFECT_GLOSSY) && !matte && bsdf->choose_glossy > REAL(0.0);
-    if (matte)
+    if (HAS(EFFECT_MATTE) && u_lobe < bsdf->choose_matte) {
         wi = bsdf_matte_sample(u);
-    else if (glossy)
-        wi = bsdf_glossy_sample(bsdf, wo, u);
-    else if (HAS(EFFECT_MIRROR | EFFECT_REFRACTION))
-        bsdf_sample_specular(bsdf, wo, u_lobe, u, &wi, &sample);
-
-    sample.wi = frame_to_world(&bsdf->frame, wi);
-    if (!bsdf_sides_agree(bsdf, sample.wi, wi))
-        return sample;
-    if (!sample.is_delta) {
-        sample.pdf_w = bsdf_pdf_w(bsdf, wo_world, sample.wi);
-        if (!(sample.pdf_w > REAL(0.0)))
-            return sample;
-        /* The dielectric's weight is already complete, and better conditioned. */
-        if (!(bsdf->lobes & LOBE_DIELECTRIC))
-            sample.weight = bsdf_eval(bsdf, wo_world, sample.wi) / sample.pdf_w;
+        bsdf_complete(bsdf, wi, &sample);
+    } else if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY)) {
+        wi = bsdf_glossy_sample(bsdf, u);
+        bsdf_complete(bsdf, wi, &sample);
+    } else if (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) {
+        wi = bsdf_dielectric_sample(bsdf, u_lobe, u, &sample);
+    } else if (HAS(EFFECT_MIRROR) && (bsdf->lobes & LOBE_MIRROR)) {
+        wi = vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z);
+        sample.weight = bsdf_reflection_color(bsdf, bsdf->wo.z) / (REAL(1.0) - bsdf->choose_matte);
     }
-    sample.is_valid = !vector_is_zero(sample.weight);
+    sample.wi = frame_to_world(&bsdf->frame, wi);
+    sample.is_valid = !vector_is_black(sample.weight) && bsdf_sides_agree(bsdf, sample.wi, wi);
     return sample;
 }
 

@@ -8,64 +8,55 @@
 #include "fresnel.h"
 #include "microfacet.h"
 
-/* The half vector of a pair on the normal's side; zero where there is none. */
-static inline real3 bsdf_dielectric_half(const Bsdf* bsdf, real3 wo, real3 wi)
+/* The half vector of wo and wi on the normal's side; zero where there is none. */
+static inline real3 bsdf_dielectric_half(const Bsdf* bsdf, real3 wi)
 {
-    const real3 sum = wi.z > REAL(0.0) ? wo + wi : bsdf->eta * wo + wi;
+    const real3 sum = wi.z > REAL(0.0) ? bsdf->wo + wi : bsdf->eta * bsdf->wo + wi;
     const real length_squared = vector_dot(sum, sum);
     if (!(length_squared > REAL(0.0)))
         return (real3)(REAL(0.0));
     return sum * (copysign(REAL(1.0), sum.z) / real_sqrt(length_squared));
 }
 
-/* Density of refracting into wi per density of the half vector: |wi.h| / (eta wo.h + wi.h)^2. */
-static inline real bsdf_dielectric_jacobian(const Bsdf* bsdf, real cos_oh, real cos_ih)
+/* BSDF times |cos_i| of the rough dielectric and the density of sampling wi; both 0 for the smooth one. */
+static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
 {
-    const real d = fma(bsdf->eta, cos_oh, cos_ih);
-    return fabs(cos_ih) / (d * d);
-}
-
-/* BSDF times |cos_i| of the rough dielectric; 0 for the smooth one. */
-static inline real3 bsdf_dielectric_eval(const Bsdf* bsdf, real3 wo, real3 wi)
-{
-    const real3 h = bsdf_dielectric_half(bsdf, wo, wi);
+    BsdfValue result;
+    result.value = (real3)(REAL(0.0));
+    result.pdf_w = REAL(0.0);
+    const real3 wo = bsdf->wo;
+    const real3 h = bsdf_dielectric_half(bsdf, wi);
     const real cos_oh = vector_dot(wo, h);
     const real cos_ih = vector_dot(wi, h);
     /* wo must see the front of the microfacet, wi the side that matches. */
     if (bsdf->alpha_x == REAL(0.0) || !(wo.z > REAL(0.0)) || wi.z == REAL(0.0) || !(cos_oh > REAL(0.0)) ||
         cos_ih * wi.z <= REAL(0.0))
-        return (real3)(REAL(0.0));
+        return result;
     real cos_t;
     const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
-    const real d = microfacet_d(h, bsdf->alpha_x, bsdf->alpha_y);
-    const real g = microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y);
-    if (wi.z > REAL(0.0))
-        return bsdf->specular * (f * d * g / (REAL(4.0) * wo.z));
-    /* Eq. 21 of Walter et al. times cos_i, scaled by eta^2 for radiance; the index of wi's side cancels. */
-    const real spread = bsdf_dielectric_jacobian(bsdf, cos_oh, cos_ih);
-    return bsdf->transmission * ((REAL(1.0) - f) * d * g * cos_oh * spread * bsdf->eta * bsdf->eta / wo.z);
+    const real lambda_o = microfacet_lambda(wo, bsdf->alpha_x, bsdf->alpha_y);
+    const real lambda_i = microfacet_lambda(wi, bsdf->alpha_x, bsdf->alpha_y);
+    const real d_over_cos = microfacet_d(h, bsdf->alpha_x, bsdf->alpha_y) / wo.z;
+    const real g1 = REAL(1.0) / (REAL(1.0) + lambda_o);
+    const real g2 = REAL(1.0) / (REAL(1.0) + lambda_o + lambda_i);
+    if (wi.z > REAL(0.0)) {
+        result.value = bsdf->specular * (REAL(0.25) * f * d_over_cos * g2);
+        result.pdf_w = REAL(0.25) * f * d_over_cos * g1;
+        return result;
+    }
+    /* Walter et al., eq. 17: density of wi per density of h. */
+    const real both = fma(bsdf->eta, cos_oh, cos_ih);
+    const real spread = (REAL(1.0) - f) * d_over_cos * cos_oh * fabs(cos_ih) / (both * both);
+    /* Eq. 21 times cos_i, times eta^2 for radiance; the index on wi's side cancels. */
+    result.value = bsdf->transmission * (spread * g2 * bsdf->eta * bsdf->eta);
+    result.pdf_w = spread * g1;
+    return result;
 }
 
-static inline real bsdf_dielectric_pdf_w(const Bsdf* bsdf, real3 wo, real3 wi)
+/* Reflects with probability F, else refracts. Gives the local direction; fills weight, density and index ratio. */
+static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 u, BsdfSample* sample)
 {
-    const real3 h = bsdf_dielectric_half(bsdf, wo, wi);
-    const real cos_oh = vector_dot(wo, h);
-    const real cos_ih = vector_dot(wi, h);
-    if (bsdf->alpha_x == REAL(0.0) || !(wo.z > REAL(0.0)) || wi.z == REAL(0.0) || !(cos_oh > REAL(0.0)) ||
-        cos_ih * wi.z <= REAL(0.0))
-        return REAL(0.0);
-    real cos_t;
-    const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
-    const real pdf_h = microfacet_pdf_w(wo, h, cos_oh, bsdf->alpha_x, bsdf->alpha_y);
-    if (wi.z > REAL(0.0))
-        return f * pdf_h / (REAL(4.0) * cos_oh);
-    return (REAL(1.0) - f) * pdf_h * bsdf_dielectric_jacobian(bsdf, cos_oh, cos_ih);
-}
-
-/* Reflects with probability F, else refracts. Gives the local direction, the weight (BSDF |cos_i| / pdf) and the index
-   ratio crossed. */
-static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real3 wo, real u_lobe, real2 u, real3* weight, real* eta)
-{
+    const real3 wo = bsdf->wo;
     const bool smooth = !HAS(EFFECT_ROUGH_REFRACTION) || bsdf->alpha_x == REAL(0.0);
     const real3 h = smooth ? vector_make(REAL(0.0), REAL(0.0), REAL(1.0))
                            : microfacet_sample(wo, bsdf->alpha_x, bsdf->alpha_y, u);
@@ -74,13 +65,16 @@ static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real3 wo, real u_lo
     const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
     const bool reflects = u_lobe < f;
     const real3 wi = reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
-    *eta = reflects ? REAL(1.0) : bsdf->eta;
-    *weight = reflects ? bsdf->specular : bsdf->transmission * (bsdf->eta * bsdf->eta);
     /* A microfacet may send light through the macroscopic surface the wrong way: such paths end. */
     if ((wi.z > REAL(0.0)) != reflects)
-        *weight = (real3)(REAL(0.0));
-    else if (!smooth)
-        *weight *= microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) / microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);
+        return wi;
+    sample->eta = reflects ? REAL(1.0) : bsdf->eta;
+    sample->weight = reflects ? bsdf->specular : bsdf->transmission * (bsdf->eta * bsdf->eta);
+    if (!smooth) {
+        sample->weight *=
+            microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) / microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);
+        sample->pdf_w = bsdf_dielectric_eval(bsdf, wi).pdf_w;
+    }
     return wi;
 }
 

@@ -13,32 +13,31 @@ static inline real3 bsdf_reflection_color(const Bsdf* bsdf, real cos_h)
     return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
 }
 
-/* BSDF times cos_i (Walter et al. 2007, eq. 20). */
-static inline real3 bsdf_glossy_eval(const Bsdf* bsdf, real3 wo, real3 wi)
+/* BSDF times cos_i (Walter et al. 2007, eq. 20) and the density of sampling wi by visible normals. */
+static inline BsdfValue bsdf_glossy_eval(const Bsdf* bsdf, real3 wi)
 {
+    BsdfValue result;
+    result.value = (real3)(REAL(0.0));
+    result.pdf_w = REAL(0.0);
+    const real3 wo = bsdf->wo;
     if (!(wo.z > REAL(0.0) && wi.z > REAL(0.0)))
-        return (real3)(REAL(0.0));
+        return result;
     const real3 h = vector_normalize(wo + wi);
-    const real d = microfacet_d(h, bsdf->alpha_x, bsdf->alpha_y);
-    const real g = microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y);
-    return bsdf_reflection_color(bsdf, vector_dot(wo, h)) * (d * g / (REAL(4.0) * wo.z));
+    const real lambda_o = microfacet_lambda(wo, bsdf->alpha_x, bsdf->alpha_y);
+    const real lambda_i = microfacet_lambda(wi, bsdf->alpha_x, bsdf->alpha_y);
+    const real d_over_4_cos = microfacet_d(h, bsdf->alpha_x, bsdf->alpha_y) / (REAL(4.0) * wo.z);
+    result.value =
+        bsdf_reflection_color(bsdf, vector_dot(wo, h)) * (d_over_4_cos / (REAL(1.0) + lambda_o + lambda_i));
+    /* Density of h over the Jacobian 4 wo.h of the reflection; wo.h cancels. */
+    result.pdf_w = d_over_4_cos / (REAL(1.0) + lambda_o);
+    return result;
 }
 
 /* A reflected direction; z <= 0 means that none was found. */
-static inline real3 bsdf_glossy_sample(const Bsdf* bsdf, real3 wo, real2 u)
+static inline real3 bsdf_glossy_sample(const Bsdf* bsdf, real2 u)
 {
-    const real3 h = microfacet_sample(wo, bsdf->alpha_x, bsdf->alpha_y, u);
-    return REAL(2.0) * vector_dot(wo, h) * h - wo;
-}
-
-static inline real bsdf_glossy_pdf_w(const Bsdf* bsdf, real3 wo, real3 wi)
-{
-    if (!(wo.z > REAL(0.0) && wi.z > REAL(0.0)))
-        return REAL(0.0);
-    const real3 h = vector_normalize(wo + wi);
-    /* Density of h over the Jacobian 4 wo.h of the reflection; wo.h cancels. */
-    return microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y) * microfacet_d(h, bsdf->alpha_x, bsdf->alpha_y) /
-           (REAL(4.0) * wo.z);
+    const real3 h = microfacet_sample(bsdf->wo, bsdf->alpha_x, bsdf->alpha_y, u);
+    return REAL(2.0) * vector_dot(bsdf->wo, h) * h - bsdf->wo;
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material at one surface point, ready to be evaluated, and what sampling it gives.
+// A material at one surface point, ready to be evaluated, and what evaluating and sampling it give.
 #ifndef CLRT_SCATTERING_BSDF_TYPES_H
 #define CLRT_SCATTERING_BSDF_TYPES_H
 
@@ -9,27 +9,32 @@
 
 typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
-    real3 normal_g;     /* geometric normal, on wo's side */
+    real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
+    real3 normal_g;     /* world: geometric normal, on wo's side */
     real3 matte;        /* reflectance */
     real3 specular;     /* reflection colour, or F0 */
     real3 transmission; /* tint of a crossing */
-    real3 emission;     /* radiance towards wo */
     real alpha_x, alpha_y;
     real eta;           /* index on wo's side over index on the other side */
     real exponent;      /* of Phong's highlight; 0: none */
-    uint lobes;         /* LOBE_* that are not black here */
+    uint lobes;         /* LOBE_* */
     uint fresnel;       /* FRESNEL_* */
     uint flags;         /* MATERIAL_* */
     real choose_matte, choose_glossy; /* probabilities of the lobes; the rest is the mirror or the dielectric */
 } Bsdf;
 
+/* All lobes that are no delta functions, for one direction. */
+typedef struct {
+    real3 value; /* BSDF times |cos_i| */
+    real pdf_w;  /* of sampling it, per steradian */
+} BsdfValue;
+
 /* A sampled direction. */
 typedef struct {
     real3 wi;      /* world */
-    real3 weight;  /* BSDF times |cos| over pdf, all factors inside */
+    real3 weight;  /* BSDF times |cos_i| over pdf, all factors inside */
     real pdf_w;    /* per steradian; 0 for a delta lobe */
     real eta;      /* relative index crossed; 1 for reflection */
-    bool is_delta;
     bool is_valid; /* false: no direction, the path ends */
 } BsdfSample;
 

@@ -121,6 +121,14 @@ static inline void material_parameters(const Scene* scene, global const Material
     }
 }
 
+/* Radiance that the surface emits towards wo. */
+static inline real3 material_emitted(const Scene* scene, const Surface* surface)
+{
+    global const Material* material = scene->materials + surface->material;
+    return material_emits(material, surface->front) ? material_emission(scene, material, surface->uv)
+                                                    : (real3)(REAL(0.0));
+}
+
 /* Builds the BSDF of a surface point as wo sees it. */
 static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo)
 {
@@ -129,7 +137,6 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     bsdf.matte = vector_from(material->matte);
     bsdf.specular = vector_from(material->specular);
     bsdf.transmission = vector_from(material->transmission);
-    bsdf.emission = (real3)(REAL(0.0));
     bsdf.alpha_x = (real)material->alpha_x;
     bsdf.alpha_y = (real)material->alpha_y;
     bsdf.exponent = (real)material->specular.w;
@@ -138,14 +145,13 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     bsdf.flags = material->flags;
     bsdf.normal_g = surface->normal_g;
     const real index = (real)material->transmission.w;
-    bsdf.eta = surface->front ? REAL(1.0) / index : index;
+    bsdf.eta = HAS(EFFECT_REFRACTION) && surface->front ? REAL(1.0) / index : index;
     material_parameters(scene, material, surface, &bsdf);
-    if (HAS(EFFECT_AREA_LIGHT) && material_emits(material, surface->front))
-        bsdf.emission = material_emission(scene, material, surface->uv);
     const real3 n = material_normal(scene, material, surface, wo);
     /* Only stretched highlights need to know where u grows. */
     bsdf.frame = bsdf.alpha_x != bsdf.alpha_y ? frame_make_tangent(n, surface->tangent) : frame_make(n);
-    bsdf_choose_lobes(&bsdf, wo);
+    bsdf.wo = frame_to_local(&bsdf.frame, wo);
+    bsdf_choose_lobes(&bsdf);
     return bsdf;
 }
 

@@ -3,6 +3,7 @@
 #include "app/option_checks.h"
 
 #include "error.h"
+#include "output/image.h"
 
 #include <filesystem>
 
@@ -33,6 +34,19 @@ void check_crop(const Options& options) {
                         text(c.x1) + "," + text(c.y1));
 }
 
+void check_output_sizes(const Options& options) {
+    const glm::ivec2 window =
+        options.crop ? glm::ivec2(options.crop->x1 - options.crop->x0, options.crop->y1 - options.crop->y0)
+                     : options.size;
+    for (const std::string& path : options.outputs) {
+        const int limit = largest_output_side(path);
+        if (window.x > limit || window.y > limit)
+            reject(options, "option --output: expected at most " + std::to_string(limit) +
+                                " pixels a side for '" + path + "', found " + std::to_string(window.x) + "x" +
+                                std::to_string(window.y));
+    }
+}
+
 void check_lens(const Options& options) {
     if (options.camera.focal_length.has_value() == options.camera.film_width.has_value())
         return;
@@ -60,6 +74,7 @@ void check_statistics_path(const Options& options) {
 
 void check_combinations(const Options& options) {
     check_crop(options);
+    check_output_sizes(options);
     check_lens(options);
     check_samples(options);
     check_statistics_path(options);

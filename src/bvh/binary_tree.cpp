@@ -118,9 +118,8 @@ private:
     bool split(BuildItem* items, u32 count, const ItemBounds& bounds, int level, SplitSides& sides) {
         if (count <= leaf_cost_.min_leaf)
             return false;
-        const int bins = count < 16 ? 4 : MAX_BINS;
-        const BinMap map(bounds.centres, bins);
-        const BinnedSplit best = find_split(items, count, bounds, map, bins, leaf_cost_);
+        const BinMap map(bounds.centres, count);
+        const BinnedSplit best = find_split(items, count, bounds, map, leaf_cost_);
         // Both sides must be able to finish within the levels that are left.
         const u32 larger = std::max(best.left_count, count - best.left_count);
         const bool allowed =

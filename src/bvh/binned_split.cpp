@@ -12,7 +12,11 @@
 namespace clrt {
 namespace {
 
-constexpr u32 CHUNK = 1u << 14; // items one thread partitions at a time: 512 KiB, about a second-level cache
+constexpr u32 PARALLEL_RANGE = 1u << 16; // items that repay the use of several threads
+constexpr u32 CHUNK = 1u << 14;          // items of a thread at a time: 512 KiB, about a second-level cache
+constexpr u32 HALVED_RANGE = 128;        // items that repay a second set of bins
+constexpr u32 FEW_ITEMS = 16;
+constexpr int FEW_BINS = 4;
 
 struct Bins {
     Box boxes[MAX_BINS][3]; // by bin and axis
@@ -21,15 +25,29 @@ struct Bins {
 
     explicit Bins(int bins) : size(bins) { std::fill_n(counts, bins, Int4{}); }
 
-    void add(const BuildItem* begin, const BuildItem* end, const BinMap& map) {
-        for (const BuildItem* item = begin; item != end; ++item) {
-            const Box box = item->box();
-            const Int4 bin = map.bins_of(doubled_centre(box));
-            for (int axis = 0; axis < 3; ++axis) {
-                boxes[bin[axis]][axis].extend(box);
-                ++counts[bin[axis]][axis];
-            }
+    void add(const BuildItem& item, const BinMap& map) {
+        const Box box = item.box();
+        const Int4 bin = map.bins_of(doubled_centre(box));
+        for (int axis = 0; axis < 3; ++axis) {
+            boxes[bin[axis]][axis].extend(box);
+            ++counts[bin[axis]][axis];
         }
+    }
+
+    // Neighbours often fall into one bin, and each waits for the one before. Two halves with bins of their
+    // own do not wait for each other.
+    void add(const BuildItem* items, u32 count, const BinMap& map) {
+        const u32 half = count < HALVED_RANGE ? 0 : count / 2;
+        if (half > 0) {
+            Bins second(size);
+            for (u32 i = 0; i < half; ++i) {
+                add(items[i], map);
+                second.add(items[half + i], map);
+            }
+            merge(second);
+        }
+        for (u32 i = 2 * half; i < count; ++i)
+            add(items[i], map);
     }
 
     void merge(const Bins& other) {
@@ -45,13 +63,13 @@ struct Bins {
 // threads.
 void fill_bins(Bins& bins, const BuildItem* items, u32 count, const BinMap& map) {
     if (count < PARALLEL_RANGE) {
-        bins.add(items, items + count, map);
+        bins.add(items, count, map);
         return;
     }
     std::mutex mutex;
     tbb::parallel_for(tbb::blocked_range<u32>(0, count, CHUNK), [&](const tbb::blocked_range<u32>& part) {
         Bins own(bins.size);
-        own.add(items + part.begin(), items + part.end(), map);
+        own.add(items + part.begin(), u32(part.size()), map);
         const std::lock_guard<std::mutex> lock(mutex);
         bins.merge(own);
     });
@@ -110,7 +128,7 @@ BinnedSplit sweep(const Bins& bins, float scale, const LeafCost& leaf_cost) {
 
 SplitSides apply_split_serial(BuildItem* items, u32 count, const BinMap& map, const BinnedSplit& split) {
     const int axis = split.axis;
-    const float origin = map.origin[axis], scale = map.scale[axis], last = map.last[axis];
+    const float origin = map.origin[axis], scale = map.scale[axis], last = float(map.bins - 1);
     SplitSides sides;
     BuildItem* front = items;
     for (BuildItem* item = items; item != items + count; ++item) {
@@ -185,8 +203,8 @@ SplitSides apply_split_parallel(BuildItem* items, u32 count, const BinMap& map, 
 
 } // namespace
 
-BinMap::BinMap(const Box& centres, int bins)
-    : origin(centres.lower), scale(splat(0)), last(splat(float(bins - 1))) {
+BinMap::BinMap(const Box& centres, u32 count)
+    : bins(count < FEW_ITEMS ? FEW_BINS : MAX_BINS), origin(centres.lower), scale(splat(0)) {
     for (int axis = 0; axis < 3; ++axis) {
         const float per_unit = float(bins) / (centres.upper[axis] - centres.lower[axis]);
         // Agreeing centres, or closer than a float's reciprocal reaches.
@@ -197,21 +215,21 @@ BinMap::BinMap(const Box& centres, int bins)
 }
 
 BinnedSplit find_split(const BuildItem* items, u32 count, const ItemBounds& bounds, const BinMap& map,
-                       int bins, const LeafCost& leaf_cost) {
+                       const LeafCost& leaf_cost) {
     // Relative edges: the areas of a tiny or a huge node neither vanish nor overflow.
     const Float4 edge = bounds.box.upper - bounds.box.lower;
     const float longest = std::max({edge[0], edge[1], edge[2]});
     const float scale = std::min(1.0f / longest, std::numeric_limits<float>::max());
     const float node_area = half_area(bounds.box, scale);
 
-    Bins filled(bins);
+    Bins filled(map.bins);
     fill_bins(filled, items, count, map);
     BinnedSplit best = sweep(filled, scale, leaf_cost);
     best.cost += node_area * leaf_cost.node_cost;
     best.leaf_cost = node_area * leaf_cost.blocks(Int4{} + i32(count))[0];
     if (best.axis < 0)
         return best;
-    for (int i = 0; i < bins; ++i) {
+    for (int i = 0; i < map.bins; ++i) {
         (i < best.bin ? best.left : best.right).extend(filled.boxes[i][best.axis]);
         best.left_count += i < best.bin ? u32(filled.counts[i][best.axis]) : 0;
     }

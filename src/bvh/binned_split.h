@@ -5,11 +5,9 @@
 
 #include "bvh/box.h"
 
-#include <cstddef>
-
 namespace clrt {
 
-constexpr int MAX_BINS = 16; ///< a side's costs change by under 1 % with more
+constexpr int MAX_BINS = 16; ///< twice as many lower the cost of the tree by under 1 %
 
 /// What leaves cost and hold.
 struct LeafCost {
@@ -26,13 +24,14 @@ struct LeafCost {
 
 /// Maps an item's centre to bins on all axes. An axis on which the centres agree has the one bin 0.
 struct BinMap {
+    int bins;
     Float4 origin;
-    Float4 scale;
-    Float4 last; ///< number of the last bin
+    Float4 scale; ///< bins per unit; 0 on an axis with one bin
 
-    BinMap(const Box& centres, int bins);
+    /// Chooses fewer bins for a few items, whose bins would be empty mostly.
+    BinMap(const Box& centres, u32 count);
     Int4 bins_of(Float4 centre) const {
-        return __builtin_convertvector(lane_min((centre - origin) * scale, last), Int4);
+        return __builtin_convertvector(lane_min((centre - origin) * scale, splat(float(bins - 1))), Int4);
     }
 };
 
@@ -55,7 +54,7 @@ struct SplitSides {
 /// Finds the cheapest split of items over all axes. The result depends on the set of items, not on their
 /// order.
 BinnedSplit find_split(const BuildItem* items, u32 count, const ItemBounds& bounds, const BinMap& map,
-                       int bins, const LeafCost& leaf_cost);
+                       const LeafCost& leaf_cost);
 
 /// Reorders items in place so that the left side of a split comes first.
 SplitSides apply_split(BuildItem* items, u32 count, const BinMap& map, const BinnedSplit& split);
@@ -63,8 +62,5 @@ SplitSides apply_split(BuildItem* items, u32 count, const BinMap& map, const Bin
 /// Splits at the median of centres along the longest axis of `centres`; equal centres are told apart by
 /// triangle index. Linear time whatever the input.
 SplitSides split_at_median(BuildItem* items, u32 count, const Box& centres);
-
-/// Items from which on a range is worth several threads; also decides where subtrees are built in parallel.
-constexpr u32 PARALLEL_RANGE = 1u << 16;
 
 } // namespace clrt

@@ -20,15 +20,18 @@ struct Bvh {
     int depth = 0;             ///< levels of the binary tree, at most BVH_MAX_DEPTH
     size_t triangle_count = 0; ///< in the tree; degenerate and non-finite ones are left out
     double sah_cost = 0; ///< expected node and triangle tests of a random ray (MacDonald and Booth 1990)
-    double seconds = 0;
+    double seconds = 0;  ///< that the construction took
 };
 
-/// Builds a tree over all triangles that have finite corners and are not of zero area.
+/// Builds a tree over all triangles that have finite corners and are not of zero area. Coordinates beyond
+/// BVH_EMPTY count as not finite: a traversal's products with them would overflow. Zero area: two corners
+/// agree, or the cross product of two edges, computed in double, is zero. Corner indices must be valid.
 ///
 /// Deterministic: the same input gives the same bits for any number of threads. Never deeper than
 /// BVH_MAX_DEPTH and never quadratic, whatever the input (coincident triangles included). Boxes enclose
 /// their triangles exactly (no rounding: corners are floats); the slack for the traversal's arithmetic is
-/// the traversal's own. An empty scene gives a root with empty children.
+/// the traversal's own. An empty scene gives a root with empty children and no leaves.
+/// Throws SceneError for more triangles than 31-bit indices reach.
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout);
 
 } // namespace clrt

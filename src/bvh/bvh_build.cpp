@@ -11,11 +11,13 @@ namespace clrt {
 
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
     const auto start = std::chrono::steady_clock::now();
-    // A layout has at most one leaf and one node a triangle, and their indices 31 bits.
-    if (triangles.size() >= BVH_LEAF_BIT)
+    // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
+    // builder rounds counts up to whole blocks in 32 signed bits.
+    constexpr size_t MOST_TRIANGLES = BVH_LEAF_BIT - BVH8_WIDTH;
+    if (triangles.size() > MOST_TRIANGLES)
         throw SceneError("scene", 0,
-                         "expected at most 2147483647 triangles, found " + std::to_string(triangles.size()) +
-                             "; split the scene or simplify its meshes");
+                         "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
+                             std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
     const bool wide = layout == BvhLayout::BVH8;
     BinaryTree tree = build_binary_tree(positions, triangles, wide ? BVH8_LEAF_COST : BVH2_LEAF_COST);
     Bvh bvh;

@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <OpenImageIO/strutil.h>
 #include <unistd.h>
@@ -19,12 +20,19 @@ namespace {
 
 enum class Kind { UNKNOWN, EXR, DISPLAY, LINEAR, PFM };
 
+/// 16-bit sizes of TGA; JPEG_MAX_DIMENSION of libjpeg.
+constexpr int LARGEST_SIDE = 65535, LARGEST_JPEG_SIDE = 65500;
+
+std::string lower_extension(const std::string& path) {
+    return OIIO::Strutil::lower(std::filesystem::path(path).extension().string());
+}
+
 Kind kind_of(const std::string& path) {
     static const std::vector<std::pair<std::string, Kind>> KINDS = {
         {".exr", Kind::EXR},     {".png", Kind::DISPLAY}, {".jpg", Kind::DISPLAY}, {".jpeg", Kind::DISPLAY},
         {".bmp", Kind::DISPLAY}, {".tga", Kind::DISPLAY}, {".ppm", Kind::DISPLAY}, {".tif", Kind::LINEAR},
         {".tiff", Kind::LINEAR}, {".hdr", Kind::LINEAR},  {".pfm", Kind::PFM}};
-    const std::string extension = OIIO::Strutil::lower(std::filesystem::path(path).extension().string());
+    const std::string extension = lower_extension(path);
     for (const auto& [known, kind] : KINDS)
         if (extension == known)
             return kind;
@@ -51,10 +59,16 @@ void check_output_path(const std::string& path) {
         throw UsageError("output '" + path + "': expected a name that ends in " + OUTPUT_EXTENSIONS);
 }
 
+int largest_output_side(const std::string& path) {
+    const std::string extension = lower_extension(path);
+    return extension == ".jpg" || extension == ".jpeg" ? LARGEST_JPEG_SIDE : LARGEST_SIDE;
+}
+
 void check_output_folder(const std::string& path) {
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
+    const std::string inside = folder + "/."; // a file in the folder's place is refused, too
+    if (faccessat(AT_FDCWD, inside.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
         throw SceneError(path, 0,
                          "cannot write into the folder '" + folder + "': " + std::strerror(errno) +
                              (errno == ENOENT ? "; make it first" : "; choose another one"));
@@ -63,6 +77,11 @@ void check_output_folder(const std::string& path) {
 void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap) {
     check_output_path(path);
     assert_consistent(picture);
+    const int limit = largest_output_side(path);
+    if (picture.width > limit || picture.height > limit)
+        throw SceneError(path, 0,
+                         "expected at most " + std::to_string(limit) + " pixels a side, found " +
+                             std::to_string(picture.width) + "x" + std::to_string(picture.height));
     switch (kind_of(path)) {
     case Kind::EXR:
         return write_exr(picture, path);

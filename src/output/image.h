@@ -42,6 +42,9 @@ bool is_output_path(const std::string& path);
 /// Throws UsageError when the name ends in none of them, before any work is done.
 void check_output_path(const std::string& path);
 
+/// Pixels that a side of such a picture can have at most; libjpeg ends the process beyond its limit.
+int largest_output_side(const std::string& path);
+
 /// Throws SceneError when the file's folder is not there or cannot be written, before any work is done.
 void check_output_folder(const std::string& path);
 

@@ -144,27 +144,27 @@ std::string report_json(const Report& report) {
 Metadata report_metadata(const Report& report) {
     const Render& render = report.render;
     const auto seconds = [](double value) { return fmt::format("{:.3f}", value); };
-    Metadata metadata{{"Software", "clrt " CLRT_VERSION},
-                      {"clrt:command", command_text(report.options)},
-                      {"clrt:integrator", integrator_name(report.options.integrator)},
-                      {"clrt:device", report.device.platform + ": " + report.device.name},
-                      {"clrt:driver", report.device.driver},
-                      {"clrt:seed", std::to_string(report.options.seed)},
-                      {"clrt:first_sample", std::to_string(report.options.first_sample)},
-                      {"clrt:spp", std::to_string(render.passes)},
-                      {"clrt:seconds.load", seconds(report.load_seconds)},
-                      {"clrt:seconds.bvh", seconds(report.bvh.seconds)},
-                      {"clrt:seconds.compile", seconds(report.compile_seconds)},
-                      {"clrt:seconds.first_launch", seconds(render.first_launch_seconds)},
-                      {"clrt:seconds.render", seconds(render.seconds)},
-                      {"clrt:effects", fmt::format("{}", fmt::join(effect_names(report.effects, true), ", "))},
-                      {"clrt:effects_mask", fmt::format("{:#x}", report.effects.mask)},
-                      {"clrt:nan", std::to_string(render.counts.nan)},
-                      {"clrt:infinite", std::to_string(render.counts.infinite)},
-                      {"clrt:negative", std::to_string(render.counts.negative)},
-                      {"clrt:overflow", std::to_string(render.counts.overflow)}};
+    Metadata metadata{{"version", CLRT_VERSION},
+                      {"command", command_text(report.options)},
+                      {"integrator", integrator_name(report.options.integrator)},
+                      {"device", report.device.platform + ": " + report.device.name},
+                      {"driver", report.device.driver},
+                      {"seed", std::to_string(report.options.seed)},
+                      {"first_sample", std::to_string(report.options.first_sample)},
+                      {"spp", std::to_string(render.passes)},
+                      {"seconds.load", seconds(report.load_seconds)},
+                      {"seconds.bvh", seconds(report.bvh.seconds)},
+                      {"seconds.compile", seconds(report.compile_seconds)},
+                      {"seconds.first_launch", seconds(render.first_launch_seconds)},
+                      {"seconds.render", seconds(render.seconds)},
+                      {"effects", fmt::format("{}", fmt::join(effect_names(report.effects, true), ", "))},
+                      {"effects_mask", fmt::format("{:#x}", report.effects.mask)},
+                      {"nan", std::to_string(render.counts.nan)},
+                      {"infinite", std::to_string(render.counts.infinite)},
+                      {"negative", std::to_string(render.counts.negative)},
+                      {"overflow", std::to_string(render.counts.overflow)}};
     if (report.error)
-        metadata.emplace_back("clrt:error", fmt::format("{:.6g}", report.error->relative_rmse));
+        metadata.emplace_back("error", fmt::format("{:.6g}", report.error->relative_rmse));
     return metadata;
 }
 

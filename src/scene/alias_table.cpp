@@ -73,11 +73,12 @@ AliasTable build_alias_table(const std::vector<double>& weights) {
         }
     }
 
-    // What remains fills its place up to rounding; a weight of 0 must stay unreachable even so.
+    // What remains fills its place up to rounding: k remaining shares below 1 still sum to k, so none is 0.
     for (const std::vector<u32>* rest : {&small, &large})
-        for (u32 i : *rest)
-            table.entries[i] =
-                weights[i] > 0 ? AliasEntry{i, FULL} : AliasEntry{u32(heaviest - weights.begin()), 0};
+        for (u32 i : *rest) {
+            assert(weights[i] > 0);
+            table.entries[i] = {i, FULL};
+        }
     table.probability = exact_probabilities(table.entries);
     return table;
 }

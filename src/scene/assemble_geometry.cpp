@@ -108,9 +108,8 @@ Bounds bounds_of_triangles(const ObjMesh& mesh) {
         });
 }
 
-void assemble_geometry(ObjMesh& mesh, const Normalisation& frame, const std::string& obj_path, Scene& scene,
-                       NoticeList& notices) {
-    const Bounds bounds = bounds_of_triangles(mesh);
+void assemble_geometry(ObjMesh& mesh, const Bounds& bounds, const Normalisation& frame,
+                       const std::string& obj_path, Scene& scene, NoticeList& notices) {
     for (const glm::dvec3& corner : {to_normalised(frame, bounds.low), to_normalised(frame, bounds.high)})
         for (int c = 0; c < 3; ++c)
             scene.extent = std::max(scene.extent, float(std::fabs(corner[c])));

@@ -11,6 +11,8 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 namespace clrt {
 namespace {
@@ -57,14 +59,16 @@ void mark_cells(Cells& cells, const glm::dvec2 (&corner)[3]) {
 
 struct Corners {
     glm::dvec3 p[3];
-    glm::dvec3 normal;
 };
+
+/// Component `axis` of the triangle's normal, of any length.
+double normal_along(const Corners& corners, int axis) {
+    return glm::cross(corners.p[1] - corners.p[0], corners.p[2] - corners.p[0])[axis];
+}
 
 /// Marks what one triangle covers of one face, if it lies near the face and its front looks into the box.
 void cover_face(Cells& cells, const Face& face, const Corners& corners, const Bounds& box) {
     const glm::dvec3 size = box.high - box.low;
-    if (corners.normal[face.axis] * face.sign >= 0)
-        return;
     const double plane = face.sign > 0 ? box.high[face.axis] : box.low[face.axis];
     const int u = (face.axis + 1) % 3, v = (face.axis + 2) % 3;
     glm::dvec2 on_grid[3];
@@ -74,7 +78,8 @@ void cover_face(Cells& cells, const Face& face, const Corners& corners, const Bo
         on_grid[i] = {(corners.p[i][u] - box.low[u]) / size[u] * GRID,
                       (corners.p[i][v] - box.low[v]) / size[v] * GRID};
     }
-    mark_cells(cells, on_grid);
+    if (normal_along(corners, face.axis) * face.sign < 0)
+        mark_cells(cells, on_grid);
 }
 
 Corners corners_of(const std::vector<vec4>& positions, const Triangle& triangle) {
@@ -82,20 +87,34 @@ Corners corners_of(const std::vector<vec4>& positions, const Triangle& triangle)
     const u32 index[3] = {triangle.v0, triangle.v1, triangle.v2};
     for (int i = 0; i < 3; ++i)
         corners.p[i] = {positions[index[i]].x, positions[index[i]].y, positions[index[i]].z};
-    corners.normal = glm::cross(corners.p[1] - corners.p[0], corners.p[2] - corners.p[0]);
     return corners;
 }
 
+constexpr size_t GRAIN = 1 << 14; // triangles per task
+
 Bounds bounds_of(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles) {
-    Bounds box{glm::dvec3(std::numeric_limits<double>::max()),
-               glm::dvec3(-std::numeric_limits<double>::max())};
-    for (const Triangle& triangle : triangles)
-        for (u32 i : {triangle.v0, triangle.v1, triangle.v2}) {
-            const glm::dvec3 p(positions[i].x, positions[i].y, positions[i].z);
-            box.low = glm::min(box.low, p);
-            box.high = glm::max(box.high, p);
-        }
-    return box;
+    const double most = std::numeric_limits<double>::max();
+    return tbb::parallel_reduce(
+        tbb::blocked_range<size_t>(0, triangles.size(), GRAIN), Bounds{glm::dvec3(most), glm::dvec3(-most)},
+        [&](const tbb::blocked_range<size_t>& range, Bounds box) {
+            for (size_t i = range.begin(); i < range.end(); ++i)
+                for (const glm::dvec3& p : corners_of(positions, triangles[i]).p) {
+                    box.low = glm::min(box.low, p);
+                    box.high = glm::max(box.high, p);
+                }
+            return box;
+        },
+        [](const Bounds& a, const Bounds& b) {
+            return Bounds{glm::min(a.low, b.low), glm::max(a.high, b.high)};
+        });
+}
+
+using FaceCells = std::array<Cells, 6>;
+
+FaceCells merge(FaceCells a, const FaceCells& b) {
+    for (size_t f = 0; f < 6; ++f)
+        a[f] |= b[f];
+    return a;
 }
 
 /// Half the vertical and half the horizontal angle of view, as tangents.
@@ -175,12 +194,17 @@ BoxCover measure_box_cover(const std::vector<vec4>& positions, const std::vector
     const glm::dvec3 size = box.high - box.low;
     if (!(size.x > 0 && size.y > 0 && size.z > 0))
         return cover; // nothing, or flat: no room
-    std::array<Cells, 6> cells;
-    for (const Triangle& triangle : triangles) {
-        const Corners corners = corners_of(positions, triangle);
-        for (size_t f = 0; f < 6; ++f)
-            cover_face(cells[f], FACES[f], corners, box);
-    }
+    const FaceCells cells = tbb::parallel_reduce(
+        tbb::blocked_range<size_t>(0, triangles.size(), GRAIN), FaceCells{},
+        [&](const tbb::blocked_range<size_t>& range, FaceCells marked) {
+            for (size_t i = range.begin(); i < range.end(); ++i) {
+                const Corners corners = corners_of(positions, triangles[i]);
+                for (size_t f = 0; f < 6; ++f)
+                    cover_face(marked[f], FACES[f], corners, box);
+            }
+            return marked;
+        },
+        merge);
     for (size_t f = 0; f < 6; ++f)
         cover[f] = double(cells[f].count()) / (GRID * GRID);
     return cover;

@@ -63,7 +63,7 @@ std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, 
     };
     std::vector<double> exitance;
     for (size_t i = 0; i < mesh.material_names.size(); ++i) {
-        progress.update({"load", double(i) / double(mesh.material_names.size())});
+        progress.update({"textures", double(i) / double(mesh.material_names.size())});
         SourcePlace place;
         const RuledMaterial ruled =
             material_by_name(mesh.material_names[i], mesh.material_lines[i], options.scene_path, library,
@@ -117,7 +117,7 @@ Scene load_scene(const Options& options, Progress& progress) {
     const Bounds bounds = bounds_of_triangles(mesh);
     scene.normalisation = fit_normalisation(bounds);
     const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
-    assemble_geometry(mesh, scene.normalisation, options.scene_path, scene, notices);
+    assemble_geometry(mesh, bounds, scene.normalisation, options.scene_path, scene, notices);
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
     const bool whole_camera = options.camera.eye && options.camera.at;

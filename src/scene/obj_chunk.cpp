@@ -85,7 +85,6 @@ std::string parse_face(std::string_view rest, size_t line, ObjChunk& chunk) {
         chunk.corners.push_back(corner);
     }
     if (chunk.corners.size() - first < 3) {
-        chunk.corners.resize(first);
         chunk.tallies[FEW_CORNERS].add(line);
         return {};
     }

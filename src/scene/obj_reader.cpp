@@ -231,9 +231,9 @@ void triangulate_piece(Piece& piece, ObjMesh& mesh) {
     for (size_t f = 0; f < piece.chunk.faces.size(); ++f) {
         const ObjFace& face = piece.chunk.faces[f];
         const ObjCorner* const corners = piece.chunk.corners.data() + face.first_corner;
-        while (material + 1 != piece.materials.end() && material[1].first_face <= f)
+        if (material + 1 != piece.materials.end() && material[1].first_face <= f)
             ++material;
-        while (object + 1 != piece.objects.end() && object[1].first_face <= f)
+        if (object + 1 != piece.objects.end() && object[1].first_face <= f)
             ++object;
         polygon.clear();
         for (size_t c = 0; c < face.end_corner - face.first_corner; ++c)

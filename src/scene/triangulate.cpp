@@ -141,8 +141,9 @@ EarClipper::EarClipper(const std::vector<glm::dvec2>& points, std::vector<u32>& 
 }
 
 bool EarClipper::clip() {
-    const bool proper = clip_with(Rule::STRICT) || clip_with(Rule::RELAXED);
-    // A fan for the rest: the last triangle, or what is no polygon at all.
+    // Polygons that cross themselves may end in a triangle that is turned over.
+    const bool proper = (clip_with(Rule::STRICT) || clip_with(Rule::RELAXED)) && turn_at(at_) >= 0;
+    // A fan for the rest: the last triangle, or what has no ears.
     for (; left_ > 2; cut(next_[at_]))
         continue;
     return proper;
