@@ -8,26 +8,6 @@
 #include "numerics/vector.h"
 #include "shared/render_types.h"
 
-/* Rays of one work-item. */
-typedef struct {
-    uint primary, secondary, shadow;
-} RayCount;
-
-/* Adds to a 64-bit counter kept as two words. */
-static inline void film_count_long(global volatile uint* counter, uint value)
-{
-    const uint before = atomic_add(counter, value);
-    if (before + value < before)
-        atomic_inc(counter + 1);
-}
-
-static inline void film_count_rays(global volatile uint* counters, const RayCount* rays)
-{
-    film_count_long(counters + COUNT_RAYS_PRIMARY_LOW, rays->primary);
-    film_count_long(counters + COUNT_RAYS_SECONDARY_LOW, rays->secondary);
-    film_count_long(counters + COUNT_RAYS_SHADOW_LOW, rays->shadow);
-}
-
 /* Which counter a bad sample belongs to; COUNT_WORDS for a good one. */
 static inline uint film_fault(const RenderParams* params, real3 radiance)
 {
@@ -56,13 +36,12 @@ static inline void film_report_fault(global volatile uint* counters, uint fault,
 /* Rounds a value in quanta up or down with the probability of its fraction: dark pixels stay unbiased. */
 static inline long film_round(real quanta, uint word) { return convert_long(floor(quanta + sampler_unit(word))); }
 
-/* The three sums of a pixel in a replicate; `slot` is the pixel's place in the window. Replicates are folded where not all
-   are kept apart. */
+/* The three sums of a pixel (by its slot, tile.h) in a replicate. Replicates are folded where not all are kept apart. */
 static inline global long* film_sums(const RenderParams* params, global long* film, uint slot, uint replicate)
 {
-    const ulong pixels = (ulong)params->crop_width * params->crop_height;
+    const ulong slots = (ulong)params->tile_count * TILE_PIXELS;
     const uint kept = replicate < params->film_replicates ? replicate : replicate % params->film_replicates;
-    return film + 3u * (kept * pixels + slot);
+    return film + 3u * (kept * slots + slot);
 }
 
 /* Adds the radiance of a good sample. */

@@ -6,17 +6,23 @@
 
 #include "shared/render_types.h"
 
-#define TILE_SIZE 8
+typedef struct {
+    uint x, y; /* within the window */
+    uint slot; /* place among the film's sums: tile by tile, rows within a tile */
+} TilePixel;
 
-/* The pixel of this work-item within the window; false for padding. */
-static inline bool tile_pixel(const RenderParams* params, uint2* pixel)
+/* The pixel of this work-item; false for padding. */
+static inline bool tile_pixel(const RenderParams* params, TilePixel* pixel)
 {
     const uint group = params->first_tile + (uint)(get_group_id(1) * get_num_groups(0) + get_group_id(0));
     if (group >= params->end_tile)
         return false;
     const uint tile = (uint)(((ulong)group * params->tile_stride) % params->tile_count);
-    pixel->x = (tile % params->tiles_x) * TILE_SIZE + (uint)get_local_id(0);
-    pixel->y = (tile / params->tiles_x) * TILE_SIZE + (uint)get_local_id(1);
+    const uint x = (uint)get_local_id(0);
+    const uint y = (uint)get_local_id(1);
+    pixel->x = (tile % params->tiles_x) * TILE_SIZE + x;
+    pixel->y = (tile / params->tiles_x) * TILE_SIZE + y;
+    pixel->slot = tile * TILE_PIXELS + y * TILE_SIZE + x;
     return pixel->x < params->crop_width && pixel->y < params->crop_height;
 }
 

@@ -17,7 +17,7 @@
 /* 1 + 2 gamma(7): the exit distance's share of the rounding of products and reciprocals (Ize 2013). */
 #define BOX_EXIT_FACTOR (REAL(1.0) + REAL(14.0) * REAL_ROUNDING * REAL(1.0000005))
 
-/* Per-ray constants: distance to a plane = fma(plane, reciprocal, entry or exit). */
+/* Per-ray constants of a valid ray: distance to a plane = fma(plane, reciprocal, entry or exit). */
 typedef struct {
     real3 reciprocal;
     real3 entry;
@@ -28,9 +28,10 @@ static inline BoxRay box_ray_make(const Ray* ray, real scene_extent)
 {
     BoxRay box;
     const real3 d = ray->direction;
-    const real3 clamped = copysign(fmax(fabs(d), (real3)(BOX_SMALLEST_DIRECTION)), d);
+    const real3 clamped = copysign(max(fabs(d), (real3)(BOX_SMALLEST_DIRECTION)), d);
     box.reciprocal = REAL(1.0) / clamped;
-    const real reach = fmax(vector_max_abs(ray->origin), scene_extent);
+    const real3 o = fabs(ray->origin);
+    const real reach = max(max(o.x, o.y), max(o.z, scene_extent));
     const real3 pad = fabs(box.reciprocal) * (BOX_PAD_ROUNDINGS * FLOAT_ROUNDING * reach);
     const real3 offset = ray->origin * box.reciprocal;
     box.entry = -offset - pad;

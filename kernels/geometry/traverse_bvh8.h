@@ -28,6 +28,9 @@ static inline uint bvh8_lanes(mask8 mask)
 #endif
 }
 
+/* The lowest lane of a mask that is not 0. */
+static inline uint bvh8_first_lane(uint lanes) { return 31u - clz(lanes & -lanes); }
+
 /* Tests the node's eight boxes against (0, t_max]; gives the lanes that are met and all entry distances. */
 static inline uint bvh8_enter(global const uint* node, const BoxRay* box, uint8 planes, real t_max, real8* entry)
 {
@@ -52,47 +55,52 @@ static inline uint8 bvh8_planes(real3 reciprocal)
     return (uint8)(x, y, z, 8u - x, 40u - y, 72u - z, 0u, 0u);
 }
 
-/* Tests a block's eight triangles; gives the lanes hit within (0, t_max] and their t, b1, b2. */
-static inline uint bvh8_block(global const uint* block, const RayShear* shear, real t_max, real8* t, real8* b1,
-                              real8* b2)
+/* What a block's eight triangles give, before the divisions by det that only a hit needs. */
+typedef struct {
+    real8 v, w, det;
+    real8 t;
+    uint lanes; /* hit within (0, t_max] */
+} BlockHits;
+
+static inline BlockHits bvh8_block(global const uint* block, const RayShear* shear, real t_max)
 {
     global const uint* words[3] = {block + 24u * shear->kx, block + 24u * shear->ky, block + 24u * shear->kz};
     const real8 x[3] = {bvh8_load(words[0]), bvh8_load(words[0] + 8), bvh8_load(words[0] + 16)};
     const real8 y[3] = {bvh8_load(words[1]), bvh8_load(words[1] + 8), bvh8_load(words[1] + 16)};
     const real8 z[3] = {bvh8_load(words[2]), bvh8_load(words[2] + 8), bvh8_load(words[2] + 16)};
-    real8 u, v, w, det, t_det;
-    triangle_edges_8(shear, x, y, z, &u, &v, &w, &det, &t_det);
-    const mask8 inside = (min(u, min(v, w)) >= REAL(0.0)) | (max(u, max(v, w)) <= REAL(0.0));
-    const uint candidates = bvh8_lanes(inside & (det != REAL(0.0)));
-    if (candidates == 0u)
-        return 0u;
-    *t = t_det / det;
-    *b1 = v / det;
-    *b2 = w / det;
-    return candidates & bvh8_lanes((*t > REAL(0.0)) & (*t <= t_max));
+    BlockHits hits;
+    real8 u, t_det;
+    triangle_edges_8(shear, x, y, z, &u, &hits.v, &hits.w, &hits.det, &t_det);
+    const mask8 inside = (min(u, min(hits.v, hits.w)) >= REAL(0.0)) | (max(u, max(hits.v, hits.w)) <= REAL(0.0));
+    hits.lanes = bvh8_lanes(inside & (hits.det != REAL(0.0)));
+    if (hits.lanes != 0u) {
+        hits.t = t_det / hits.det;
+        hits.lanes &= bvh8_lanes((hits.t > REAL(0.0)) & (hits.t <= t_max));
+    }
+    return hits;
 }
 
 /* Keeps the first of the block's hits that comes after `after`. */
 static inline void bvh8_block_closest(global const uint* block, const RayShear* shear, const Hit* after, Hit* hit)
 {
-    real8 t, b1, b2;
-    uint lanes = bvh8_block(block, shear, hit->t, &t, &b1, &b2);
-    if (lanes == 0u)
+    const BlockHits hits = bvh8_block(block, shear, hit->t);
+    if (hits.lanes == 0u)
         return;
-    real ts[8], b1s[8], b2s[8];
-    vstore8(t, 0, ts);
-    vstore8(b1, 0, b1s);
-    vstore8(b2, 0, b2s);
-    for (; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = 31u - clz(lanes & -lanes);
+    real t[8], v[8], w[8], det[8];
+    vstore8(hits.t, 0, t);
+    vstore8(hits.v, 0, v);
+    vstore8(hits.w, 0, w);
+    vstore8(hits.det, 0, det);
+    for (uint lanes = hits.lanes; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = bvh8_first_lane(lanes);
         const uint triangle = block[BVH8_BLOCK_ID_WORD + lane];
-        if (!hit_is_before(ts[lane], triangle, hit->t, hit->triangle))
+        if (!hit_is_before(t[lane], triangle, hit->t, hit->triangle))
             continue;
-        if (HAS(EFFECT_CUT_OUT) && !hit_is_before(after->t, after->triangle, ts[lane], triangle))
+        if (HAS(EFFECT_CUT_OUT) && !hit_is_before(after->t, after->triangle, t[lane], triangle))
             continue;
-        hit->t = ts[lane];
-        hit->b1 = b1s[lane];
-        hit->b2 = b2s[lane];
+        hit->t = t[lane];
+        hit->b1 = v[lane] / det[lane];
+        hit->b2 = w[lane] / det[lane];
         hit->triangle = triangle;
     }
 }
@@ -103,15 +111,14 @@ static inline int bvh8_push_sorted(global const uint* children, uint lanes, cons
 {
     const int bottom = top;
     for (; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = 31u - clz(lanes & -lanes);
+        const uint lane = bvh8_first_lane(lanes);
         const real t = entries[lane];
-        const uint child = children[lane];
         int slot = top++;
         for (; slot > bottom && stack_t[slot - 1] < t; --slot) {
             stack[slot] = stack[slot - 1];
             stack_t[slot] = stack_t[slot - 1];
         }
-        stack[slot] = child;
+        stack[slot] = children[lane];
         stack_t[slot] = t;
     }
     return top;
@@ -137,12 +144,22 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
             const uint lanes = bvh8_enter(node, &box, planes, hit->t, &entry);
             if (lanes == 0u)
                 break;
-            const uint first = 31u - clz(lanes & -lanes);
-            if ((lanes & (lanes - 1u)) == 0u) {
+            /* One or two children are the usual case, and need no sorting. */
+            const uint first = bvh8_first_lane(lanes);
+            uint rest = lanes & (lanes - 1u);
+            if (rest == 0u) {
                 child = node[BVH8_CHILD_WORD + first];
                 continue;
             }
             vstore8(entry, 0, entries);
+            if ((rest & (rest - 1u)) == 0u) {
+                const uint second = bvh8_first_lane(rest);
+                const bool swapped = entries[second] < entries[first];
+                stack[top] = node[BVH8_CHILD_WORD + (swapped ? first : second)];
+                stack_t[top++] = entries[swapped ? first : second];
+                child = node[BVH8_CHILD_WORD + (swapped ? second : first)];
+                continue;
+            }
             top = bvh8_push_sorted(node + BVH8_CHILD_WORD, lanes, entries, stack, stack_t, top) - 1;
             child = stack[top];
         }
@@ -168,15 +185,13 @@ static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* p
     uint child = 0;
     for (;;) {
         if (child & BVH_LEAF_BIT) {
-            real8 t, b1, b2;
-            if (bvh8_block(scene->bvh_leaves + BVH8_BLOCK_WORDS * (child & ~BVH_LEAF_BIT), &shear, ray->t_max, &t, &b1,
-                           &b2))
+            if (bvh8_block(scene->bvh_leaves + BVH8_BLOCK_WORDS * (child & ~BVH_LEAF_BIT), &shear, ray->t_max).lanes)
                 return true;
         } else {
             global const uint* node = scene->bvh_nodes + BVH8_NODE_WORDS * child;
             real8 entry;
             for (uint lanes = bvh8_enter(node, &box, planes, ray->t_max, &entry); lanes != 0u; lanes &= lanes - 1u)
-                stack[top++] = node[BVH8_CHILD_WORD + 31u - clz(lanes & -lanes)];
+                stack[top++] = node[BVH8_CHILD_WORD + bvh8_first_lane(lanes)];
         }
         if (top == 0)
             return false;

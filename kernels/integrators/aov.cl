@@ -54,7 +54,7 @@ kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void rende
                                                                                       SCENE_PARAMS,
                                                                                       global float* restrict layers)
 {
-    uint2 place;
+    TilePixel place;
     if (!tile_pixel(&params, &place))
         return;
     const Scene scene = SCENE_MAKE;

@@ -28,7 +28,7 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
 
 /* What one sampled light sends towards the eye by way of the surface. */
 static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                       const Bsdf* bsdf, bool highlight, const LightSample* light, RayCount* rays)
+                                       const Bsdf* bsdf, bool highlight, const LightSample* light, PixelRays* rays)
 {
     const real3 nothing = (real3)(REAL(0.0));
     if (light->pdf_w == REAL(0.0))
@@ -43,7 +43,7 @@ static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* p
 
 /* Sums over all lights; `node` addresses the random numbers of this surface. */
 static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint node,
-                                        const Surface* surface, const Bsdf* bsdf, bool highlight, RayCount* rays)
+                                        const Surface* surface, const Bsdf* bsdf, bool highlight, PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
     const uint alias_word = sampler_word(sampler, node, SAMPLE_LIGHT_ALIAS);

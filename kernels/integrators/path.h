@@ -11,6 +11,25 @@
 /* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
 #define PATH_SMALLEST_SURVIVAL REAL(0.05)
 
+/* The random numbers of one vertex. They are drawn before the ray is traced: they do not wait for the hit, so a processor
+   that works ahead hides their long chain of multiplications. */
+typedef struct {
+    uint2 light;
+    uint alias;
+    real lobe;
+    real2 direction;
+} PathNumbers;
+
+static inline PathNumbers path_numbers(const Sampler* sampler, uint segment)
+{
+    PathNumbers numbers;
+    numbers.light = sampler_pair_words(sampler, segment, SAMPLE_LIGHT);
+    numbers.alias = sampler_word(sampler, segment, SAMPLE_LIGHT_ALIAS);
+    numbers.lobe = sampler_number(sampler, segment, SAMPLE_LOBE);
+    numbers.direction = sampler_pair(sampler, segment, SAMPLE_DIRECTION);
+    return numbers;
+}
+
 /* Emission of a surface hit at distance t, weighted against the light sampling that could have found it. */
 static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface, real t, real3 wo,
                                   real pdf_w)
@@ -23,11 +42,12 @@ static inline real3 path_emission(const Scene* scene, const RenderParams* params
 }
 
 /* Radiance that one sampled light sends towards the eye by way of this surface, weighted against BSDF sampling. */
-static CLRT_NOINLINE real3 path_direct(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint segment,
-                                       const Surface* surface, const Bsdf* bsdf, RayCount* rays)
+static CLRT_NOINLINE real3 path_direct(const Scene* scene, const RenderParams* params, const PathNumbers* numbers,
+                                       const Surface* surface, const Bsdf* bsdf, PixelRays* rays)
 {
     const real3 nothing = (real3)(REAL(0.0));
-    const LightSample light = lights_sample(scene, params, sampler, segment, surface, bsdf->frame.z);
+    const LightSample light =
+        lights_sample(scene, params, surface, bsdf->frame.z, numbers->light, numbers->alias);
     if (light.pdf_w == REAL(0.0))
         return nothing;
     const BsdfValue eval = bsdf_eval(bsdf, light.wi);
@@ -59,7 +79,7 @@ static inline bool path_survives(const RenderParams* params, const Sampler* samp
 }
 
 static CLRT_NOINLINE real3 path_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler, Ray ray,
-                                         RayCount* rays)
+                                         PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
     real3 throughput = (real3)(REAL(1.0));
@@ -67,6 +87,7 @@ static CLRT_NOINLINE real3 path_radiance(const Scene* scene, const RenderParams*
     real pdf_w = REAL(0.0); /* of the ray's direction; 0 for camera rays and delta lobes */
     for (uint segment = 1u;; ++segment) {
         const real3 wo = -ray.direction;
+        const PathNumbers numbers = path_numbers(sampler, segment);
 
         /* Find the next vertex. */
         const Hit hit = visible_hit(scene, params, sampler, segment, &ray);
@@ -85,20 +106,19 @@ static CLRT_NOINLINE real3 path_radiance(const Scene* scene, const RenderParams*
         if (bsdf.lobes == 0u)
             break;
 
-        /* Connect it to a light. */
-        if (bsdf_has_smooth_lobe(&bsdf))
-            radiance += throughput * path_direct(scene, params, sampler, segment, &surface, &bsdf, rays);
-
         /* Choose the next direction. */
-        const real u_lobe = sampler_number(sampler, segment, SAMPLE_LOBE);
-        const BsdfSample sample = bsdf_sample(&bsdf, u_lobe, sampler_pair(sampler, segment, SAMPLE_DIRECTION));
+        const BsdfSample sample = bsdf_sample(&bsdf, numbers.lobe, numbers.direction);
+
+        /* Connect to a light. */
+        if (bsdf_has_smooth_lobe(&bsdf))
+            radiance += throughput * path_direct(scene, params, &numbers, &surface, &bsdf, rays);
+
+        /* Go on, or let Russian roulette end the path. */
         if (!sample.is_valid)
             break;
         throughput *= sample.weight;
         pdf_w = sample.pdf_w;
         eta_squared *= sample.eta * sample.eta;
-
-        /* Play Russian roulette. */
         if (!path_survives(params, sampler, segment, eta_squared, &throughput))
             break;
         ray = ray_make(surface_origin(&surface, sample.wi), sample.wi);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop over a pixel's samples that all integrators share. An integrator defines
-//   real3 NAME(const Scene*, const RenderParams*, const Sampler*, Ray, RayCount*)
+//   real3 NAME(const Scene*, const RenderParams*, const Sampler*, Ray, PixelRays*)
 // which gives the radiance along a camera ray, and instantiates RENDER_KERNEL(render_x, NAME).
 #ifndef CLRT_INTEGRATORS_PIXEL_H
 #define CLRT_INTEGRATORS_PIXEL_H
@@ -36,21 +36,20 @@ static inline void sample_counter_next(const RenderParams* params, SampleCounter
 /* Defines the loop over samples and the entry point. The entry point is thin and the loop is out of line, because some
    compilers compile an entry point's body several times. */
 #define RENDER_KERNEL(KERNEL, RADIANCE)                                                                       \
-    static CLRT_NOINLINE void KERNEL##_pixel(const Scene* scene, const RenderParams* params, uint2 place,     \
-                                             global long* film, global volatile uint* counters)               \
+    static CLRT_NOINLINE void KERNEL##_pixel(const Scene* scene, const RenderParams* params, TilePixel place, \
+                                             global long* film, global PixelRays* pixel_rays,                 \
+                                             global volatile uint* counters)                                  \
     {                                                                                                         \
         const uint x = params->crop_x + place.x;                                                              \
         const uint y = params->crop_y + place.y;                                                              \
         const uint pixel = y * params->width + x;                                                             \
-        const uint slot = place.y * params->crop_width + place.x;                                             \
-        RayCount rays = {0u, 0u, 0u};                                                                         \
+        PixelRays rays = {0u, 0u};                                                                            \
         SampleCounter counter = sample_counter_make(params);                                                  \
         for (uint i = 0; i < params->sample_count; ++i, sample_counter_next(params, &counter)) {              \
-            global long* sums = film_sums(params, film, slot, counter.replicate);                             \
+            global long* sums = film_sums(params, film, place.slot, counter.replicate);                       \
             CLRT_PREFETCH(sums);                                                                              \
             const Sampler sampler = sampler_make(params->seed, pixel, counter.replicate, counter.index);      \
             const Ray ray = camera_ray(params, &sampler, x, y);                                               \
-            ++rays.primary;                                                                                   \
             const real3 radiance = RADIANCE(scene, params, &sampler, ray, &rays);                             \
             const uint fault = film_fault(params, radiance);                                                  \
             if (fault == COUNT_WORDS)                                                                         \
@@ -58,17 +57,19 @@ static inline void sample_counter_next(const RenderParams* params, SampleCounter
             else                                                                                              \
                 film_report_fault(counters, fault, pixel, counter.sample);                                    \
         }                                                                                                     \
-        film_count_rays(counters, &rays);                                                                     \
+        pixel_rays[place.slot].secondary += rays.secondary;                                                   \
+        pixel_rays[place.slot].shadow += rays.shadow;                                                         \
     }                                                                                                         \
                                                                                                               \
     kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
-        const RenderParams params, SCENE_PARAMS, global long* restrict film, global volatile uint* counters)  \
+        const RenderParams params, SCENE_PARAMS, global long* restrict film,                                  \
+        global PixelRays* restrict pixel_rays, global volatile uint* counters)                                \
     {                                                                                                         \
-        uint2 place;                                                                                          \
+        TilePixel place;                                                                                      \
         if (!tile_pixel(&params, &place))                                                                     \
             return;                                                                                           \
         const Scene scene = SCENE_MAKE;                                                                       \
-        KERNEL##_pixel(&scene, &params, place, film, counters);                                               \
+        KERNEL##_pixel(&scene, &params, place, film, pixel_rays, counters);                                   \
     }
 
 #endif

@@ -6,7 +6,7 @@
 #include "direct.h"
 
 static CLRT_NOINLINE real3 raycast_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                            Ray ray, RayCount* rays)
+                                            Ray ray, PixelRays* rays)
 {
     const real3 wo = -ray.direction;
     const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);

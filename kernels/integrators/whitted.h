@@ -66,7 +66,7 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
 }
 
 static CLRT_NOINLINE real3 whitted_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                            Ray ray, RayCount* rays)
+                                            Ray ray, PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
     WhittedRay stack[WHITTED_MAX_DEPTH + 1];

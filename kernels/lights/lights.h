@@ -12,11 +12,9 @@
 /* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities, then a
    light of that kind, then a point on it. The probability of the choice is in pdf_w. One pair of words serves all: what is
    left of the first after choosing the light, and of the second after choosing the kind, gives the point. */
-static inline LightSample lights_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                        uint bounce, const Surface* surface, real3 n)
+static inline LightSample lights_sample(const Scene* scene, const RenderParams* params, const Surface* surface, real3 n,
+                                        uint2 words, uint alias_word)
 {
-    const uint2 words = sampler_pair_words(sampler, bounce, SAMPLE_LIGHT);
-    const uint alias_word = sampler_word(sampler, bounce, SAMPLE_LIGHT_ALIAS);
     const real v = sampler_unit(words.y);
     const real emitter = (real)params->choose_emitter;
     const real sky = (real)params->choose_environment;

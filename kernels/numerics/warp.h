@@ -42,12 +42,9 @@ static inline real warp_cone_pdf_w(real one_minus_cos) { return REAL(1.0) / (REA
 /* Barycentric weights of corners 1 and 2 of a uniform point of a triangle (Heitz 2019, low distortion). */
 static inline real2 warp_triangle(real2 u)
 {
-    if (u.y > u.x) {
-        const real b1 = REAL(0.5) * u.x;
-        return (real2)(b1, u.y - b1);
-    }
-    const real b2 = REAL(0.5) * u.y;
-    return (real2)(u.x - b2, b2);
+    /* Half of the smaller coordinate is one weight, the rest of the larger the other. */
+    const real half_smaller = REAL(0.5) * min(u.x, u.y);
+    return u - (real2)(half_smaller);
 }
 
 /* An index below count from a word, each with the probability of its share of 2^32. */

@@ -54,17 +54,24 @@ typedef struct {
 } RenderParams;
 ASSERT_SIZE(RenderParams, 240);
 
+/* The picture is rendered and summed in tiles of 8 x 8 pixels; sums of a tile lie together. */
+#define TILE_SIZE 8
+#define TILE_PIXELS 64
+
+/* Rays of a pixel, over all its samples. */
+typedef struct {
+    u32 secondary, shadow;
+} PixelRays;
+ASSERT_SIZE(PixelRays, 8);
+
 /* Counters of a run, u32 each. */
 #define COUNT_NAN 0
 #define COUNT_INFINITE 1
 #define COUNT_NEGATIVE 2
 #define COUNT_OVERFLOW 3
-#define COUNT_RAYS_PRIMARY_LOW 4 /* 64-bit counts as two words: low, high */
-#define COUNT_RAYS_SECONDARY_LOW 6
-#define COUNT_RAYS_SHADOW_LOW 8
-#define COUNT_BAD_SAMPLES 10     /* entries written to the replay list, may exceed its capacity */
+#define COUNT_BAD_SAMPLES 4 /* entries written to the replay list, may exceed its capacity */
 #define COUNT_WORDS 16
-#define REPLAY_CAPACITY 64       /* (pixel, sample) pairs after the counters */
+#define REPLAY_CAPACITY 64  /* (pixel, sample) pairs after the counters */
 
 SHARED_END
 

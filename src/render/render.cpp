@@ -19,9 +19,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t DEFAULT_SPP = 64;
-constexpr u32 TILE = 8;
 /// Launches aim at this long: short enough for progress, Ctrl-C and the watchdogs of display drivers.
-constexpr double LAUNCH_SECONDS = 0.25;
+constexpr double LAUNCH_SECONDS = 0.5;
 /// Work-groups a row of the launch grid; keeps both grid dimensions below 65535 work-items, beyond which some drivers
 /// compile another variant.
 constexpr u32 GRID_COLUMNS = 2048;
@@ -53,8 +52,8 @@ public:
         const u32 columns = std::min(groups, GRID_COLUMNS);
         const u32 rows = (groups + columns - 1) / columns;
         check_opencl("rendering", [&] {
-            device_.queue.enqueueNDRangeKernel(kernel_.handle(), cl::NullRange, cl::NDRange(columns * TILE, rows * TILE),
-                                               cl::NDRange(TILE, TILE));
+            device_.queue.enqueueNDRangeKernel(kernel_.handle(), cl::NullRange, cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
+                                               cl::NDRange(TILE_SIZE, TILE_SIZE));
             device_.queue.finish();
         });
     }
@@ -65,9 +64,14 @@ private:
     RenderParams params_;
 };
 
+/// Slots of the film: whole tiles.
+size_t film_slots(const RenderParams& params) {
+    return size_t(params.tile_count) * TILE_PIXELS;
+}
+
 /// Halves the number of replicates kept apart until their sums fit the device.
 int fitting_replicates(const Device& device, const RenderParams& params) {
-    const size_t plane = size_t(params.crop_width) * params.crop_height * 3 * sizeof(std::int64_t);
+    const size_t plane = film_slots(params) * 3 * sizeof(std::int64_t);
     const size_t most = std::min(device.info.largest_buffer_bytes, device.info.memory_bytes / 2);
     int replicates = int(params.replicates);
     while (size_t(replicates) * plane > most && replicates % 2 == 0)
@@ -78,19 +82,12 @@ int fitting_replicates(const Device& device, const RenderParams& params) {
     return replicates;
 }
 
-std::uint64_t long_count(const std::vector<u32>& words, size_t low) {
-    return words[low] | (std::uint64_t(words[low + 1]) << 32);
-}
-
 RenderCounts read_counts(const std::vector<u32>& words) {
     RenderCounts counts;
     counts.nan = words[COUNT_NAN];
     counts.infinite = words[COUNT_INFINITE];
     counts.negative = words[COUNT_NEGATIVE];
     counts.overflow = words[COUNT_OVERFLOW];
-    counts.primary = long_count(words, COUNT_RAYS_PRIMARY_LOW);
-    counts.secondary = long_count(words, COUNT_RAYS_SECONDARY_LOW);
-    counts.shadow = long_count(words, COUNT_RAYS_SHADOW_LOW);
     const u32 noted = std::min<u32>(words[COUNT_BAD_SAMPLES], REPLAY_CAPACITY);
     for (u32 i = 0; i < noted; ++i)
         counts.bad_samples.emplace_back(words[COUNT_WORDS + 2 * i], words[COUNT_WORDS + 2 * i + 1]);
@@ -196,6 +193,53 @@ void render_layers(const Device& device, const Program& program, const SceneBuff
     });
 }
 
+/// The buffers that a render writes to.
+struct Targets {
+    cl::Buffer film, pixel_rays, counters;
+};
+
+Targets create_targets(const Device& device, const RenderParams& params) {
+    const size_t slots = film_slots(params);
+    return {create_buffer(device, "film", slots * 3 * params.film_replicates * sizeof(std::int64_t)),
+            create_buffer(device, "pixel_rays", slots * sizeof(PixelRays)),
+            create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))};
+}
+
+template <class T>
+std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t count) {
+    std::vector<T> values(count);
+    check_opencl("reading the picture back", [&] {
+        device.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
+    });
+    return values;
+}
+
+/// Reads one replicate after the other from the device's tiles into the film's rows.
+void read_film(const Device& device, const RenderParams& params, const cl::Buffer& buffer, Film& film) {
+    const size_t slots = film_slots(params);
+    const std::vector<std::int64_t> tiles = read_buffer<std::int64_t>(device, buffer, slots * 3 * film.replicates);
+    film.sums.resize(size_t(film.replicates) * film.width * film.height * 3);
+    size_t out = 0;
+    for (size_t r = 0; r < size_t(film.replicates); ++r)
+        for (u32 y = 0; y < params.crop_height; ++y)
+            for (u32 x = 0; x < params.crop_width; ++x, out += 3) {
+                const size_t tile = size_t(y / TILE_SIZE) * params.tiles_x + x / TILE_SIZE;
+                const size_t slot = tile * TILE_PIXELS + (y % TILE_SIZE) * TILE_SIZE + x % TILE_SIZE;
+                std::copy_n(&tiles[3 * (r * slots + slot)], 3, &film.sums[out]);
+            }
+}
+
+void read_results(const Device& device, const RenderParams& params, const Targets& targets, Render& result) {
+    result.film.samples = result.passes;
+    read_film(device, params, targets.film, result.film);
+    result.counts = read_counts(read_buffer<u32>(device, targets.counters, COUNT_WORDS + 2 * REPLAY_CAPACITY));
+    result.counts.primary = std::uint64_t(params.crop_width) * params.crop_height * result.passes;
+    for (const PixelRays& rays : read_buffer<PixelRays>(device, targets.pixel_rays, film_slots(params))) {
+        result.counts.secondary += rays.secondary;
+        result.counts.shadow += rays.shadow;
+    }
+}
+
 } // namespace
 
 Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
@@ -211,14 +255,12 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     film.first_sample = options.first_sample;
     params.film_replicates = u32(film.replicates);
 
-    film.sums.resize(size_t(film.replicates) * film.width * film.height * 3);
-    const cl::Buffer sums = create_buffer(device, "film", film.sums.size() * sizeof(film.sums[0]));
-    std::vector<u32> words(COUNT_WORDS + 2 * REPLAY_CAPACITY, 0);
-    const cl::Buffer counters = create_buffer(device, "counters", words.size() * sizeof(u32));
+    const Targets targets = create_targets(device, params);
     Launcher launcher(device, programs.picture, std::string("render_") + integrator_name(options.integrator), params,
                       buffers);
-    launcher.kernel().set("film", sums);
-    launcher.kernel().set("counters", counters);
+    launcher.kernel().set("film", targets.film);
+    launcher.kernel().set("pixel_rays", targets.pixel_rays);
+    launcher.kernel().set("counters", targets.counters);
 
     // A launch without samples makes the driver finish its compilation.
     progress.update({"compile", -1, 0, -1});
@@ -227,12 +269,7 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     result.first_launch_seconds = seconds_since(start);
 
     run_passes(options, params, launcher, progress, result);
-    film.samples = result.passes;
-    check_opencl("reading the picture back", [&] {
-        device.queue.enqueueReadBuffer(sums, CL_TRUE, 0, film.sums.size() * sizeof(film.sums[0]), film.sums.data());
-        device.queue.enqueueReadBuffer(counters, CL_TRUE, 0, words.size() * sizeof(u32), words.data());
-    });
-    result.counts = read_counts(words);
+    read_results(device, params, targets, result);
     if (programs.layers && result.passes > 0)
         render_layers(device, *programs.layers, buffers, params, options, result);
     return result;

@@ -10,7 +10,6 @@ namespace clrt {
 namespace {
 
 constexpr double RADIANS = 3.14159265358979323846 / 180;
-constexpr u32 TILE = 8;
 
 vec4 to_vec4(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z), 0.0f};
@@ -66,8 +65,8 @@ void set_window(const Options& options, RenderParams& params) {
     params.crop_y = u32(window.y0);
     params.crop_width = u32(window.x1 - window.x0);
     params.crop_height = u32(window.y1 - window.y0);
-    params.tiles_x = (params.crop_width + TILE - 1) / TILE;
-    params.tile_count = params.tiles_x * ((params.crop_height + TILE - 1) / TILE);
+    params.tiles_x = (params.crop_width + TILE_SIZE - 1) / TILE_SIZE;
+    params.tile_count = params.tiles_x * ((params.crop_height + TILE_SIZE - 1) / TILE_SIZE);
     params.tile_stride = tile_stride(params.tile_count);
 }
 

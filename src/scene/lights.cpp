@@ -43,6 +43,16 @@ Light point_light(const PointOptions& option, const Normalisation& frame) {
     return light;
 }
 
+/// The share of a point light's power that meets the scene: all of it from within the bounding sphere, else the
+/// sphere's solid angle over 4 pi. It makes a far light's power what a sun of its irradiance has.
+double share_that_meets_scene(const glm::dvec3& position, double radius) {
+    const double distance = glm::length(position);
+    if (distance <= radius)
+        return 1;
+    const double sine = radius / distance;
+    return sine * sine / (2 * (1 + std::sqrt(1 - sine * sine))); // (1 - cos) / 2 without cancellation
+}
+
 /// A disc of angular radius r and radiance L gives, at normal incidence, the irradiance L pi sin^2 r.
 Light sun_light(const SunOptions& option) {
     check_colour(option.irradiance, "--sun", "an irradiance");
@@ -121,7 +131,8 @@ Lights build_lights(const LightOptions& options, const Normalisation& frame, dou
     };
     for (const PointOptions& option : options.points) {
         const Light light = point_light(option, frame);
-        add(light, 4 * PI * luminance(option.intensity) * frame.scale * frame.scale, "--point");
+        const double share = share_that_meets_scene(to_normalised(frame, option.position), radius);
+        add(light, share * 4 * PI * luminance(option.intensity) * frame.scale * frame.scale, "--point");
     }
     for (const SunOptions& option : options.suns)
         add(sun_light(option), luminance(option.irradiance) * PI * radius * radius, "--sun");

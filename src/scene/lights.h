@@ -33,7 +33,7 @@ Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle
 
 struct Lights {
     std::vector<Light> lights;
-    double power = 0; ///< luminance; normalised frame
+    double power = 0; ///< luminance that meets the scene; normalised frame
 };
 
 /// Point lights and suns of the options in the normalised frame, `radius` its bounding sphere. A light
