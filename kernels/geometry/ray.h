@@ -8,7 +8,7 @@
 
 typedef struct {
     real3 origin;
-    real3 direction; /* unit */
+    real3 direction; /* unit, or a segment's way to its end, where t = 1 */
     real t_max;      /* at most REAL_FAR */
 } Ray;
 

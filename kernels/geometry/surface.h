@@ -28,6 +28,14 @@ static inline void surface_corners(const Scene* scene, global const Triangle* tr
     *p2 = vector_from(scene->positions[triangle->v2]);
 }
 
+/* A triangle's normal by its edges, not of unit length. Scaled by a power of two, so that its square neither underflows for
+   the smallest triangles that floats describe nor overflows for the largest (2^28 each: edges from 5e-17 to 4). */
+static inline real3 surface_cross(real3 e1, real3 e2)
+{
+    const real scale = REAL(268435456.0);
+    return vector_cross(e1 * scale, e2 * scale);
+}
+
 /* How far a point on the triangle must move along the normal so that a ray leaving it cannot meet the triangle's own
    plane again. With u = 2^-24, M the largest |coordinate| and E the largest extent of the triangle:
    - the point b0 p0 + b1 p1 + b2 p2 = p0 + b1 e1 + b2 e2 is off the plane by its last rounding, u M per axis, and by
@@ -109,7 +117,7 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface_corners(scene, triangle, &p[0], &p[1], &p[2]);
     const real3 e1 = p[1] - p[0];
     const real3 e2 = p[2] - p[0];
-    const real3 normal = vector_normalize(vector_cross(e1, e2));
+    const real3 normal = vector_normalize(surface_cross(e1, e2));
     const real side = vector_dot(normal, wo) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
 
     Surface surface;

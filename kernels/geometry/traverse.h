@@ -3,8 +3,11 @@
 #ifndef CLRT_GEOMETRY_TRAVERSE_H
 #define CLRT_GEOMETRY_TRAVERSE_H
 
+#include "box.h"
 #include "scene.h"
+#include "triangle.h"
 
+/* A file's text stands where it is included first, so what both layouts include comes before the choice. */
 #if BVH_LAYOUT == BVH_LAYOUT_BVH8
 #include "traverse_bvh8.h"
 #else

@@ -72,10 +72,12 @@ static CLRT_NOINLINE void bvh2_closest_hit(const Scene* scene, const RenderParam
             global const uint* leaf = scene->bvh_leaves + BVH2_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
             for (uint i = 0; i < words[BVH2_COUNT_WORD + side]; ++i) {
                 Hit found;
-                if (bvh2_triangle(leaf + BVH2_TRIANGLE_WORDS * i, &shear, hit->t, &found) &&
-                    hit_is_before(found.t, found.triangle, hit->t, hit->triangle) &&
-                    (!HAS(EFFECT_CUT_OUT) || hit_is_before(after->t, after->triangle, found.t, found.triangle)))
-                    *hit = found;
+                if (!bvh2_triangle(leaf + BVH2_TRIANGLE_WORDS * i, &shear, hit->t, &found) ||
+                    !hit_is_before(found.t, found.triangle, hit->t, hit->triangle))
+                    continue;
+                if (HAS(EFFECT_CUT_OUT) && !hit_is_before(after->t, after->triangle, found.t, found.triangle))
+                    continue;
+                *hit = found;
             }
             entry[side] = REAL(-1.0);
         }

@@ -55,7 +55,7 @@ static inline uint8 bvh8_planes(real3 reciprocal)
     return (uint8)(x, y, z, 8u - x, 40u - y, 72u - z, 0u, 0u);
 }
 
-/* What a block's eight triangles give, before the divisions by det that only a hit needs. */
+/* What a block's eight triangles give; v and w are still to be divided by det. */
 typedef struct {
     real8 v, w, det;
     real8 t;
@@ -72,11 +72,9 @@ static inline BlockHits bvh8_block(global const uint* block, const RayShear* she
     real8 u, t_det;
     triangle_edges_8(shear, x, y, z, &u, &hits.v, &hits.w, &hits.det, &t_det);
     const mask8 inside = (min(u, min(hits.v, hits.w)) >= REAL(0.0)) | (max(u, max(hits.v, hits.w)) <= REAL(0.0));
-    hits.lanes = bvh8_lanes(inside & (hits.det != REAL(0.0)));
-    if (hits.lanes != 0u) {
-        hits.t = t_det / hits.det;
-        hits.lanes &= bvh8_lanes((hits.t > REAL(0.0)) & (hits.t <= t_max));
-    }
+    /* Dividing always is cheaper than a branch that half of the blocks take. */
+    hits.t = t_det / hits.det;
+    hits.lanes = bvh8_lanes(inside & (hits.det != REAL(0.0)) & (hits.t > REAL(0.0)) & (hits.t <= t_max));
     return hits;
 }
 

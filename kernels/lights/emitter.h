@@ -23,28 +23,29 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     const uint chosen = alias_word < scene->emitters[slot].threshold ? slot : scene->emitters[slot].alias;
     global const Emitter* emitter = scene->emitters + chosen;
     global const Triangle* triangle = scene->triangles + emitter->triangle;
-    /* A uniform point, moved off the triangle towards the surface by its error bound. */
+    /* A uniform point. */
     real3 p0, p1, p2;
     surface_corners(scene, triangle, &p0, &p1, &p2);
     const real2 b = warp_triangle((real2)(warp_rest(word, params->emitter_count, alias_word), v));
     const real3 e1 = p1 - p0;
     const real3 e2 = p2 - p0;
     const real3 point = p0 + fma((real3)(b.x), e1, b.y * e2);
-    const real3 normal = vector_normalize(vector_cross(e1, e2));
+    const real3 normal = surface_cross(e1, e2);
     const real3 way = point - position;
-    const real distance_squared = vector_dot(way, way);
-    if (!(distance_squared > REAL(0.0)))
-        return sample;
-    sample.wi = way / real_sqrt(distance_squared);
-    const real cos_l = -vector_dot(sample.wi, normal);
-    const bool front = (cos_l > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
+    const real facing = -vector_dot(way, normal);
+    const bool front = (facing > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
     global const Material* material = scene->materials + triangle->material;
-    if (cos_l == REAL(0.0) || !material_emits(material, front))
+    if (facing == REAL(0.0) || !material_emits(material, front))
         return sample;
-    sample.target = point + normal * copysign(surface_offset_bound(p0, p1, p2), cos_l);
+    /* The shadow ray ends off the triangle by its error bound, or up to sqrt(3) times that. */
+    const real step = surface_offset_bound(p0, p1, p2) / vector_max_abs(normal);
+    sample.target = point + normal * copysign(step, facing);
+    const real distance = vector_length(way);
+    sample.wi = way / distance;
     sample.is_distant = false;
     sample.is_delta = false;
-    sample.pdf_w = emitter_pdf_w((real)emitter->pdf_a, distance_squared, fabs(cos_l));
+    /* facing is cos_l times the lengths of way and normal. */
+    sample.pdf_w = (real)emitter->pdf_a * distance * distance * (distance * vector_length(normal) / fabs(facing));
     float2 uv = (float2)(0.0f);
     if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
         const float2 t0 = scene->uvs[triangle->t0];

@@ -29,16 +29,15 @@ static inline LightSample light_sample_none(void)
     return sample;
 }
 
-/* The shadow ray from a surface to the sampled light; it ends a few roundings before the target. */
+/* The shadow ray from a surface to the sampled light. A segment to a target keeps its length, so that no rounding of a unit
+   vector moves its end, and stops a few roundings short. */
 static inline Ray light_shadow_ray(const Surface* surface, const LightSample* sample)
 {
     const real3 origin = surface_origin(surface, sample->wi);
     if (sample->is_distant)
         return ray_make(origin, sample->wi);
-    const real3 way = sample->target - origin;
-    const real distance = vector_length(way);
-    Ray ray = ray_make(origin, distance > REAL(0.0) ? way / distance : sample->wi);
-    ray.t_max = distance * (REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING);
+    Ray ray = ray_make(origin, sample->target - origin);
+    ray.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
     return ray;
 }
 
