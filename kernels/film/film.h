@@ -34,7 +34,11 @@ static inline void film_report_fault(global volatile uint* counters, uint fault,
 }
 
 /* Rounds a value in quanta up or down with the probability of its fraction: dark pixels stay unbiased. */
-static inline long film_round(real quanta, uint word) { return convert_long(floor(quanta + sampler_unit(word))); }
+static inline long film_round(real quanta, uint word)
+{
+    const real whole = floor(quanta);
+    return convert_long(whole) + (sampler_unit(word) < quanta - whole ? 1 : 0);
+}
 
 /* The three sums of a pixel (by its slot, tile.h) in a replicate. Replicates are folded where not all are kept apart. */
 static inline global long* film_sums(const RenderParams* params, global long* film, uint slot, uint replicate)

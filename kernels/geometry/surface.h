@@ -28,12 +28,20 @@ static inline void surface_corners(const Scene* scene, global const Triangle* tr
     *p2 = vector_from(scene->positions[triangle->v2]);
 }
 
-/* A triangle's normal by its edges, not of unit length. Scaled by a power of two, so that its square neither underflows for
-   the smallest triangles that floats describe nor overflows for the largest (2^28 each: edges from 5e-17 to 4). */
+/* Edges are multiplied by this power of two, 2^28, before their products: so the square of a normal neither underflows for
+   the smallest triangles that floats describe nor overflows for the largest (edges from 5e-17 to 4). */
+#define SURFACE_EDGE_SCALE REAL(268435456.0)
+
+/* A triangle's normal by its edges, not of unit length: twice the area times SURFACE_EDGE_SCALE squared. */
 static inline real3 surface_cross(real3 e1, real3 e2)
 {
-    const real scale = REAL(268435456.0);
-    return vector_cross(e1 * scale, e2 * scale);
+    return vector_cross(e1 * SURFACE_EDGE_SCALE, e2 * SURFACE_EDGE_SCALE);
+}
+
+/* Largest extent along an axis. */
+static inline real surface_extent(real3 p0, real3 p1, real3 p2)
+{
+    return vector_max_component(fmax(p0, fmax(p1, p2)) - fmin(p0, fmin(p1, p2)));
 }
 
 /* How far a point on the triangle must move along the normal so that a ray leaving it cannot meet the triangle's own
@@ -49,8 +57,33 @@ static inline real surface_offset_bound(real3 p0, real3 p1, real3 p2)
     const real3 lower = fmin(p0, fmin(p1, p2));
     const real3 upper = fmax(p0, fmax(p1, p2));
     const real largest = vector_max_component(fmax(fabs(lower), fabs(upper)));
-    const real extent = vector_max_component(upper - lower);
-    return FLOAT_ROUNDING * fma(REAL(4.0), largest, REAL(24.0) * extent);
+    return FLOAT_ROUNDING * fma(REAL(4.0), largest, REAL(24.0) * surface_extent(p0, p1, p2));
+}
+
+/* How far from a triangle's edges its points are kept, in offset bounds: more than the one by which they move along the
+   normal, for walls that meet at less than a right angle. */
+#define SURFACE_INSET REAL(2.0)
+
+/* True if a point may be nearer to an edge than `margin`. Its distance from the edge across corner i is b_i times twice the
+   area (`across` is the length of surface_cross) over the edge's length, which is at most sqrt(3) times the extent. */
+static inline bool surface_is_near_edge(const Hit* hit, real extent, real across, real margin)
+{
+    const real nearest = min(REAL(1.0) - hit->b1 - hit->b2, min(hit->b1, hit->b2));
+    return nearest * across < margin * extent * (REAL(1.7320509) * SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE);
+}
+
+/* Moves a point of the triangle's plane, relative to corner 0, to `margin` inside the edges that it is nearer to: by rounding
+   it may lie beyond an edge, and so behind a wall that meets the triangle there, where a ray that leaves it gets out. Moving
+   off one edge leads towards the next at acute corners, so all are visited three times. */
+static CLRT_NOINLINE real3 surface_inset(real3 point, real3 e1, real3 e2, real3 normal, real margin)
+{
+    const real3 corners[4] = {(real3)(REAL(0.0)), e1, e2, (real3)(REAL(0.0))};
+    for (int i = 0; i < 9; ++i) {
+        const real3 corner = corners[i % 3];
+        const real3 inward = vector_normalize(surface_cross(normal, corners[i % 3 + 1] - corner));
+        point += inward * max(margin - vector_dot(point - corner, inward), REAL(0.0));
+    }
+    return point;
 }
 
 /* Interpolates texture coordinates and their derivatives along the surface. */
@@ -117,12 +150,19 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface_corners(scene, triangle, &p[0], &p[1], &p[2]);
     const real3 e1 = p[1] - p[0];
     const real3 e2 = p[2] - p[0];
-    const real3 normal = vector_normalize(surface_cross(e1, e2));
+    const real3 cross = surface_cross(e1, e2);
+    const real across = vector_length(cross);
+    /* The edges of a needle may become parallel when they are rounded: then no direction is better than wo. */
+    const real3 normal = across > REAL(0.0) ? cross / across : wo;
     const real side = vector_dot(normal, wo) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
 
     Surface surface;
-    surface.position = p[0] + fma((real3)(hit->b1), e1, hit->b2 * e2);
     surface.offset = surface_offset_bound(p[0], p[1], p[2]);
+    real3 point = fma((real3)(hit->b1), e1, hit->b2 * e2);
+    const real margin = SURFACE_INSET * surface.offset;
+    if (across > REAL(0.0) && surface_is_near_edge(hit, surface_extent(p[0], p[1], p[2]), across, margin))
+        point = surface_inset(point, e1, e2, normal, margin);
+    surface.position = p[0] + point;
     surface.normal_g = normal * side;
     surface.normal_s = surface.normal_g;
     surface.tangent = (real3)(REAL(0.0));

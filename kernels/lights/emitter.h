@@ -52,6 +52,9 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
         uv = t0 + (float)b.x * (scene->uvs[triangle->t1] - t0) + (float)b.y * (scene->uvs[triangle->t2] - t0);
     }
     sample.radiance = material_emission(scene, material, uv);
+    /* What a cut-out leaves of itself: rays that hit it by chance are passed as often. */
+    if (HAS(EFFECT_CUT_OUT) && (material->flags & MATERIAL_CUT_OUT))
+        sample.radiance *= material_coverage(scene, material, uv);
     return sample;
 }
 

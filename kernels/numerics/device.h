@@ -17,6 +17,12 @@
 #define CLRT_HAS_MOVMSKPS 1
 #endif
 
+/* x86 targets of PoCL: LLVM's own bit reversal is the fastest. Elsewhere it is written out, with ^ instead of |, because
+   Oclgrind 21.10 does not know the intrinsic that LLVM would make of it. */
+#if __has_builtin(__builtin_bitreverse32) && defined(CLRT_HAS_MOVMSKPS)
+#define CLRT_REVERSE_BITS(x) __builtin_bitreverse32(x)
+#endif
+
 /* Clang-based compilers for CPUs: start loading a node that will be visited soon. */
 #if __has_builtin(__builtin_prefetch) && defined(CLRT_HAS_MOVMSKPS)
 #define CLRT_PREFETCH(pointer) __builtin_prefetch((const void*)(ulong)(pointer))

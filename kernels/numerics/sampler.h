@@ -38,11 +38,15 @@ static inline uint sampler_hash(uint x)
 
 static inline uint sampler_reverse_bits(uint x)
 {
-    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
-    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
-    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
-    return (x >> 16) | (x << 16);
+#ifdef CLRT_REVERSE_BITS
+    return CLRT_REVERSE_BITS(x);
+#else
+    x = ((x >> 1) & 0x55555555u) ^ ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) ^ ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) ^ ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 8) & 0x00ff00ffu) ^ ((x & 0x00ff00ffu) << 8);
+    return rotate(x, 16u);
+#endif
 }
 
 /* Owen scrambling of a number whose bits are reversed: bit k is flipped depending on the bits below it

@@ -13,7 +13,7 @@ static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf)
 {
     if (bsdf->lobes & (LOBE_MATTE | LOBE_GLOSSY))
         return true;
-    return HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) && bsdf->alpha_x > REAL(0.0);
+    return (bsdf->lobes & LOBE_DIELECTRIC) && !bsdf_dielectric_is_smooth(bsdf);
 }
 
 /* True if a world direction and its local form are on the same side of both normals. */

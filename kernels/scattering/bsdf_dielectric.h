@@ -8,14 +8,21 @@
 #include "fresnel.h"
 #include "microfacet.h"
 
-/* The half vector of wo and wi on the normal's side; zero where there is none. */
-static inline real3 bsdf_dielectric_half(const Bsdf* bsdf, real3 wi)
+/* True if light is only reflected as by a mirror and refracted straight: no roughness, or nothing to refract at. */
+static inline bool bsdf_dielectric_is_smooth(const Bsdf* bsdf)
+{
+    return !HAS(EFFECT_ROUGH_REFRACTION) || bsdf->alpha_x == REAL(0.0) || bsdf->eta == REAL(1.0);
+}
+
+/* The half vector of wo and wi on the normal's side, and the squared length of the sum that it is made from; both zero
+   where there is none. */
+static inline real3 bsdf_dielectric_half(const Bsdf* bsdf, real3 wi, real* length_squared)
 {
     const real3 sum = wi.z > REAL(0.0) ? bsdf->wo + wi : bsdf->eta * bsdf->wo + wi;
-    const real length_squared = vector_dot(sum, sum);
-    if (!(length_squared > REAL(0.0)))
+    *length_squared = vector_dot(sum, sum);
+    if (!(*length_squared > REAL(0.0)))
         return (real3)(REAL(0.0));
-    return sum * (copysign(REAL(1.0), sum.z) / real_sqrt(length_squared));
+    return sum * (copysign(REAL(1.0), sum.z) / real_sqrt(*length_squared));
 }
 
 /* BSDF times |cos_i| of the rough dielectric and the density of sampling wi; both 0 for the smooth one. */
@@ -25,12 +32,13 @@ static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
     result.value = (real3)(REAL(0.0));
     result.pdf_w = REAL(0.0);
     const real3 wo = bsdf->wo;
-    const real3 h = bsdf_dielectric_half(bsdf, wi);
+    real length_squared;
+    const real3 h = bsdf_dielectric_half(bsdf, wi, &length_squared);
     const real cos_oh = vector_dot(wo, h);
     const real cos_ih = vector_dot(wi, h);
     /* wo must see the front of the microfacet, wi the side that matches. */
-    if (bsdf->alpha_x == REAL(0.0) || !(wo.z > REAL(0.0)) || wi.z == REAL(0.0) || !(cos_oh > REAL(0.0)) ||
-        cos_ih * wi.z <= REAL(0.0))
+    if (bsdf_dielectric_is_smooth(bsdf) || !(wo.z > MICROFACET_SMALLEST_COS) || wi.z == REAL(0.0) ||
+        !(cos_oh > REAL(0.0)) || cos_ih * wi.z <= REAL(0.0))
         return result;
     real cos_t;
     const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
@@ -44,9 +52,8 @@ static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
         result.pdf_w = REAL(0.25) * f * d_over_cos * g1;
         return result;
     }
-    /* Walter et al., eq. 17: density of wi per density of h. */
-    const real both = fma(bsdf->eta, cos_oh, cos_ih);
-    const real spread = (REAL(1.0) - f) * d_over_cos * cos_oh * fabs(cos_ih) / (both * both);
+    /* Walter et al., eq. 17: density of wi per density of h. Its denominator eta cos_oh + cos_ih is the length of the sum. */
+    const real spread = (REAL(1.0) - f) * d_over_cos * cos_oh * fabs(cos_ih) / length_squared;
     /* Eq. 21 times cos_i, times eta^2 for radiance; the index on wi's side cancels. */
     result.value = bsdf->transmission * (spread * g2 * bsdf->eta * bsdf->eta);
     result.pdf_w = spread * g1;
@@ -57,7 +64,7 @@ static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
 static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 u, BsdfSample* sample)
 {
     const real3 wo = bsdf->wo;
-    const bool smooth = !HAS(EFFECT_ROUGH_REFRACTION) || bsdf->alpha_x == REAL(0.0);
+    const bool smooth = bsdf_dielectric_is_smooth(bsdf);
     const real3 h = smooth ? vector_make(REAL(0.0), REAL(0.0), REAL(1.0))
                            : microfacet_sample(wo, bsdf->alpha_x, bsdf->alpha_y, u);
     const real cos_oh = clamp(vector_dot(wo, h), REAL(0.0), REAL(1.0));
@@ -65,8 +72,9 @@ static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 
     const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
     const bool reflects = u_lobe < f;
     const real3 wi = reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
-    /* A microfacet may send light through the macroscopic surface the wrong way: such paths end. */
-    if ((wi.z > REAL(0.0)) != reflects)
+    /* A microfacet may send light through the macroscopic surface the wrong way, and the horizon sees none: such paths
+       end. */
+    if ((wi.z > REAL(0.0)) != reflects || !(wo.z > MICROFACET_SMALLEST_COS))
         return wi;
     sample->eta = reflects ? REAL(1.0) : bsdf->eta;
     sample->weight = reflects ? bsdf->specular : bsdf->transmission * (bsdf->eta * bsdf->eta);

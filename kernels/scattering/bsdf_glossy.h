@@ -20,7 +20,7 @@ static inline BsdfValue bsdf_glossy_eval(const Bsdf* bsdf, real3 wi)
     result.value = (real3)(REAL(0.0));
     result.pdf_w = REAL(0.0);
     const real3 wo = bsdf->wo;
-    if (!(wo.z > REAL(0.0) && wi.z > REAL(0.0)))
+    if (!(wo.z > MICROFACET_SMALLEST_COS && wi.z > REAL(0.0)))
         return result;
     const real3 h = vector_normalize(wo + wi);
     const real lambda_o = microfacet_lambda(wo, bsdf->alpha_x, bsdf->alpha_y);

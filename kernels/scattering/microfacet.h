@@ -16,14 +16,18 @@ static inline real microfacet_d(real3 h, real alpha_x, real alpha_y)
     return REAL(1.0) / (REAL_PI * alpha_x * alpha_y * s * s);
 }
 
-/* Smith's Lambda of a direction off the horizon. */
+/* Eyes closer to the horizon than this cosine see no microfacets, so that dividing by it stays finite. */
+#define MICROFACET_SMALLEST_COS REAL(1e-18)
+
+/* Smith's Lambda: (sqrt(1 + a / z^2) - 1) / 2 with a = (alpha tan)^2 z^2, without its cancellation and without a / z^2,
+   which overflows near the horizon. Infinite on the horizon. */
 static inline real microfacet_lambda(real3 w, real alpha_x, real alpha_y)
 {
     const real x = alpha_x * w.x;
     const real y = alpha_y * w.y;
-    const real tan_squared = fma(x, x, y * y) / (w.z * w.z);
-    /* (sqrt(1 + a) - 1) / 2 without cancellation. */
-    return REAL(0.5) * tan_squared / (REAL(1.0) + real_sqrt(REAL(1.0) + tan_squared));
+    const real z = fabs(w.z);
+    const real a = fma(x, x, y * y);
+    return REAL(0.5) * a / (z * (z + real_sqrt(fma(z, z, a))));
 }
 
 /* Fraction of normals visible from w. */

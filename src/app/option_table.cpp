@@ -153,6 +153,10 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.max_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
          }},
+        {group, "", "--roulette-depth", "N", "path: first segment that Russian roulette may end (default 5)",
+         [](Options& o, const OptionValue& v) {
+             o.roulette_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
+         }},
         {group, "", "--min-contribution", "X",
          "whitted: smallest weight worth a ray, also in % (default 0.002)",
          [](Options& o, const OptionValue& v) { o.min_contribution = parse_fraction(v); }},

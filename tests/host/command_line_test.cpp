@@ -48,6 +48,7 @@ const std::map<std::string, std::string>& samples() {
         {"--spp", "16"},
         {"--time", "5m"},
         {"--max-depth", "12"},
+        {"--roulette-depth", "9"},
         {"--min-contribution", "0.5%"},
         {"--seed", "4294967295"},
         {"--first-sample", "32"},
@@ -111,6 +112,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     EXPECT_FALSE(o.spp);
     EXPECT_FALSE(o.time_seconds);
     EXPECT_EQ(effective_max_depth(o), 64);
+    EXPECT_EQ(o.roulette_depth, 5);
     EXPECT_EQ(o.min_contribution, 0.002);
     EXPECT_EQ(o.replicates, 8);
     EXPECT_EQ(o.size, glm::ivec2(800, 600));
@@ -154,6 +156,8 @@ TEST(CommandLine, WorkOptionsArrive) {
                              "bvh8",
                              "--min-contribution",
                              "2%",
+                             "--roulette-depth",
+                             "3",
                              "--first-sample",
                              "8"});
     EXPECT_EQ(o.device, "pocl");
@@ -166,6 +170,7 @@ TEST(CommandLine, WorkOptionsArrive) {
     EXPECT_EQ(o.replicates, 64);
     EXPECT_EQ(o.bvh, BvhChoice::BVH8);
     EXPECT_EQ(o.min_contribution, 0.02);
+    EXPECT_EQ(o.roulette_depth, 3);
     EXPECT_EQ(o.first_sample, 8u);
 }
 
@@ -358,6 +363,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--time", "inf"},
         {"--max-depth", "0"},
         {"--max-depth", "65536"},
+        {"--roulette-depth", "0"},
         {"--min-contribution", "1.1"},
         {"--min-contribution", "-1%"},
         {"--seed", "-1"},
