@@ -9,12 +9,14 @@
    the pad. */
 #define BOX_SMALLEST_DIRECTION REAL(1e-18)
 
-/* Units of u by which planes move out, as a share of max(|origin|, extent): 8 for the shear of the triangle test
-   (each sheared corner is off by at most 8 u |corner - origin| and that distance is at most 2 max), times 2, plus
-   3 for rounding of origin * reciprocal and 5 for the reciprocal's own error on planes up to max away. */
+/* Units of u by which planes move out, as a share of reach = max(|origin|, extent). What must be met is the triangle as
+   triangle.h sees it, with c = corner - origin sheared to x: off by at most u (2 |c_x| + 4 |c_z|) where divisions are
+   exact and u (2 |c_x| + 8 |c_z|) where they are within 2.5 units in the last place; |c| <= 2 reach makes that 20.
+   Rounding origin * reciprocal and adding the pad take 2 more. The reciprocal's own error is a share of the distance. */
 #define BOX_PAD_ROUNDINGS REAL(24.0)
 
-/* 1 + 2 gamma(7): the exit distance's share of the rounding of products and reciprocals (Ize 2013). */
+/* 1 + 2 gamma(7): entry and exit distances are each off by a share of up to 5 u for the reciprocal (2.5 units in the last
+   place) and u for the fma (as in Ize 2013); the product with this factor takes u more. */
 #define BOX_EXIT_FACTOR (REAL(1.0) + REAL(14.0) * REAL_ROUNDING * REAL(1.0000005))
 
 /* Per-ray constants of a valid ray: distance to a plane = fma(plane, reciprocal, entry or exit). */

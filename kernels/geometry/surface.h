@@ -46,12 +46,14 @@ static inline real surface_extent(real3 p0, real3 p1, real3 p2)
 
 /* How far a point on the triangle must move along the normal so that a ray leaving it cannot meet the triangle's own
    plane again. With u = 2^-24, M the largest |coordinate| and E the largest extent of the triangle:
-   - the point b0 p0 + b1 p1 + b2 p2 = p0 + b1 e1 + b2 e2 is off the plane by its last rounding, u M per axis, and by
-     products and sums of edge terms, at most 4 u E per axis;
+   - the point p0 + (b1 e1 + b2 e2) is off the plane by its last rounding, u M per axis, and by rounding of edges, products
+     and sums, at most 4 u E per axis;
    - moving it rounds once more: u M;
-   - the next ray's test subtracts the new origin from the corners (u (E + d)), shears (4 u E) and weights the depths
-     (4 u E), which may shift the plane it sees by at most 9 u E.
-   Per axis that is u (2 M + 13 E); the normal's 1-norm is at most sqrt(3), so delta = u (4 M + 24 E) is enough. */
+   - the next ray's test sees corners sheared with an error of 6 u E on either axis across the ray where divisions are
+     exact, 10 u E where they are within 2.5 units in the last place (box.h), and along it the rounding of the depths,
+     u E, and of their weighted sum, 5 u E.
+   That is u (2 M + 14 E) on two axes and u (2 M + 10 E) on the third. Along the normal it is at most the length of this
+   vector, u (3.5 M + 22.2 E), so delta = u (4 M + 24 E) is enough. */
 static inline real surface_offset_bound(real3 p0, real3 p1, real3 p2)
 {
     const real3 lower = fmin(p0, fmin(p1, p2));
@@ -74,11 +76,11 @@ static inline bool surface_is_near_edge(const Hit* hit, real extent, real across
 
 /* Moves a point of the triangle's plane, relative to corner 0, to `margin` inside the edges that it is nearer to: by rounding
    it may lie beyond an edge, and so behind a wall that meets the triangle there, where a ray that leaves it gets out. Moving
-   off one edge leads towards the next at acute corners, so all are visited three times. */
+   off one edge leads towards the next at acute corners, so all are visited six times. */
 static CLRT_NOINLINE real3 surface_inset(real3 point, real3 e1, real3 e2, real3 normal, real margin)
 {
     const real3 corners[4] = {(real3)(REAL(0.0)), e1, e2, (real3)(REAL(0.0))};
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < 18; ++i) {
         const real3 corner = corners[i % 3];
         const real3 inward = vector_normalize(surface_cross(normal, corners[i % 3 + 1] - corner));
         point += inward * max(margin - vector_dot(point - corner, inward), REAL(0.0));

@@ -4,9 +4,10 @@
 #define CLRT_INTEGRATORS_RAYCAST_H
 
 #include "direct.h"
+#include "pixel.h"
 
-static CLRT_NOINLINE real3 raycast_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                            Ray ray, PixelRays* rays)
+static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                          Ray ray, PixelRays* rays)
 {
     const real3 wo = -ray.direction;
     const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
@@ -20,6 +21,13 @@ static CLRT_NOINLINE real3 raycast_radiance(const Scene* scene, const RenderPara
         return radiance;
     const Bsdf bsdf = material_bsdf(scene, &surface, wo);
     return radiance + direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays);
+}
+
+static inline void raycast_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples, uint count,
+                                    PixelRays* rays)
+{
+    for (uint k = 0; k < count; ++k)
+        samples[k].radiance = raycast_sample(scene, params, &samples[k].sampler, samples[k].ray, rays);
 }
 
 #endif

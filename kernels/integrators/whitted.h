@@ -6,6 +6,7 @@
 #define CLRT_INTEGRATORS_WHITTED_H
 
 #include "direct.h"
+#include "pixel.h"
 
 /* The deepest tree; every level leaves at most one ray waiting. The command line refuses more. */
 #define WHITTED_MAX_DEPTH 64
@@ -56,7 +57,7 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
         const real3 color = dielectric ? bsdf->specular * f : bsdf_reflection_color(bsdf, cos_o);
         top = whitted_push(params, whitted_child(parent, surface, reflected, parent->weight * color, 0u), stack, top);
     }
-    if (!dielectric || f >= REAL(1.0))
+    if (f >= REAL(1.0)) /* a mirror, or total reflection */
         return top;
     const real3 refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
     if (vector_dot(refracted, surface->normal_g) >= REAL(0.0))
@@ -65,8 +66,8 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack, top);
 }
 
-static CLRT_NOINLINE real3 whitted_radiance(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                            Ray ray, PixelRays* rays)
+static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                          Ray ray, PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
     WhittedRay stack[WHITTED_MAX_DEPTH + 1];
@@ -101,6 +102,13 @@ static CLRT_NOINLINE real3 whitted_radiance(const Scene* scene, const RenderPara
         top = whitted_spawn(params, &current, &surface, &bsdf, wo, stack, top);
     }
     return radiance;
+}
+
+static inline void whitted_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples, uint count,
+                                    PixelRays* rays)
+{
+    for (uint k = 0; k < count; ++k)
+        samples[k].radiance = whitted_sample(scene, params, &samples[k].sampler, samples[k].ray, rays);
 }
 
 #endif

@@ -22,19 +22,21 @@ static inline real3 environment_to_world(const RenderParams* params, real3 d)
     return vector_make(fma(c, d.x, s * d.z), d.y, fma(-s, d.x, c * d.z));
 }
 
-/* Map coordinates of a unit direction in the map's frame, in [0, 1]. */
+/* Map coordinates of a unit direction in the map's frame, in [0, 1]. The angle from +Y is taken from both its sine and its
+   cosine: next to the poles the cosine alone tells rows of a large map no longer apart. */
 static inline real2 environment_uv(real3 d)
 {
     return (real2)(fma(atan2(d.z, d.x), REAL(0.5) * REAL_INVERSE_PI, REAL(0.5)),
-                   acos(clamp(d.y, REAL(-1.0), REAL(1.0))) * REAL_INVERSE_PI);
+                   atan2(real_sqrt(fma(d.x, d.x, d.z * d.z)), d.y) * REAL_INVERSE_PI);
 }
 
 /* Solid angle of one texel of a row. */
 static inline real environment_texel_solid_angle(const RenderParams* params, uint row)
 {
     const real step = REAL_PI / (real)params->environment_height;
-    /* cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2) */
-    const real band = REAL(2.0) * sin(step * ((real)row + REAL(0.5))) * sin(REAL(0.5) * step);
+    /* cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2), with the angles from the nearer pole. */
+    const uint from_pole = min(row, params->environment_height - 1u - row);
+    const real band = REAL(2.0) * sin(step * ((real)from_pole + REAL(0.5))) * sin(REAL(0.5) * step);
     return REAL(2.0) * REAL_PI * band / (real)params->environment_width;
 }
 
@@ -80,12 +82,15 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
     const uint texel = alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
     const uint row = texel / width;
     const uint column = texel - row * width;
-    /* cos theta is uniform between the row's edges. */
+    /* 1 - cos is uniform between the row's edges, measured from the nearer pole: so no digits are lost next to it. */
     const real step = REAL_PI / (real)params->environment_height;
-    const real upper = cos(step * (real)row);
-    const real lower = cos(step * (real)(row + 1u));
-    const real y = clamp(fma(u.y, lower - upper, upper), REAL(-1.0), REAL(1.0));
-    const real r = real_root((REAL(1.0) - y) * (REAL(1.0) + y));
+    const bool upper = 2u * row < params->environment_height;
+    const uint from_pole = upper ? row : params->environment_height - 1u - row;
+    const real inner = sin(REAL(0.5) * step * (real)from_pole);
+    const real outer = sin(REAL(0.5) * step * (real)(from_pole + 1u));
+    const real h = REAL(2.0) * fma(u.y, (outer - inner) * (outer + inner), inner * inner);
+    const real r = real_root(h * (REAL(2.0) - h));
+    const real y = upper ? REAL(1.0) - h : h - REAL(1.0);
     const real map_u = ((real)column + u.x) / (real)width;
     /* u = 0.5 + phi / (2 pi): phi = 0 lies in the middle of the map. */
     const real2 sc = real_sin_cos_turn(map_u < REAL(0.5) ? map_u + REAL(0.5) : map_u - REAL(0.5));
@@ -94,7 +99,7 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
     sample.wi = environment_to_world(params, d);
     sample.pdf_w = (real)scene->environment[texel].radiance.w / environment_texel_solid_angle(params, row);
     sample.radiance = vector_from(params->environment) *
-                      environment_map_lookup(scene, params, (real2)(map_u, acos(y) * REAL_INVERSE_PI));
+                      environment_map_lookup(scene, params, (real2)(map_u, atan2(r, y) * REAL_INVERSE_PI));
     sample.is_delta = false;
     return sample;
 }

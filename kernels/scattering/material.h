@@ -81,10 +81,14 @@ static inline real3 material_normal(const Scene* scene, global const Material* m
 {
     real3 n = surface->normal_s;
     const bool has_tangent = !vector_is_zero(surface->tangent);
-    if (HAS(EFFECT_NORMAL_MAP) && has_tangent && material->map_bump != NO_INDEX)
-        n = material_bump_normal(scene, material, surface, n);
-    if (HAS(EFFECT_NORMAL_MAP) && has_tangent && material->map_normal != NO_INDEX)
-        n = material_mapped_normal(scene, material, surface, n);
+    if (HAS(EFFECT_NORMAL_MAP) && has_tangent) {
+        /* Maps describe the front: seen from behind it is the same surface. */
+        const real side = surface->front ? REAL(1.0) : REAL(-1.0);
+        if (material->map_bump != NO_INDEX)
+            n = side * material_bump_normal(scene, material, surface, side * n);
+        if (material->map_normal != NO_INDEX)
+            n = side * material_mapped_normal(scene, material, surface, side * n);
+    }
     if (!HAS(EFFECT_SMOOTH_NORMALS | EFFECT_NORMAL_MAP))
         return n;
     const real cos_o = vector_dot(n, wo);

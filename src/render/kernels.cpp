@@ -17,6 +17,12 @@ bool is_hit_layer(const std::string& name) {
     return name != "variance" && name != "samples" && name != "alpha";
 }
 
+/// Samples of a pixel that a work-item simulates side by side (kernels/integrators/pixel.h): a CPU's core fills the waits
+/// of one with the others, a GPU has other work-items for that.
+int samples_at_once(const DeviceInfo& device) {
+    return device.type == "CPU" ? 4 : 1;
+}
+
 } // namespace
 
 const char* integrator_name(Integrator integrator) {
@@ -55,7 +61,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
         ProgramRequest request;
         request.name = name;
         request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
-        request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout))};
+        request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
+                           fmt::format("SAMPLES_AT_ONCE={}", samples_at_once(device.info))};
         request.precision = options.precision;
         request.dump_folder = options.dump_folder;
         request.cache = {options.cache, options.cache_folder};

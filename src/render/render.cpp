@@ -24,6 +24,8 @@ constexpr double LAUNCH_SECONDS = 0.5;
 /// Work-groups a row of the launch grid; keeps both grid dimensions below 65535 work-items, beyond which some drivers
 /// compile another variant.
 constexpr u32 GRID_COLUMNS = 2048;
+/// Launches take multiples of this many samples where they can: kernels simulate up to four at once.
+constexpr double SAMPLE_GROUP = 4;
 /// Samples a pixel that the auxiliary layers average.
 constexpr std::uint32_t LAYER_SAMPLES = 16;
 
@@ -110,7 +112,8 @@ public:
         if (done == 0)
             return 1;
         const double pass = std::max(seconds / double(done), 1e-6);
-        double samples = std::max(1.0, LAUNCH_SECONDS / pass);
+        const double fitting = LAUNCH_SECONDS / pass;
+        double samples = fitting <= 1 ? 1 : std::ceil(fitting / SAMPLE_GROUP) * SAMPLE_GROUP;
         // Grow slowly: the first passes may be unlike the later ones.
         samples = std::min(samples, 2.0 * double(done));
         if (options_.time_seconds) {

@@ -224,11 +224,13 @@ private:
             m_.fresnel = FRESNEL_SCHLICK;
     }
 
-    /// illum 4, 6, 7, 9. Ks, Kd and Ns are ignored; Pr makes the surface rough.
+    /// illum 4, 6, 7, 9. Ks, Kd and Ns are ignored; Pr makes the surface rough, unless the indices are equal and
+    /// nothing is bent at all.
     void set_dielectric() {
         m_.specular = to_vec4(glm::dvec3(1), 0);
         m_.lobes = LOBE_DIELECTRIC;
-        set_roughness(roughness());
+        if (m_.transmission.w != 1.0f)
+            set_roughness(roughness());
     }
 
     /// Pm: F0 = mix(0.04, Kd, Pm), matte Kd (1 - Pm). At normal incidence both together give back

@@ -92,7 +92,7 @@ TEST(Lights, ZeroAreaAndDarkTrianglesAreNoEmitters) {
 TEST(Lights, PointLightsKeepTheRadianceOfWhatTheyLight) {
     LightOptions options;
     options.points.push_back({glm::dvec3(5, 6, 7), glm::dvec3(8, 4, 2)});
-    const Lights result = build(options, frame(0.25, glm::dvec3(1, 2, 3)));
+    const Lights result = build(options, frame(0.25, glm::dvec3(1, 2, 3)), 2);
     ASSERT_EQ(result.lights.size(), 1u);
     const Light& light = result.lights[0];
     EXPECT_EQ(light.kind, LIGHT_POINT);
@@ -102,6 +102,20 @@ TEST(Lights, PointLightsKeepTheRadianceOfWhatTheyLight) {
     EXPECT_FLOAT_EQ(light.emission.x / (0.5f * 0.5f), 8.f / (2.f * 2.f));
     EXPECT_NEAR(result.power, 4 * PI * (0.2126 * 8 + 0.7152 * 4 + 0.0722 * 2) / 16, 1e-12);
     EXPECT_EQ(light.probability, 1);
+}
+
+TEST(Lights, AFarPointLightHasThePowerOfASunOfItsIrradiance) {
+    for (double distance : {1e3, 1e6, 1e12}) {
+        LightOptions point, sun;
+        point.points.push_back({glm::dvec3(0, distance, 0), glm::dvec3(3 * distance * distance)});
+        sun.suns.push_back({glm::dvec3(0, 1, 0), glm::dvec3(3), 0});
+        const double expected = build(sun, frame(1), 2).power;
+        EXPECT_NEAR(build(point, frame(1), 2).power, expected, 4e-6 * expected) << distance;
+    }
+    // On the sphere, half of the light meets it.
+    LightOptions near;
+    near.points.push_back({glm::dvec3(0, 2 + 1e-15, 0), glm::dvec3(1)});
+    EXPECT_NEAR(build(near, frame(1), 2).power, 2 * PI, 1e-6);
 }
 
 TEST(Lights, ASunDiscGivesItsIrradiance) {

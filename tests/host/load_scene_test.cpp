@@ -91,7 +91,7 @@ TEST(LoadScene, LightOptionsReplaceTheDefaultSky) {
     options.light.environment = glm::dvec3(0);
     EXPECT_EQ(count_notices(load(options).notices, "no light"), 0);
     options.light.environment.reset();
-    options.light.points.push_back({glm::dvec3(0, 5, 0), glm::dvec3(1)});
+    options.light.points.push_back({glm::dvec3(0, 1, 0), glm::dvec3(1)});
     const Scene scene = load(options);
     EXPECT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.environment.radiance, glm::dvec3(0));

@@ -116,6 +116,7 @@ TEST(MaterialRules, TheOtherModelsAreSmoothDielectrics) {
         EXPECT_TRUE(r.loaded.empty());
     }
     EXPECT_EQ(Ruled("illum 7\nNi 1\n").m.transmission.w, 1) << "an index of exactly 1 is allowed";
+    EXPECT_EQ(Ruled("illum 7\nNi 1\nPr 0.5\n").m.alpha_x, 0) << "equal indices bend nothing, roughly or not";
 }
 
 TEST(MaterialRules, AbsentIllumIsTwoWithKsAndOneWithout) {
