@@ -8,6 +8,11 @@
 #include "numerics/vector.h"
 #include "shared/render_types.h"
 
+/* Rays that a work-item has traced besides its primary rays. */
+typedef struct {
+    uint secondary, shadow;
+} PixelRays;
+
 /* Which counter a bad sample belongs to; COUNT_WORDS for a good one. */
 static inline uint film_fault(const RenderParams* params, real3 radiance)
 {

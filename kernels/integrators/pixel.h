@@ -77,7 +77,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
    compilers compile an entry point's body several times. */
 #define RENDER_KERNEL(KERNEL, RADIANCE)                                                                       \
     static CLRT_NOINLINE void KERNEL##_pixel(const Scene* scene, const RenderParams* params, TilePixel place, \
-                                             global long* film, global PixelRays* pixel_rays,                 \
+                                             global long* film, global uint* pixel_rays,                      \
                                              global volatile uint* counters)                                  \
     {                                                                                                         \
         PixelRays rays = {0u, 0u};                                                                            \
@@ -90,13 +90,13 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             RADIANCE(scene, params, samples, count, &rays);                                                   \
             pixel_add(params, place, samples, count, &counter, film, counters);                               \
         }                                                                                                     \
-        pixel_rays[place.slot].secondary += rays.secondary;                                                   \
-        pixel_rays[place.slot].shadow += rays.shadow;                                                         \
+        pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SECONDARY] += rays.secondary;                   \
+        pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SHADOW] += rays.shadow;                         \
     }                                                                                                         \
                                                                                                               \
     kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
         const RenderParams params, SCENE_PARAMS, global long* restrict film,                                  \
-        global PixelRays* restrict pixel_rays, global volatile uint* counters)                                \
+        global uint* restrict pixel_rays, global volatile uint* counters)                                     \
     {                                                                                                         \
         TilePixel place;                                                                                      \
         if (!tile_pixel(&params, &place))                                                                     \

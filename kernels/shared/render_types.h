@@ -58,11 +58,10 @@ ASSERT_SIZE(RenderParams, 240);
 #define TILE_SIZE 8
 #define TILE_PIXELS 64
 
-/* Rays of a pixel, over all its samples. */
-typedef struct {
-    u32 secondary, shadow;
-} PixelRays;
-ASSERT_SIZE(PixelRays, 8);
+/* Rays of a pixel, over all its samples: two u32 a slot. */
+#define PIXEL_RAYS_WORDS 2
+#define PIXEL_RAYS_SECONDARY 0
+#define PIXEL_RAYS_SHADOW 1
 
 /* Counters of a run, u32 each. */
 #define COUNT_NAN 0

@@ -204,7 +204,7 @@ struct Targets {
 Targets create_targets(const Device& device, const RenderParams& params) {
     const size_t slots = film_slots(params);
     return {create_buffer(device, "film", slots * 3 * params.film_replicates * sizeof(std::int64_t)),
-            create_buffer(device, "pixel_rays", slots * sizeof(PixelRays)),
+            create_buffer(device, "pixel_rays", slots * PIXEL_RAYS_WORDS * sizeof(u32)),
             create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))};
 }
 
@@ -237,9 +237,11 @@ void read_results(const Device& device, const RenderParams& params, const Target
     read_film(device, params, targets.film, result.film);
     result.counts = read_counts(read_buffer<u32>(device, targets.counters, COUNT_WORDS + 2 * REPLAY_CAPACITY));
     result.counts.primary = std::uint64_t(params.crop_width) * params.crop_height * result.passes;
-    for (const PixelRays& rays : read_buffer<PixelRays>(device, targets.pixel_rays, film_slots(params))) {
-        result.counts.secondary += rays.secondary;
-        result.counts.shadow += rays.shadow;
+    const size_t words = film_slots(params) * PIXEL_RAYS_WORDS;
+    const std::vector<u32> rays = read_buffer<u32>(device, targets.pixel_rays, words);
+    for (size_t i = 0; i < words; i += PIXEL_RAYS_WORDS) {
+        result.counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
+        result.counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
     }
 }
 

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every effect is found where a scene calls for it, with its witness, and absent otherwise, with the reason.
+#include "effects/effects.h"
+#include "effects/explain.h"
+#include "kernels/shared/effects.h"
+#include "support/render_scene.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace clrt {
+
+namespace {
+
+/// One quad of one material under no light; tests add what they are about.
+class OneQuad : public TestScene {
+public:
+    explicit OneQuad(const std::string& keys = "Kd 0.5 0.5 0.5") {
+        build.material("thing", keys).use("thing");
+        build.textured_quad({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+        texture("map.exr", 2, 1, 3, {1, 1, 1, 0.5f, 0.5f, 0.5f});
+        options.light.environment = glm::dvec3(0);
+        options.all_effects = false;
+    }
+    Effects effects() const { return find_effects(load(), options); }
+};
+
+const Effect& find(const Effects& effects, u32 bit) {
+    for (const Effect& effect : effects.list)
+        if (effect.bit == bit)
+            return effect;
+    throw std::logic_error("no such effect");
+}
+
+/// Expects an effect with a witness that holds this text.
+void expect_present(const OneQuad& scene, u32 bit, const std::string& witness) {
+    const Effects effects = scene.effects();
+    const Effect& effect = find(effects, bit);
+    EXPECT_TRUE(effect.present) << effect.name << ": " << effect.witness;
+    EXPECT_NE(effect.witness.find(witness), std::string::npos) << effect.name << ": " << effect.witness;
+    EXPECT_EQ(effects.mask & bit, bit) << effect.name;
+}
+
+void expect_absent(const OneQuad& scene, u32 bit) {
+    const Effects effects = scene.effects();
+    const Effect& effect = find(effects, bit);
+    EXPECT_FALSE(effect.present) << effect.name << ": " << effect.witness;
+    EXPECT_FALSE(effect.witness.empty()) << effect.name << ": the reason is missing";
+    EXPECT_EQ(effects.mask & bit, 0u) << effect.name;
+}
+
+} // namespace
+
+TEST(Effects, AMatteQuadInTheDarkCallsForOneEffect) {
+    const OneQuad scene;
+    EXPECT_EQ(scene.effects().mask, u32(EFFECT_MATTE));
+    for (u32 bit = 1; bit <= EFFECT_ALL; bit <<= 1)
+        if (bit != EFFECT_MATTE)
+            expect_absent(scene, bit);
+}
+
+TEST(Effects, EveryBitIsListedOnceInOrder) {
+    u32 bit = 1;
+    for (const Effect& effect : OneQuad().effects().list) {
+        EXPECT_EQ(effect.bit, bit) << effect.name;
+        EXPECT_FALSE(effect.name.empty());
+        bit <<= 1;
+    }
+    EXPECT_EQ(bit - 1, u32(EFFECT_ALL));
+}
+
+TEST(Effects, MaterialsAreNamedWithTheirPlace) {
+    const struct {
+        const char* keys;
+        u32 bit;
+    } cases[] = {
+        {"Kd 0 0 0\nKe 1 1 1", EFFECT_AREA_LIGHT},
+        {"Kd 0.1 0.1 0.1", EFFECT_MATTE},
+        {"Ks 0.5 0.5 0.5\nNs 50\nillum 2", EFFECT_GLOSSY},
+        {"Kd 0.5 0.5 0.5\nPm 1\nPr 0.4", EFFECT_GLOSSY},
+        {"Ks 1 1 1\nillum 3", EFFECT_MIRROR},
+        {"Ni 1.5\nillum 7", EFFECT_REFRACTION},
+        {"Ni 1.5\nillum 7\nPr 0.3", EFFECT_ROUGH_REFRACTION},
+        {"map_Kd map.exr", EFFECT_TEXTURES},
+        {"Kd 0.5 0.5 0.5\nnorm map.exr", EFFECT_NORMAL_MAP},
+        {"Kd 0.5 0.5 0.5\nbump map.exr", EFFECT_NORMAL_MAP},
+        {"Kd 0.5 0.5 0.5\nd 0.5", EFFECT_CUT_OUT},
+        {"Kd 0.5 0.5 0.5\nmap_d map.exr", EFFECT_CUT_OUT},
+    };
+    for (const auto& [keys, bit] : cases) {
+        const OneQuad scene(keys);
+        SCOPED_TRACE(keys);
+        expect_present(scene, bit, "material \"thing\" (" + scene.folder.file("scene.mtl") + ":1)");
+    }
+    expect_present(OneQuad("map_Kd map.exr"), EFFECT_MATTE, "thing");
+    expect_present(OneQuad("Ni 1.5\nillum 7\nPr 0.3"), EFFECT_REFRACTION, "thing");
+    expect_present(OneQuad("norm map.exr"), EFFECT_TEXTURES, "thing");
+}
+
+TEST(Effects, NeighbouringMaterialsDoNotCallForMore) {
+    expect_absent(OneQuad("Ks 1 1 1\nNs 50\nillum 2"), EFFECT_MATTE);
+    expect_absent(OneQuad("Ks 1 1 1\nillum 3"), EFFECT_GLOSSY);
+    expect_absent(OneQuad("Ks 1 1 1\nNs 50\nillum 3"), EFFECT_MIRROR);
+    expect_absent(OneQuad("Ni 1.5\nillum 7"), EFFECT_ROUGH_REFRACTION);
+    expect_absent(OneQuad("Ni 1.5\nillum 7"), EFFECT_MIRROR);
+    expect_absent(OneQuad("map_Kd map.exr"), EFFECT_NORMAL_MAP);
+    expect_absent(OneQuad("map_Kd map.exr"), EFFECT_CUT_OUT);
+    expect_absent(OneQuad("map_Kd none.exr"), EFFECT_TEXTURES); // a file that is not there
+    expect_absent(OneQuad("Ke 0 0 0"), EFFECT_AREA_LIGHT);
+}
+
+TEST(Effects, MaterialsOnNoTriangleDoNotCount) {
+    OneQuad scene;
+    scene.build.material("unused", "Ni 1.5\nillum 7").use("unused").use("thing");
+    expect_absent(scene, EFFECT_REFRACTION);
+    expect_present(scene, EFFECT_MATTE, "thing");
+}
+
+TEST(Effects, LightOptionsCallForTheirKind) {
+    OneQuad sky;
+    sky.options.light.environment = glm::dvec3(0, 0, 0.1);
+    expect_present(sky, EFFECT_ENVIRONMENT, "radiance above 0");
+    expect_absent(sky, EFFECT_ENVIRONMENT_MAP);
+
+    OneQuad map;
+    map.options.light.environment.reset();
+    map.options.light.environment_file = map.folder.file("map.exr");
+    expect_present(map, EFFECT_ENVIRONMENT_MAP, "2 x 1 texels");
+    expect_present(map, EFFECT_ENVIRONMENT, "");
+    map.options.light.environment_scale = 0;
+    expect_absent(map, EFFECT_ENVIRONMENT_MAP);
+    expect_absent(map, EFFECT_ENVIRONMENT);
+
+    OneQuad lights;
+    lights.options.light.points.push_back({{0, 0, 1}, glm::dvec3(1)});
+    lights.options.light.suns.push_back({{0, 0, 1}, glm::dvec3(1), 0});
+    expect_present(lights, EFFECT_DELTA_LIGHT, "2 by --point or --sun");
+    lights.options.light.points[0].intensity = lights.options.light.suns[0].irradiance = glm::dvec3(0);
+    expect_absent(lights, EFFECT_DELTA_LIGHT);
+}
+
+TEST(Effects, NormalsAndFiltersAreFoundWithoutMaterials) {
+    OneQuad smooth;
+    smooth.build.raw("v 0 0 1\nv 1 0 1\nv 0 1 1\nvn 0 0.6 0.8\nf -3//-1 -2//-1 -1//-1");
+    expect_present(smooth, EFFECT_SMOOTH_NORMALS, "triangle 2");
+
+    OneQuad filtered;
+    filtered.options.filter = Filter::GAUSSIAN;
+    expect_present(filtered, EFFECT_FILTER, "--filter");
+}
+
+TEST(Effects, AllIsTheFullMaskAndChangesNoWitness) {
+    OneQuad scene;
+    const Effects needed = scene.effects();
+    scene.options.all_effects = true;
+    const Effects all = scene.effects();
+    EXPECT_EQ(all.mask, u32(EFFECT_ALL));
+    for (size_t i = 0; i < all.list.size(); ++i) {
+        EXPECT_EQ(all.list[i].present, needed.list[i].present);
+        EXPECT_EQ(all.list[i].witness, needed.list[i].witness);
+    }
+}
+
+TEST(Explain, TheTableNamesEffectsMaterialsAndFallbacks) {
+    OneQuad scene("Kd 0.5 0.5 0.5\nmap_Kd none.png");
+    scene.options.scene_path = "quad.obj";
+    const std::string text = explain(scene.load(), scene.effects(), scene.options);
+    for (const char* expected :
+         {"quad.obj", "2 triangles", "present matte reflection", "absent  refraction", "thing",
+          "illum 1: matte Kd", "CLRT_EFFECTS=0x10", "none.png", "camera: --eye"})
+        EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
+}
+
+TEST(Explain, TheJsonHoldsTheSame) {
+    OneQuad scene("Ni 1.5\nillum 7");
+    scene.options.explain = Explain::JSON;
+    const auto json = nlohmann::json::parse(explain(scene.load(), scene.effects(), scene.options));
+    EXPECT_EQ(json["triangles"], 2);
+    ASSERT_EQ(json["effects"].size(), scene.effects().list.size());
+    for (const auto& effect : json["effects"]) {
+        EXPECT_EQ(effect["present"], effect["compiled"]);
+        EXPECT_EQ(effect["present"], effect["name"] == "refraction");
+        EXPECT_FALSE(effect["witness"].get<std::string>().empty());
+    }
+    EXPECT_TRUE(json["notices"].is_array());
+}
+
+} // namespace clrt

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures and error bars from made-up sums, against direct computation.
+#include "render/film.h"
+
+#include "support/statistics.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace clrt {
+
+namespace {
+
+/// A film of empty sums with room for `samples` samples from `first`.
+Film empty_film(int width, int height, int replicates, std::uint32_t first, std::uint64_t samples) {
+    Film film;
+    film.width = width;
+    film.height = height;
+    film.replicates = replicates;
+    film.scale = {std::ldexp(1.0, -12), std::ldexp(1.0, 20)};
+    film.first_sample = first;
+    film.samples = samples;
+    film.sums.assign(size_t(replicates) * size_t(width) * size_t(height) * 3, 0);
+    return film;
+}
+
+/// Fills a film as a renderer whose samples are normal with these moments would.
+void fill_with_noise(Film& film, double mean, double deviation, std::mt19937& random) {
+    const size_t plane = film.sums.size() / size_t(film.replicates);
+    for (int r = 0; r < film.replicates; ++r) {
+        const double n = double(film_replicate_samples(film, r));
+        std::normal_distribution<double> sum(n * mean, std::sqrt(n) * deviation);
+        for (size_t i = 0; i < plane; ++i)
+            film.sums[size_t(r) * plane + i] = std::llround(sum(random) / film.scale.quantum);
+    }
+}
+
+/// Means of value `i` in the replicates that have samples.
+std::vector<double> replicate_means(const Film& film, size_t i) {
+    std::vector<double> means;
+    const size_t plane = film.sums.size() / size_t(film.replicates);
+    for (int r = 0; r < film.replicates; ++r)
+        if (const double n = double(film_replicate_samples(film, r)); n > 0)
+            means.push_back(double(film.sums[size_t(r) * plane + i]) * film.scale.quantum / n);
+    return means;
+}
+
+/// Mean squared error by the spread of the replicates, without one of them (none: -1).
+double mean_squared_error(const Film& film, int without) {
+    const size_t plane = film.sums.size() / size_t(film.replicates);
+    double sum = 0;
+    for (size_t i = 0; i < plane; ++i) {
+        std::vector<double> means = replicate_means(film, i);
+        if (without >= 0)
+            means.erase(means.begin() + without);
+        sum += moments_of(means).variance_of_mean();
+    }
+    return sum / double(plane);
+}
+
+/// A scene that only shines as told.
+Scene shining(double sky, double power) {
+    Scene scene;
+    scene.extent = 1;
+    scene.environment.radiance = glm::dvec3(sky);
+    scene.emitted_power = power;
+    return scene;
+}
+
+} // namespace
+
+TEST(Film, EverySampleBelongsToTheReplicateOfItsNumber) {
+    for (const std::uint32_t first : {0u, 1u, 7u, 8u, 100u})
+        for (const std::uint64_t samples : {0u, 1u, 5u, 8u, 37u}) {
+            const Film film = empty_film(1, 1, 8, first, samples);
+            std::vector<std::uint64_t> counts(8, 0);
+            for (std::uint64_t s = first; s < first + samples; ++s)
+                ++counts[s % 8];
+            for (int r = 0; r < 8; ++r)
+                EXPECT_EQ(film_replicate_samples(film, r), counts[size_t(r)]) << first << ", " << samples;
+        }
+}
+
+TEST(Film, TheMeanIsTheSumOverAllReplicates) {
+    Film film = empty_film(3, 2, 4, 0, 10);
+    for (size_t i = 0; i < film.sums.size(); ++i)
+        film.sums[i] = std::int64_t(i * i) + 1;
+    const std::vector<float> mean = film_mean(film);
+    ASSERT_EQ(mean.size(), 18u);
+    for (size_t i = 0; i < 18; ++i) {
+        std::int64_t sum = 0;
+        for (size_t r = 0; r < 4; ++r)
+            sum += film.sums[r * 18 + i];
+        EXPECT_FLOAT_EQ(mean[i], float(double(sum) / 4096 / 10));
+    }
+}
+
+TEST(Film, SumsBeyondTheDigitsOfADoubleKeepTheirMean) {
+    Film film = empty_film(1, 1, 2, 0, std::uint64_t(1) << 20);
+    film.sums = {std::int64_t(1) << 60, 4096, 0, -(std::int64_t(1) << 60), 4096, 0};
+    EXPECT_EQ(film_mean(film), (std::vector<float>{0, float(std::ldexp(2.0, -20)), 0}));
+}
+
+TEST(Film, WithoutSamplesItIsBlackAndHasNoError) {
+    const Film film = empty_film(2, 2, 8, 0, 0);
+    EXPECT_EQ(film_mean(film), std::vector<float>(12, 0.0f));
+    EXPECT_TRUE(film_variance(film).empty());
+    EXPECT_FALSE(film_error(film));
+}
+
+TEST(Film, TheVarianceIsThatOfTheMeanOfReplicates) {
+    std::mt19937 random(1);
+    for (const std::uint64_t samples : {2u, 5u, 64u, 69u}) { // some replicates empty, or one sample ahead
+        Film film = empty_film(4, 3, 8, 3, samples);
+        fill_with_noise(film, 2, 1, random);
+        const std::vector<float> variance = film_variance(film);
+        ASSERT_EQ(variance.size(), 36u);
+        for (size_t i = 0; i < variance.size(); ++i) {
+            const double expected = moments_of(replicate_means(film, i)).variance_of_mean();
+            EXPECT_NEAR(variance[i], expected, 1e-6 * expected) << samples;
+        }
+    }
+}
+
+TEST(Film, OneReplicateSaysNothingAboutItsError) {
+    std::mt19937 random(2);
+    for (const auto& [replicates, samples] : {std::pair{1, 64u}, {8, 1u}}) {
+        Film film = empty_film(4, 3, replicates, 0, samples);
+        fill_with_noise(film, 2, 1, random);
+        EXPECT_TRUE(film_variance(film).empty());
+        EXPECT_FALSE(film_error(film));
+    }
+}
+
+TEST(Film, TheErrorIsRootMeanSquareOverTheMean) {
+    std::mt19937 random(3);
+    Film film = empty_film(6, 5, 8, 0, 80);
+    fill_with_noise(film, 2, 1, random);
+    double mean = 0;
+    for (const float value : film_mean(film))
+        mean += double(value) / 90;
+    const auto error = film_error(film);
+    ASSERT_TRUE(error);
+    EXPECT_NEAR(error->relative_rmse, std::sqrt(mean_squared_error(film, -1)) / mean, 1e-6);
+    EXPECT_NEAR(error->relative_rmse, 1 / std::sqrt(80.0) / 2, 0.01);
+
+    // Jackknife of the logarithm: mean and spread of what leaves out one; half of it belongs to the root.
+    std::vector<double> logs;
+    for (int r = 0; r < 8; ++r)
+        logs.push_back(std::log(mean_squared_error(film, r)));
+    const double spread = std::sqrt(moments_of(logs).variance * 7 * 7 / 8);
+    const double t = 2.3646242516; // 97.5 % of Student's distribution with 7 degrees of freedom
+    ASSERT_TRUE(error->low && error->high);
+    EXPECT_NEAR(*error->high / error->relative_rmse, std::exp(0.5 * t * spread), 1e-3);
+    EXPECT_NEAR(*error->low * *error->high, error->relative_rmse * error->relative_rmse, 1e-9);
+}
+
+TEST(Film, UnderFourReplicatesThereIsNoInterval) {
+    std::mt19937 random(4);
+    Film film = empty_film(6, 5, 3, 0, 9);
+    fill_with_noise(film, 2, 1, random);
+    const auto error = film_error(film);
+    ASSERT_TRUE(error);
+    EXPECT_GT(error->relative_rmse, 0);
+    EXPECT_FALSE(error->low || error->high);
+}
+
+TEST(Film, APictureWithoutNoiseHasErrorZeroAndABlackOneNone) {
+    Film film = empty_film(2, 2, 8, 0, 16);
+    film.sums.assign(film.sums.size(), 4096);
+    const auto error = film_error(film);
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->relative_rmse, 0);
+    film.sums.assign(film.sums.size(), 0);
+    EXPECT_FALSE(film_error(film));
+}
+
+TEST(Film, TheIntervalHoldsTheTrueErrorAsOftenAsItSays) {
+    std::mt19937 random(5);
+    for (const int replicates : {4, 8, 32}) {
+        int covered = 0;
+        const int trials = 400;
+        for (int trial = 0; trial < trials; ++trial) {
+            Film film = empty_film(4, 4, replicates, 0, std::uint64_t(4 * replicates));
+            fill_with_noise(film, 10, 1, random);
+            const auto error = film_error(film);
+            ASSERT_TRUE(error && error->low && error->high);
+            const double truth = 1 / std::sqrt(4.0 * replicates) / 10;
+            covered += *error->low <= truth && truth <= *error->high;
+        }
+        // 380 expected; the standard deviation is 4.4.
+        EXPECT_GE(covered, 355) << replicates;
+        EXPECT_LE(covered, 399) << replicates;
+    }
+}
+
+TEST(FilmScale, TheQuantumIsAMillionthOfTheMeanLevel) {
+    EXPECT_EQ(film_scale(shining(1, 0)).quantum, std::ldexp(1.0, -20));
+    EXPECT_EQ(film_scale(shining(1, 0)).largest, std::ldexp(1.0, 24));
+    EXPECT_EQ(film_scale(shining(1.4, 0)).quantum, std::ldexp(1.0, -20)) << "the power of two nearest to it";
+    EXPECT_EQ(film_scale(shining(1.5, 0)).quantum, std::ldexp(1.0, -19));
+    // Power over the bounding sphere's area (radius sqrt(3)) and pi.
+    const double pi = 3.14159265358979323846;
+    EXPECT_EQ(film_scale(shining(0, 12 * pi * pi)).quantum, std::ldexp(1.0, -20));
+    EXPECT_EQ(film_scale(shining(0, 0)).quantum, std::ldexp(1.0, -20)) << "black scenes have some scale";
+}
+
+TEST(FilmScale, ItFollowsTheLightByPowersOfTwo) {
+    for (int k = -40; k <= 40; k += 8) {
+        const double factor = std::ldexp(1.0, k);
+        EXPECT_EQ(film_scale(shining(0.3 * factor, 5 * factor)).quantum,
+                  film_scale(shining(0.3, 5)).quantum * factor);
+    }
+}
+
+TEST(FilmScale, TheBrightestLightInViewFits) {
+    Scene scene = shining(0, 1e-6);
+    Light sun{};
+    sun.kind = LIGHT_SUN;
+    sun.emission = {1e9f, 1, 1, 0};
+    scene.lights.push_back(sun);
+    EXPECT_GE(film_scale(scene).largest, 8e9);
+
+    scene = shining(2, 0);
+    scene.environment.texels.resize(2);
+    scene.environment.texels[1].radiance = {0, 5e8f, 0, 0};
+    scene.environment.mean_radiance = 1e-3;
+    EXPECT_GE(film_scale(scene).largest, 8e9) << "the map's factor counts";
+}
+
+} // namespace clrt

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// camera/camera.h: pixel filters by their distributions, rays against double precision.
+#include "support/random_inputs.h"
+#include "support/scene_probe.h"
+#include "support/sphere_cells.h"
+#include "support/statistics.h"
+
+#include <gtest/gtest.h>
+
+using namespace clrt;
+using glm::dvec3;
+
+namespace {
+
+constexpr size_t SAMPLES = 300000;
+constexpr double GAUSSIAN_SIGMAS = 3; // the radius of the Gaussian filter
+
+SceneProbe& probe() {
+    static SceneProbe instance = [] {
+        SceneProbe made({"geometry/scene.h", "camera/camera.h"});
+        made.add("filter", "first = (vec4)(camera_filter_sample(params, (real2)(a.x, a.y)), 0.0f, 0.0f);");
+        made.add("tent", "first.x = camera_tent(a.x);");
+        // a: pixel x, y, sample
+        made.add("ray",
+                 "const uint x = as_uint(a.x), y = as_uint(a.y);"
+                 "const Sampler s = sampler_make(params->seed, y * params->width + x, 0u, as_uint(a.z));"
+                 "const Ray ray = camera_ray(params, &s, x, y);"
+                 "first = probe_vec4(ray.direction, ray.t_max); second = probe_vec4(ray.origin, REAL(0.0));"
+                 "const real2 u = sampler_pair(&s, 0u, SAMPLE_FILM);"
+                 "third = (vec4)(u.x, u.y, 0.0f, 0.0f);");
+        return made;
+    }();
+    return instance;
+}
+
+RenderParams filter_params(u32 filter, double radius) {
+    RenderParams params{};
+    params.filter = filter;
+    params.filter_radius = float(radius);
+    return params;
+}
+
+std::vector<vec4> filter_offsets(u32 filter, double radius, const std::vector<vec4>& u) {
+    return probe().run("filter", Scene{}, filter_params(filter, radius), u).first;
+}
+
+std::vector<vec4> random_pairs(size_t count, u32 seed) {
+    Random random(seed);
+    std::vector<vec4> pairs;
+    for (size_t i = 0; i < count; ++i) {
+        const double x = random.unit();
+        pairs.push_back(to_vec4({x, random.unit(), 0}));
+    }
+    return pairs;
+}
+
+/// p-value of numbers in [0, 1) being uniform and independent of their partner.
+double uniform_p_value(const std::vector<std::pair<double, double>>& points) {
+    constexpr size_t SIDE = 40;
+    std::vector<double> counts(SIDE * SIDE);
+    for (const auto& [x, y] : points) {
+        EXPECT_TRUE(x >= 0 && x <= 1 && y >= 0 && y <= 1);
+        ++counts[std::min(size_t(x * SIDE), SIDE - 1) * SIDE + std::min(size_t(y * SIDE), SIDE - 1)];
+    }
+    return chi_squared_test(counts, std::vector<double>(counts.size(), double(points.size()) / (SIDE * SIDE)))
+        .p_value;
+}
+
+/// Cumulative distribution of the tent of radius 1.
+double tent_share(double x) {
+    return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
+}
+
+struct View {
+    dvec3 eye, look, up;
+    double fov_degrees;
+};
+
+/// Film vectors of a camera as the host makes them.
+RenderParams camera_params(const View& view, u32 width, u32 height) {
+    RenderParams params = filter_params(FILTER_BOX, 0.5);
+    const dvec3 right = glm::normalize(glm::cross(view.look, view.up)), up = glm::cross(right, view.look);
+    const double pixel = 2 * std::tan(view.fov_degrees * PI / 360) / height;
+    params.eye = to_vec4(view.eye);
+    params.film_corner = to_vec4(view.look - right * (0.5 * width * pixel) + up * (0.5 * height * pixel));
+    params.film_dx = to_vec4(right * pixel);
+    params.film_dy = to_vec4(up * -pixel);
+    params.look = to_vec4(view.look);
+    params.width = width;
+    params.height = height;
+    return params;
+}
+
+std::vector<vec4> random_pixels(u32 width, u32 height, size_t count) {
+    Random random(1);
+    std::vector<vec4> pixels;
+    for (size_t i = 0; i < count; ++i) {
+        const u32 x = random.word() % width, y = random.word() % height;
+        pixels.push_back({bits_to_float(x), bits_to_float(y), bits_to_float(random.word() % 4096), 0});
+    }
+    return pixels;
+}
+
+} // namespace
+
+TEST(Camera, TheBoxFilterIsUniform) {
+    for (const double radius : {0.5, 2.0}) {
+        std::vector<std::pair<double, double>> points;
+        for (const vec4& p : filter_offsets(FILTER_BOX, radius, random_pairs(SAMPLES, 2)))
+            points.emplace_back((p.x / radius + 1) / 2, (p.y / radius + 1) / 2);
+        EXPECT_GT(uniform_p_value(points), SMALLEST_P);
+    }
+}
+
+TEST(Camera, TheTentFilterFallsLinearlyFromTheCentre) {
+    for (const double radius : {1.0, 1.7}) {
+        std::vector<std::pair<double, double>> points;
+        for (const vec4& p : filter_offsets(FILTER_TENT, radius, random_pairs(SAMPLES, 3)))
+            points.emplace_back(tent_share(p.x / radius), tent_share(p.y / radius));
+        EXPECT_GT(uniform_p_value(points), SMALLEST_P);
+    }
+}
+
+TEST(Camera, TheGaussianFilterIsNormalAndCutAtItsRadius) {
+    for (const double radius : {1.5, 0.5}) {
+        const double sigma = radius / GAUSSIAN_SIGMAS;
+        const double whole = 1 - std::exp(-GAUSSIAN_SIGMAS * GAUSSIAN_SIGMAS / 2);
+        std::vector<std::pair<double, double>> points;
+        for (const vec4& p : filter_offsets(FILTER_GAUSSIAN, radius, random_pairs(SAMPLES, 4))) {
+            const double r = std::hypot(double(p.x), double(p.y));
+            ASSERT_LE(r, radius * (1 + 1e-5));
+            points.emplace_back(std::min(1.0, (1 - std::exp(-r * r / (2 * sigma * sigma))) / whole),
+                                std::atan2(double(p.y), double(p.x)) / (2 * PI) + 0.5);
+        }
+        EXPECT_GT(uniform_p_value(points), SMALLEST_P);
+    }
+}
+
+TEST(Camera, FiltersStayWithinTheirRadiusForTheEndsOfTheNumbers) {
+    std::vector<vec4> u;
+    for (const double x : {FLOAT_U, 0.5 - FLOAT_U, 0.5 + FLOAT_U, 1 - FLOAT_U})
+        for (const double y : {FLOAT_U, 0.5 + FLOAT_U, 1 - FLOAT_U})
+            u.push_back(to_vec4({x, y, 0}));
+    for (const u32 filter : {FILTER_BOX, FILTER_TENT, FILTER_GAUSSIAN})
+        for (const vec4& p : filter_offsets(filter, 1.5, u))
+            EXPECT_TRUE(std::abs(p.x) <= 1.5 * (1 + 1e-5) && std::abs(p.y) <= 1.5 * (1 + 1e-5)) << filter;
+}
+
+TEST(Camera, TheTentIsTheInverseOfItsDistribution) {
+    std::vector<vec4> u;
+    for (u32 k = 1; k < 1u << 24; k += 16382)
+        u.push_back({float(k * FLOAT_U), 0, 0, 0});
+    const std::vector<vec4> got = probe().run("tent", Scene{}, RenderParams{}, u).first;
+    for (size_t i = 0; i < u.size(); ++i)
+        // Half an ulp of the number before the root, which is steep at the ends.
+        ASSERT_NEAR(tent_share(got[i].x), u[i].x, 4 * FLOAT_U) << u[i].x;
+}
+
+TEST(Camera, RaysAreThoseOfAPinhole) {
+    constexpr u32 WIDTH = 800, HEIGHT = 600;
+    const std::vector<vec4> pixels = random_pixels(WIDTH, HEIGHT, 50000);
+    const dvec3 tilted = glm::normalize(dvec3(0.3, -0.5, -0.8));
+    for (const View& view :
+         {View{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 40}, View{{1, -2, 3}, tilted, {0, 1, 0}, 90},
+          View{{1, -2, 3}, tilted, {0.2, 1, 0.1}, 179.9}, View{{0, 5, 0}, tilted, {0, 1, 0}, 1e-3}}) {
+        const RenderParams params = camera_params(view, WIDTH, HEIGHT);
+        const SceneProbe::Outputs got = probe().run("ray", Scene{}, params, pixels);
+        const dvec3 right = glm::normalize(glm::cross(view.look, view.up)), up = glm::cross(right, view.look);
+        const double tangent = std::tan(view.fov_degrees * PI / 360);
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            // From the definition: the sample's place in the picture, scaled by the tangent of half the
+            // angle.
+            const double x = float_to_bits(pixels[i].x) + double(got.third[i].x);
+            const double y = float_to_bits(pixels[i].y) + double(got.third[i].y);
+            const dvec3 exact = view.look + right * (tangent * (2 * x - WIDTH) / HEIGHT) +
+                                up * (tangent * (1 - 2 * y / HEIGHT));
+            const dvec3 d = to_dvec3(got.first[i]);
+            // The corner and the steps to the film position are floats: a wide angle's cancel towards the
+            // centre.
+            const double corner = glm::length(to_dvec3(params.film_corner)) / glm::length(exact);
+            ASSERT_LE(glm::length(d - glm::normalize(exact)), 4 * FLOAT_U * (1 + corner)) << view.fov_degrees;
+            ASSERT_NEAR(glm::length(d), 1, 4 * FLOAT_U);
+            ASSERT_EQ(got.first[i].w, 1e18f);
+            ASSERT_EQ(to_dvec3(got.second[i]), view.eye);
+        }
+    }
+}
+
+TEST(Camera, PixelZeroIsTopLeftAndRightIsRight) {
+    const RenderParams params = camera_params({{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 60}, 40, 30);
+    const std::vector<vec4> corners = {{bits_to_float(0), bits_to_float(0), 0, 0},
+                                       {bits_to_float(39), bits_to_float(29), 0, 0}};
+    const std::vector<vec4> d = probe().run("ray", Scene{}, params, corners).first;
+    EXPECT_TRUE(d[0].x < 0 && d[0].y > 0 && d[0].z < 0);
+    EXPECT_TRUE(d[1].x > 0 && d[1].y < 0 && d[1].z < 0);
+}
+
+TEST(Camera, TheFilterMovesTheSampleByItsOffset) {
+    // Looking along -z with film vectors of one unit a pixel, the direction shows the film position.
+    constexpr u32 WIDTH = 64, HEIGHT = 64;
+    const std::vector<vec4> pixels = random_pixels(WIDTH, HEIGHT, 10000);
+    for (const u32 filter : {FILTER_BOX, FILTER_TENT, FILTER_GAUSSIAN}) {
+        RenderParams params = filter_params(filter, 1.5);
+        params.width = WIDTH;
+        params.film_corner = {0, 0, -1, 0};
+        params.film_dx = {1, 0, 0, 0};
+        params.film_dy = {0, 1, 0, 0};
+        const SceneProbe::Outputs got = probe().run("ray", Scene{}, params, pixels);
+        const std::vector<vec4> offsets = filter_offsets(filter, 1.5, got.third);
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const dvec3 d = to_dvec3(got.first[i]) / -double(got.first[i].z);
+            ASSERT_NEAR(d.x, float_to_bits(pixels[i].x) + 0.5 + offsets[i].x, 64 * 8 * FLOAT_U);
+            ASSERT_NEAR(d.y, float_to_bits(pixels[i].y) + 0.5 + offsets[i].y, 64 * 8 * FLOAT_U);
+        }
+    }
+}

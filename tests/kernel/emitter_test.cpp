@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+// lights/emitter.h and light_sample.h: points on emissive triangles, their density per steradian from both
+// techniques, sides, and shadow rays that do not meet the light they are sent to.
+#include "scene/lights.h"
+#include "support/random_inputs.h"
+#include "support/scene_probe.h"
+#include "support/statistics.h"
+
+#include <gtest/gtest.h>
+
+using namespace clrt;
+using glm::dvec3;
+
+namespace {
+
+SceneProbe& probe() {
+    static SceneProbe instance = [] {
+        SceneProbe made({"lights/emitter.h", "geometry/triangle.h"});
+        // a: position, second number; b: words
+        const std::string sample =
+            "const LightSample s = emitter_sample(scene, params, vector_from(a), as_uint(b.x), "
+            "as_uint(b.y), a.w);";
+        made.add(
+            "sample",
+            sample +
+                "first = probe_vec4(s.wi, s.pdf_w); second = probe_vec4(s.radiance, 0.0f);"
+                "third = probe_vec4(s.target, (s.is_distant ? 1.0f : 0.0f) + (s.is_delta ? 2.0f : 0.0f));");
+        // a: barycentric weights 1 and 2, triangle; b: wo; c.x: distance
+        made.add("hit_pdf", "Hit hit; hit.t = (real)c.x; hit.b1 = (real)a.x; hit.b2 = (real)a.y;"
+                            "hit.triangle = as_uint(a.z);"
+                            "const Surface surface = surface_at(scene, &hit, vector_from(b));"
+                            "first.x = emitter_hit_pdf_w(scene, &surface, hit.t, vector_from(b));");
+        made.add("pdf", "first.x = emitter_pdf_w((real)a.x, (real)a.y, (real)a.z);");
+        // b.z: the light's triangle. first.x: the shadow ray meets it; first.y: the unbounded line does.
+        made.add("shadow", sample + R"(
+            Surface surface;
+            surface.position = vector_from(a);
+            surface.normal_g = s.wi;
+            surface.bulge = (real3)(REAL(0.0));
+            surface.offset = REAL(0.0);
+            const Ray ray = light_shadow_ray(&surface, &s);
+            const RayShear shear = ray_shear_make(&ray);
+            real3 p[3];
+            surface_corners(scene, scene->triangles + as_uint(b.z), &p[0], &p[1], &p[2]);
+            real x[3], y[3], z[3];
+            for (int k = 0; k < 3; ++k) {
+                x[k] = ray_component(p[k], shear.kx);
+                y[k] = ray_component(p[k], shear.ky);
+                z[k] = ray_component(p[k], shear.kz);
+            }
+            real u, v, w, det, t_det;
+            triangle_edges(&shear, x, y, z, &u, &v, &w, &det, &t_det);
+            const bool inside = ((u >= REAL(0.0) && v >= REAL(0.0) && w >= REAL(0.0)) ||
+                                 (u <= REAL(0.0) && v <= REAL(0.0) && w <= REAL(0.0))) && det != REAL(0.0);
+            const real t = t_det / det;
+            first.x = inside && t > REAL(0.0) && t <= ray.t_max ? 1.0f : 0.0f;
+            first.y = inside && t > REAL(0.0) ? 1.0f : 0.0f;
+            first.z = vector_length(ray.origin + ray.t_max * ray.direction - vector_from(a));
+            first.w = s.pdf_w;)");
+        return made;
+    }();
+    return instance;
+}
+
+/// Emissive triangles, each with a material of its own.
+struct Lamps {
+    Scene scene;
+    std::vector<double> exitance;
+    double power = 0;
+
+    u32 add(const dvec3& p0, const dvec3& p1, const dvec3& p2, const dvec3& radiance, u32 flags = 0) {
+        Triangle triangle{};
+        triangle.v0 = u32(scene.positions.size());
+        triangle.v1 = triangle.v0 + 1;
+        triangle.v2 = triangle.v0 + 2;
+        triangle.n0 = triangle.n1 = triangle.n2 = triangle.t0 = triangle.t1 = triangle.t2 = NO_INDEX;
+        triangle.material = u32(scene.materials.size());
+        for (const dvec3& p : {p0, p1, p2})
+            scene.positions.push_back(to_vec4(p));
+        scene.triangles.push_back(triangle);
+        Material material{};
+        material.matte = {0, 0, 0, 1};
+        material.emission = to_vec4(radiance);
+        material.flags = flags;
+        material.map_matte = material.map_specular = material.map_emission = material.map_coverage = NO_INDEX;
+        material.map_roughness = material.map_metallic = material.map_normal = material.map_bump = NO_INDEX;
+        scene.materials.push_back(material);
+        exitance.push_back(0.2126 * radiance.x + 0.7152 * radiance.y + 0.0722 * radiance.z);
+        return u32(scene.triangles.size() - 1);
+    }
+    void finish() {
+        Emitters built = build_emitters(scene.positions, scene.triangles, exitance);
+        scene.emitters = built.emitters;
+        power = built.power;
+    }
+    RenderParams params() const {
+        RenderParams params{};
+        params.emitter_count = u32(scene.emitters.size());
+        return params;
+    }
+    dvec3 corner(u32 triangle, u32 k) const { return to_dvec3(scene.positions[size_t{3} * triangle + k]); }
+    dvec3 normal(u32 triangle) const {
+        return glm::cross(corner(triangle, 1) - corner(triangle, 0),
+                          corner(triangle, 2) - corner(triangle, 0));
+    }
+    double area(u32 triangle) const { return glm::length(normal(triangle)) / 2; }
+    /// The triangle that two words choose.
+    u32 chosen(u32 word, u32 alias_word) const {
+        const u32 slot = u32(uint64_t{word} * scene.emitters.size() >> 32);
+        return scene.emitters[alias_word < scene.emitters[slot].threshold ? slot : scene.emitters[slot].alias]
+            .triangle;
+    }
+    /// Barycentric weights 1 and 2 of a point's foot on a triangle.
+    glm::dvec2 weights(u32 triangle, const dvec3& p) const {
+        const dvec3 n = normal(triangle), p0 = corner(triangle, 0);
+        const double all = glm::dot(n, n);
+        return {glm::dot(glm::cross(p - p0, corner(triangle, 2) - p0), n) / all,
+                glm::dot(glm::cross(corner(triangle, 1) - p0, p - p0), n) / all};
+    }
+};
+
+/// Five lamps of different size and power around the origin; all show it their fronts.
+Lamps five_lamps() {
+    Lamps lamps;
+    lamps.add({-1, -1, 1.5}, {-1, 1, 1.5}, {1, -1, 1.5}, {1, 1, 1});
+    lamps.add({-1, 1, 1.5}, {1, 1, 1.2}, {1, -1, 1.5}, {0.5, 0.25, 0});
+    lamps.add({1.5, 0.1, 0}, {1.5, -0.2, 0.3}, {1.5, 0.1, 0.2}, {100, 0, 0});
+    lamps.add({0, 1.7, -0.01}, {0.02, 1.7, 0}, {0, 1.7, 0.01}, {0, 50, 3000});
+    lamps.add({-1.5, -1, -1}, {-1.5, 1, -1}, {-1.5, -1, 1}, {0.01, 0.02, 0.03});
+    for (u32 triangle = 0; triangle < 5; ++triangle)
+        if (glm::dot(lamps.normal(triangle), lamps.corner(triangle, 0)) > 0) {
+            Triangle& t = lamps.scene.triangles[triangle];
+            std::swap(lamps.scene.positions[t.v1], lamps.scene.positions[t.v2]);
+        }
+    lamps.finish();
+    return lamps;
+}
+
+/// Positions with second numbers, and words; the words are only moved, so NaN patterns stay what they are.
+struct Numbers {
+    std::vector<vec4> positions, words;
+};
+
+Numbers numbers_at(const dvec3& position, size_t count, u32 seed) {
+    Random random(seed);
+    Numbers numbers;
+    for (size_t i = 0; i < count; ++i) {
+        const u32 word = random.word(), alias = random.word();
+        numbers.words.push_back({bits_to_float(word), bits_to_float(alias), 0, 0});
+        numbers.positions.push_back(to_vec4(position, random.unit()));
+    }
+    return numbers;
+}
+
+/// Solid angle of a triangle (van Oosterom and Strackee 1983).
+double solid_angle(const dvec3& a, const dvec3& b, const dvec3& c) {
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    return 2 *
+           std::abs(std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
+                                                                  glm::dot(b, c) * la + glm::dot(c, a) * lb));
+}
+
+} // namespace
+
+TEST(Emitter, TrianglesAreChosenByPowerAndPointsByArea) {
+    constexpr size_t SAMPLES = 400000, SIDE = 5;
+    const Lamps lamps = five_lamps();
+    const Numbers numbers = numbers_at({0.1, -0.2, 0}, SAMPLES, 1);
+    const std::vector<vec4> targets =
+        probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words).third;
+    std::vector<double> counts(5 * SIDE * SIDE), expected;
+    for (u32 triangle = 0; triangle < 5; ++triangle) // pi area luminance, over the sum
+        expected.insert(expected.end(), SIDE * SIDE,
+                        SAMPLES * PI * lamps.area(triangle) * lamps.exitance[triangle] / lamps.power /
+                            (SIDE * SIDE));
+    for (size_t i = 0; i < SAMPLES; ++i) {
+        const u32 triangle =
+            lamps.chosen(float_to_bits(numbers.words[i].x), float_to_bits(numbers.words[i].y));
+        const glm::dvec2 b = lamps.weights(triangle, to_dvec3(targets[i]));
+        ASSERT_TRUE(b.x > -1e-4 && b.y > -1e-4 && b.x + b.y < 1 + 1e-4);
+        const dvec3 normal = glm::normalize(lamps.normal(triangle));
+        ASSERT_NEAR(glm::dot(to_dvec3(targets[i]) - lamps.corner(triangle, 0), normal), 0, 1e-5);
+        // Congruent parts: squares of the weights, folded over the diagonal.
+        const double x = std::clamp(b.x, 0.0, 0.999999) * SIDE, y = std::clamp(b.y, 0.0, 0.999999) * SIDE;
+        const size_t column = size_t(x), row = size_t(y);
+        const bool upper = x - double(column) + y - double(row) > 1;
+        // Row r of small triangles has 2 (SIDE - r) - 1 of them.
+        const size_t part = std::min(row * (2 * SIDE - row) + 2 * column + upper, SIDE * SIDE - 1);
+        ++counts[triangle * SIDE * SIDE + part];
+    }
+    EXPECT_GT(chi_squared_test(counts, expected).p_value, SMALLEST_P);
+}
+
+TEST(Emitter, TheDensityPerSteradianIsAreaDensityTimesSquaredDistanceOverCosine) {
+    constexpr size_t SAMPLES = 100000;
+    const Lamps lamps = five_lamps();
+    for (const dvec3& position : {dvec3(0, 0, 0), dvec3(0.9, -0.3, 1.1), dvec3(-1.2, 0.4, -0.8)}) {
+        const Numbers numbers = numbers_at(position, SAMPLES, 2);
+        const SceneProbe::Outputs got =
+            probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
+        std::vector<vec4> hits, wo, distances, kept;
+        for (size_t i = 0; i < SAMPLES; ++i) {
+            if (got.first[i].w == 0)
+                continue;
+            const u32 triangle =
+                lamps.chosen(float_to_bits(numbers.words[i].x), float_to_bits(numbers.words[i].y));
+            const glm::dvec2 b = lamps.weights(triangle, to_dvec3(got.third[i]));
+            const dvec3 p0 = lamps.corner(triangle, 0);
+            const dvec3 point =
+                p0 + b.x * (lamps.corner(triangle, 1) - p0) + b.y * (lamps.corner(triangle, 2) - p0);
+            const dvec3 way = point - to_dvec3(numbers.positions[i]),
+                        normal = glm::normalize(lamps.normal(triangle));
+            const double cos_l = std::abs(glm::dot(glm::normalize(way), normal));
+            const double pdf_a = lamps.exitance[triangle] * PI / lamps.power;
+            // Roundings of the point, magnified where the lamp is seen edge-on.
+            const double tolerance = 2e-6 + 2e-6 / (cos_l * glm::length(way));
+            ASSERT_NEAR(got.first[i].w / (pdf_a * glm::dot(way, way) / cos_l), 1, tolerance);
+            ASSERT_LE(glm::length(to_dvec3(got.first[i]) - glm::normalize(way)), 1e-6 / glm::length(way));
+            ASSERT_EQ(got.third[i].w, 0); // neither distant nor delta
+            hits.push_back({float(b.x), float(b.y), bits_to_float(triangle), 0});
+            wo.push_back(to_vec4(-to_dvec3(got.first[i])));
+            distances.push_back({float(glm::length(way)), 0, 0, 0});
+            kept.push_back({got.first[i].w, float(tolerance), 0, 0});
+        }
+        // The other technique, which hits the lamp by chance, computes the same number.
+        const std::vector<vec4> hit =
+            probe().run("hit_pdf", lamps.scene, lamps.params(), hits, wo, distances).first;
+        for (size_t i = 0; i < hit.size(); ++i)
+            ASSERT_NEAR(hit[i].x / kept[i].x, 1, 2 * kept[i].y) << i;
+    }
+}
+
+TEST(Emitter, ReciprocalDensitiesSumToTheSolidAngle) {
+    constexpr size_t SAMPLES = 400000;
+    const Lamps lamps = five_lamps();
+    for (const dvec3& position : {dvec3(0, 0, 0), dvec3(0.5, -0.3, 1.0), dvec3(0.3, 0.3, -1.5)}) {
+        const Numbers numbers = numbers_at(position, SAMPLES, 3);
+        std::vector<double> estimates;
+        for (const vec4& sample :
+             probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words).first)
+            estimates.push_back(sample.w > 0 ? 1 / double(sample.w) : 0);
+        double exact = 0;
+        for (u32 triangle = 0; triangle < 5; ++triangle) {
+            const auto seen = [&](u32 k) { return lamps.corner(triangle, k) - position; };
+            if (glm::dot(lamps.normal(triangle), seen(0)) < 0)
+                exact += solid_angle(seen(0), seen(1), seen(2));
+        }
+        const Moments moments = moments_of(estimates);
+        EXPECT_LT(std::abs(z_of_mean(moments, exact)), 6) << moments.mean << " " << exact;
+    }
+}
+
+TEST(Emitter, OnlyTheFrontShinesUnlessBothSidesDo) {
+    Lamps lamps;
+    const dvec3 p0(0, 0, 0), p1(1, 0, 0), p2(0, 1, 0); // winding towards +z
+    lamps.add(p0, p1, p2, {1, 2, 3});
+    lamps.add(p0, p1, p2, {1, 2, 3}, MATERIAL_EMITS_BOTH_SIDES);
+    lamps.add(p0, p1, p2, {1, 2, 3}); // with normals that turn it round
+    Triangle& reversed = lamps.scene.triangles[2];
+    reversed.n0 = reversed.n1 = reversed.n2 = 0;
+    lamps.scene.normals.push_back({0, 0, -1, 0});
+    lamps.finish();
+    for (const double side : {1.0, -1.0}) {
+        const Numbers numbers = numbers_at({0.2, 0.3, side}, 3000, 4);
+        const SceneProbe::Outputs got =
+            probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
+        for (size_t i = 0; i < got.first.size(); ++i) {
+            const u32 triangle =
+                lamps.chosen(float_to_bits(numbers.words[i].x), float_to_bits(numbers.words[i].y));
+            const bool shines = triangle == 1 || (triangle == 0) == (side > 0);
+            ASSERT_EQ(got.first[i].w > 0, shines) << triangle << " " << side;
+            ASSERT_EQ(to_dvec3(got.second[i]), shines ? dvec3(1, 2, 3) : dvec3(0)) << triangle << " " << side;
+        }
+    }
+}
+
+TEST(Emitter, NothingIsFoundInTheLampsPlaneOrOnIt) {
+    Lamps lamps;
+    lamps.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}, MATERIAL_EMITS_BOTH_SIDES);
+    lamps.finish();
+    for (const dvec3& position :
+         {dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0.25, 0.25, 0), dvec3(5, -3, 0), dvec3(0.5, 0, 0)}) {
+        const Numbers numbers = numbers_at(position, 1000, 5);
+        const SceneProbe::Outputs got =
+            probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
+        for (size_t i = 0; i < got.first.size(); ++i)
+            ASSERT_TRUE(got.first[i].w == 0 && got.second[i].x == 0) << position.x;
+    }
+    // And just above it, everything is finite.
+    for (const double height : {1e-7, 1e-12, 1e-20, 1e-30}) {
+        const Numbers numbers = numbers_at({0.25, 0.25, height}, 1000, 6);
+        for (const vec4& sample :
+             probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words).first) {
+            ASSERT_FALSE(std::isnan(sample.w)) << height;
+            ASSERT_NEAR(glm::length(to_dvec3(sample)), 1, 4 * FLOAT_U) << height;
+        }
+    }
+}
+
+TEST(Emitter, ShadowRaysEndShortOfTheirLampButReachIt) {
+    constexpr size_t SAMPLES = 40000;
+    Random random(7);
+    size_t stopped = 0, reached = 0, all = 0;
+    for (int round = 0; round < 20; ++round) {
+        // Lamps of all sizes, at all distances of the normalised frame.
+        Lamps lamps;
+        for (int i = 0; i < 50; ++i) {
+            const double size = std::abs(random.signed_log(1e-6, 1));
+            const dvec3 p = random.in_cube(1), q = p + random.in_cube(size);
+            lamps.add(p, q, q + random.in_cube(size), {1, 1, 1}, MATERIAL_EMITS_BOTH_SIDES);
+        }
+        lamps.finish();
+        Numbers numbers = numbers_at(random.in_cube(1), SAMPLES / 20, u32(8 + round));
+        for (size_t i = 0; i < numbers.words.size(); ++i) {
+            vec4& words = numbers.words[i];
+            // Equal chances, whatever the size.
+            words.x = bits_to_float(random.word());
+            words.z = bits_to_float(lamps.chosen(float_to_bits(words.x), float_to_bits(words.y)));
+        }
+        for (const vec4& result :
+             probe().run("shadow", lamps.scene, lamps.params(), numbers.positions, numbers.words).first) {
+            all += result.w > 0;
+            stopped += result.w > 0 && result.x != 0;
+            reached += result.w > 0 && result.y != 0;
+        }
+    }
+    EXPECT_EQ(stopped, 0u);
+    EXPECT_GT(double(reached), 0.9 * double(all)); // the lines do go on to the lamp
+}
+
+TEST(Emitter, MapsAndCoverageScaleTheRadianceAtThePoint) {
+    // Emission rises along u from black to white; coverage is one half.
+    Lamps lamps;
+    lamps.add({-1, -1, 1}, {-1, 3, 1}, {3, -1, 1}, {2, 4, 8}, MATERIAL_CUT_OUT);
+    lamps.scene.triangles[0].t0 = 0;
+    lamps.scene.triangles[0].t1 = 1;
+    lamps.scene.triangles[0].t2 = 2;
+    lamps.scene.uvs = {0.25f, 0.5f, 0.25f, 0.5f, 0.75f, 0.5f};
+    Texture texture{};
+    texture.width = 2;
+    texture.height = 1;
+    texture.format = TEXEL_FLOAT;
+    texture.scale_u = texture.scale_v = texture.gain = 1;
+    lamps.scene.textures.push_back(texture);
+    for (const float value : {0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f})
+        lamps.scene.texel_words.push_back(float_to_bits(value));
+    lamps.scene.materials[0].map_emission = 0;
+    lamps.scene.materials[0].matte.w = 0.5f;
+    lamps.finish();
+    const Numbers numbers = numbers_at({0, 0, 0}, 5000, 9);
+    const SceneProbe::Outputs got =
+        probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
+    for (size_t i = 0; i < got.first.size(); ++i) {
+        const double u =
+            lamps.weights(0, to_dvec3(got.third[i])).y; // of the corner at u = 0.75, 0 .. 1 between centres
+        ASSERT_LE(glm::length(to_dvec3(got.second[i]) - 0.5 * u * dvec3(2, 4, 8)), 1e-4);
+    }
+}
+
+TEST(Emitter, DensitiesConvertFromAreaToSteradian) {
+    EXPECT_NEAR(probe().run("pdf", Scene{}, RenderParams{}, {{0.5f, 9, 0.25f, 0}}).first[0].x, 0.5 * 9 / 0.25,
+                1e-5);
+}

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// geometry/texture.h: texel formats, bilinear lookup with wrapping and clamping, orientation, channels.
+#include "support/random_inputs.h"
+#include "support/scene_probe.h"
+
+#include <array>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace clrt;
+
+namespace {
+
+constexpr u32 LUMINANCE = 4;
+constexpr size_t SRGB_WORDS = 256; // the curve stands before all texels
+
+using Texel = std::array<double, 4>;
+
+SceneProbe& probe() {
+    static SceneProbe instance = [] {
+        SceneProbe made({"geometry/texture.h"});
+        made.add("lookup", "first = texture_lookup(scene, 0u, (float2)(a.x, a.y));"
+                           "second = probe_vec4(texture_color(scene, 0u, (float2)(a.x, a.y)), REAL(0.0));"
+                           "third.x = texture_scalar(scene, 0u, (float2)(a.x, a.y));");
+        return made;
+    }();
+    return instance;
+}
+
+/// IEC 61966-2-1.
+double srgb(u32 byte) {
+    const double v = byte / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+/// A picture and its one use.
+struct Picture {
+    Scene scene;
+
+    Picture(u32 width, u32 height, u32 format) {
+        for (u32 i = 0; i < SRGB_WORDS; ++i)
+            scene.texel_words.push_back(float_to_bits(float(srgb(i))));
+        scene.texel_words.push_back(0xdeadbeefu); // so that a forgotten first_word shows
+        Texture texture{};
+        texture.first_word = u32(scene.texel_words.size());
+        texture.width = width;
+        texture.height = height;
+        texture.format = format;
+        texture.scale_u = texture.scale_v = texture.gain = 1;
+        scene.textures.push_back(texture);
+    }
+    Texture& use() { return scene.textures[0]; }
+    void add_bytes(u32 r, u32 g, u32 b, u32 a) {
+        scene.texel_words.push_back(r | g << 8 | b << 16 | a << 24);
+    }
+    void add_floats(const Texel& texel) {
+        for (const double value : texel)
+            scene.texel_words.push_back(float_to_bits(float(value)));
+    }
+    Texel texel(int x, int y) const {
+        const Texture& t = scene.textures[0];
+        const size_t index = size_t(y) * t.width + size_t(x);
+        if (t.format == TEXEL_FLOAT) {
+            const u32* words = &scene.texel_words[t.first_word + 4 * index];
+            return {bits_to_float(words[0]), bits_to_float(words[1]), bits_to_float(words[2]),
+                    bits_to_float(words[3])};
+        }
+        const u32 word = scene.texel_words[t.first_word + index];
+        const auto byte = [&](int k) { return word >> (8 * k) & 255u; };
+        const auto color = [&](int k) { return t.format == TEXEL_SRGB8 ? srgb(byte(k)) : byte(k) / 255.0; };
+        return {color(0), color(1), color(2), byte(3) / 255.0};
+    }
+    SceneProbe::Outputs lookup(const std::vector<vec4>& uv) const {
+        return probe().run("lookup", scene, RenderParams{}, uv);
+    }
+};
+
+/// A picture of random texels.
+Picture random_picture(u32 width, u32 height, u32 format) {
+    Picture picture(width, height, format);
+    Random random(width + 1000 * height);
+    for (u32 i = 0; i < width * height; ++i)
+        if (format == TEXEL_FLOAT)
+            picture.add_floats({random.between(-1, 1), random.between(0, 1e4), random.unit(), random.unit()});
+        else
+            picture.scene.texel_words.push_back(random.word());
+    return picture;
+}
+
+/// The bilinear lookup in double. Texel (0, 0) is top left, uv (0, 0) the lower left corner.
+Texel reference_lookup(const Picture& picture, const vec4& uv) {
+    const Texture& t = picture.scene.textures[0];
+    const double u = double(uv.x) * t.scale_u + t.offset_u, v = double(uv.y) * t.scale_v + t.offset_v;
+    const bool clamp = t.clamp != 0;
+    if (clamp && (u < 0 || u > 1 || v < 0 || v > 1))
+        return {0, 0, 0, 0};
+    const double x = (u - (clamp ? 0 : std::floor(u))) * t.width - 0.5;
+    const double y = (1 - (v - (clamp ? 0 : std::floor(v)))) * t.height - 0.5;
+    const auto place = [&](double at, u32 size) {
+        const int n = int(size), i = int(at);
+        return clamp ? std::clamp(i, 0, n - 1) : (i % n + n) % n;
+    };
+    Texel sum{};
+    for (int dy = 0; dy < 2; ++dy)
+        for (int dx = 0; dx < 2; ++dx) {
+            const double fx = x - std::floor(x), fy = y - std::floor(y);
+            const double weight = (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy);
+            const Texel texel =
+                picture.texel(place(std::floor(x) + dx, t.width), place(std::floor(y) + dy, t.height));
+            for (size_t k = 0; k < 4; ++k)
+                sum[k] += weight * texel[k];
+        }
+    for (double& value : sum)
+        value = t.base + t.gain * value;
+    return sum;
+}
+
+/// The centre of a texel as uv.
+vec4 centre(const Texture& texture, u32 x, u32 y) {
+    return {float((x + 0.5) / texture.width), float(1 - (y + 0.5) / texture.height), 0, 0};
+}
+
+/// Compares lookups with the reference. uv is known to u, which moves the picture by size u texels.
+void expect_reference(const Picture& picture, const std::vector<vec4>& uv, double largest_uv) {
+    const Texture& t = picture.scene.textures[0];
+    const double step = t.format == TEXEL_FLOAT ? 2e4 : 1;
+    const double tolerance = 4 * FLOAT_U * step * (4 + std::max(t.width, t.height) * (largest_uv + 1));
+    const std::vector<vec4> got = picture.lookup(uv).first;
+    for (size_t i = 0; i < uv.size(); ++i) {
+        const Texel exact = reference_lookup(picture, uv[i]);
+        const float values[] = {got[i].x, got[i].y, got[i].z, got[i].w};
+        for (size_t k = 0; k < 4; ++k)
+            ASSERT_NEAR(values[k], exact[k], tolerance)
+                << "uv " << uv[i].x << " " << uv[i].y << " channel " << k;
+    }
+}
+
+std::vector<vec4> random_uvs(size_t count, double low, double high) {
+    Random random(7);
+    std::vector<vec4> uvs;
+    for (size_t i = 0; i < count; ++i) {
+        const double u = random.between(low, high);
+        uvs.push_back(to_vec4({u, random.between(low, high), 0}));
+    }
+    return uvs;
+}
+
+} // namespace
+
+TEST(Texture, EveryByteIsDecodedByItsFormat) {
+    for (const u32 format : {TEXEL_SRGB8, TEXEL_LINEAR8}) {
+        Picture picture(256, 1, format);
+        std::vector<vec4> uv;
+        for (u32 i = 0; i < 256; ++i) {
+            picture.add_bytes(i, 255 - i, i ^ 0x55u, i ^ 0xaau);
+            uv.push_back(centre(picture.use(), i, 0));
+        }
+        const std::vector<vec4> got = picture.lookup(uv).first;
+        for (u32 i = 0; i < 256; ++i) {
+            const Texel exact = picture.texel(int(i), 0);
+            EXPECT_NEAR(got[i].x, exact[0], 1e-6);
+            EXPECT_NEAR(got[i].y, exact[1], 1e-6);
+            EXPECT_NEAR(got[i].z, exact[2], 1e-6);
+            EXPECT_NEAR(got[i].w, (i ^ 0xaau) / 255.0, 1e-6); // alpha is linear in both
+        }
+    }
+}
+
+TEST(Texture, FloatTexelsAreReadExactlyAtTheirCentres) {
+    const Picture picture = random_picture(8, 4, TEXEL_FLOAT);
+    std::vector<vec4> uv;
+    for (u32 y = 0; y < 4; ++y)
+        for (u32 x = 0; x < 8; ++x)
+            uv.push_back(centre(picture.scene.textures[0], x, y));
+    const std::vector<vec4> got = picture.lookup(uv).first;
+    for (u32 i = 0; i < 32; ++i) {
+        const Texel exact = picture.texel(int(i % 8), int(i / 8));
+        EXPECT_TRUE(got[i].x == exact[0] && got[i].y == exact[1] && got[i].z == exact[2] &&
+                    got[i].w == exact[3])
+            << i;
+    }
+}
+
+TEST(Texture, TheTopRowOfThePictureIsAtVOne) {
+    Picture picture(2, 2, TEXEL_FLOAT);
+    picture.add_floats({1, 0, 0, 1}); // top left, top right, bottom left, bottom right
+    picture.add_floats({2, 0, 0, 1});
+    picture.add_floats({3, 0, 0, 1});
+    picture.add_floats({4, 0, 0, 1});
+    const std::vector<vec4> got =
+        picture
+            .lookup({{0.25f, 0.75f, 0, 0}, {0.75f, 0.75f, 0, 0}, {0.25f, 0.25f, 0, 0}, {0.75f, 0.25f, 0, 0}})
+            .first;
+    EXPECT_EQ(got[0].x, 1);
+    EXPECT_EQ(got[1].x, 2);
+    EXPECT_EQ(got[2].x, 3);
+    EXPECT_EQ(got[3].x, 4);
+}
+
+TEST(Texture, LookupsAreBilinearAndWrapAround) {
+    for (const u32 format : {TEXEL_SRGB8, TEXEL_LINEAR8, TEXEL_FLOAT})
+        for (const auto& [width, height] :
+             {std::pair{7u, 5u}, std::pair{1u, 1u}, std::pair{64u, 3u}, std::pair{1u, 9u}}) {
+            const Picture picture = random_picture(width, height, format);
+            expect_reference(picture, random_uvs(5000, 0, 1), 1);
+            expect_reference(picture, random_uvs(5000, -20, 20), 20);
+            // The borders themselves.
+            expect_reference(
+                picture, {{0, 0, 0, 0}, {1, 1, 0, 0}, {0, 1, 0, 0}, {-1, 2, 0, 0}, {0.5f, 0.5f, 0, 0}}, 2);
+        }
+}
+
+TEST(Texture, ClampedLookupsRepeatTheEdgeInsideAndAreBlackOutside) {
+    for (const u32 format : {TEXEL_SRGB8, TEXEL_FLOAT}) {
+        Picture picture = random_picture(6, 4, format);
+        picture.use().clamp = 1;
+        expect_reference(picture, random_uvs(5000, 0, 1), 1);
+        expect_reference(picture, {{0, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 0, 0}, {0.01f, 0.99f, 0, 0}}, 1);
+        picture.use().base = 0.5f; // outside there is no picture that could be shifted
+        for (const vec4& outside : picture
+                                       .lookup({{-1e-6f, 0.5f, 0, 0},
+                                                {1.000001f, 0.5f, 0, 0},
+                                                {0.5f, -3, 0, 0},
+                                                {0.5f, 77, 0, 0},
+                                                {std::numeric_limits<float>::quiet_NaN(), 0.5f, 0, 0}})
+                                       .first)
+            EXPECT_TRUE(outside.x == 0 && outside.y == 0 && outside.z == 0 && outside.w == 0);
+    }
+}
+
+TEST(Texture, ScaleAndOffsetMoveTheLookupAndBaseAndGainTheValue) {
+    Picture picture = random_picture(5, 7, TEXEL_LINEAR8);
+    picture.use().scale_u = 2.5f;
+    picture.use().scale_v = -1.5f;
+    picture.use().offset_u = 0.3f;
+    picture.use().offset_v = -0.7f;
+    picture.use().base = 0.25f;
+    picture.use().gain = 0.5f;
+    expect_reference(picture, random_uvs(5000, -2, 2), 6);
+    picture.use().clamp = 1;
+    picture.use().scale_v = 1;
+    picture.use().offset_v = 0;
+    expect_reference(picture, {{0.1f, 0.5f, 0, 0}, {0.2f, 0.1f, 0, 0}, {-0.1f, 0.9f, 0, 0}}, 1);
+}
+
+TEST(Texture, ScalarMapsReadTheirChannel) {
+    Picture picture(1, 1, TEXEL_FLOAT);
+    picture.add_floats({0.1, 0.2, 0.4, 0.8});
+    const double expected[] = {0.1, 0.2, 0.4, 0.8, 0.2126 * 0.1 + 0.7152 * 0.2 + 0.0722 * 0.4};
+    for (u32 channel = 0; channel <= LUMINANCE; ++channel) {
+        picture.use().channel = channel;
+        EXPECT_NEAR(picture.lookup({{0.3f, 0.9f, 0, 0}}).third[0].x, expected[channel], 1e-7) << channel;
+    }
+}
+
+TEST(Texture, ColoursAreNeverNegative) {
+    Picture picture(1, 1, TEXEL_FLOAT);
+    picture.add_floats({-0.5, 0.25, 2, 1});
+    const SceneProbe::Outputs got = picture.lookup({{0.5f, 0.5f, 0, 0}});
+    EXPECT_EQ(got.first[0].x, -0.5f); // data may be
+    EXPECT_EQ(got.second[0].x, 0);
+    EXPECT_EQ(got.second[0].y, 0.25f);
+    EXPECT_EQ(got.second[0].z, 2);
+}
+
+TEST(Texture, CoordinatesOfAnySizeReadSomeTexel) {
+    const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const Picture picture = random_picture(13, 11, TEXEL_LINEAR8);
+    std::vector<vec4> uv;
+    for (const float u : {0.0f, -0.0f, -1e-9f, 1e-30f, 1e9f, -1e9f, 1e30f, 3e38f, -3e38f, inf, -inf, nan})
+        for (const float v : {0.5f, -1e-9f, 1e30f, inf, nan})
+            uv.push_back({u, v, 0, 0});
+    for (const vec4& value : picture.lookup(uv).first)
+        EXPECT_TRUE(value.x >= 0 && value.x <= 1 && value.w >= 0 && value.w <= 1);
+}

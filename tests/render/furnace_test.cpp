@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Furnaces: surroundings of equal radiance, in which every material shows its albedo and nothing else.
+#include "render/kernels.h"
+#include "support/closed_forms.h"
+#include "support/film_estimate.h"
+#include "support/render_scene.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr int NO_ROULETTE = 65535;
+
+/// A closed space of emitting and reflecting walls around the camera.
+class ClosedFurnace : public TestScene {
+public:
+    ClosedFurnace(double reflectance, double emission) {
+        const auto grey = [](double x) { return std::to_string(x); };
+        build.material("wall", "Kd " + grey(reflectance) + "\nKe " + grey(emission));
+        build.use("wall");
+        look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
+        options.roulette_depth = NO_ROULETTE;
+    }
+};
+
+/// A floor of one material, white light from everywhere, and a view at a given cosine and azimuth (from the x
+/// axis).
+class FloorUnderSky : public TestScene {
+public:
+    FloorUnderSky(const std::string& keys, double cos_o, double azimuth = 0) {
+        build.material("m", keys).use("m");
+        build.textured_quad({{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}});
+        const double sin_o = std::sqrt(1 - cos_o * cos_o);
+        look_at_point({2 * sin_o * std::cos(azimuth), 2 * cos_o, -2 * sin_o * std::sin(azimuth)}, {0, 0, 0});
+        options.light.environment = glm::dvec3(1);
+    }
+};
+
+/// The albedo by BSDF sampling alone, and with light sampling of a map on top.
+void expect_albedo(const std::string& keys, double cos_o, double expected, double azimuth = 0) {
+    SCOPED_TRACE(keys + ", cosine " + std::to_string(cos_o));
+    FloorUnderSky constant(keys, cos_o, azimuth);
+    EXPECT_TRUE(agrees(film_estimate(constant.render().film), expected, 1e-3, 1e-5));
+
+    FloorUnderSky mapped(keys, cos_o, azimuth);
+    mapped.texture("ones.exr", 8, 4, 3, std::vector<float>(8 * 4 * 3, 1.0f));
+    mapped.options.light.environment.reset();
+    mapped.options.light.environment_file = mapped.folder.file("ones.exr");
+    EXPECT_TRUE(agrees(film_estimate(mapped.render().film), expected, 3e-3, 1e-5)) << "with a map";
+}
+
+} // namespace
+
+TEST(Furnace, PathsOfAtMostNSegmentsGiveTheirPartialSum) {
+    ClosedFurnace scene(0.5, 0.5);
+    scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    for (const int depth : {1, 2, 3, 5, 32}) {
+        scene.options.max_depth = depth;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1 - std::ldexp(1.0, -depth))) << depth;
+    }
+}
+
+TEST(Furnace, EveryPartOfAnIcosphereHasTheSameRadiance) {
+    ClosedFurnace scene(0.5, 0.5);
+    scene.build.icosphere({0, 0, 0}, 1, 2, Facing::INWARD);
+    scene.options.max_depth = 32;
+    const Film film = scene.render().film;
+    for (int y = 0; y < 16; y += 4)
+        for (int x = 0; x < 16; x += 4)
+            for (int c = 0; c < 3; ++c)
+                EXPECT_TRUE(agrees(film_estimate(film, c, {x, y, x + 4, y + 4}), 1)) << x << "," << y;
+}
+
+TEST(Furnace, TheOtherIntegratorsStopAfterOneBounce) {
+    ClosedFurnace scene(0.5, 0.5);
+    scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
+        scene.options.integrator = integrator;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.75, 4e-3)) << integrator_name(integrator);
+    }
+}
+
+TEST(Furnace, RouletteEndsPathsWithoutChangingTheMean) {
+    ClosedFurnace scene(0.9, 0.1);
+    scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    scene.options.max_depth = 1000;
+    scene.options.spp = 512;
+    for (const int start : {1, 5}) {
+        scene.options.roulette_depth = start;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 5e-3)) << start;
+    }
+}
+
+TEST(Furnace, RouletteIsIndependentOfTheChoiceOfLobe) {
+    // A matte lobe that is reddish and a mirror that is bluish: each channel's sum is Ke / (1 - Kd - Ks).
+    TestScene scene;
+    scene.build.material("wall", "Kd 0.6 0.2 0.1\nKs 0.2 0.2 0.5\nillum 3\nKe 0.2 0.6 0.4").use("wall");
+    scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    scene.look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
+    scene.options.max_depth = 1000;
+    scene.options.roulette_depth = 1;
+    const Film film = scene.render().film;
+    for (const int channel : {0, 1, 2})
+        EXPECT_TRUE(agrees(film_estimate(film, channel), 1, 5e-3)) << channel;
+}
+
+TEST(Furnace, ThingsInsideCannotBeSeen) {
+    ClosedFurnace scene(0.5, 0.5);
+    scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    scene.build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3").material("glass", "Ni 1.5\nillum 7");
+    scene.build.use("mirror").box({-0.6, -0.6, -0.6}, {-0.2, -0.2, -0.2});
+    scene.build.use("glass").icosphere({0.3, 0, -0.2}, 0.3, 2);
+    scene.options.max_depth = 64;
+    const Film film = scene.render().film;
+    for (int y = 0; y < 16; y += 4)
+        for (int x = 0; x < 16; x += 4)
+            EXPECT_TRUE(agrees(film_estimate(film, 0, {x, y, x + 4, y + 4}), 1)) << x << "," << y;
+}
+
+TEST(Furnace, LosslessBodiesReturnAllLight) {
+    const char* const materials[] = {
+        "Kd 1 1 1",
+        "Kd 0 0 0\nKs 1 1 1\nillum 3",
+        "Kd 0 0 0\nKs 1 1 1\nillum 5",
+        "Kd 1 1 1\nPm 1\nPr 0",
+        "Kd 0.4 0.4 0.4\nKs 0.6 0.6 0.6\nillum 3",
+        "Ni 1.5\nillum 7",
+        "Ni 2.417\nillum 7",
+        "Ni 1\nillum 7",
+        "Ni 0.8\nillum 7",
+    };
+    for (const char* keys : materials)
+        for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED}) {
+            TestScene scene;
+            scene.build.material("m", keys).use("m").box({-1, -1, -1},
+                                                         {1, 1, 1}); // a box of glass traps no ray
+            scene.options.light.environment = glm::dvec3(1);
+            scene.options.integrator = integrator;
+            scene.options.max_depth = 64;
+            scene.options.min_contribution = 0;
+            scene.options.spp = 64;
+            scene.look({3, 4, 5}, {0, 0, 0}, 10);
+            EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-5))
+                << keys << ", " << integrator_name(integrator);
+        }
+}
+
+TEST(Furnace, RoughMirrorsShowTheirSingleScatteringAlbedo) {
+    for (const double pr : {0.4, 0.7, 1.0})
+        for (const double cos_o : {0.25, 0.9}) {
+            const RoughSurface surface{pr * pr, pr * pr, cos_o, 0};
+            const double albedo = rough_reflection_albedo(surface, [](double) { return 0.8; });
+            expect_albedo("Kd 0 0 0\nKs 0.8 0.8 0.8\nillum 3\nPr " + std::to_string(pr), cos_o, albedo);
+        }
+}
+
+TEST(Furnace, StretchedHighlightsDependOnTheDirectionOfTheView) {
+    const double alpha = 0.36, aspect = std::sqrt(1 - 0.9 * 0.8), cos_o = 0.35;
+    const std::string keys = "Kd 0 0 0\nKs 1 1 1\nillum 3\nPr 0.6\naniso 0.8";
+    double albedo[2];
+    for (const int across : {0, 1}) {
+        const double azimuth = across * PI / 2;
+        const RoughSurface surface{alpha / aspect, alpha * aspect, cos_o, azimuth};
+        albedo[across] = rough_reflection_albedo(surface, [](double) { return 1.0; });
+        expect_albedo(keys, cos_o, albedo[across], azimuth);
+    }
+    EXPECT_GT(std::abs(albedo[1] - albedo[0]), 0.05) << "or the test could not tell them apart";
+}
+
+TEST(Furnace, MatteAndRoughLobesAddUp) {
+    const double cos_o = 0.6;
+    const RoughSurface by_ns{std::sqrt(2.0 / 22), std::sqrt(2.0 / 22), cos_o, 0};
+    expect_albedo("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 20\nillum 2", cos_o,
+                  0.3 + rough_reflection_albedo(by_ns, [](double) { return 0.5; }));
+
+    const auto schlick = [](double cosine) { return 0.04 + 0.96 * std::pow(1 - cosine, 5); };
+    const RoughSurface by_pr{0.25, 0.25, cos_o, 0};
+    expect_albedo("Kd 0.6 0.6 0.6\nPm 0\nPr 0.5", cos_o, 0.6 + rough_reflection_albedo(by_pr, schlick));
+}
+
+TEST(Furnace, ARoughBoundaryOfGlassReflectsAndRefracts) {
+    // Below the floor is glass that no other side ends, lit by the same sky. Radiance that leaves it for air
+    // is compressed by the squared index.
+    for (const double cos_o : {0.3, 0.8}) {
+        const RoughSurface surface{0.25, 0.25, cos_o, 0};
+        const double eta = 1 / 1.5;
+        const double reflected =
+            rough_reflection_albedo(surface, [&](double cosine) { return fresnel_reflectance(cosine, eta); });
+        const double refracted = rough_transmission_albedo(surface, eta);
+        expect_albedo("Ni 1.5\nillum 7\nPr 0.5", cos_o, reflected + refracted * eta * eta);
+    }
+}
+
+TEST(Furnace, ASmoothBoundaryOfGlassReflectsAndRefracts) {
+    for (const double cos_o : {0.2, 0.6, 0.999}) {
+        const double eta = 1 / 1.5, f = fresnel_reflectance(cos_o, eta);
+        FloorUnderSky scene("Ni 1.5\nillum 7", cos_o);
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), f + (1 - f) * eta * eta)) << cos_o;
+        scene.options.integrator = Integrator::WHITTED;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), f + (1 - f) * eta * eta, 1e-5, 1e-5)) << cos_o;
+    }
+}
+
+TEST(Furnace, MirrorsWithFresnelFollowSchlick) {
+    for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED})
+        for (const double cos_o : {0.1, 0.5, 0.95}) {
+            FloorUnderSky scene("Kd 0 0 0\nKs 0.3 0.3 0.3\nillum 5", cos_o);
+            scene.options.integrator = integrator;
+            const double expected = 0.3 + 0.7 * std::pow(1 - cos_o, 5);
+            EXPECT_TRUE(agrees(film_estimate(scene.render().film), expected, 1e-4, 1e-5)) << cos_o;
+        }
+}
+
+TEST(Furnace, PhongsHighlightIsNormalisedForALookStraightDown) {
+    for (const Integrator integrator : {Integrator::RAYCAST, Integrator::WHITTED}) {
+        FloorUnderSky scene("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 7\nillum 2", 1);
+        scene.options.integrator = integrator;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.8)) << integrator_name(integrator);
+    }
+}
+
+} // namespace clrt

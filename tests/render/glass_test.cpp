@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smooth glass in pictures: Fresnel's parts of a slab, Snell's directions, total reflection, and tint.
+#include "render/kernels.h"
+#include "support/closed_forms.h"
+#include "support/film_estimate.h"
+#include "support/render_scene.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+const Integrator TREE_AND_PATH[] = {Integrator::WHITTED, Integrator::PATH};
+
+/// A slab of glass between z = -0.5 and 0.5, and a lamp at z = -2 that shines towards +z from x = `edge` on.
+class Slab : public TestScene {
+public:
+    explicit Slab(const std::string& glass_keys, double edge = -50) {
+        build.material("glass", glass_keys).material("lamp", "Kd 0 0 0\nKe 1 1 1");
+        build.use("glass").box({-60, -60, -0.5}, {60, 60, 0.5});
+        build.use("lamp").polygon({{edge, -50, -2}, {50, -50, -2}, {50, 50, -2}, {edge, 50, -2}});
+        options.max_depth = 30;
+        options.min_contribution = 0;
+        options.spp = 256;
+    }
+};
+
+/// Glass below y = 0 around the camera; a green lamp on its bottom, red light in the air above.
+class GlassSea : public TestScene {
+public:
+    GlassSea() {
+        build.material("glass", "Ni 1.5\nillum 7").material("lamp", "Kd 0 0 0\nKe 0 1 0");
+        build.use("glass").floor(20).use("lamp").floor(20, -3);
+        options.light.environment = glm::dvec3(1, 0, 0);
+        options.min_contribution = 0;
+    }
+};
+
+} // namespace
+
+TEST(Glass, ASlabHeadOnTransmitsAllItsInternalReflections) {
+    const double r = 0.04; // ((1.5 - 1) / (1.5 + 1))^2
+    Slab scene("Ni 1.5\nillum 7");
+    scene.look_at_point({0, 0, 5}, {0, 0, -2});
+    scene.options.integrator = Integrator::WHITTED;
+    EXPECT_TRUE(agrees(film_estimate(scene.render().film), (1 - r) / (1 + r), 2e-6, 2e-6));
+    scene.options.integrator = Integrator::PATH;
+    EXPECT_TRUE(agrees(film_estimate(scene.render().film), (1 - r) / (1 + r)));
+    EXPECT_NEAR((1 - r) / (1 + r), 0.9230769, 1e-7);
+}
+
+TEST(Glass, ASlabHeadOnReflectsWhatItDoesNotTransmit) {
+    Slab scene("Ni 1.5\nillum 7");
+    scene.build.polygon({{-50, 50, 8}, {50, 50, 8}, {50, -50, 8}, {-50, -50, 8}}); // a lamp behind the camera
+    scene.look_at_point({0, 0, 5}, {0, 0, -2});
+    for (const Integrator integrator : TREE_AND_PATH) {
+        scene.options.integrator = integrator;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-6)) << integrator_name(integrator);
+    }
+}
+
+TEST(Glass, TheShallowestTreesSeeTheFirstTermsOfTheSeries) {
+    Slab scene("Ni 1.5\nillum 7");
+    scene.look_at_point({0, 0, 5}, {0, 0, -2});
+    scene.options.integrator = Integrator::WHITTED;
+    for (const auto& [depth, expected] :
+         {std::pair{2, 0.0}, {3, 0.96 * 0.96}, {4, 0.96 * 0.96}, {5, 0.92307456}}) {
+        scene.options.max_depth = depth;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), expected, 2e-6)) << depth;
+    }
+}
+
+TEST(Glass, EveryCrossingTints) {
+    Slab scene("Ni 1.5\nillum 7\nTf 0.8 0.5 1");
+    scene.look_at_point({0, 0, 5}, {0, 0, -2});
+    for (const Integrator integrator : TREE_AND_PATH) {
+        scene.options.integrator = integrator;
+        const Film film = scene.render().film;
+        EXPECT_TRUE(agrees(film_estimate(film, 0), 0.64 * 0.9230769)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 1), 0.25 * 0.9230769)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 2), 0.9230769)) << integrator_name(integrator);
+    }
+}
+
+TEST(Glass, AnObliqueRayLeavesASlabShiftedByItsThickness) {
+    // At 45 degrees the ray moves on by tan(b) inside the slab and by 1.5 behind it; there the lamp begins,
+    // so it lights exactly the right half of the picture. The rays that were reflected inside land on the
+    // lamp in any case.
+    const double sine = std::sqrt(0.5), inside = std::asin(sine / 1.5);
+    Slab scene("Ni 1.5\nillum 7", std::tan(inside) + 1.5);
+    scene.look_at_point({-3 * sine, 0, 0.5 + 3 * sine}, {0, 0, 0.5});
+    scene.options.integrator = Integrator::WHITTED;
+    const Film film = scene.render().film;
+    const double f = fresnel_reflectance(sine, 1 / 1.5), once = (1 - f) * (1 - f);
+    EXPECT_TRUE(agrees(film_estimate(film, 0, {0, 0, 7, 16}), once * f * f / (1 - f * f), 1e-3, 1e-3));
+    EXPECT_TRUE(agrees(film_estimate(film, 0, {9, 0, 16, 16}), once / (1 - f * f), 1e-3, 1e-4));
+}
+
+TEST(Glass, ACeilingOfWaterReflectsTotallyBeyondTheCriticalAngle) {
+    for (const double degrees : {20.0, 41.0, 42.5, 60.0, 78.0}) {
+        const double angle = degrees * PI / 180, f = fresnel_reflectance(std::cos(angle), 1.5);
+        EXPECT_EQ(f == 1, degrees > 41.8103) << degrees;
+        for (const Integrator integrator : TREE_AND_PATH) {
+            GlassSea scene;
+            scene.look_at_point({-std::sin(angle), -std::cos(angle), 0}, {0, 0, 0});
+            scene.options.integrator = integrator;
+            const Film film = scene.render().film;
+            SCOPED_TRACE(std::to_string(degrees) + " degrees, " + integrator_name(integrator));
+            EXPECT_TRUE(agrees(film_estimate(film, 0), (1 - f) * 2.25, 3e-3, 1e-4));
+            EXPECT_TRUE(agrees(film_estimate(film, 1), f, 1e-2, 1e-4));
+        }
+    }
+}
+
+TEST(Glass, ABallOfAirInAirCannotBeSeen) {
+    const auto picture = [](bool with_ball, Integrator integrator) {
+        TestScene scene;
+        std::vector<unsigned char> values;
+        for (int i = 0; i < 16 * 16; ++i)
+            values.push_back((unsigned char)(i * 37));
+        scene.texture8("noise.png", 16, 16, 1, values);
+        scene.build.material("air", "Ni 1\nillum 7").material("lamp", "Kd 0 0 0\nmap_Ke noise.png");
+        scene.build.use("lamp").textured_quad({{-2, -2, -1}, {2, -2, -1}, {2, 2, -1}, {-2, 2, -1}});
+        scene.build.use("air");
+        if (with_ball)
+            scene.build.icosphere({0, 0, 0}, 0.9, 2);
+        scene.look({0, 0, 4}, {0, 0, 0}, 30);
+        scene.options.spp = 64;
+        scene.options.integrator = integrator;
+        return film_mean(scene.render().film);
+    };
+    for (const Integrator integrator : TREE_AND_PATH) {
+        const std::vector<float> without = picture(false, integrator), with = picture(true, integrator);
+        for (size_t i = 0; i < with.size(); ++i)
+            EXPECT_NEAR(with[i], without[i], 1e-5) << integrator_name(integrator);
+    }
+}
+
+} // namespace clrt

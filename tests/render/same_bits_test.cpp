@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures that must be the same to the last bit: two renders on one device in every test.
+#include "kernels/shared/effects.h"
+#include "render/kernels.h"
+#include "support/film_estimate.h"
+#include "support/kernel_probe.h"
+#include "support/render_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// A room of two colours with a lamp and a box: area lights, matte.
+void make_room(TestScene& scene) {
+    scene.build.material("white", "Kd 0.7 0.7 0.7").material("red", "Kd 0.6 0.1 0.1");
+    scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5");
+    scene.build.use("white").box({-1, 0, -1}, {1, 2, 1}, Facing::INWARD);
+    scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
+    scene.build.use("red").box({-0.5, 0.01, -0.5}, {0.1, 0.8, 0.2});
+    scene.look({0.2, 1, 0.9}, {0, 0.7, -1}, 80);
+}
+
+/// A smooth ball of glass and a mirror over a floor: sun and point, refraction, mirror, smooth normals.
+void make_optics(TestScene& scene) {
+    scene.build.material("white", "Kd 0.7 0.7 0.7").material("glass", "Ni 1.5\nTf 0.9 1 0.9\nillum 7");
+    scene.build.material("mirror", "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.7\nillum 3");
+    scene.build.use("white").floor(4);
+    scene.build.use("glass").icosphere({-0.5, 0.6, 0}, 0.5, 2, Facing::OUTWARD, Shading::SMOOTH);
+    scene.build.use("mirror").box({0.3, 0.01, -0.6}, {1.1, 0.9, 0.2});
+    scene.options.light.suns.push_back({{1, 2, 1}, {3, 3, 2}, 3});
+    scene.options.light.points.push_back({{-1, 2, 1}, {2, 2, 4}});
+    scene.look({0, 1.5, 3}, {0, 0.4, 0}, 45);
+}
+
+/// Everything that maps and rough lobes need, and a filter wider than a pixel.
+void make_maps(TestScene& scene) {
+    std::vector<unsigned char> colour, mask;
+    std::vector<float> sky, normal;
+    for (int i = 0; i < 64; ++i) {
+        colour.insert(colour.end(),
+                      {(unsigned char)(i * 97), (unsigned char)(i * 31), (unsigned char)(200 - i)});
+        mask.push_back((unsigned char)(i * 53));
+        normal.insert(normal.end(), {0.5f + 0.1f * float(i % 3), 0.5f - 0.1f * float(i % 2), 0.95f});
+        sky.insert(sky.end(), {0.1f + float(i % 7), 0.3f, float(i % 5)});
+    }
+    scene.texture8("colour.png", 8, 8, 3, colour);
+    scene.texture8("mask.png", 8, 8, 1, mask);
+    scene.texture("normal.exr", 8, 8, 3, normal);
+    scene.texture("sky.exr", 8, 8, 3, sky);
+    scene.build.material("mapped", "Kd 0.8 0.8 0.8\nmap_Kd colour.png\nnorm normal.exr");
+    scene.build.material("leaf", "Kd 0.5 0.7 0.2\nmap_d mask.png");
+    scene.build.material("rough", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2");
+    scene.build.material("frosted", "Ni 1.4\nillum 7\nPr 0.3");
+    scene.build.use("mapped").textured_quad({{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}});
+    scene.build.use("leaf").textured_quad({{-1, 0.1, 0.5}, {1, 0.1, 0.5}, {1, 1.5, 0.3}, {-1, 1.5, 0.3}});
+    scene.build.use("rough").icosphere({0.6, 0.5, -0.4}, 0.4, 1);
+    scene.build.use("frosted").icosphere({-0.6, 0.5, -0.4}, 0.4, 1);
+    scene.options.light.environment_file = scene.folder.file("sky.exr");
+    scene.options.filter = Filter::GAUSSIAN;
+    scene.look({0, 1.2, 3}, {0, 0.5, 0}, 40);
+}
+
+using Maker = void (*)(TestScene&);
+const std::pair<const char*, Maker> SCENES[] = {
+    {"room", make_room}, {"optics", make_optics}, {"maps", make_maps}};
+
+/// A scene with few samples, enough for every kind of path to occur.
+struct SmallScene : TestScene {
+    explicit SmallScene(Maker make) {
+        make(*this);
+        options.size = {48, 32};
+        options.spp = 16;
+        options.replicates = 8;
+    }
+    void add_line(const std::string& text) { build.raw(text); }
+};
+
+/// How many sums differ, so that a failure prints a number and no film.
+size_t count_differences(const Film& a, const Film& b) {
+    EXPECT_EQ(a.sums.size(), b.sums.size());
+    size_t count = 0;
+    for (size_t i = 0; i < std::min(a.sums.size(), b.sums.size()); ++i)
+        count += a.sums[i] != b.sums[i];
+    return count;
+}
+
+} // namespace
+
+TEST(SameBits, AbsentEffectsChangeNothing) {
+    for (const auto& [name, make] : SCENES)
+        for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}) {
+            SmallScene scene(make);
+            scene.options.integrator = integrator;
+            const Render all = scene.render();
+            scene.options.all_effects = false;
+            const Effects effects = find_effects(scene.load(), scene.options);
+            EXPECT_NE(effects.mask, u32(EFFECT_ALL)) << name;
+            const Render needed = scene.render();
+            EXPECT_EQ(count_differences(all.film, needed.film), 0u)
+                << name << ", " << integrator_name(integrator);
+            EXPECT_EQ(all.counts.rays(), needed.counts.rays()) << name << ", " << integrator_name(integrator);
+            EXPECT_EQ(all.counts.bad(), 0u);
+        }
+}
+
+TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
+    u32 present = 0, absent = 0;
+    for (const auto& [name, make] : SCENES) {
+        SmallScene scene(make);
+        scene.options.all_effects = false;
+        const u32 mask = find_effects(scene.load(), scene.options).mask;
+        present |= mask;
+        absent |= ~mask;
+    }
+    EXPECT_EQ(present, u32(EFFECT_ALL));
+    EXPECT_EQ(absent & EFFECT_ALL, u32(EFFECT_ALL & ~EFFECT_MATTE));
+}
+
+TEST(SameBits, AWindowHoldsWhatTheWholePictureHoldsThere) {
+    for (const auto& [name, make] : SCENES) {
+        SmallScene scene(make);
+        const Film whole = scene.render().film;
+        const Crop window{13, 5, 40, 30}; // no side on a tile's edge
+        scene.options.crop = window;
+        const Film part = scene.render().film;
+        ASSERT_EQ(part.width, 27);
+        ASSERT_EQ(part.height, 25);
+        EXPECT_EQ(part.scale.quantum, whole.scale.quantum);
+        size_t differences = 0;
+        for (int r = 0; r < 8; ++r)
+            for (int y = 0; y < part.height; ++y)
+                for (int i = 0; i < 3 * part.width; ++i) {
+                    const size_t in_part = size_t((r * part.height + y) * part.width * 3 + i);
+                    const size_t in_whole = size_t(((r * 32 + y + window.y0) * 48 + window.x0) * 3 + i);
+                    differences += part.sums[in_part] != whole.sums[in_whole];
+                }
+        EXPECT_EQ(differences, 0u) << name;
+    }
+}
+
+TEST(SameBits, RangesOfSamplesAddUpToTheWhole) {
+    SmallScene scene(make_maps);
+    const Film whole = scene.render().film;
+    Film merged;
+    for (const auto& [first, count] : {std::pair{0u, 5u}, {5u, 1u}, {6u, 10u}}) {
+        scene.options.first_sample = first;
+        scene.options.spp = count;
+        const Film part = scene.render().film;
+        EXPECT_EQ(part.first_sample, first);
+        EXPECT_EQ(part.samples, count);
+        if (merged.sums.empty())
+            merged = part;
+        else
+            std::transform(part.sums.begin(), part.sums.end(), merged.sums.begin(), merged.sums.begin(),
+                           std::plus<>());
+    }
+    EXPECT_EQ(count_differences(whole, merged), 0u);
+}
+
+TEST(SameBits, SamplesGoRoundTheReplicates) {
+    SmallScene scene(make_room);
+    scene.options.spp = 3;
+    scene.options.first_sample = 6; // samples 6, 7 and 8 belong to replicates 6, 7 and 0
+    const Film film = scene.render().film;
+    const size_t plane = film.sums.size() / 8;
+    for (int r = 0; r < 8; ++r) {
+        const auto begin = film.sums.begin() + std::ptrdiff_t(size_t(r) * plane);
+        const bool any =
+            std::any_of(begin, begin + std::ptrdiff_t(plane), [](std::int64_t sum) { return sum != 0; });
+        EXPECT_EQ(any, r == 6 || r == 7 || r == 0) << r;
+        EXPECT_EQ(film_replicate_samples(film, r), any ? 1u : 0u);
+    }
+}
+
+TEST(SameBits, BothTreesFindTheSameHits) {
+    for (const auto& [name, make] : SCENES) {
+        SmallScene scene(make);
+        scene.options.bvh = BvhChoice::BVH8;
+        const Render wide = scene.render();
+        scene.options.bvh = BvhChoice::BVH2;
+        const Render binary = scene.render();
+        EXPECT_EQ(count_differences(wide.film, binary.film), 0u) << name;
+        EXPECT_EQ(wide.counts.rays(), binary.counts.rays()) << name;
+    }
+}
+
+TEST(SameBits, AScaleByAPowerOfTwoChangesNothing) {
+    for (const int exponent : {-10, 10}) {
+        SmallScene scene(make_room);
+        scene.build.material("gloss", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2");
+        scene.build.use("gloss").icosphere({0.5, 0.4, 0.2}, 0.3, 2, Facing::OUTWARD, Shading::SMOOTH);
+        const Film unscaled = scene.render().film;
+        scene.scale = std::ldexp(1.0, exponent);
+        *scene.options.camera.eye *= scene.scale;
+        *scene.options.camera.at *= scene.scale;
+        EXPECT_EQ(count_differences(unscaled, scene.render().film), 0u) << exponent;
+    }
+}
+
+TEST(SameBits, TrianglesWithoutAreaChangeNothing) {
+    SmallScene scene(make_room);
+    const Film clean = scene.render().film;
+    scene.build.use("red").polygon({{0, 1, 0}, {0, 1, 0}, {0, 1, 0}});            // a point
+    scene.build.use("white").polygon({{-1, 0.5, 0}, {0, 0.5, 0}, {1, 0.5, 0}});   // a line
+    scene.build.use("lamp").polygon({{0, 0.2, 0}, {0, 0.2, 0}, {0.5, 0.9, 0.5}}); // a line that would shine
+    scene.build.raw("v nan 0 0\nf -1 -2 -3\nf 1 2");
+    EXPECT_EQ(count_differences(clean, scene.render().film), 0u);
+}
+
+TEST(SameBits, TheSameRunTwiceGivesTheSameFilmAndAnotherSeedAnother) {
+    SmallScene scene(make_optics);
+    const Film first = scene.render().film;
+    EXPECT_EQ(count_differences(first, scene.render().film), 0u);
+    scene.options.seed = 1;
+    EXPECT_GT(count_differences(first, scene.render().film), first.sums.size() / 4);
+}
+
+TEST(SameBits, DoublePrecisionFollowsTheSamePaths) {
+    if (!test_device().info.fp64) {
+        SmallScene scene(make_room);
+        scene.options.precision = Precision::DOUBLE;
+        EXPECT_THROW(scene.render(), std::exception);
+        return;
+    }
+    for (const auto& [name, make] : SCENES) {
+        SmallScene scene(make);
+        scene.options.spp = 64;
+        const Film single = scene.render().film;
+        scene.options.precision = Precision::DOUBLE;
+        const std::vector<float> a = film_mean(single), b = film_mean(scene.render().film);
+        // A rounding may send a path another way, so single pixels may differ; half of them must not.
+        std::vector<double> differences;
+        double sum_a = 0, sum_b = 0;
+        for (size_t i = 0; i < a.size(); ++i) {
+            differences.push_back(std::abs(a[i] - b[i]) / std::max(b[i], 1e-3f));
+            sum_a += a[i];
+            sum_b += b[i];
+        }
+        std::nth_element(differences.begin(), differences.begin() + std::ptrdiff_t(differences.size() / 2),
+                         differences.end());
+        EXPECT_LT(differences[differences.size() / 2], 1e-4) << name;
+        EXPECT_NEAR(sum_a, sum_b, 2e-3 * sum_b) << name;
+    }
+}
+
+} // namespace clrt

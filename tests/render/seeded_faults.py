@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Shows that the render tests can fail: puts one fault after the other into a copy of the kernels and runs the test that
+must catch it.
+
+    tests/render/seeded_faults.py BUILD_FOLDER [NAME...]
+
+Prints which tests caught each fault; exit code 1 if one was not caught, or if a fault's text is no longer in the
+kernels."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "kernels")
+
+# Name, file, text, text with the fault, test program.
+FAULTS = [
+    ("dropped cosine", "scattering/bsdf_matte.h", "(fmax(wi.z, REAL(0.0)) * REAL_INVERSE_PI)",
+     "(wi.z > REAL(0.0) ? REAL_INVERSE_PI : REAL(0.0))", "direct_light_test"),
+    ("missing 1/p in roulette", "integrators/path.h", "path->throughput /= survival;", "", "furnace_test"),
+    ("MIS weights do not sum to 1", "path/mis.h", "fma(ratio, ratio, REAL(1.0))", "fma(ratio, ratio, REAL(1.1))",
+     "direct_light_test"),
+    ("sampled discs counted twice", "lights/lights.h", "* mis_weight(pdf_w, light_pdf_w);\n    }", ";\n    }",
+     "direct_light_test"),
+    ("lamp density off by the share of its kind", "lights/lights.h", "sample.pdf_w *= emitter;", "",
+     "direct_light_test"),
+    ("light density off by the count", "lights/lights.h",
+     "sample.pdf_w *= light * (real)scene->lights[index].probability;", "sample.pdf_w *= light;", "direct_light_test"),
+    ("missing eta^2, smooth glass", "scattering/bsdf_dielectric.h", "bsdf->transmission * (bsdf->eta * bsdf->eta)",
+     "bsdf->transmission", "furnace_test"),
+    ("missing eta^2, whitted", "integrators/whitted.h", "(REAL(1.0) - f) * bsdf->eta * bsdf->eta", "REAL(1.0) - f",
+     "glass_test"),
+    ("shadow ray not traced", "geometry/visibility.h", "while (share > REAL(0.0)) {", "while (false) {",
+     "direct_light_test"),
+    ("the plane's normal for shading", "scattering/material.h", "real3 n = surface->normal_s;",
+     "real3 n = surface->normal_g;", "shading_normal_test"),
+    ("sampler address used for all bounces", "numerics/sampler.h", "return bounce * SAMPLER_PURPOSES + purpose;",
+     "return purpose;", "interreflection_test"),
+    ("lobe and roulette share a number", "numerics/sampler.h", "#define SAMPLE_ROULETTE 6u",
+     "#define SAMPLE_ROULETTE 2u", "furnace_test"),
+    ("filter offset", "camera/camera.h", "(u - (real2)(REAL(0.5)))", "u", "pixel_filter_test"),
+    ("front and back of lamps swapped", "scattering/material.h", "return front ||", "return !front ||",
+     "direct_light_test"),
+    ("tent filter as a box", "camera/camera.h", "(real2)(camera_tent(u.x), camera_tent(u.y))",
+     "(REAL(2.0) * u - (real2)(REAL(1.0)))", "pixel_filter_test"),
+    ("no p-polarised part of Fresnel", "scattering/fresnel.h", "REAL(0.5) * fma(s, s, p * p)", "s * s", "glass_test"),
+    ("indices of glass swapped", "scattering/material.h", "surface->front ? REAL(1.0) / index : index",
+     "surface->front ? index : REAL(1.0) / index", "glass_test"),
+    ("no tint of crossings", "scattering/bsdf_dielectric.h", "bsdf->transmission * (bsdf->eta * bsdf->eta)",
+     "(real3)(bsdf->eta * bsdf->eta)", "glass_test"),
+    ("poles weigh like the equator", "lights/environment.h", "sin(step * ((real)from_pole + REAL(0.5)))", "REAL(0.7)",
+     "sky_light_test"),
+    ("sky turned the other way", "lights/environment.h",
+     "vector_make(fma(c, d.x, -(s * d.z)), d.y, fma(s, d.x, c * d.z))",
+     "vector_make(fma(c, d.x, s * d.z), d.y, fma(-s, d.x, c * d.z))", "sky_light_test"),
+    ("screens cast no shadow", "geometry/visibility.h", "share *= REAL(1.0) - visibility_coverage(scene, &hit);", "",
+     "cut_out_test"),
+    ("cut-out lamps shine in full", "lights/emitter.h", "sample.radiance *= material_coverage(scene, material, uv);", "",
+     "cut_out_test"),
+    ("textures upside down", "geometry/texture.h", "(1.0f - v) * (float)texture->height", "v * (float)texture->height",
+     "textured_picture_test"),
+    ("green of normal maps turned round", "scattering/material.h", "m.y * handed * frame.y", "-m.y * handed * frame.y",
+     "shading_normal_test"),
+    ("no inverse square", "lights/delta_light.h", "sample.radiance /= distance_squared;", "", "direct_light_test"),
+    ("no masking of microfacets", "scattering/bsdf_glossy.h", "(REAL(1.0) + lambda_o + lambda_i)",
+     "(REAL(1.0) + lambda_o)", "furnace_test"),
+    ("window not taken from the whole picture", "integrators/pixel.h", "params->seed, y * params->width + x",
+     "params->seed, (y - params->crop_y) * params->width + x", "same_bits_test"),
+    ("film rounds down", "film/film.h", "(sampler_unit(word) < quanta - whole ? 1 : 0)", "0", "direct_light_test"),
+    ("rays below the minimum are followed", "integrators/whitted.h",
+     "vector_max_component(child.weight) < (real)params->min_contribution || ", "", "ray_tree_test"),
+    ("highlight without its normalisation", "integrators/direct.h", "(bsdf->exponent + REAL(2.0)) * ", "REAL(2.0) * ",
+     "ray_tree_test"),
+]
+
+
+def failing_tests(build, program, kernels):
+    run = subprocess.run([os.path.join(build, "tests", program)], capture_output=True, text=True, errors="replace",
+                         env=dict(os.environ, CLRT_TEST_KERNELS=kernels))
+    names = re.findall(r"^\[  FAILED  \] ([\w.]+) \(", run.stdout, re.MULTILINE)
+    return names or (["(ended with %d)" % run.returncode] if run.returncode else [])
+
+
+def main():
+    build, wanted = sys.argv[1], sys.argv[2:]
+    uncaught = 0
+    for name, file, text, fault, program in FAULTS:
+        if wanted and name not in wanted:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            kernels = os.path.join(folder, "kernels")
+            shutil.copytree(KERNELS, kernels)
+            path = os.path.join(kernels, file)
+            with open(path) as source:
+                code = source.read()
+            if text not in code:
+                print("%-45s its text is not in %s any more" % (name, file))
+                uncaught += 1
+                continue
+            with open(path, "w") as source:
+                source.write(code.replace(text, fault))
+            caught = failing_tests(build, program, kernels)
+        more = " and %d more" % (len(caught) - 1) if len(caught) > 1 else ""
+        print("%-45s %s" % (name, "caught by " + caught[0] + more if caught else "NOT CAUGHT by " + program), flush=True)
+        uncaught += not caught
+    return 1 if uncaught else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

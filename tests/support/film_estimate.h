@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a film says about a number, and whether it agrees with a closed form.
+#pragma once
+
+#include "app/options.h"
+#include "render/film.h"
+
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+/// A mean and its standard error from the spread of the replicates.
+struct Estimate {
+    double mean = 0, error = 0;
+};
+
+/// Mean of a channel over a window of pixels of the film (counted from the film's own corner).
+Estimate film_estimate(const Film& film, int channel, const Crop& window);
+
+/// The same over all pixels.
+Estimate film_estimate(const Film& film, int channel = 0);
+
+/// The radiance of a pixel, rgb.
+glm::dvec3 film_pixel(const Film& film, int x, int y);
+
+/// Relative error that single precision may add to a picture whatever its noise: a few tens of roundings.
+constexpr double RENDER_ROUNDING = 4e-6;
+
+/// Standard errors that a right picture may be off. With 64 replicates the chance is about 1e-7 a comparison.
+constexpr double LARGEST_Z = 6;
+
+/// Whether an estimate is within LARGEST_Z standard errors, plus `rounding` of the expected value. The
+/// standard error must not exceed `sharpness` of the expected value, so that the comparison can fail.
+testing::AssertionResult agrees(const Estimate& estimate, double expected, double sharpness = 2e-3,
+                                double rounding = RENDER_ROUNDING);
+
+} // namespace clrt

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traces arrays of rays through a scene on the test device by the renderer's own functions, in a given
+// layout.
+#pragma once
+
+#include "app/options.h"
+#include "bvh/bvh.h"
+#include "kernels/shared/render_types.h"
+#include "render/scene_buffers.h"
+#include "scene/scene.h"
+#include "support/kernel_probe.h"
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// "Unbounded": REAL_FAR of kernels/numerics/real.h.
+constexpr float FAR_AWAY = 1e18f;
+
+/// A ray as the kernels read it, in every precision.
+struct TestRay {
+    vec4 origin;    ///< w: t_max
+    vec4 direction; ///< w: 0
+};
+
+/// Rounds to float; the direction is made unit first.
+TestRay make_ray(const glm::dvec3& origin, const glm::dvec3& direction, float t_max = FAR_AWAY);
+
+/// The ray from one point towards another, unbounded.
+TestRay make_ray_to(const glm::dvec3& origin, const glm::dvec3& target);
+
+/// A hit; floats are widened, so that equal bits stay equal bits.
+struct TestHit {
+    double t, b1, b2;
+    u32 triangle; ///< NO_INDEX: a miss
+};
+
+/// Bit for bit equality, where -0 differs from 0.
+bool operator==(const TestHit& a, const TestHit& b);
+inline bool operator!=(const TestHit& a, const TestHit& b) {
+    return !(a == b);
+}
+
+/// "bvh8" or "bvh2": for messages.
+const char* layout_name(BvhLayout layout);
+
+constexpr BvhLayout BOTH_LAYOUTS[] = {BvhLayout::BVH8, BvhLayout::BVH2};
+
+/// The kernels inside the test, or those in the folder that the variable CLRT_TEST_KERNELS names: so faults
+/// can be planted without a build.
+KernelFiles kernels_under_test();
+
+/// A scene on the test device. Its programs are built once a process for each layout, precision and mask.
+class RayDevice {
+public:
+    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0);
+
+    /// The same where `extent_of` would meet coordinates that are not finite.
+    RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, float extent);
+
+    /// scene_closest_hit for every ray.
+    std::vector<TestHit> closest(const std::vector<TestRay>& rays) const;
+
+    /// The same by testing all triangles of the scene with triangle_edges, without a tree.
+    std::vector<TestHit> closest_of_all(const std::vector<TestRay>& rays) const;
+
+    /// scene_any_hit for every ray: 1 or 0.
+    std::vector<u32> any(const std::vector<TestRay>& rays) const;
+
+    /// Rays that leave the surfaces at `hits` of `rays` in the given directions (surface_at, surface_origin).
+    /// Every hit must be one; single precision.
+    std::vector<TestRay> leaving(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
+                                 const std::vector<glm::dvec3>& directions) const;
+
+    /// The unit geometric normal of surface_at for every hit (x, y, z) and the offset bound (w); single
+    /// precision.
+    std::vector<vec4> normals(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
+
+    /// All hits along every ray, found one after the other with the `after` of scene_closest_hit; at most 16.
+    /// Needs EFFECT_CUT_OUT.
+    std::vector<std::vector<u32>> layers(const std::vector<TestRay>& rays) const;
+
+    /// The triangles that visible_hit finds, each ray with random numbers of its own.
+    std::vector<u32> visible(const std::vector<TestRay>& rays) const;
+
+    /// visible_share of every ray.
+    std::vector<float> shares(const std::vector<TestRay>& rays) const;
+
+    const Bvh& bvh() const { return bvh_; }
+
+private:
+    template <class Out>
+    std::vector<Out> trace(const std::string& kernel, const std::vector<TestRay>& rays,
+                           size_t per_ray = 1) const;
+    std::vector<TestHit> trace_hits(const std::string& kernel, const std::vector<TestRay>& rays) const;
+    std::vector<vec4> at_surfaces(const std::string& kernel, const std::vector<TestRay>& rays,
+                                  const std::vector<TestHit>& hits, const std::vector<vec4>& in) const;
+
+    KernelProbe& probe_;
+    Precision precision_;
+    Bvh bvh_;
+    SceneBuffers buffers_;
+    RenderParams params_{};
+};
+
+} // namespace clrt

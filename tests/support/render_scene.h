@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renders small scenes in process on the test device.
+#pragma once
+
+#include "app/options.h"
+#include "effects/effects.h"
+#include "render/render.h"
+#include "scene/scene.h"
+#include "support/scene_builder.h"
+#include "support/scratch_folder.h"
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// A scene under test: text, textures in a folder of its own, and the options it is rendered with.
+/// The options start with 16 x 16 pixels, 1024 samples in 64 replicates and the full kernel, so that all
+/// tests of an integrator share one program.
+class TestScene {
+public:
+    TestScene();
+
+    /// Points the camera at a point; angle of view in degrees.
+    void look(const glm::dvec3& eye, const glm::dvec3& at, double fov_degrees);
+    /// Points the camera at a surface point so closely that the whole picture shows one radiance: its side
+    /// is a thousandth of the distance.
+    void look_at_point(const glm::dvec3& eye, const glm::dvec3& at);
+
+    /// Writes a texture of floats (EXR), `channels` values a pixel, rows from the top.
+    void texture(const std::string& name, int width, int height, int channels,
+                 const std::vector<float>& values);
+    /// Writes a texture of 8-bit values (PNG).
+    void texture8(const std::string& name, int width, int height, int channels,
+                  const std::vector<unsigned char>& values);
+
+    /// Loads the scene's files.
+    Scene load() const;
+    /// Loads and renders.
+    Render render() const;
+
+    SceneBuilder build;
+    Options options;
+    ScratchFolder folder;
+    double scale = 1; ///< of positions in the OBJ file
+};
+
+/// Renders a loaded scene. Programs are compiled once a process for each integrator, mask, layout and
+/// precision. The variable CLRT_TEST_KERNELS names a folder of kernels to take instead of those inside the
+/// test.
+Render render_loaded(const Scene& scene, const Options& options);
+
+} // namespace clrt
