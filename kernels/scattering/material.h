@@ -38,13 +38,16 @@ static inline bool material_emits(global const Material* material, bool front)
     return front || (material->flags & MATERIAL_EMITS_BOTH_SIDES);
 }
 
+/* Below this a map is stretched so far that its slope no longer matters; keeps the step to the next texel finite. */
+#define MATERIAL_SMALLEST_MAP_SCALE 1e-6f
+
 /* The normal of a bump map (Blinn 1978): heights at the point and one texel further along u and v. */
 static inline real3 material_bump_normal(const Scene* scene, global const Material* material, const Surface* surface,
                                          real3 n)
 {
     global const Texture* texture = scene->textures + material->map_bump;
-    const float du = 1.0f / ((float)texture->width * fmax(fabs(texture->scale_u), 1e-6f));
-    const float dv = 1.0f / ((float)texture->height * fmax(fabs(texture->scale_v), 1e-6f));
+    const float du = 1.0f / ((float)texture->width * fmax(fabs(texture->scale_u), MATERIAL_SMALLEST_MAP_SCALE));
+    const float dv = 1.0f / ((float)texture->height * fmax(fabs(texture->scale_v), MATERIAL_SMALLEST_MAP_SCALE));
     const float2 uv = surface->uv;
     const real height = texture_scalar(scene, material->map_bump, uv);
     const real along_u = texture_scalar(scene, material->map_bump, (float2)(uv.x + du, uv.y));
