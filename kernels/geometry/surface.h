@@ -17,6 +17,7 @@ typedef struct {
     real offset;      /* bound of position's distance to the plane that the triangle test sees */
     uint emitter;     /* index into the emitters, NO_INDEX for a dark triangle */
     uint material;
+    bool is_curved;   /* bulge is not 0 */
     bool front;       /* wo is on the front side (winding, or vn where given) */
 } Surface;
 
@@ -131,6 +132,7 @@ static inline void surface_smooth(const Scene* scene, global const Triangle* tri
                        b1 * fmin(vector_dot(surface->position - p[1], n1) * side, REAL(0.0)) * n1 +
                        b2 * fmin(vector_dot(surface->position - p[2], n2) * side, REAL(0.0)) * n2;
     surface->bulge = -lift * side;
+    surface->is_curved = !vector_is_zero(lift);
 }
 
 /* True where the given normals say that the winding's normal points inward. */
@@ -170,6 +172,7 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface.tangent = (real3)(REAL(0.0));
     surface.bitangent = (real3)(REAL(0.0));
     surface.bulge = (real3)(REAL(0.0));
+    surface.is_curved = false;
     surface.uv = (float2)(0.0f);
     surface.emitter = triangle->emitter;
     surface.material = triangle->material;
@@ -180,13 +183,21 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     return surface;
 }
 
+/* True if a ray in direction w leaves on wo's side: above the plane, or, where corner normals describe a curved surface that
+   bulges over the plane, above the shading normal's horizon. */
+static inline bool surface_reflects(const Surface* surface, real3 w)
+{
+    if (HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved && vector_dot(w, surface->normal_s) > REAL(0.0))
+        return true;
+    return vector_dot(w, surface->normal_g) >= REAL(0.0);
+}
+
 /* Where a ray in direction w leaves the surface: on w's side of the plane by the error bound, and, when it stays on wo's
    side, lifted to the curved surface. */
 static inline real3 surface_origin(const Surface* surface, real3 w)
 {
-    const bool reflects = vector_dot(w, surface->normal_g) >= REAL(0.0);
-    const real3 step = surface->normal_g * (reflects ? surface->offset : -surface->offset);
-    return (reflects ? surface->position + surface->bulge : surface->position) + step;
+    const real3 step = surface->normal_g * surface->offset;
+    return surface_reflects(surface, w) ? surface->position + surface->bulge + step : surface->position - step;
 }
 
 #endif

@@ -53,7 +53,7 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     const real f = dielectric ? fresnel_dielectric(cos_o, bsdf->eta, &cos_t) : REAL(1.0);
 
     const real3 reflected = REAL(2.0) * cos_o * n - wo_world;
-    if (vector_dot(reflected, surface->normal_g) > REAL(0.0)) {
+    if (surface_reflects(surface, reflected)) {
         const real3 color = dielectric ? bsdf->specular * f : bsdf_reflection_color(bsdf, cos_o);
         top = whitted_push(params, whitted_child(parent, surface, reflected, parent->weight * color, 0u), stack, top);
     }

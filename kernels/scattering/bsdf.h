@@ -16,9 +16,12 @@ static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf)
     return (bsdf->lobes & LOBE_DIELECTRIC) && !bsdf_dielectric_is_smooth(bsdf);
 }
 
-/* True if a world direction and its local form are on the same side of both normals. */
+/* True if a world direction and its local form are on the same side of both normals, or the direction is reflected by a
+   surface that bulges over its plane: coarse meshes would be black near the terminator otherwise. */
 static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
 {
+    if (HAS(EFFECT_SMOOTH_NORMALS) && bsdf->is_curved && wi.z > REAL(0.0))
+        return true;
     return (vector_dot(wi_world, bsdf->normal_g) > REAL(0.0)) == (wi.z > REAL(0.0));
 }
 

@@ -11,6 +11,7 @@ typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
     real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
     real3 normal_g;     /* world: geometric normal, on wo's side */
+    bool is_curved;     /* the surface bulges over its plane: directions below the plane may be reflected */
     real3 matte;        /* reflectance */
     real3 specular;     /* reflection colour, or F0 */
     real3 transmission; /* tint of a crossing */

@@ -37,6 +37,7 @@ SceneProbe& probe() {
             surface.position = vector_from(a);
             surface.normal_g = s.wi;
             surface.bulge = (real3)(REAL(0.0));
+            surface.is_curved = false;
             surface.offset = REAL(0.0);
             const Ray ray = light_shadow_ray(&surface, &s);
             const RayShear shear = ray_shear_make(&ray);

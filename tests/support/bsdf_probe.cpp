@@ -20,6 +20,7 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     bsdf.frame = frame_make_tangent(n, vector_make(REAL(0.3), REAL(1.0), REAL(0.2)));
     bsdf.wo = vector_from(wo);
     bsdf.normal_g = frame_to_world(&bsdf.frame, vector_from(normal_g));
+    bsdf.is_curved = false;
     bsdf.matte = vector_from(matte);
     bsdf.specular = vector_from(specular);
     bsdf.transmission = vector_from(transmission);
