@@ -292,35 +292,36 @@ TEST(Surface, FlatTrianglesHaveNoBulgeAndCornersNeitherDo) {
         EXPECT_LE(glm::length(to_dvec3(bulge[i])), i % 11 < 8 ? 0 : 1e-5) << i;
 }
 
-TEST(Surface, TheBulgeFollowsTheSphereFromOutsideAndTheChordFromInside) {
-    // A triangle inscribed in the unit sphere; the curved surface lies between the chord and the tangent
-    // planes.
-    const dvec3 n[] = {glm::normalize(dvec3(-0.2, -0.15, 1)), glm::normalize(dvec3(0.2, -0.15, 1)),
+TEST(Surface, PointsAreLiftedToTheCurvedSurfaceOnItsRoundSideOnly) {
+    // A triangle inscribed in the unit sphere, with the sphere's normals and with those of a hollow: then its
+    // round side is behind. The curved surface lies between the chord and the tangent planes.
+    const dvec3 p[] = {glm::normalize(dvec3(-0.2, -0.15, 1)), glm::normalize(dvec3(0.2, -0.15, 1)),
                        glm::normalize(dvec3(0, 0.25, 1))};
-    Triangles triangles;
-    triangles.add(n[0], n[1], n[2]);
-    triangles.set_normals(0, n[0], n[1], n[2]);
-    Random random(8);
-    std::vector<vec4> hits, out, in;
-    for (int i = 0; i < 2000; ++i) {
-        hits.push_back(random_hit(random, 0));
-        out.push_back(to_vec4({0.1, 0.2, 1}));
-        in.push_back(to_vec4({0.1, 0.2, -1}));
-    }
-    const SceneProbe::Outputs outside = probe().run("shape", triangles.scene, RenderParams{}, hits, out);
-    const SceneProbe::Outputs inside = probe().run("shape", triangles.scene, RenderParams{}, hits, in);
-    for (size_t i = 0; i < hits.size(); ++i) {
-        const double b[] = {1 - double(hits[i].x) - hits[i].y, hits[i].x, hits[i].y};
-        const dvec3 position =
-            b[0] * triangles.corner(0, 0) + b[1] * triangles.corner(0, 1) + b[2] * triangles.corner(0, 2);
-        dvec3 bulge(0); // Hanika's projections
-        for (u32 k = 0; k < 3; ++k)
-            bulge -= b[k] * std::min(glm::dot(position - triangles.corner(0, k), n[k]), 0.0) * n[k];
-        ASSERT_LE(glm::length(to_dvec3(outside.third[i]) - bulge), 1e-5) << i;
-        ASSERT_GE(outside.third[i].z, 0) << i;
-        ASSERT_LT(glm::length(position + bulge), 1.035); // the tangent planes' corner
-        // The hollow side needs no lift: rays that leave it meet nothing of the chord.
-        ASSERT_LE(glm::length(to_dvec3(inside.third[i])), 1e-5) << i;
+    for (const double round_side : {1.0, -1.0}) {
+        const dvec3 bend(round_side, round_side, 1), n[] = {p[0] * bend, p[1] * bend, p[2] * bend};
+        Triangles triangles;
+        triangles.add(p[0], p[1], p[2]);
+        triangles.set_normals(0, n[0], n[1], n[2]);
+        Random random(8);
+        std::vector<vec4> hits;
+        for (int i = 0; i < 2000; ++i)
+            hits.push_back(random_hit(random, 0));
+        const auto seen_from = [&](double side) {
+            const std::vector<vec4> wo(hits.size(), to_vec4({0.1, 0.2, side}));
+            return probe().run("shape", triangles.scene, RenderParams{}, hits, wo).third;
+        };
+        const std::vector<vec4> round = seen_from(round_side), hollow = seen_from(-round_side);
+        for (size_t i = 0; i < hits.size(); ++i) {
+            const double b[] = {1 - double(hits[i].x) - hits[i].y, hits[i].x, hits[i].y};
+            const dvec3 position = b[0] * p[0] + b[1] * p[1] + b[2] * p[2];
+            dvec3 bulge(0); // Hanika's projections on the corners' tangent planes
+            for (u32 k = 0; k < 3; ++k)
+                bulge -= b[k] * glm::dot(position - p[k], n[k]) * n[k];
+            ASSERT_LE(glm::length(to_dvec3(round[i]) - bulge), 1e-5) << i;
+            ASSERT_GE(round[i].z * round_side, 0) << i;
+            // Rays that leave the hollow side meet nothing of the chord.
+            ASSERT_LE(glm::length(to_dvec3(hollow[i])), 1e-5) << i;
+        }
     }
 }
 

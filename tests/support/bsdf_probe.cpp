@@ -9,7 +9,7 @@ namespace clrt {
 namespace {
 
 const char* const TEXT = R"(
-#define PROBE_BSDF const vec4 matte, const vec4 specular, const vec4 transmission, const vec4 shape,          \
+#define PROBE_BSDF const vec4 matte, const vec4 specular, const vec4 transmission, const vec4 shape, \
                    const vec4 normal_g, const u32 lobes, const u32 fresnel
 #define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, lobes, fresnel
 
