@@ -11,23 +11,23 @@
 /* A level leaves at most one sibling behind. */
 #define BVH2_STACK_SIZE (BVH_MAX_DEPTH + 1)
 
-/* Entry distance of a box, or a negative number where it is missed within (0, t_max]. xy holds lower x, upper x,
-   lower y, upper y. */
-static inline real bvh2_enter(float4 xy, float2 z, const BoxRay* box, real t_max)
+/* Entry distance of a box, or a negative number where it is missed within (0, t_max]; limit is t_max times the exit factor.
+   xy holds lower x, upper x, lower y, upper y. */
+static inline real bvh2_enter(float4 xy, float2 z, const BoxRay* box, real limit)
 {
     const bool left = box->reciprocal.x < REAL(0.0);
     const bool down = box->reciprocal.y < REAL(0.0);
     const bool back = box->reciprocal.z < REAL(0.0);
-    const real near_x = fma((real)(left ? xy.y : xy.x), box->reciprocal.x, box->entry.x);
-    const real near_y = fma((real)(down ? xy.w : xy.z), box->reciprocal.y, box->entry.y);
-    const real near_z = fma((real)(back ? z.y : z.x), box->reciprocal.z, box->entry.z);
-    const real far_x = fma((real)(left ? xy.x : xy.y), box->reciprocal.x, box->exit.x);
-    const real far_y = fma((real)(down ? xy.z : xy.w), box->reciprocal.y, box->exit.y);
-    const real far_z = fma((real)(back ? z.x : z.y), box->reciprocal.z, box->exit.z);
+    const real near_x = fma((real)(left ? xy.y : xy.x), box->reciprocal.x, box->entry_offset.x);
+    const real near_y = fma((real)(down ? xy.w : xy.z), box->reciprocal.y, box->entry_offset.y);
+    const real near_z = fma((real)(back ? z.y : z.x), box->reciprocal.z, box->entry_offset.z);
+    const real far_x = fma((real)(left ? xy.x : xy.y), box->exit_reciprocal.x, box->exit_offset.x);
+    const real far_y = fma((real)(down ? xy.z : xy.w), box->exit_reciprocal.y, box->exit_offset.y);
+    const real far_z = fma((real)(back ? z.x : z.y), box->exit_reciprocal.z, box->exit_offset.z);
     /* All operands are finite, so min and max are defined. */
     const real entry = max(max(near_x, near_y), max(near_z, REAL(0.0)));
-    const real leave = min(min(far_x, far_y), min(far_z, t_max));
-    return entry <= leave * BOX_EXIT_FACTOR ? entry : REAL(-1.0);
+    const real leave = min(min(far_x, far_y), min(far_z, limit));
+    return entry <= leave ? entry : REAL(-1.0);
 }
 
 /* Tests one leaf triangle; true where it is hit within (0, t_max]. */
@@ -62,8 +62,9 @@ static CLRT_NOINLINE void bvh2_closest_hit(const Scene* scene, const RenderParam
     for (;;) {
         global const uint* words = scene->bvh_nodes + BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
-        real entry[2] = {bvh2_enter(vload4(0, planes), vload2(4, planes), &box, hit->t),
-                         bvh2_enter(vload4(1, planes), vload2(5, planes), &box, hit->t)};
+        const real limit = hit->t * BOX_EXIT_FACTOR;
+        real entry[2] = {bvh2_enter(vload4(0, planes), vload2(4, planes), &box, limit),
+                         bvh2_enter(vload4(1, planes), vload2(5, planes), &box, limit)};
         /* Test the triangles of children that are leaves. */
         for (uint side = 0; side < 2u; ++side) {
             const uint child = words[BVH2_CHILD_WORD + side];
@@ -104,6 +105,7 @@ static CLRT_NOINLINE bool bvh2_any_hit(const Scene* scene, const RenderParams* p
 {
     const BoxRay box = box_ray_make(ray, params->scene_extent);
     const RayShear shear = ray_shear_make(ray);
+    const real limit = ray->t_max * BOX_EXIT_FACTOR;
     uint stack[BVH2_STACK_SIZE];
     int top = 0;
     uint node = 0;
@@ -111,7 +113,7 @@ static CLRT_NOINLINE bool bvh2_any_hit(const Scene* scene, const RenderParams* p
         global const uint* words = scene->bvh_nodes + BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
         for (uint side = 0; side < 2u; ++side) {
-            if (bvh2_enter(vload4(side, planes), vload2(4 + side, planes), &box, ray->t_max) < REAL(0.0))
+            if (bvh2_enter(vload4(side, planes), vload2(4 + side, planes), &box, limit) < REAL(0.0))
                 continue;
             const uint child = words[BVH2_CHILD_WORD + side];
             if (!(child & BVH_LEAF_BIT)) {

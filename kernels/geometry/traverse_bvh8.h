@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traversal of the eight-wide tree: one ray against eight boxes or eight triangles at a time with real8. For CPU devices;
 // PoCL turns the vectors into AVX or AVX-512.
+//
+// A step of the traversal is a chain of waits: child's index, node's planes, box test, mask, child's index. Two things
+// shorten it. Where a child is chosen by a branch for its lane, instead of an address computed from the mask, a
+// processor that predicts branches starts on the next node while the test of this one is on its way. And what
+// goes to the stack is prefetched.
 #ifndef CLRT_GEOMETRY_TRAVERSE_BVH8_H
 #define CLRT_GEOMETRY_TRAVERSE_BVH8_H
 
@@ -28,22 +33,41 @@ static inline uint bvh8_lanes(mask8 mask)
 #endif
 }
 
-/* The lowest lane of a mask that is not 0. */
-static inline uint bvh8_first_lane(uint lanes) { return 31u - clz(lanes & -lanes); }
-
-/* Tests the node's eight boxes against (0, t_max]; gives the lanes that are met and all entry distances. */
-static inline uint bvh8_enter(global const uint* node, const BoxRay* box, uint8 planes, real t_max, real8* entry)
+/* The node of an inner child and the block of a leaf. */
+static inline global const uint* bvh8_node(const Scene* scene, uint child)
 {
-    const real8 near_x = fma(bvh8_load(node + planes.s0), (real8)(box->reciprocal.x), (real8)(box->entry.x));
-    const real8 near_y = fma(bvh8_load(node + planes.s1), (real8)(box->reciprocal.y), (real8)(box->entry.y));
-    const real8 near_z = fma(bvh8_load(node + planes.s2), (real8)(box->reciprocal.z), (real8)(box->entry.z));
-    const real8 far_x = fma(bvh8_load(node + planes.s3), (real8)(box->reciprocal.x), (real8)(box->exit.x));
-    const real8 far_y = fma(bvh8_load(node + planes.s4), (real8)(box->reciprocal.y), (real8)(box->exit.y));
-    const real8 far_z = fma(bvh8_load(node + planes.s5), (real8)(box->reciprocal.z), (real8)(box->exit.z));
+    return scene->bvh_nodes + (size_t)BVH8_NODE_WORDS * child;
+}
+
+static inline global const uint* bvh8_leaf(const Scene* scene, uint child)
+{
+    return scene->bvh_leaves + (size_t)BVH8_BLOCK_WORDS * (child & ~BVH_LEAF_BIT);
+}
+
+/* Starts to load what a child consists of: four cache lines of a node, of a block all but its triangle indices. */
+static inline void bvh8_prefetch(const Scene* scene, uint child)
+{
+    global const uint* words = child & BVH_LEAF_BIT ? bvh8_leaf(scene, child) : bvh8_node(scene, child);
+    CLRT_PREFETCH(words);
+    CLRT_PREFETCH(words + 16);
+    CLRT_PREFETCH(words + 32);
+    CLRT_PREFETCH(words + 48);
+}
+
+/* Tests the node's eight boxes against (0, t_max], where limit is t_max times the exit factor; gives the lanes that are met
+   and all entry distances. */
+static inline uint bvh8_enter(global const uint* node, const BoxRay* box, uint8 planes, real limit, real8* entry)
+{
+    const real8 near_x = fma(bvh8_load(node + planes.s0), (real8)(box->reciprocal.x), (real8)(box->entry_offset.x));
+    const real8 near_y = fma(bvh8_load(node + planes.s1), (real8)(box->reciprocal.y), (real8)(box->entry_offset.y));
+    const real8 near_z = fma(bvh8_load(node + planes.s2), (real8)(box->reciprocal.z), (real8)(box->entry_offset.z));
+    const real8 far_x = fma(bvh8_load(node + planes.s3), (real8)(box->exit_reciprocal.x), (real8)(box->exit_offset.x));
+    const real8 far_y = fma(bvh8_load(node + planes.s4), (real8)(box->exit_reciprocal.y), (real8)(box->exit_offset.y));
+    const real8 far_z = fma(bvh8_load(node + planes.s5), (real8)(box->exit_reciprocal.z), (real8)(box->exit_offset.z));
     /* All operands are finite, so min and max are defined. */
     *entry = max(max(near_x, near_y), max(near_z, (real8)(REAL(0.0))));
-    const real8 leave = min(min(far_x, far_y), min(far_z, (real8)(t_max)));
-    return bvh8_lanes(*entry <= leave * BOX_EXIT_FACTOR);
+    const real8 leave = min(min(far_x, far_y), min(far_z, (real8)(limit)));
+    return bvh8_lanes(*entry <= leave);
 }
 
 /* Word offsets of the near planes x, y, z and the far planes x, y, z for a direction. */
@@ -90,7 +114,7 @@ static inline void bvh8_block_closest(global const uint* block, const RayShear* 
     vstore8(hits.w, 0, w);
     vstore8(hits.det, 0, det);
     for (uint lanes = hits.lanes; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = bvh8_first_lane(lanes);
+        const uint lane = CLRT_LOWEST_BIT(lanes);
         const uint triangle = block[BVH8_BLOCK_ID_WORD + lane];
         if (!hit_is_before(t[lane], triangle, hit->t, hit->triangle))
             continue;
@@ -103,13 +127,38 @@ static inline void bvh8_block_closest(global const uint* block, const RayShear* 
     }
 }
 
+/* The child in the only lane of a mask. */
+static inline uint bvh8_only_child(global const uint* children, uint lanes)
+{
+    for (uint lane = 0; lane < BVH8_WIDTH - 1u; ++lane)
+        if (lanes & (1u << lane))
+            return children[lane];
+    return children[BVH8_WIDTH - 1u];
+}
+
+/* The lowest lane at or after `lane` of a mask that has one there, found by branches too. */
+static inline uint bvh8_next_lane(uint lanes, uint lane)
+{
+    while (!(lanes >> lane & 1u))
+        ++lane;
+    return lane;
+}
+
+static inline int bvh8_push(const Scene* scene, uint child, real t, uint* stack, real* stack_t, int top)
+{
+    stack[top] = child;
+    stack_t[top] = t;
+    bvh8_prefetch(scene, child);
+    return top + 1;
+}
+
 /* Pushes the entered children so that the nearest is on top; gives the new stack size. */
-static inline int bvh8_push_sorted(global const uint* children, uint lanes, const real* entries, uint* stack,
-                                   real* stack_t, int top)
+static inline int bvh8_push_sorted(const Scene* scene, global const uint* children, uint lanes, const real* entries,
+                                   uint* stack, real* stack_t, int top)
 {
     const int bottom = top;
     for (; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = bvh8_first_lane(lanes);
+        const uint lane = CLRT_LOWEST_BIT(lanes);
         const real t = entries[lane];
         int slot = top++;
         for (; slot > bottom && stack_t[slot - 1] < t; --slot) {
@@ -118,6 +167,7 @@ static inline int bvh8_push_sorted(global const uint* children, uint lanes, cons
         }
         stack[slot] = children[lane];
         stack_t[slot] = t;
+        bvh8_prefetch(scene, children[lane]);
     }
     return top;
 }
@@ -131,66 +181,81 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
     const uint8 planes = bvh8_planes(box.reciprocal);
     uint stack[BVH8_STACK_SIZE];
     real stack_t[BVH8_STACK_SIZE];
-    real entries[8];
+    real entries[BVH8_WIDTH];
+    real limit = hit->t * BOX_EXIT_FACTOR;
     int top = 0;
     uint child = 0;
     for (;;) {
         /* Go down to a leaf, leaving the farther children on the stack. */
         while (!(child & BVH_LEAF_BIT)) {
-            global const uint* node = scene->bvh_nodes + BVH8_NODE_WORDS * child;
+            global const uint* node = bvh8_node(scene, child);
+            global const uint* children = node + BVH8_CHILD_WORD;
             real8 entry;
-            const uint lanes = bvh8_enter(node, &box, planes, hit->t, &entry);
+            const uint lanes = bvh8_enter(node, &box, planes, limit, &entry);
             if (lanes == 0u)
                 break;
             /* One or two children are the usual case, and need no sorting. */
-            const uint first = bvh8_first_lane(lanes);
-            uint rest = lanes & (lanes - 1u);
+            const uint rest = lanes & (lanes - 1u);
             if (rest == 0u) {
-                child = node[BVH8_CHILD_WORD + first];
+                child = bvh8_only_child(children, lanes);
                 continue;
             }
             vstore8(entry, 0, entries);
             if ((rest & (rest - 1u)) == 0u) {
-                const uint second = bvh8_first_lane(rest);
-                const bool swapped = entries[second] < entries[first];
-                stack[top] = node[BVH8_CHILD_WORD + (swapped ? first : second)];
-                stack_t[top++] = entries[swapped ? first : second];
-                child = node[BVH8_CHILD_WORD + (swapped ? second : first)];
+                const uint first = bvh8_next_lane(lanes, 0u);
+                const uint second = bvh8_next_lane(lanes, first + 1u);
+                if (entries[second] < entries[first]) {
+                    top = bvh8_push(scene, children[first], entries[first], stack, stack_t, top);
+                    child = children[second];
+                } else {
+                    top = bvh8_push(scene, children[second], entries[second], stack, stack_t, top);
+                    child = children[first];
+                }
                 continue;
             }
-            top = bvh8_push_sorted(node + BVH8_CHILD_WORD, lanes, entries, stack, stack_t, top) - 1;
+            top = bvh8_push_sorted(scene, children, lanes, entries, stack, stack_t, top) - 1;
             child = stack[top];
         }
-        if (child & BVH_LEAF_BIT)
-            bvh8_block_closest(scene->bvh_leaves + BVH8_BLOCK_WORDS * (child & ~BVH_LEAF_BIT), &shear, after, hit);
+        if (child & BVH_LEAF_BIT) {
+            bvh8_block_closest(bvh8_leaf(scene, child), &shear, after, hit);
+            limit = hit->t * BOX_EXIT_FACTOR;
+        }
         /* Take the nearest child that can still hold a nearer hit. */
         do {
             if (top == 0)
                 return;
             child = stack[--top];
-        } while (stack_t[top] > hit->t * BOX_EXIT_FACTOR);
+        } while (stack_t[top] > limit);
     }
 }
 
-/* True if anything is hit before t_max. */
+/* True if anything is hit before t_max. Children are visited by ascending lane, the order that the builder chose for
+   this question. */
 static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
     const BoxRay box = box_ray_make(ray, params->scene_extent);
     const RayShear shear = ray_shear_make(ray);
     const uint8 planes = bvh8_planes(box.reciprocal);
+    const real limit = ray->t_max * BOX_EXIT_FACTOR;
     uint stack[BVH8_STACK_SIZE];
     int top = 0;
     uint child = 0;
     for (;;) {
-        if (child & BVH_LEAF_BIT) {
-            if (bvh8_block(scene->bvh_leaves + BVH8_BLOCK_WORDS * (child & ~BVH_LEAF_BIT), &shear, ray->t_max).lanes)
-                return true;
-        } else {
-            global const uint* node = scene->bvh_nodes + BVH8_NODE_WORDS * child;
+        while (!(child & BVH_LEAF_BIT)) {
+            global const uint* node = bvh8_node(scene, child);
             real8 entry;
-            for (uint lanes = bvh8_enter(node, &box, planes, ray->t_max, &entry); lanes != 0u; lanes &= lanes - 1u)
-                stack[top++] = node[BVH8_CHILD_WORD + bvh8_first_lane(lanes)];
+            const uint lanes = bvh8_enter(node, &box, planes, limit, &entry);
+            if (lanes == 0u)
+                break;
+#pragma unroll
+            for (int lane = BVH8_WIDTH - 1; lane >= 0; --lane)
+                if (lanes & (1u << lane))
+                    stack[top++] = node[BVH8_CHILD_WORD + lane];
+            child = stack[--top];
         }
+        if (child & BVH_LEAF_BIT)
+            if (bvh8_block(bvh8_leaf(scene, child), &shear, ray->t_max).lanes != 0u)
+                return true;
         if (top == 0)
             return false;
         child = stack[--top];

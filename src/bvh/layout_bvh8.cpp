@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <tbb/parallel_for.h>
+#include <tuple>
 
 namespace clrt {
 namespace {
@@ -29,6 +30,25 @@ u32 append_node(std::vector<u32>& nodes) {
     return index;
 }
 
+// The children of a wide node in the order of their lanes, which is that of bvh8_any_hit: what ends a shadow
+// ray's search soonest comes first. Leaves, the largest first, since it is hit most likely; then subtrees,
+// the one of fewest triangles first. (Closest hits are searched front to back and do not care.)
+std::vector<WideChild> lane_order(const WideCollapse& collapse, const BinaryNode* binary,
+                                  const WideChildren& children) {
+    std::vector<WideChild> order;
+    for (int slot = 0; slot < BVH8_WIDTH; ++slot)
+        if (children.used[slot])
+            order.push_back(children.slots[slot]);
+    const auto key = [&](const WideChild& child) {
+        const bool leaf = collapse.is_leaf(child.node);
+        return std::tuple(!leaf, leaf ? -half_area(binary[child.node]) : double(binary[child.node].count),
+                          child.first);
+    };
+    std::sort(order.begin(), order.end(),
+              [&](const WideChild& a, const WideChild& b) { return key(a) < key(b); });
+    return order;
+}
+
 // Writes all nodes, siblings side by side and otherwise depth first, and returns the leaves in the same
 // order.
 std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
@@ -45,12 +65,11 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
         const Pending parent = stack.back();
         stack.pop_back();
         area_tested += half_area(binary[parent.subtree.node]);
-        const WideChildren children = collapse.children(parent.subtree);
+        const std::vector<WideChild> children =
+            lane_order(collapse, binary, collapse.children(parent.subtree));
         const size_t first_pending = stack.size();
-        for (int slot = 0; slot < BVH8_WIDTH; ++slot) {
-            if (!children.used[slot])
-                continue;
-            const WideChild child = children.slots[slot];
+        for (size_t lane = 0; lane < children.size(); ++lane) {
+            const WideChild child = children[lane];
             const BinaryNode& b = binary[child.node];
             u32 reference;
             if (collapse.is_leaf(child.node)) {
@@ -62,8 +81,8 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
                 stack.push_back({child, reference});
             }
             u32* node = &bvh.nodes[size_t(parent.node) * BVH8_NODE_WORDS];
-            write_box(node, slot, b.lower, b.upper);
-            node[BVH8_CHILD_WORD + slot] = reference;
+            write_box(node, int(lane), b.lower, b.upper);
+            node[BVH8_CHILD_WORD + lane] = reference;
         }
         std::reverse(stack.begin() + std::ptrdiff_t(first_pending), stack.end());
     }

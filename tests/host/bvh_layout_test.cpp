@@ -197,21 +197,49 @@ TEST(BvhLayout, EmptyChildrenHaveInvertedBoxes) {
     }
 }
 
-// Slots of eight boxes in the corners of a cube are the octants they lie in.
-TEST(BvhLayout, SlotsAreOctants) {
-    Mesh mesh;
-    for (int octant = 7; octant >= 0; --octant)
-        for (int i = 0; i < 8; ++i) {
-            const float x = octant & 1 ? 1.0f : -1.0f, y = octant & 2 ? 1.0f : -1.0f,
-                        z = octant & 4 ? 1.0f : -1.0f;
-            const float step = 0.01f * float(i);
-            mesh.add({x + step, y, z, 0}, {x, y + 0.1f, z + step, 0}, {x, y, z + 0.1f, 0});
+double half_area(const DecodedChild& child) {
+    const double x = double(child.upper[0]) - child.lower[0], y = double(child.upper[1]) - child.lower[1],
+                 z = double(child.upper[2]) - child.lower[2];
+    return x * y + y * z + z * x;
+}
+
+size_t triangles_below(const Bvh& bvh, const DecodedChild& child) {
+    size_t count = child.triangles.size();
+    if (!child.is_leaf)
+        for (const DecodedChild& grandchild : decode_children(bvh, child.node))
+            count += triangles_below(bvh, grandchild);
+    return count;
+}
+
+// Checks the order of children in a node and below; returns how many neighbours were compared.
+size_t check_lane_order(const Bvh& bvh, u32 node) {
+    const std::vector<DecodedChild> children = decode_children(bvh, node);
+    size_t compared = 0;
+    for (size_t i = 0; i < children.size(); ++i) {
+        if (!children[i].is_leaf)
+            compared += check_lane_order(bvh, children[i].node);
+        if (i == 0)
+            continue;
+        const DecodedChild &before = children[i - 1], &child = children[i];
+        ++compared;
+        EXPECT_GE(before.is_leaf, child.is_leaf);
+        if (before.is_leaf && child.is_leaf) {
+            EXPECT_GE(half_area(before), half_area(child) * (1 - 1e-6));
         }
-    const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, BvhLayout::BVH8);
-    ASSERT_EQ(bvh.nodes.size(), size_t(BVH8_NODE_WORDS));
-    for (size_t slot = 0; slot < 8; ++slot)
-        for (size_t axis = 0; axis < 3; ++axis)
-            EXPECT_EQ(word_as_float(bvh.nodes[16 * axis + slot]) > 0, (slot >> axis & 1) == 1);
+        if (!before.is_leaf && !child.is_leaf) {
+            EXPECT_LE(triangles_below(bvh, before), triangles_below(bvh, child));
+        }
+    }
+    return compared;
+}
+
+// bvh8_any_hit visits lanes in this order: leaves by falling area, then subtrees by rising number of
+// triangles.
+TEST(BvhLayout, LanesAreOrderedForShadowRays) {
+    for (const Mesh& mesh : {bumpy_ball(40), random_soup(5000, 0.1f, 3)}) {
+        const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, BvhLayout::BVH8);
+        EXPECT_GT(check_lane_order(bvh, 0), 300u);
+    }
 }
 
 } // namespace
