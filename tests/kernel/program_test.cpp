@@ -8,6 +8,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numeric>
 #include <iterator>
 #include <regex>
 
@@ -172,11 +173,14 @@ TEST_F(ProgramTest, ALongLogIsCut) {
 
 TEST_F(ProgramTest, BuffersHoldWhatWasUploadedAndZerosElse) {
     const Device& device = test_device();
-    const std::vector<u32> words = {1, 2, 3};
-    const cl::Buffer uploaded = upload_buffer(device, "words", words);
-    std::vector<u32> got(3);
-    device.queue.enqueueReadBuffer(uploaded, CL_TRUE, 0, 12, got.data());
-    EXPECT_EQ(got, words);
+    // A few words, and more than an ordinary page holds: the two ways to upload.
+    for (const size_t count : {size_t{3}, size_t{3} << 19}) {
+        std::vector<u32> words(count), got(count);
+        std::iota(words.begin(), words.end(), 1u);
+        const cl::Buffer uploaded = upload_buffer(device, "words", words);
+        device.queue.enqueueReadBuffer(uploaded, CL_TRUE, 0, 4 * count, got.data());
+        EXPECT_EQ(got, words);
+    }
 
     for (const size_t bytes : {size_t{1}, size_t{7}, size_t{64}, size_t{1000003}}) {
         const cl::Buffer zeros = create_buffer(device, "zeros", bytes);
