@@ -2,8 +2,8 @@
 // The words of the layouts are where bvh_types.h says, and rays find in them what all triangles and Embree
 // give.
 #include "host/bvh_support.h"
+#include "support/embree_scene.h"
 
-#include <embree3/rtcore.h>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -42,50 +42,9 @@ void expect_hits_of_all_triangles(const Mesh& mesh, int ray_count) {
     }
 }
 
-// Embree's closest hits, in its robust mode.
-class EmbreeScene {
-public:
-    explicit EmbreeScene(const Mesh& mesh)
-        : device_(rtcNewDevice("threads=2")), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                   mesh.positions.data(), 0, sizeof(vec4), mesh.positions.size());
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                   mesh.triangles.data(), 0, sizeof(Triangle), mesh.triangles.size());
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(scene_);
-    }
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
-    ~EmbreeScene() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-
-    u32 closest_triangle(const Ray& ray) const {
-        RTCRayHit query{};
-        query.ray.org_x = float(ray.origin[0]);
-        query.ray.org_y = float(ray.origin[1]);
-        query.ray.org_z = float(ray.origin[2]);
-        query.ray.dir_x = float(ray.direction[0]);
-        query.ray.dir_y = float(ray.direction[1]);
-        query.ray.dir_z = float(ray.direction[2]);
-        query.ray.tfar = INFINITY;
-        query.ray.mask = ~0u;
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene_, &context, &query);
-        return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? NO_INDEX : query.hit.primID;
-    }
-
-private:
-    RTCDevice device_;
-    RTCScene scene_;
-};
+vec4 to_vec4(const Point& p) {
+    return {float(p[0]), float(p[1]), float(p[2]), 0};
+}
 
 TEST(BvhLayout, HitsOnABallEqualThoseOfAllTriangles) {
     expect_hits_of_all_triangles(bumpy_ball(60), 3000);
@@ -111,14 +70,14 @@ TEST(BvhLayout, LowestIndexOfCoincidentTrianglesWins) {
 
 TEST(BvhLayout, HitsEqualEmbreesOrAllTrianglesDecideForThem) {
     const Mesh mesh = bumpy_ball(200);
-    const EmbreeScene embree(mesh);
+    const EmbreeScene embree(mesh.positions, mesh.triangles);
     const std::vector<Ray> rays = random_rays(100000, 14);
     for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
         const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, layout);
         int differences = 0, wrong = 0;
         for (const Ray& ray : rays) {
             const u32 found = traverse(bvh, ray).triangle;
-            if (found == embree.closest_triangle(ray))
+            if (found == embree.closest(to_vec4(ray.origin), to_vec4(ray.direction), INFINITY).triangle)
                 continue;
             ++differences;
             wrong += brute_force_hit(mesh, ray).triangle != found;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A million rays against Embree in its robust mode. Where the two differ, all triangles in double precision
 // say which is wrong.
+#include "support/embree_scene.h"
 #include "support/meshes.h"
 #include "support/random_inputs.h"
 #include "support/ray_device.h"
@@ -8,54 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <embree3/rtcore.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace clrt {
 namespace {
-
-class EmbreeScene {
-public:
-    explicit EmbreeScene(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                   scene.positions.data(), 0, sizeof(vec4), scene.positions.size());
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                   scene.triangles.data(), 0, sizeof(Triangle), scene.triangles.size());
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(scene_);
-    }
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
-    ~EmbreeScene() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-
-    TestHit closest(const TestRay& ray) const {
-        RTCRayHit query{};
-        query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
-        query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y,
-        query.ray.dir_z = ray.direction.z;
-        query.ray.tfar = ray.origin.w;
-        query.ray.mask = ~0u;
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene_, &context, &query);
-        const bool is_hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-        return {query.ray.tfar, query.hit.u, query.hit.v, is_hit ? query.hit.primID : NO_INDEX};
-    }
-
-private:
-    RTCDevice device_;
-    RTCScene scene_;
-};
 
 /// Error of corners seen along a ray, as a share of their largest component from the origin: what single
 /// precision with correctly rounded divisions cannot avoid (kernels/geometry/box.h), on two axes.
@@ -208,11 +167,13 @@ Verdict compare(const Scene& scene, const std::vector<TestRay>& rays, const std:
 TEST(Embree, GivesTheSameHitsOrIsWrong) {
     const Scene scene = normalised(make_bumpy_ball());
     const std::vector<TestRay> rays = mixed_rays(scene);
-    const EmbreeScene embree(scene);
+    const EmbreeScene embree(scene.positions, scene.triangles);
     std::vector<TestHit> expected;
     expected.reserve(rays.size());
-    for (const TestRay& ray : rays)
-        expected.push_back(embree.closest(ray));
+    for (const TestRay& ray : rays) {
+        const EmbreeHit hit = embree.closest(ray.origin, ray.direction, ray.origin.w);
+        expected.push_back({hit.t, hit.u, hit.v, hit.triangle});
+    }
     for (const BvhLayout layout : BOTH_LAYOUTS) {
         const Verdict v = compare(scene, rays, RayDevice(scene, layout).closest(rays), expected);
         std::printf("%s, %zu rays: lost %zu, by Embree %zu; twins %zu; differences %zu, wrong %zu, Embree "

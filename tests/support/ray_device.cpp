@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t MOST_LAYERS = 16;
 
-const char* const KERNELS = R"(
+const char* const FUNCTIONS = R"(
 typedef struct {
     real t, b1, b2;
     u32 triangle;
@@ -31,89 +31,70 @@ static Ray load_ray(global const float4* rays, size_t i)
     return ray;
 }
 
-static void store_hit(global TracedHit* hits, size_t i, const Hit* hit)
+static TracedHit traced_hit(const Hit* hit)
 {
-    hits[i].t = hit->t;
-    hits[i].b1 = hit->b1;
-    hits[i].b2 = hit->b2;
-    hits[i].triangle = hit->triangle;
+    const TracedHit traced = {hit->t, hit->b1, hit->b2, hit->triangle};
+    return traced;
 }
 
-static Surface load_surface(const Scene* scene, global const float4* rays, global const TracedHit* hits, size_t i)
+static Hit closest_of_all(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
-    Hit hit = {hits[i].t, hits[i].b1, hits[i].b2, hits[i].triangle};
-    return surface_at(scene, &hit, -vector_from(rays[2 * i + 1]));
-}
-
-kernel void trace_closest(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
-                          global TracedHit* restrict out)
-{
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Ray ray = load_ray(rays, i);
-    const Hit after = hit_none(REAL(0.0));
-    const Hit hit = scene_closest_hit(&scene, &params, &ray, &after);
-    store_hit(out, i, &hit);
-}
-
-kernel void trace_all(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
-                      global TracedHit* restrict out)
-{
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Ray ray = load_ray(rays, i);
-    Hit hit = hit_none(ray.t_max);
-    if (ray_is_valid(&ray)) {
-        const RayShear shear = ray_shear_make(&ray);
-        for (u32 k = 0; k < params.width; ++k) {
-            real3 p[3];
-            surface_corners(&scene, &scene.triangles[k], &p[0], &p[1], &p[2]);
-            real x[3], y[3], z[3], u, v, w, det, t_det;
-            for (int corner = 0; corner < 3; ++corner) {
-                x[corner] = ray_component(p[corner], shear.kx);
-                y[corner] = ray_component(p[corner], shear.ky);
-                z[corner] = ray_component(p[corner], shear.kz);
-            }
-            triangle_edges(&shear, x, y, z, &u, &v, &w, &det, &t_det);
-            const bool inside =
-                (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-            if (!inside || det == 0)
-                continue;
-            const real t = t_det / det;
-            if (t > 0 && hit_is_before(t, k, hit.t, hit.triangle)) {
-                hit.t = t;
-                hit.b1 = v / det;
-                hit.b2 = w / det;
-                hit.triangle = k;
-            }
+    Hit hit = hit_none(ray->t_max);
+    if (!ray_is_valid(ray))
+        return hit;
+    const RayShear shear = ray_shear_make(ray);
+    for (u32 k = 0; k < params->width; ++k) {
+        real3 p[3];
+        surface_corners(scene, &scene->triangles[k], &p[0], &p[1], &p[2]);
+        real x[3], y[3], z[3], u, v, w, det, t_det;
+        for (int corner = 0; corner < 3; ++corner) {
+            x[corner] = ray_component(p[corner], shear.kx);
+            y[corner] = ray_component(p[corner], shear.ky);
+            z[corner] = ray_component(p[corner], shear.kz);
+        }
+        triangle_edges(&shear, x, y, z, &u, &v, &w, &det, &t_det);
+        const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+        if (!inside || det == 0)
+            continue;
+        const real t = t_det / det;
+        if (t > 0 && hit_is_before(t, k, hit.t, hit.triangle)) {
+            hit.t = t;
+            hit.b1 = v / det;
+            hit.b2 = w / det;
+            hit.triangle = k;
         }
     }
-    store_hit(out, i, &hit);
+    return hit;
 }
 
-kernel void trace_any(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
-                      global u32* restrict out)
+static Surface load_surface(const Scene* scene, const Ray* ray, const TracedHit* traced)
 {
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Ray ray = load_ray(rays, i);
-    out[i] = scene_any_hit(&scene, &params, &ray) ? 1u : 0u;
+    const Hit hit = {traced->t, traced->b1, traced->b2, traced->triangle};
+    return surface_at(scene, &hit, -ray->direction);
 }
+)";
 
-kernel void trace_layers(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
-                         global u32* restrict out)
-{
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Ray ray = load_ray(rays, i);
+/// An entry point that takes one ray a work-item: `out` is an array of its results of type `out_type`.
+struct EntryPoint {
+    const char* name;
+    const char* out_type;
+    const char* more_parameters; ///< between the number of rays and `out`
+    const char* body;            ///< reads scene, params, ray and i, writes out
+};
+
+const char* const SURFACE_PARAMETERS = "global const TracedHit* restrict hits, global const float4* restrict in, ";
+
+const EntryPoint ENTRY_POINTS[] = {
+    {"trace_closest", "TracedHit", "", R"(
+    const Hit after = hit_none(REAL(0.0));
+    const Hit hit = scene_closest_hit(&scene, &params, &ray, &after);
+    out[i] = traced_hit(&hit);)"},
+    {"trace_all", "TracedHit", "", R"(
+    const Hit hit = closest_of_all(&scene, &params, &ray);
+    out[i] = traced_hit(&hit);)"},
+    {"trace_any", "u32", "", R"(
+    out[i] = scene_any_hit(&scene, &params, &ray) ? 1u : 0u;)"},
+    {"trace_layers", "u32", "", R"(
     Hit hit = hit_none(REAL(0.0));
     for (u32 layer = 0; layer < MOST_LAYERS; ++layer) {
         const Hit after = hit;
@@ -121,56 +102,42 @@ kernel void trace_layers(const RenderParams params, SCENE_PARAMS, global const f
         out[i * MOST_LAYERS + layer] = hit.triangle;
         if (hit.triangle == NO_INDEX)
             break;
-    }
-}
-
-kernel void trace_visible(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
-                          global u32* restrict out)
-{
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Ray ray = load_ray(rays, i);
+    })"},
+    {"trace_visible", "u32", "", R"(
     const Sampler sampler = sampler_make(1u, (u32)i, 0u, 0u);
-    out[i] = visible_hit(&scene, &params, &sampler, 0u, &ray).triangle;
-}
-
-kernel void trace_share(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
-                        global float* restrict out)
-{
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Ray ray = load_ray(rays, i);
-    out[i] = (float)visible_share(&scene, &params, &ray);
-}
-
-kernel void surface_leave(SCENE_PARAMS, global const float4* restrict rays, global const TracedHit* restrict hits,
-                          const u32 count, global float4* restrict in_out)
-{
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Surface surface = load_surface(&scene, rays, hits, i);
-    const real3 origin = surface_origin(&surface, vector_from(in_out[i]));
-    in_out[i] = (float4)((float)origin.x, (float)origin.y, (float)origin.z, 0.0f);
-}
-
-kernel void surface_normal(SCENE_PARAMS, global const float4* restrict rays, global const TracedHit* restrict hits,
-                           const u32 count, global float4* restrict in_out)
-{
-    const size_t i = get_global_id(0);
-    if (i >= count)
-        return;
-    const Scene scene = SCENE_MAKE;
-    const Surface surface = load_surface(&scene, rays, hits, i);
+    out[i] = visible_hit(&scene, &params, &sampler, 0u, &ray).triangle;)"},
+    {"trace_share", "float", "", R"(
+    out[i] = (float)visible_share(&scene, &params, &ray);)"},
+    {"surface_leave", "float4", SURFACE_PARAMETERS, R"(
+    const TracedHit traced = hits[i];
+    const Surface surface = load_surface(&scene, &ray, &traced);
+    const real3 origin = surface_origin(&surface, vector_from(in[i]));
+    out[i] = (float4)((float)origin.x, (float)origin.y, (float)origin.z, 0.0f);)"},
+    {"surface_normal", "float4", SURFACE_PARAMETERS, R"(
+    const TracedHit traced = hits[i];
+    const Surface surface = load_surface(&scene, &ray, &traced);
     const real3 n = surface.normal_g;
-    in_out[i] = (float4)((float)n.x, (float)n.y, (float)n.z, (float)surface.offset);
+    out[i] = (float4)((float)n.x, (float)n.y, (float)n.z, (float)surface.offset);)"},
+};
+
+/// The functions, and all entry points between the same beginning and end.
+std::string kernel_text() {
+    std::string text = FUNCTIONS;
+    for (const EntryPoint& entry : ENTRY_POINTS)
+        text += fmt::format(R"(
+kernel void {}(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
+               {}global {}* restrict out)
+{{
+    const size_t i = get_global_id(0);
+    if (i >= count)
+        return;
+    const Scene scene = SCENE_MAKE;
+    const Ray ray = load_ray(rays, i);{}
+}}
+)",
+                            entry.name, entry.more_parameters, entry.out_type, entry.body);
+    return text;
 }
-)";
 
 /// TracedHit as the host lays it out.
 struct FloatHit {
@@ -196,7 +163,7 @@ KernelProbe& ray_probe(BvhLayout layout, Precision precision, u32 effects) {
         probe = std::make_unique<KernelProbe>(
             test_device(), std::vector<std::string>{"geometry/visibility.h", "geometry/surface.h"}, options,
             kernels_under_test());
-        probe->add_text(KERNELS);
+        probe->add_text(kernel_text());
     }
     return *probe;
 }
@@ -238,18 +205,23 @@ RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, 
     params_.width = static_cast<u32>(scene.triangles.size()); // how many trace_all tests
 }
 
-template <class Out>
-std::vector<Out> RayDevice::trace(const std::string& name, const std::vector<TestRay>& rays,
-                                  size_t per_ray) const {
-    const size_t count = rays.size() * per_ray;
-    const cl::Buffer out = create_buffer(test_device(), "traced", count * sizeof(Out));
+Kernel RayDevice::make_kernel(const std::string& name, const std::vector<TestRay>& rays,
+                              const cl::Buffer& out) const {
     Kernel kernel = probe_.kernel(name);
     bind_scene(buffers_, kernel);
     kernel.set("params", params_);
     kernel.set("rays", probe_.upload(rays));
     kernel.set("count", static_cast<u32>(rays.size()));
     kernel.set("out", out);
-    probe_.launch(kernel, rays.size());
+    return kernel;
+}
+
+template <class Out>
+std::vector<Out> RayDevice::trace(const std::string& name, const std::vector<TestRay>& rays,
+                                  size_t per_ray) const {
+    const size_t count = rays.size() * per_ray;
+    const cl::Buffer out = create_buffer(test_device(), "traced", count * sizeof(Out));
+    probe_.launch(make_kernel(name, rays, out), rays.size());
     return probe_.read<Out>(out, count);
 }
 
@@ -287,19 +259,12 @@ std::vector<vec4> RayDevice::at_surfaces(const std::string& name, const std::vec
         assert(hit.triangle != NO_INDEX);
         float_hits.push_back({float(hit.t), float(hit.b1), float(hit.b2), hit.triangle});
     }
-    const cl::Buffer in_out = create_buffer(test_device(), "surfaces", in.size() * sizeof(vec4));
-    check_opencl("filling a buffer", [&] {
-        if (!in.empty())
-            test_device().queue.enqueueWriteBuffer(in_out, CL_TRUE, 0, in.size() * sizeof(vec4), in.data());
-    });
-    Kernel kernel = probe_.kernel(name);
-    bind_scene(buffers_, kernel);
-    kernel.set("rays", probe_.upload(rays));
+    const cl::Buffer out = create_buffer(test_device(), "surfaces", in.size() * sizeof(vec4));
+    Kernel kernel = make_kernel(name, rays, out);
     kernel.set("hits", probe_.upload(float_hits));
-    kernel.set("count", static_cast<u32>(rays.size()));
-    kernel.set("in_out", in_out);
+    kernel.set("in", probe_.upload(in));
     probe_.launch(kernel, rays.size());
-    return probe_.read<vec4>(in_out, in.size());
+    return probe_.read<vec4>(out, in.size());
 }
 
 std::vector<TestRay> RayDevice::leaving(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,

@@ -91,6 +91,8 @@ public:
     const Bvh& bvh() const { return bvh_; }
 
 private:
+    Kernel make_kernel(const std::string& name, const std::vector<TestRay>& rays,
+                       const cl::Buffer& out) const;
     template <class Out>
     std::vector<Out> trace(const std::string& kernel, const std::vector<TestRay>& rays,
                            size_t per_ray = 1) const;
