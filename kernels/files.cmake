@@ -6,6 +6,7 @@ set(CLRT_KERNEL_FILES
   film/film.h
   film/tile.h
   geometry/box.h
+  geometry/leaf_triangle.h
   geometry/ray.h
   geometry/scene.h
   geometry/surface.h

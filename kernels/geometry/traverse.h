@@ -4,6 +4,7 @@
 #define CLRT_GEOMETRY_TRAVERSE_H
 
 #include "box.h"
+#include "leaf_triangle.h"
 #include "scene.h"
 #include "triangle.h"
 

@@ -7,6 +7,10 @@
    NVIDIA compilers shorten their build alike. So every large function is kept out of line. */
 #define CLRT_NOINLINE __attribute__((noinline))
 
+/* A body that two functions share, told apart by a constant argument: nothing of the choice is left in either. Clang for
+   NVIDIA's targets would call it instead. */
+#define CLRT_INLINE static inline __attribute__((always_inline))
+
 #ifndef __has_builtin
 #define __has_builtin(x) 0
 #endif

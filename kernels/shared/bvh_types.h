@@ -10,7 +10,7 @@
 #define BVH_LAYOUT_BVH2 2 /* pairs of children in 64 bytes (Aila and Laine 2009): for GPUs */
 
 #define BVH_LEAF_BIT 0x80000000u
-#define BVH_MAX_DEPTH 64 /* levels of the binary tree; the builder guarantees it, stacks are sized by it */
+#define BVH_MAX_DEPTH 64 /* levels of the binary tree; the builder guarantees it, stacks and trails are sized by it */
 
 /* An empty child has lower = +BVH_EMPTY, upper = -BVH_EMPTY: no ray enters it. Products with the clamped
    reciprocal direction (at most 1e18) stay finite. */
@@ -38,7 +38,7 @@
 #define BVH2_COUNT_WORD 14
 #define BVH2_LEAF_TRIANGLES 4 /* most triangles a leaf holds */
 
-/* bvh2 leaf triangle: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz, 0. */
-#define BVH2_TRIANGLE_WORDS 12
+/* Leaf triangle of bvh2: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz, 0. */
+#define LEAF_TRIANGLE_WORDS 12
 
 #endif

@@ -12,6 +12,11 @@ namespace clrt {
 
 enum class BvhLayout { BVH8 = BVH_LAYOUT_BVH8, BVH2 = BVH_LAYOUT_BVH2 };
 
+constexpr BvhLayout ALL_LAYOUTS[] = {BvhLayout::BVH8, BvhLayout::BVH2};
+
+/// A layout's name as on the command line.
+const char* layout_name(BvhLayout layout);
+
 /// A tree in a device layout (kernels/shared/bvh_types.h) with the figures of its construction.
 struct Bvh {
     BvhLayout layout = BvhLayout::BVH8;

@@ -9,6 +9,16 @@
 
 namespace clrt {
 
+const char* layout_name(BvhLayout layout) {
+    switch (layout) {
+    case BvhLayout::BVH2:
+        return "bvh2";
+    case BvhLayout::BVH8:
+        break;
+    }
+    return "bvh8";
+}
+
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
     const auto start = std::chrono::steady_clock::now();
     // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The

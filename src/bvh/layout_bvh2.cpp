@@ -91,13 +91,13 @@ void write_bvh2(const std::vector<vec4>& positions, const std::vector<Triangle>&
         return;
     }
     const std::vector<LeafRange> leaves = write_nodes(tree, bvh);
-    bvh.leaves.resize(tree.order.size() * BVH2_TRIANGLE_WORDS, 0u);
+    bvh.leaves.resize(tree.order.size() * LEAF_TRIANGLE_WORDS, 0u);
     tbb::parallel_for(size_t(0), leaves.size(), [&](size_t i) {
         const LeafRange& leaf = leaves[i];
         std::sort(&tree.order[leaf.first], &tree.order[leaf.first] + leaf.count);
         for (u32 k = leaf.first; k < leaf.first + leaf.count; ++k)
             write_triangle(positions, triangles[tree.order[k]], tree.order[k],
-                           &bvh.leaves[size_t(k) * BVH2_TRIANGLE_WORDS]);
+                           &bvh.leaves[size_t(k) * LEAF_TRIANGLE_WORDS]);
     });
 }
 

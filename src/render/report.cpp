@@ -129,7 +129,7 @@ std::string report_json(const Report& report) {
     json["device"] = {{"platform", report.device.platform},
                       {"name", report.device.name},
                       {"driver", report.device.driver}};
-    json["bvh"] = {{"layout", int(report.bvh.layout)},
+    json["bvh"] = {{"layout", layout_name(report.bvh.layout)},
                    {"depth", report.bvh.depth},
                    {"sah_cost", report.bvh.sah_cost},
                    {"bytes", 4 * (report.bvh.nodes.size() + report.bvh.leaves.size())}};

@@ -29,7 +29,7 @@ std::vector<Ray> random_rays(int count, unsigned seed) {
 
 void expect_hits_of_all_triangles(const Mesh& mesh, int ray_count) {
     const std::vector<Ray> rays = random_rays(ray_count, 11);
-    for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
+    for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, layout);
         int differences = 0, hits = 0;
         for (const Ray& ray : rays) {
@@ -37,7 +37,7 @@ void expect_hits_of_all_triangles(const Mesh& mesh, int ray_count) {
             differences += expected.triangle != found.triangle || expected.t != found.t;
             hits += found.triangle != NO_INDEX;
         }
-        EXPECT_EQ(differences, 0) << "bvh" << int(layout);
+        EXPECT_EQ(differences, 0) << layout_name(layout);
         EXPECT_GT(hits, ray_count / 50);
     }
 }
@@ -59,7 +59,7 @@ TEST(BvhLayout, LowestIndexOfCoincidentTrianglesWins) {
     const std::vector<Triangle> once = mesh.triangles;
     for (int copy = 0; copy < 3; ++copy)
         mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
-    for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
+    for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, layout);
         for (const Ray& ray : random_rays(1000, 13)) {
             const Hit hit = traverse(bvh, ray);
@@ -72,7 +72,7 @@ TEST(BvhLayout, HitsEqualEmbreesOrAllTrianglesDecideForThem) {
     const Mesh mesh = bumpy_ball(200);
     const EmbreeScene embree(mesh.positions, mesh.triangles);
     const std::vector<Ray> rays = random_rays(100000, 14);
-    for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
+    for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, layout);
         int differences = 0, wrong = 0;
         for (const Ray& ray : rays) {
@@ -82,7 +82,7 @@ TEST(BvhLayout, HitsEqualEmbreesOrAllTrianglesDecideForThem) {
             ++differences;
             wrong += brute_force_hit(mesh, ray).triangle != found;
         }
-        EXPECT_EQ(wrong, 0) << "bvh" << int(layout);
+        EXPECT_EQ(wrong, 0) << layout_name(layout);
         EXPECT_LT(differences, 20); // rounding at edges: floats against doubles
     }
 }
@@ -97,7 +97,7 @@ TEST(BvhLayout, RaysMeetFewNodesOfAnUnevenScene) {
     for (const Triangle& t : ball.triangles)
         mesh.add(first + t.v0, first + t.v1, first + t.v2);
     const std::vector<Ray> rays = random_rays(2000, 16);
-    for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
+    for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, layout);
         size_t nodes = 0;
         for (const Ray& ray : rays)
@@ -114,7 +114,7 @@ TEST(BvhLayout, PlanesAtZeroHaveOneSign) {
         const float zero = i % 2 == 0 ? 0.0f : -0.0f, x = float(i % 37) - 18;
         mesh.add({x, zero, 0, 0}, {x + 1, -zero, 1, 0}, {x, zero, -1, 0});
     }
-    for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
+    for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, layout);
         const size_t words = layout == BvhLayout::BVH8 ? BVH8_NODE_WORDS : BVH2_NODE_WORDS;
         const size_t planes = layout == BvhLayout::BVH8 ? BVH8_CHILD_WORD : BVH2_CHILD_WORD;
@@ -142,7 +142,7 @@ TEST(BvhLayout, SpareWordsOfBvh8AreZeroAndSpareLanesHoldNoIndex) {
 }
 
 TEST(BvhLayout, EmptyChildrenHaveInvertedBoxes) {
-    for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
+    for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh({}, {}, layout);
         const bool wide = layout == BvhLayout::BVH8;
         const size_t children = wide ? BVH8_WIDTH : 2, planes = 6 * children;

@@ -127,7 +127,7 @@ inline DecodedChild decode_bvh2_child(const Bvh& bvh, const u32* node, int slot)
     child.node = reference;
     const u32 count = node[BVH2_COUNT_WORD + slot];
     for (u32 i = 0; i < count; ++i) {
-        const u32* words = &bvh.leaves.at((size_t(reference & ~BVH_LEAF_BIT) + i) * BVH2_TRIANGLE_WORDS);
+        const u32* words = &bvh.leaves.at((size_t(reference & ~BVH_LEAF_BIT) + i) * LEAF_TRIANGLE_WORDS);
         LeafTriangle t{words[3], {}};
         for (size_t corner = 0; corner < 3; ++corner)
             for (size_t axis = 0; axis < 3; ++axis)

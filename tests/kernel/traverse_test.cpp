@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace clrt {
 namespace {
@@ -54,7 +55,7 @@ size_t count_differences(const std::vector<TestHit>& a, const std::vector<TestHi
 void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays,
                         Precision precision = Precision::SINGLE) {
     std::vector<TestHit> all;
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(scene, layout, precision);
         if (all.empty())
             all = device.closest_of_all(rays);
@@ -102,7 +103,7 @@ TEST(Traverse, CornersOfScatteredTrianglesAreFoundFromNearAndFar) {
                 rays.push_back(make_ray_to(random.direction() * (distance * random.unit()), target));
             }
         std::vector<TestHit> all;
-        for (const BvhLayout layout : BOTH_LAYOUTS) {
+        for (const BvhLayout layout : ALL_LAYOUTS) {
             const RayDevice device(scene, layout);
             if (all.empty())
                 all = device.closest_of_all(rays);
@@ -113,19 +114,39 @@ TEST(Traverse, CornersOfScatteredTrianglesAreFoundFromNearAndFar) {
     }
 }
 
+// A stack that forgets all but the latest children sends traversal back to the root again and again.
+TEST(Traverse, ShortStacksOfBvh2GiveTheSameBits) {
+    // Nested shells: behind each child that a ray enters, others wait on every level.
+    Scene scene = make_soup(20000, 0.1, 10);
+    for (int k = 0; k < 40; ++k)
+        append_scene(scene, placed(make_soup(50, 0.5, unsigned(11 + k)), std::ldexp(1.0, -k), {0, 0, 0}));
+    const std::vector<TestRay> rays = mixed_rays(scene, 50000, 10);
+    const RayDevice wide(scene, BvhLayout::BVH8);
+    const std::vector<TestHit> expected = wide.closest(rays);
+    const std::vector<u32> expected_any = wide.any(rays);
+    EXPECT_GT(count_hits(expected), rays.size() / 2);
+    for (const int entries : {1, 2, 4, 64}) {
+        const RayDevice device(scene, BvhLayout::BVH2, Precision::SINGLE, 0,
+                               {"BVH2_STACK_SIZE=" + std::to_string(entries)});
+        EXPECT_GT(device.bvh().depth, 40);
+        EXPECT_EQ(count_differences(device.closest(rays), expected), 0u) << entries;
+        EXPECT_TRUE(device.any(rays) == expected_any) << entries;
+    }
+}
+
 TEST(Traverse, LayoutsGiveTheSameBits) {
     const Scene soup = make_soup(100000, 0.03, 7);
     const std::vector<TestRay> rays = mixed_rays(soup, 1000000, 7);
     const std::vector<TestHit> wide = RayDevice(soup, BvhLayout::BVH8).closest(rays);
-    const std::vector<TestHit> narrow = RayDevice(soup, BvhLayout::BVH2).closest(rays);
-    EXPECT_EQ(count_differences(wide, narrow), 0u);
+    for (const BvhLayout layout : ALL_LAYOUTS)
+        EXPECT_EQ(count_differences(RayDevice(soup, layout).closest(rays), wide), 0u) << layout_name(layout);
     EXPECT_GT(count_hits(wide), rays.size() / 2);
 }
 
 TEST(Traverse, ARayEndsAtItsLengthAndTheEndBelongsToIt) {
     const Scene soup = make_soup(20000, 0.05, 8);
     const std::vector<TestRay> rays = mixed_rays(soup, 100000, 8);
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(soup, layout);
         const std::vector<TestHit> hits = device.closest(rays);
         std::vector<TestRay> to_hit, short_of_hit;
@@ -174,7 +195,7 @@ TEST(Traverse, TheNearerOfTwoCloseSquaresIsHit) {
             for (int i = 0; i < 10000; ++i)
                 rays.push_back(
                     make_ray({0, 0, 0}, {random.between(-0.9, 0.9), random.between(-0.9, 0.9), 1}));
-            for (const BvhLayout layout : BOTH_LAYOUTS) {
+            for (const BvhLayout layout : ALL_LAYOUTS) {
                 size_t wrong = 0;
                 for (const TestHit& hit : RayDevice(scene, layout).closest(rays))
                     wrong += hit.triangle != 2 && hit.triangle != 3;

@@ -65,7 +65,7 @@ u32 square_of(u32 triangle) {
 TEST(Visibility, EveryLayerIsMetOnceAndInOrder) {
     const Scene scene =
         make_layers({{2, 0}, {1, 0}, {1, 0}, {1, 0}, {1, 0}, {0.5, 0}, {-1, 0}, {-1, 0}, {-1.0000001, 0}});
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         size_t wrong = 0;
         for (const std::vector<u32>& layers :
              RayDevice(scene, layout, Precision::SINGLE, CUT_OUT).layers(rays_down(20000, 1))) {
@@ -85,7 +85,7 @@ TEST(Visibility, LayersOfASoupAreAllItsHits) {
     for (int i = 0; i < 2000; ++i)
         rays.push_back(make_ray_to(random.in_cube(2), random.in_cube(0.5)));
     std::vector<std::vector<u32>> wide;
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(soup, layout, Precision::SINGLE, CUT_OUT);
         const std::vector<std::vector<u32>> layers = device.layers(rays);
         // The next layer is what remains when those before are taken away.
@@ -112,7 +112,7 @@ TEST(Visibility, LayersOfASoupAreAllItsHits) {
 
 TEST(Visibility, AHitIsTheFirstLayerThatCovers) {
     const std::vector<TestRay> rays = rays_down(5000, 3);
-    for (const BvhLayout layout : BOTH_LAYOUTS)
+    for (const BvhLayout layout : ALL_LAYOUTS)
         for (u32 covering = 0; covering <= 5; ++covering) {
             std::vector<Layer> layers = {{2, 0}, {1, 0}, {1, 0}, {0, 0}, {-1, 0}};
             if (covering < 5)
@@ -129,7 +129,7 @@ TEST(Visibility, HitsFallToTheLayersByTheirCoverage) {
     const Scene scene = make_layers({{2, 0.5}, {1, 0.25}, {1, 0.25}, {0, 0.5}});
     const std::vector<double> expected = {0.5, 0.125, 0.09375, 0.140625, 0.140625}; // the last: none
     const std::vector<TestRay> rays = rays_down(100000, 4);
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         std::vector<double> counts(5);
         for (const u32 found : RayDevice(scene, layout, Precision::SINGLE, CUT_OUT).visible(rays))
             counts[found == NO_INDEX ? 4 : square_of(found)] += 1;
@@ -143,7 +143,7 @@ TEST(Visibility, AShareIsTheProductOfWhatLayersLetPass) {
     const Scene scene = make_layers({{2, 0.5}, {1, 0.75}, {1, 0.75}, {0, 0.5}, {-1, 1}});
     const std::vector<std::pair<float, float>> share_at_length = {
         {1.5f, 1.0f}, {2.5f, 0.5f}, {3.5f, 0x1p-5f}, {4.5f, 0x1p-6f}, {6.0f, 0.0f}};
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(scene, layout, Precision::SINGLE, CUT_OUT), opaque(scene, layout);
         for (const auto& [length, share] : share_at_length) {
             for (TestRay& ray : rays)

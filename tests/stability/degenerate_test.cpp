@@ -40,7 +40,7 @@ size_t count_hits(const std::vector<TestHit>& hits) {
 
 void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays, size_t least_hits) {
     std::vector<TestHit> all;
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(scene, layout);
         if (all.empty())
             all = device.closest_of_all(rays);
@@ -68,7 +68,7 @@ TEST(Degenerate, TrianglesWithoutAreaChangeNoHit) {
                          {0.25 * (i % 8 - 4), 1, 0.5});
     }
     const std::vector<TestRay> rays = rays_at(with_degenerate, 50000, 1);
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(with_degenerate, layout);
         EXPECT_EQ(device.bvh().triangle_count, soup.triangles.size());
         EXPECT_EQ(count_differences(device.closest(rays), RayDevice(soup, layout).closest(rays)), 0u)
@@ -88,8 +88,8 @@ TEST(Degenerate, TrianglesThatAreNotFiniteChangeNoHit) {
         }
     const std::vector<TestRay> rays = rays_at(soup, 20000, 2);
     const float extent = extent_of(soup);
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
-        const RayDevice device(with_bad, layout, Precision::SINGLE, 0, extent);
+    for (const BvhLayout layout : ALL_LAYOUTS) {
+        const RayDevice device(with_bad, layout, Precision::SINGLE, 0, {}, extent);
         EXPECT_EQ(device.bvh().triangle_count, soup.triangles.size());
         EXPECT_EQ(count_differences(device.closest(rays), RayDevice(soup, layout).closest(rays)), 0u)
             << layout_name(layout);
@@ -110,7 +110,7 @@ TEST(Degenerate, OfManyCopiesTheLowestIndexIsHit) {
     for (int i = 0; i < 64; ++i)
         rays.push_back(
             make_ray_to(random.in_cube(0.5) + glm::dvec3(0, 0, 3), {random.between(-0.2, 0.2), -0.3, 0}));
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(scene, layout);
         EXPECT_LE(device.bvh().depth, BVH_MAX_DEPTH);
         size_t wrong = 0;
@@ -133,7 +133,7 @@ TEST(Degenerate, OfTwinsTheFirstIsHit) {
         add_triangle(scene, twin.v0, twin.v1, twin.v2);
     const std::vector<TestRay> rays = rays_at(scene, 50000, 4);
     expect_hits_of_all(scene, rays, rays.size() / 4);
-    for (const BvhLayout layout : BOTH_LAYOUTS)
+    for (const BvhLayout layout : ALL_LAYOUTS)
         for (const TestHit& hit : RayDevice(scene, layout).closest(rays))
             ASSERT_TRUE(hit.triangle == NO_INDEX || hit.triangle < count) << layout_name(layout);
 }
@@ -142,7 +142,7 @@ TEST(Degenerate, AnEmptySceneIsHitNowhere) {
     Scene scene = make_empty_scene();
     const std::vector<TestRay> rays = rays_at(scene, 10000, 5);
     for (int points = 0; points < 2; ++points) {
-        for (const BvhLayout layout : BOTH_LAYOUTS) {
+        for (const BvhLayout layout : ALL_LAYOUTS) {
             const RayDevice device(scene, layout);
             EXPECT_EQ(count_hits(device.closest(rays)), 0u) << layout_name(layout);
             const std::vector<u32> any = device.any(rays);
@@ -194,7 +194,7 @@ TEST(Degenerate, ADeepTreeOverflowsNoStack) {
         const glm::dvec3 d(random.between(-0.3, 0.3), random.between(-0.3, 0.1), 1);
         rays.push_back(i % 2 ? make_ray({0, 0, 0}, d) : make_ray(d * std::ldexp(1.0, 62), -d));
     }
-    for (const BvhLayout layout : BOTH_LAYOUTS)
+    for (const BvhLayout layout : ALL_LAYOUTS)
         EXPECT_GT(RayDevice(scene, layout).bvh().depth, 40) << layout_name(layout);
     expect_hits_of_all(scene, rays, rays.size() * 2 / 5);
 }
@@ -218,7 +218,7 @@ TEST(Degenerate, TinyTrianglesAndNeedlesHaveUnitNormals) {
         rays.push_back(make_ray({0, 0, 0}, random.direction()));
         hits.push_back({1, 0.25, 0.25, i});
     }
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const std::vector<vec4> normals = RayDevice(scene, layout).normals(rays, hits);
         for (size_t i = 0; i < normals.size(); ++i) {
             const glm::dvec3 n = to_dvec3(normals[i]);

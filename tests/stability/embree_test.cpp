@@ -174,7 +174,7 @@ TEST(Embree, GivesTheSameHitsOrIsWrong) {
         const EmbreeHit hit = embree.closest(ray.origin, ray.direction, ray.origin.w);
         expected.push_back({hit.t, hit.u, hit.v, hit.triangle});
     }
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const Verdict v = compare(scene, rays, RayDevice(scene, layout).closest(rays), expected);
         std::printf("%s, %zu rays: lost %zu, by Embree %zu; twins %zu; differences %zu, wrong %zu, Embree "
                     "wrong %zu\n",

@@ -38,7 +38,7 @@ size_t count_misses(const std::vector<TestHit>& hits) {
 
 void expect_misses(const std::vector<TestRay>& rays, const char* name) {
     static const Scene ball = make_ball(24, 24);
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(ball, layout);
         EXPECT_EQ(count_misses(device.closest(rays)), rays.size()) << name << ", " << layout_name(layout);
         const std::vector<u32> any = device.any(rays);
@@ -49,7 +49,7 @@ void expect_misses(const std::vector<TestRay>& rays, const char* name) {
 
 void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays, const char* name) {
     std::vector<TestHit> all;
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(scene, layout);
         if (all.empty())
             all = device.closest_of_all(rays);
@@ -105,7 +105,7 @@ TEST(OddRays, AnInfiniteLengthIsAsGoodAsAFarOne) {
     std::vector<TestRay> far = spoiled_rays({FAR_AWAY}, &vec4::w, &TestRay::origin), infinite = far;
     for (TestRay& ray : infinite)
         ray.origin.w = INFINITE;
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(ball, layout);
         const std::vector<TestHit> expected = device.closest(far), found = device.closest(infinite);
         size_t differences = 0;
@@ -119,7 +119,7 @@ TEST(OddRays, AnInfiniteLengthIsAsGoodAsAFarOne) {
 TEST(OddRays, DirectionsOfAnyLengthGiveTheSameHits) {
     const Scene ball = make_ball(24, 24);
     const std::vector<TestRay> unit = spoiled_rays({FAR_AWAY}, &vec4::w, &TestRay::origin);
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(ball, layout);
         const std::vector<TestHit> expected = device.closest(unit);
         for (const int exponent : {-20, -3, 1, 20}) {
@@ -178,7 +178,7 @@ TEST(OddRays, RaysAlongAxesStayInABox) {
             origin = {0, 0, 0};
         rays.push_back(make_ray(origin, direction));
     }
-    for (const BvhLayout layout : BOTH_LAYOUTS)
+    for (const BvhLayout layout : ALL_LAYOUTS)
         EXPECT_EQ(count_misses(RayDevice(room, layout).closest(rays)), 0u) << layout_name(layout);
 }
 
@@ -203,7 +203,7 @@ TEST(OddRays, AFlatGridIsHitWhereverItIsAimedAt) {
             origin.x = target.x, origin.z = target.z;
         rays.push_back(make_ray_to(origin, target));
     }
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const std::vector<TestHit> hits = RayDevice(grid, layout).closest(rays);
         EXPECT_EQ(count_misses(hits), 0u) << layout_name(layout);
         // Of the weighted depths 6 u, of the weights' sum 4 u, and of two quotients and a product 3 u where
@@ -236,7 +236,7 @@ TEST(OddRays, AFarSmallBallIsHitAtTheRightDistance) {
             rays.push_back(make_ray_to(origin, target));
             targets.push_back(target);
         }
-        for (const BvhLayout layout : BOTH_LAYOUTS) {
+        for (const BvhLayout layout : ALL_LAYOUTS) {
             const std::vector<TestHit> hits = RayDevice(ball, layout).closest(rays);
             EXPECT_EQ(count_misses(hits), 0u) << distance << ", " << layout_name(layout);
             double worst = 0;
@@ -262,7 +262,7 @@ TEST(OddRays, RaysFromAfarHitWhatAllTrianglesGive) {
             rays.push_back(make_ray_to(direction * distance, {0, 0, 0}));
         }
         std::vector<TestHit> all;
-        for (const BvhLayout layout : BOTH_LAYOUTS) {
+        for (const BvhLayout layout : ALL_LAYOUTS) {
             const RayDevice device(ball, layout);
             all = device.closest_of_all(rays);
             const std::vector<TestHit> found = device.closest(rays);

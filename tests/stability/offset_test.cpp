@@ -87,7 +87,7 @@ glm::dvec3 point_on(const Scene& scene, const Triangle& triangle, Random& random
 // frame.
 TEST(Offset, NoRayMeetsTheTriangleItLeaves) {
     size_t left = 0;
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         Random random(1);
         size_t stopped = 0;
         for (int i = 0; i < 1000; ++i) {
@@ -131,7 +131,7 @@ TEST(Offset, NoRayMeetsTheNeighboursInItsPlane) {
                 target = 0.5 * (corner_position(scene, triangle, 1) + corner_position(scene, triangle, 2));
             rays.push_back(make_ray_to(random.in_cube(2 * size), target));
         }
-        for (const BvhLayout layout : BOTH_LAYOUTS) {
+        for (const BvhLayout layout : ALL_LAYOUTS) {
             const RayDevice device(scene, layout);
             const Arrivals from = arrivals(device, rays);
             EXPECT_GT(from.rays.size(), rays.size() * 9 / 10);
@@ -154,7 +154,7 @@ TEST(Offset, NoRayMeetsTheConvexBodyItLeaves) {
         rays.push_back(
             make_ray_to(target + 2.0 * random.unit() * triangle_normal(scene, triangle) * 4096.0, target));
     }
-    for (const BvhLayout layout : BOTH_LAYOUTS) {
+    for (const BvhLayout layout : ALL_LAYOUTS) {
         const RayDevice device(scene, layout);
         const Arrivals from = arrivals(device, rays);
         EXPECT_GT(from.rays.size(), rays.size() * 99 / 100);
@@ -249,7 +249,7 @@ TEST(Offset, NoLightGetsOutOfARoomNotEvenAtItsCorners) {
     const std::pair<const char*, const Scene*> rooms[] = {
         {"upright", &upright}, {"turned", &turned}, {"tetrahedron", &tetrahedron}, {"wedge", &wedge}};
     for (const auto& [name, room] : rooms)
-        for (const BvhLayout layout : BOTH_LAYOUTS)
+        for (const BvhLayout layout : ALL_LAYOUTS)
             EXPECT_EQ(count_escapes(*room, layout, 50000, 5, 4), 0u) << name << ", " << layout_name(layout);
 }
 

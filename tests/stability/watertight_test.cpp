@@ -62,7 +62,7 @@ void expect_no_misses(const Scene& scene, double inner, const std::string& name,
                       Precision precision = Precision::SINGLE) {
     for (const Aim aim : {Aim::VERTEX, Aim::EDGE}) {
         const std::vector<TestRay> rays = aimed_rays(scene, inner, aim, count, 7);
-        for (const BvhLayout layout : BOTH_LAYOUTS)
+        for (const BvhLayout layout : ALL_LAYOUTS)
             EXPECT_EQ(count_misses(RayDevice(scene, layout, precision).closest(rays)), 0u)
                 << "of " << count << " rays at " << (aim == Aim::EDGE ? "edges" : "vertices") << ", " << name
                 << ", " << layout_name(layout);

@@ -82,7 +82,8 @@ struct EntryPoint {
     const char* body;            ///< reads scene, params, ray and i, writes out
 };
 
-const char* const SURFACE_PARAMETERS = "global const TracedHit* restrict hits, global const float4* restrict in, ";
+const char* const SURFACE_PARAMETERS =
+    "global const TracedHit* restrict hits, global const float4* restrict in, ";
 
 const EntryPoint ENTRY_POINTS[] = {
     {"trace_closest", "TracedHit", "", R"(
@@ -149,17 +150,19 @@ struct DoubleHit {
     u32 triangle, padding;
 };
 
-KernelProbe& ray_probe(BvhLayout layout, Precision precision, u32 effects) {
+KernelProbe& ray_probe(BvhLayout layout, Precision precision, u32 effects,
+                       const std::vector<std::string>& defines) {
     // Never freed, like the test device that they refer to.
-    static auto* const probes =
-        new std::map<std::tuple<BvhLayout, Precision, u32>, std::unique_ptr<KernelProbe>>;
-    std::unique_ptr<KernelProbe>& probe = (*probes)[{layout, precision, effects}];
+    using Key = std::tuple<BvhLayout, Precision, u32, std::vector<std::string>>;
+    static auto* const probes = new std::map<Key, std::unique_ptr<KernelProbe>>;
+    std::unique_ptr<KernelProbe>& probe = (*probes)[{layout, precision, effects, defines}];
     if (!probe) {
         ProbeOptions options;
         options.precision = precision;
-        options.defines = {fmt::format("BVH_LAYOUT={}", int(layout)),
-                           fmt::format("CLRT_EFFECTS={:#x}u", effects),
-                           fmt::format("MOST_LAYERS={}u", MOST_LAYERS)};
+        options.defines = defines;
+        options.defines.push_back(fmt::format("BVH_LAYOUT={}", int(layout)));
+        options.defines.push_back(fmt::format("CLRT_EFFECTS={:#x}u", effects));
+        options.defines.push_back(fmt::format("MOST_LAYERS={}u", MOST_LAYERS));
         probe = std::make_unique<KernelProbe>(
             test_device(), std::vector<std::string>{"geometry/visibility.h", "geometry/surface.h"}, options,
             kernels_under_test());
@@ -190,15 +193,13 @@ bool operator==(const TestHit& a, const TestHit& b) {
            std::memcmp(&a.b2, &b.b2, sizeof a.b2) == 0 && a.triangle == b.triangle;
 }
 
-const char* layout_name(BvhLayout layout) {
-    return layout == BvhLayout::BVH8 ? "bvh8" : "bvh2";
-}
+RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects,
+                     const std::vector<std::string>& defines)
+    : RayDevice(scene, layout, precision, effects, defines, extent_of(scene)) {}
 
-RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects)
-    : RayDevice(scene, layout, precision, effects, extent_of(scene)) {}
-
-RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, float extent)
-    : probe_(ray_probe(layout, precision, effects)), precision_(precision),
+RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects,
+                     const std::vector<std::string>& defines, float extent)
+    : probe_(ray_probe(layout, precision, effects, defines)), precision_(precision),
       bvh_(build_bvh(scene.positions, scene.triangles, layout)),
       buffers_(upload_scene(test_device(), scene, bvh_)) {
     params_.scene_extent = extent;

@@ -43,22 +43,20 @@ inline bool operator!=(const TestHit& a, const TestHit& b) {
     return !(a == b);
 }
 
-/// "bvh8" or "bvh2": for messages.
-const char* layout_name(BvhLayout layout);
-
-constexpr BvhLayout BOTH_LAYOUTS[] = {BvhLayout::BVH8, BvhLayout::BVH2};
-
 /// The kernels inside the test, or those in the folder that the variable CLRT_TEST_KERNELS names: so faults
 /// can be planted without a build.
 KernelFiles kernels_under_test();
 
-/// A scene on the test device. Its programs are built once a process for each layout, precision and mask.
+/// A scene on the test device. Its programs are built once a process for each layout, precision, mask and set
+/// of defines ("NAME=value").
 class RayDevice {
 public:
-    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0);
+    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0,
+              const std::vector<std::string>& defines = {});
 
     /// The same where `extent_of` would meet coordinates that are not finite.
-    RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, float extent);
+    RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects,
+              const std::vector<std::string>& defines, float extent);
 
     /// scene_closest_hit for every ray.
     std::vector<TestHit> closest(const std::vector<TestRay>& rays) const;
