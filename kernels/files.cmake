@@ -14,6 +14,7 @@ set(CLRT_KERNEL_FILES
   geometry/traverse.h
   geometry/traverse_bvh2.h
   geometry/traverse_bvh8.h
+  geometry/traverse_cwbvh.h
   geometry/triangle.h
   geometry/visibility.h
   integrators/aov.cl

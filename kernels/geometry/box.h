@@ -29,7 +29,8 @@ typedef struct {
     real3 exit_reciprocal, exit_offset;
 } BoxRay;
 
-static inline BoxRay box_ray_make(const Ray* ray, real scene_extent)
+/* With planes moved out by `roundings` units. */
+static inline BoxRay box_ray_make_padded(const Ray* ray, real scene_extent, real roundings)
 {
     BoxRay box;
     const real3 d = ray->direction;
@@ -37,12 +38,17 @@ static inline BoxRay box_ray_make(const Ray* ray, real scene_extent)
     box.reciprocal = REAL(1.0) / clamped;
     const real3 o = fabs(ray->origin);
     const real reach = max(max(o.x, o.y), max(o.z, scene_extent));
-    const real3 pad = fabs(box.reciprocal) * (BOX_PAD_ROUNDINGS * FLOAT_ROUNDING * reach);
+    const real3 pad = fabs(box.reciprocal) * (roundings * FLOAT_ROUNDING * reach);
     const real3 offset = ray->origin * box.reciprocal;
     box.entry_offset = -offset - pad;
     box.exit_reciprocal = box.reciprocal * BOX_EXIT_FACTOR;
     box.exit_offset = (pad - offset) * BOX_EXIT_FACTOR;
     return box;
+}
+
+static inline BoxRay box_ray_make(const Ray* ray, real scene_extent)
+{
+    return box_ray_make_padded(ray, scene_extent, BOX_PAD_ROUNDINGS);
 }
 
 /* True for rays that may be traced: finite origin and direction, direction not zero. */

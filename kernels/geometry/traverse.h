@@ -8,11 +8,19 @@
 #include "scene.h"
 #include "triangle.h"
 
-/* A file's text stands where it is included first, so what both layouts include comes before the choice. */
+/* A file's text stands where it is included first, so what layouts share comes before the choice. */
 #if BVH_LAYOUT == BVH_LAYOUT_BVH8
 #include "traverse_bvh8.h"
+#define TRAVERSE_CLOSEST_HIT bvh8_closest_hit
+#define TRAVERSE_ANY_HIT bvh8_any_hit
+#elif BVH_LAYOUT == BVH_LAYOUT_CWBVH
+#include "traverse_cwbvh.h"
+#define TRAVERSE_CLOSEST_HIT cwbvh_closest_hit
+#define TRAVERSE_ANY_HIT cwbvh_any_hit
 #else
 #include "traverse_bvh2.h"
+#define TRAVERSE_CLOSEST_HIT bvh2_closest_hit
+#define TRAVERSE_ANY_HIT bvh2_any_hit
 #endif
 
 /* The first hit after `after` (hit_none(0) for all) within the ray; triangle NO_INDEX where there is none. At
@@ -22,11 +30,7 @@ static inline Hit scene_closest_hit(const Scene* scene, const RenderParams* para
     Hit hit = hit_none(ray->t_max);
     if (!ray_is_valid(ray))
         return hit;
-#if BVH_LAYOUT == BVH_LAYOUT_BVH8
-    bvh8_closest_hit(scene, params, ray, after, &hit);
-#else
-    bvh2_closest_hit(scene, params, ray, after, &hit);
-#endif
+    TRAVERSE_CLOSEST_HIT(scene, params, ray, after, &hit);
     return hit;
 }
 
@@ -35,11 +39,7 @@ static inline bool scene_any_hit(const Scene* scene, const RenderParams* params,
 {
     if (!ray_is_valid(ray))
         return false;
-#if BVH_LAYOUT == BVH_LAYOUT_BVH8
-    return bvh8_any_hit(scene, params, ray);
-#else
-    return bvh2_any_hit(scene, params, ray);
-#endif
+    return TRAVERSE_ANY_HIT(scene, params, ray);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Node layouts of the bounding volume hierarchy. Both are trees over the same triangles; a layout is chosen
+// Node layouts of the bounding volume hierarchy. All are trees over the same triangles; a layout is chosen
 // with -DBVH_LAYOUT when a kernel is compiled.
 #ifndef CLRT_SHARED_BVH_TYPES_H
 #define CLRT_SHARED_BVH_TYPES_H
@@ -8,6 +8,7 @@
 
 #define BVH_LAYOUT_BVH8 8 /* eight children a node, tested with float8: for CPU devices */
 #define BVH_LAYOUT_BVH2 2 /* pairs of children in 64 bytes (Aila and Laine 2009): for GPUs */
+#define BVH_LAYOUT_CWBVH 80 /* eight quantised children in 80 bytes (Ylitie, Karras and Laine 2017): for GPUs */
 
 #define BVH_LEAF_BIT 0x80000000u
 #define BVH_MAX_DEPTH 64 /* levels of the binary tree; the builder guarantees it, stacks and trails are sized by it */
@@ -38,7 +39,33 @@
 #define BVH2_COUNT_WORD 14
 #define BVH2_LEAF_TRIANGLES 4 /* most triangles a leaf holds */
 
-/* Leaf triangle of bvh2: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz, 0. */
+/* Leaf triangle of bvh2 and cwbvh: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz, 0. */
 #define LEAF_TRIANGLE_WORDS 12
+
+/* cwbvh node: 20 words, in parts of which bytes stand in the order of memory.
+   Words 0..2: origin of the node's lattice (floats).
+   Word 3: by byte, exponents of the lattice's steps along x, y, z plus CWBVH_EXPONENT_BIAS; a mask of the slots that hold
+   inner nodes.
+   Words 4, 5: index of the first child that is an inner node, the others follow by ascending slot; of the first leaf
+   triangle of this node.
+   Words 6, 7: a byte a slot. Inner node: CWBVH_INNER_META | slot. Leaf of n triangles: 2^n - 1 in the upper three bits, the
+   place of the first, counted from the node's first, in the lower five. Empty: 0.
+   Words 8..19: planes as multiples of the step from the origin, a byte a slot: lower x, lower y, lower z, upper x, upper y,
+   upper z. */
+#define CWBVH_NODE_WORDS 20
+#define CWBVH_EXPONENT_WORD 3
+#define CWBVH_CHILD_WORD 4
+#define CWBVH_TRIANGLE_WORD 5
+#define CWBVH_META_WORD 6
+#define CWBVH_LOWER_WORD 8
+#define CWBVH_UPPER_WORD 14
+#define CWBVH_EXPONENT_BIAS 127    /* a float's: the byte moved up by 23 bits is the step */
+#define CWBVH_SMALLEST_EXPONENT -60 /* products of a step with the reciprocal of a direction below 2^60 stay normal */
+#define CWBVH_INNER_META 0x38u     /* one bit of three as for a leaf of one triangle, and place 24 */
+#define CWBVH_COUNT_SHIFT 5
+#define CWBVH_LEAF_TRIANGLES 3 /* most triangles a leaf holds: 24 in all have a bit of a word */
+
+/* Levels of wide nodes; the collapse guarantees it. BVH_MAX_DEPTH - 1 levels of inner binary nodes, three by three. */
+#define CWBVH_MAX_LEVELS ((BVH_MAX_DEPTH + 1) / 3)
 
 #endif

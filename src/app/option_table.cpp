@@ -184,10 +184,13 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.threads = static_cast<int>(parse_whole(v, 0, LARGEST_THREADS));
          }},
-        {group, "", "--bvh", "NAME", "layout of the tree of boxes: auto, bvh8 or bvh2 (default auto)",
+        {group, "", "--bvh", "NAME", "layout of the tree of boxes: auto, bvh8, bvh2 or cwbvh (default auto)",
          [](Options& o, const OptionValue& v) {
              o.bvh = parse_choice<BvhChoice>(
-                 v, {{"auto", BvhChoice::AUTO}, {"bvh8", BvhChoice::BVH8}, {"bvh2", BvhChoice::BVH2}});
+                 v, {{"auto", BvhChoice::AUTO},
+                     {"bvh8", BvhChoice::BVH8},
+                     {"bvh2", BvhChoice::BVH2},
+                     {"cwbvh", BvhChoice::CWBVH}});
          }},
     };
 }

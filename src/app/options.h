@@ -15,7 +15,7 @@ namespace clrt {
 enum class Integrator { RAYCAST, WHITTED, PATH };
 enum class Precision { SINGLE, DOUBLE, FAST };
 enum class Toggle { AUTO, ON, OFF };
-enum class BvhChoice { AUTO, BVH8, BVH2 };
+enum class BvhChoice { AUTO, BVH8, BVH2, CWBVH };
 enum class Filter { BOX, TENT, GAUSSIAN };
 enum class Tonemap { NONE, REINHARD, ACES };
 enum class Check { OFF, COUNT, STRICT };

@@ -10,9 +10,9 @@
 
 namespace clrt {
 
-enum class BvhLayout { BVH8 = BVH_LAYOUT_BVH8, BVH2 = BVH_LAYOUT_BVH2 };
+enum class BvhLayout { BVH8 = BVH_LAYOUT_BVH8, BVH2 = BVH_LAYOUT_BVH2, CWBVH = BVH_LAYOUT_CWBVH };
 
-constexpr BvhLayout ALL_LAYOUTS[] = {BvhLayout::BVH8, BvhLayout::BVH2};
+constexpr BvhLayout ALL_LAYOUTS[] = {BvhLayout::BVH8, BvhLayout::BVH2, BvhLayout::CWBVH};
 
 /// A layout's name as on the command line.
 const char* layout_name(BvhLayout layout);
@@ -33,9 +33,9 @@ struct Bvh {
 /// agree, or the cross product of two edges, computed in double, is zero. Corner indices must be valid.
 ///
 /// Deterministic: the same input gives the same bits for any number of threads. Never deeper than
-/// BVH_MAX_DEPTH and never quadratic, whatever the input (coincident triangles included). Boxes enclose
-/// their triangles exactly (no rounding: corners are floats); the slack for the traversal's arithmetic is
-/// the traversal's own. An empty scene gives a root with empty children and no leaves.
+/// BVH_MAX_DEPTH and never quadratic, whatever the input (coincident triangles included). Boxes are the bounds of
+/// their triangles (no rounding: corners are floats), in cwbvh the least of the node's lattice that enclose those;
+/// the slack for the traversal's arithmetic is the traversal's own. An empty scene gives a root with empty children and no leaves.
 /// Throws SceneError for more triangles than 31-bit indices reach.
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout);
 

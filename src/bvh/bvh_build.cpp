@@ -8,11 +8,28 @@
 #include <chrono>
 
 namespace clrt {
+namespace {
+
+LeafCost leaf_cost(BvhLayout layout) {
+    switch (layout) {
+    case BvhLayout::BVH2:
+        return BVH2_LEAF_COST;
+    case BvhLayout::CWBVH:
+        return CWBVH_LEAF_COST;
+    case BvhLayout::BVH8:
+        break;
+    }
+    return BVH8_LEAF_COST;
+}
+
+} // namespace
 
 const char* layout_name(BvhLayout layout) {
     switch (layout) {
     case BvhLayout::BVH2:
         return "bvh2";
+    case BvhLayout::CWBVH:
+        return "cwbvh";
     case BvhLayout::BVH8:
         break;
     }
@@ -28,16 +45,22 @@ Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& t
         throw SceneError("scene", 0,
                          "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
                              std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
-    const bool wide = layout == BvhLayout::BVH8;
-    BinaryTree tree = build_binary_tree(positions, triangles, wide ? BVH8_LEAF_COST : BVH2_LEAF_COST);
+    BinaryTree tree = build_binary_tree(positions, triangles, leaf_cost(layout));
     Bvh bvh;
     bvh.layout = layout;
     bvh.depth = tree.depth;
     bvh.triangle_count = tree.order.size();
-    if (wide)
+    switch (layout) {
+    case BvhLayout::BVH8:
         write_bvh8(positions, triangles, tree, bvh);
-    else
+        break;
+    case BvhLayout::BVH2:
         write_bvh2(positions, triangles, tree, bvh);
+        break;
+    case BvhLayout::CWBVH:
+        write_cwbvh(positions, triangles, tree, bvh);
+        break;
+    }
     bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;
 }

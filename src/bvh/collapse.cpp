@@ -16,17 +16,22 @@ float relative_area(const BinaryNode& node, double root_area) {
 
 } // namespace
 
-WideCollapse::WideCollapse(const BinaryTree& tree)
-    : nodes_(tree.nodes.get()), root_area_(half_area(nodes_[0])), costs_(tree.node_count) {
+WideCollapse::WideCollapse(const BinaryTree& tree, const WideRules& rules)
+    : nodes_(tree.nodes.get()), rules_(rules), root_area_(half_area(nodes_[0])), costs_(tree.node_count),
+      heights_(tree.node_count) {
     find_costs(0);
+}
+
+float WideCollapse::leaf_cost(u32 node) const {
+    const BinaryNode& n = nodes_[node];
+    return relative_area(n, root_area_) * (rules_.leaf_cost + rules_.triangle_cost * float(n.count));
 }
 
 void WideCollapse::find_costs(u32 node) {
     const BinaryNode& n = nodes_[node];
-    const float area = relative_area(n, root_area_);
     Costs& costs = costs_[node];
     if (n.child == 0) {
-        costs.fill(area);
+        costs.fill(leaf_cost(node));
         return;
     }
     if (n.count < PARALLEL_SUBTREE) {
@@ -35,13 +40,15 @@ void WideCollapse::find_costs(u32 node) {
     } else {
         tbb::parallel_invoke([&] { find_costs(n.child); }, [&] { find_costs(n.child + 1); });
     }
-    // One child: a block of triangles, or a wide node of its own.
-    costs[0] = area + distribute(n, BVH8_WIDTH).cost;
-    if (n.count <= BVH8_WIDTH)
-        costs[0] = std::min(costs[0], area);
+    // One child: a leaf, or a wide node of its own.
+    costs[0] = relative_area(n, root_area_) + distribute(n, BVH8_WIDTH).cost;
+    if (n.count <= rules_.max_leaf)
+        costs[0] = std::min(costs[0], leaf_cost(node));
     // More children: shared by both sides, unless fewer are cheaper.
     for (int children = 2; children < BVH8_WIDTH; ++children)
         costs[children - 1] = std::min(costs[children - 2], distribute(n, children).cost);
+    if (!is_leaf(node))
+        heights_[node] = std::uint8_t(1 + std::max(heights_[n.child], heights_[n.child + 1]));
 }
 
 WideCollapse::Distribution WideCollapse::distribute(const BinaryNode& node, int children) const {
@@ -58,7 +65,7 @@ WideCollapse::Distribution WideCollapse::distribute(const BinaryNode& node, int 
 
 bool WideCollapse::is_leaf(u32 node) const {
     const BinaryNode& n = nodes_[node];
-    return n.child == 0 || (n.count <= BVH8_WIDTH && costs_[node][0] == relative_area(n, root_area_));
+    return n.child == 0 || (n.count <= rules_.max_leaf && costs_[node][0] == leaf_cost(node));
 }
 
 void WideCollapse::expand(WideChild subtree, int children, ChildList& list) const {
@@ -75,15 +82,34 @@ void WideCollapse::expand(WideChild subtree, int children, ChildList& list) cons
     expand({n.child + 1, subtree.first + nodes_[n.child].count}, children - left, list);
 }
 
-WideChildren WideCollapse::children(WideChild parent) const {
+bool WideCollapse::fits(const ChildList& list, int levels) const {
+    return std::all_of(list.items.begin(), list.items.begin() + list.size,
+                       [&](const WideChild& child) { return heights_[child.node] <= 3 * levels; });
+}
+
+void WideCollapse::expand_levels(WideChild subtree, int levels, ChildList& list) const {
+    if (levels == 0 || is_leaf(subtree.node)) {
+        list.items[size_t(list.size++)] = subtree;
+        return;
+    }
+    const BinaryNode& n = nodes_[subtree.node];
+    expand_levels({n.child, subtree.first}, levels - 1, list);
+    expand_levels({n.child + 1, subtree.first + nodes_[n.child].count}, levels - 1, list);
+}
+
+WideChildren WideCollapse::children(WideChild parent, int levels) const {
     ChildList list;
     if (is_leaf(parent.node)) {
         list.items[list.size++] = parent;
-    } else {
-        const BinaryNode& n = nodes_[parent.node];
-        const int left = distribute(n, BVH8_WIDTH).left;
-        expand({n.child, parent.first}, left, list);
-        expand({n.child + 1, parent.first + nodes_[n.child].count}, BVH8_WIDTH - left, list);
+        return assign_slots(list, parent.node);
+    }
+    const BinaryNode& n = nodes_[parent.node];
+    const int left = distribute(n, BVH8_WIDTH).left;
+    expand({n.child, parent.first}, left, list);
+    expand({n.child + 1, parent.first + nodes_[n.child].count}, BVH8_WIDTH - left, list);
+    if (!fits(list, levels - 1)) {
+        list.size = 0;
+        expand_levels(parent, 3, list);
     }
     return assign_slots(list, parent.node);
 }

@@ -6,6 +6,7 @@
 #include "bvh/binary_tree.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace clrt {
@@ -22,20 +23,33 @@ struct WideChildren {
     std::array<bool, BVH8_WIDTH> used{};
 };
 
-/// The cheapest way to represent every binary subtree in a wide tree, where testing a wide node costs as much
-/// as testing a block of up to BVH8_WIDTH triangles.
+/// What a wide tree's leaves hold and cost, in units of a wide node's test, and how deep it may be.
+struct WideRules {
+    u32 max_leaf;        ///< triangles
+    float leaf_cost;     ///< of any leaf
+    float triangle_cost; ///< more for each triangle
+    int max_levels;      ///< of wide nodes; three levels of the binary tree always fit into one
+};
+
+/// bvh8: testing a node costs as much as testing a block of up to eight triangles. cwbvh: the paper's costs.
+constexpr WideRules BVH8_RULES{BVH8_WIDTH, 1.0f, 0.0f, BVH_MAX_DEPTH};
+constexpr WideRules CWBVH_RULES{CWBVH_LEAF_TRIANGLES, 0.0f, 0.3f, CWBVH_MAX_LEVELS};
+
+/// The cheapest way to represent every binary subtree in a wide tree.
 class WideCollapse {
 public:
     /// The tree must not be empty and must outlive this object.
-    explicit WideCollapse(const BinaryTree& tree);
+    WideCollapse(const BinaryTree& tree, const WideRules& rules);
 
-    /// Whether the subtree becomes one block of triangles.
+    /// Whether the subtree becomes one leaf.
     bool is_leaf(u32 node) const;
 
-    /// The children of the wide node made from `parent`: one if that is a leaf, which only the root can be.
+    /// The children of the wide node made from `parent`: one if that is a leaf, which only the root can be. `levels`
+    /// of wide nodes are left for `parent` and what is below: the rules' max_levels at the root, one less at each
+    /// child. Where the cheapest children would not do with that, three binary levels are taken at once.
     /// Slots are given so that visiting them by ascending slot XOR octant is roughly front to back for a ray
     /// whose octant has bit a set where its direction is negative along axis a (section 4.1 of the paper).
-    WideChildren children(WideChild parent) const;
+    WideChildren children(WideChild parent, int levels) const;
 
 private:
     // cost[i]: of a subtree represented by at most i + 1 children of one wide node.
@@ -50,13 +64,18 @@ private:
     };
 
     void find_costs(u32 node);
+    float leaf_cost(u32 node) const;
+    bool fits(const ChildList& list, int levels) const;
+    void expand_levels(WideChild subtree, int levels, ChildList& list) const;
     Distribution distribute(const BinaryNode& node, int children) const;
     void expand(WideChild subtree, int children, ChildList& list) const;
     WideChildren assign_slots(const ChildList& list, u32 parent) const;
 
     const BinaryNode* nodes_;
+    WideRules rules_;
     double root_area_; // costs are relative to it
     std::vector<Costs> costs_;
+    std::vector<std::uint8_t> heights_; // binary levels below each node down to what becomes a leaf
 };
 
 } // namespace clrt

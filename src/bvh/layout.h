@@ -22,14 +22,20 @@ inline u32 float_bits(float x) {
 }
 
 /// Leaf costs that suit the layouts. bvh8: one block of triangles costs as much as an eight-wide node, and
-/// the collapse decides about small subtrees; bvh2: triangles are tested one by one.
+/// the collapse decides about small subtrees; bvh2: triangles are tested one by one; cwbvh: the collapse decides again.
 constexpr LeafCost BVH8_LEAF_COST{3, BVH8_WIDTH / 2, BVH8_WIDTH, 0.0f};
 constexpr LeafCost BVH2_LEAF_COST{0, 1, BVH2_LEAF_TRIANGLES, 1.0f};
+constexpr LeafCost CWBVH_LEAF_COST{0, 1, CWBVH_LEAF_TRIANGLES, 0.0f};
+
+/// Writes the LEAF_TRIANGLE_WORDS words of a leaf triangle but for those that stay 0.
+void write_leaf_triangle(const std::vector<vec4>& positions, const Triangle& triangle, u32 index, u32* words);
 
 /// Fills nodes, leaves and sah_cost. Sorts the ranges of `tree.order` that become leaves.
 void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
                 Bvh& bvh);
 void write_bvh2(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
                 Bvh& bvh);
+void write_cwbvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
+                 Bvh& bvh);
 
 } // namespace clrt

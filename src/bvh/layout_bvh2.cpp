@@ -71,17 +71,6 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
     return leaves;
 }
 
-void write_triangle(const std::vector<vec4>& positions, const Triangle& triangle, u32 index, u32* words) {
-    const u32 corners[3] = {triangle.v0, triangle.v1, triangle.v2};
-    for (int corner = 0; corner < 3; ++corner) {
-        const vec4& p = positions[corners[corner]];
-        words[4 * corner + 0] = float_bits(p.x);
-        words[4 * corner + 1] = float_bits(p.y);
-        words[4 * corner + 2] = float_bits(p.z);
-    }
-    words[3] = index;
-}
-
 } // namespace
 
 void write_bvh2(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
@@ -96,8 +85,8 @@ void write_bvh2(const std::vector<vec4>& positions, const std::vector<Triangle>&
         const LeafRange& leaf = leaves[i];
         std::sort(&tree.order[leaf.first], &tree.order[leaf.first] + leaf.count);
         for (u32 k = leaf.first; k < leaf.first + leaf.count; ++k)
-            write_triangle(positions, triangles[tree.order[k]], tree.order[k],
-                           &bvh.leaves[size_t(k) * LEAF_TRIANGLE_WORDS]);
+            write_leaf_triangle(positions, triangles[tree.order[k]], tree.order[k],
+                                &bvh.leaves[size_t(k) * LEAF_TRIANGLE_WORDS]);
     });
 }
 

@@ -56,7 +56,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
         WideChild subtree;
         u32 node;
     };
-    const WideCollapse collapse(tree);
+    const WideCollapse collapse(tree, BVH8_RULES);
     const BinaryNode* binary = tree.nodes.get();
     double area_tested = 0;
     std::vector<LeafRange> leaves;
@@ -66,7 +66,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
         stack.pop_back();
         area_tested += half_area(binary[parent.subtree.node]);
         const std::vector<WideChild> children =
-            lane_order(collapse, binary, collapse.children(parent.subtree));
+            lane_order(collapse, binary, collapse.children(parent.subtree, BVH8_RULES.max_levels));
         const size_t first_pending = stack.size();
         for (size_t lane = 0; lane < children.size(); ++lane) {
             const WideChild child = children[lane];

@@ -38,9 +38,17 @@ const char* integrator_name(Integrator integrator) {
 }
 
 BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
-    if (choice == BvhChoice::AUTO)
-        return device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2;
-    return choice == BvhChoice::BVH8 ? BvhLayout::BVH8 : BvhLayout::BVH2;
+    switch (choice) {
+    case BvhChoice::BVH8:
+        return BvhLayout::BVH8;
+    case BvhChoice::BVH2:
+        return BvhLayout::BVH2;
+    case BvhChoice::CWBVH:
+        return BvhLayout::CWBVH;
+    case BvhChoice::AUTO:
+        break;
+    }
+    return device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2;
 }
 
 bool wants_layers(const Options& options) {

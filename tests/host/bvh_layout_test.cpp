@@ -102,8 +102,9 @@ TEST(BvhLayout, RaysMeetFewNodesOfAnUnevenScene) {
         size_t nodes = 0;
         for (const Ray& ray : rays)
             traverse(bvh, ray, &nodes);
-        // Seen: 6.6 and 36.2 nodes a ray. Medians visit 9.7 and 48, a collapse at the highest cost 13.
-        EXPECT_LT(double(nodes) / double(rays.size()), layout == BvhLayout::BVH8 ? 7.5 : 40.0);
+        // Seen: 6.7, 36.2 and 10.9 nodes a ray. Medians visit 9.7 and 48, a collapse at the highest cost 13 (the first two).
+        const double most = layout == BvhLayout::BVH8 ? 7.5 : layout == BvhLayout::BVH2 ? 40.0 : 12.0;
+        EXPECT_LT(double(nodes) / double(rays.size()), most) << layout_name(layout);
     }
 }
 
@@ -116,8 +117,10 @@ TEST(BvhLayout, PlanesAtZeroHaveOneSign) {
     }
     for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, layout);
-        const size_t words = layout == BvhLayout::BVH8 ? BVH8_NODE_WORDS : BVH2_NODE_WORDS;
-        const size_t planes = layout == BvhLayout::BVH8 ? BVH8_CHILD_WORD : BVH2_CHILD_WORD;
+        const size_t words = node_words(layout);
+        const size_t planes = layout == BvhLayout::BVH8   ? BVH8_CHILD_WORD
+                              : layout == BvhLayout::BVH2 ? BVH2_CHILD_WORD
+                                                          : CWBVH_EXPONENT_WORD;
         for (size_t word = 0; word < bvh.nodes.size(); ++word)
             EXPECT_FALSE(word % words < planes && bvh.nodes[word] == 0x80000000u);
     }
@@ -142,7 +145,7 @@ TEST(BvhLayout, SpareWordsOfBvh8AreZeroAndSpareLanesHoldNoIndex) {
 }
 
 TEST(BvhLayout, EmptyChildrenHaveInvertedBoxes) {
-    for (BvhLayout layout : ALL_LAYOUTS) {
+    for (BvhLayout layout : {BvhLayout::BVH8, BvhLayout::BVH2}) {
         const Bvh bvh = build_bvh({}, {}, layout);
         const bool wide = layout == BvhLayout::BVH8;
         const size_t children = wide ? BVH8_WIDTH : 2, planes = 6 * children;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes, a decoder of both layouts, a validator and a plain double-precision traversal for the tests of the
+// Meshes, a decoder of all layouts, a validator and a plain double-precision traversal for the tests of the
 // bounding volume hierarchy.
 #pragma once
 
@@ -78,7 +78,7 @@ struct LeafTriangle {
 
 /// A child that is not empty.
 struct DecodedChild {
-    float lower[3], upper[3];
+    double lower[3], upper[3];
     bool is_leaf;
     u32 node; ///< of an inner child
     std::vector<LeafTriangle> triangles;
@@ -115,6 +115,15 @@ inline DecodedChild decode_bvh8_child(const Bvh& bvh, const u32* node, int slot)
     return child;
 }
 
+inline LeafTriangle decode_leaf_triangle(const Bvh& bvh, size_t place) {
+    const u32* words = &bvh.leaves.at(place * LEAF_TRIANGLE_WORDS);
+    LeafTriangle t{words[3], {}};
+    for (size_t corner = 0; corner < 3; ++corner)
+        for (size_t axis = 0; axis < 3; ++axis)
+            t.corners[corner][axis] = word_as_float(words[4 * corner + axis]);
+    return t;
+}
+
 inline DecodedChild decode_bvh2_child(const Bvh& bvh, const u32* node, int slot) {
     DecodedChild child{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -126,19 +135,62 @@ inline DecodedChild decode_bvh2_child(const Bvh& bvh, const u32* node, int slot)
     child.is_leaf = (reference & BVH_LEAF_BIT) != 0;
     child.node = reference;
     const u32 count = node[BVH2_COUNT_WORD + slot];
-    for (u32 i = 0; i < count; ++i) {
-        const u32* words = &bvh.leaves.at((size_t(reference & ~BVH_LEAF_BIT) + i) * LEAF_TRIANGLE_WORDS);
-        LeafTriangle t{words[3], {}};
-        for (size_t corner = 0; corner < 3; ++corner)
-            for (size_t axis = 0; axis < 3; ++axis)
-                t.corners[corner][axis] = word_as_float(words[4 * corner + axis]);
-        child.triangles.push_back(t);
-    }
+    for (u32 i = 0; i < count; ++i)
+        child.triangles.push_back(decode_leaf_triangle(bvh, size_t(reference & ~BVH_LEAF_BIT) + i));
     return child;
+}
+
+inline u32 byte_of(const u32* words, size_t byte) {
+    return reinterpret_cast<const unsigned char*>(words)[byte];
+}
+
+/// The step of a cwbvh node's lattice along an axis.
+inline double cwbvh_step(const u32* node, size_t axis) {
+    return std::ldexp(1.0, int(byte_of(node + CWBVH_EXPONENT_WORD, axis)) - CWBVH_EXPONENT_BIAS);
+}
+
+inline std::vector<DecodedChild> decode_cwbvh_children(const Bvh& bvh, const u32* node) {
+    std::vector<DecodedChild> children;
+    u32 next_node = node[CWBVH_CHILD_WORD];
+    for (size_t slot = 0; slot < BVH8_WIDTH; ++slot) {
+        const u32 meta = byte_of(node + CWBVH_META_WORD, slot);
+        if (meta == 0)
+            continue;
+        DecodedChild child{};
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double origin = word_as_float(node[axis]), step = cwbvh_step(node, axis);
+            child.lower[axis] = origin + byte_of(node + CWBVH_LOWER_WORD + 2 * axis, slot) * step;
+            child.upper[axis] = origin + byte_of(node + CWBVH_UPPER_WORD + 2 * axis, slot) * step;
+        }
+        child.is_leaf = !(byte_of(node + CWBVH_EXPONENT_WORD, 3) >> slot & 1u);
+        if (!child.is_leaf)
+            child.node = next_node++;
+        else
+            for (u32 i = 0; meta >> CWBVH_COUNT_SHIFT >> i; ++i)
+                child.triangles.push_back(
+                    decode_leaf_triangle(bvh, size_t(node[CWBVH_TRIANGLE_WORD]) + (meta & 31u) + i));
+        children.push_back(child);
+    }
+    return children;
+}
+
+/// Words of a layout's node.
+inline size_t node_words(BvhLayout layout) {
+    switch (layout) {
+    case BvhLayout::BVH2:
+        return BVH2_NODE_WORDS;
+    case BvhLayout::CWBVH:
+        return CWBVH_NODE_WORDS;
+    case BvhLayout::BVH8:
+        break;
+    }
+    return BVH8_NODE_WORDS;
 }
 
 /// The children of a node by ascending slot, empty ones left out.
 inline std::vector<DecodedChild> decode_children(const Bvh& bvh, u32 node) {
+    if (bvh.layout == BvhLayout::CWBVH)
+        return decode_cwbvh_children(bvh, &bvh.nodes.at(size_t(node) * CWBVH_NODE_WORDS));
     const bool wide = bvh.layout == BvhLayout::BVH8;
     const u32* words = &bvh.nodes.at(size_t(node) * (wide ? BVH8_NODE_WORDS : BVH2_NODE_WORDS));
     std::vector<DecodedChild> children;

@@ -9,16 +9,28 @@
 namespace clrt {
 namespace {
 
-constexpr size_t STACK_ENTRIES = 7 * BVH_MAX_DEPTH + 1; // what a bvh8 traversal reserves
+// What traversals reserve: for children in bvh8, for groups of children in cwbvh. bvh2 restarts where its
+// stack is short.
+size_t stack_entries(BvhLayout layout) {
+    return layout == BvhLayout::BVH8   ? 7 * BVH_MAX_DEPTH + 1
+           : layout == BvhLayout::BVH2 ? BVH_MAX_DEPTH
+                                       : CWBVH_MAX_LEVELS;
+}
+
+size_t max_leaf(BvhLayout layout) {
+    return layout == BvhLayout::BVH8   ? BVH8_WIDTH
+           : layout == BvhLayout::BVH2 ? BVH2_LEAF_TRIANGLES
+                                       : CWBVH_LEAF_TRIANGLES;
+}
 
 struct TreeFacts {
     std::vector<int> seen; // how often each triangle is in a leaf
     size_t nodes = 0, leaves = 0;
     int levels = 0;
-    size_t wrong_boxes = 0;   // not exactly the bounds of the triangles below
+    size_t wrong_boxes = 0;   // not the bounds of the triangles below, in cwbvh not around them
     size_t wrong_corners = 0; // leaf triangles that differ from the mesh
     size_t unsorted_leaves = 0, oversized_leaves = 0;
-    size_t most_pending = 0; // entries of a traversal that pushes all children but one
+    size_t most_pending = 0; // entries of a traversal that pushes what it does not visit at once
     double area_tested = 0;
 };
 
@@ -55,21 +67,28 @@ Bounds check_leaf(const Mesh& mesh, const DecodedChild& child, size_t max_leaf, 
 }
 
 Bounds check_node(const Mesh& mesh, const Bvh& bvh, u32 node, int level, size_t pending, TreeFacts& facts) {
-    const bool wide = bvh.layout == BvhLayout::BVH8;
+    const bool quantised = bvh.layout == BvhLayout::CWBVH;
     ++facts.nodes;
     facts.levels = std::max(facts.levels, level);
     const std::vector<DecodedChild> children = decode_children(bvh, node);
-    const size_t pushed = pending + (children.empty() ? 0 : children.size() - 1);
+    // A cwbvh traversal tests leaves at once, and keeps what is left of inner children as one entry.
+    const size_t waiting = quantised ? size_t(std::count_if(children.begin(), children.end(),
+                                                            [](const DecodedChild& c) { return !c.is_leaf; }))
+                                     : children.size();
+    const size_t left_behind = waiting > 0 ? waiting - 1 : 0;
+    const size_t pushed = pending + (quantised ? std::min(left_behind, size_t(1)) : left_behind);
     facts.most_pending = std::max(facts.most_pending, pushed);
     Bounds all;
     for (const DecodedChild& child : children) {
-        const Bounds bounds = child.is_leaf
-                                  ? check_leaf(mesh, child, wide ? BVH8_WIDTH : BVH2_LEAF_TRIANGLES, facts)
-                                  : check_node(mesh, bvh, child.node, level + 1, pushed, facts);
+        const Bounds bounds = child.is_leaf ? check_leaf(mesh, child, max_leaf(bvh.layout), facts)
+                                            : check_node(mesh, bvh, child.node, level + 1, pushed, facts);
         for (int axis = 0; axis < 3; ++axis)
-            facts.wrong_boxes += bounds.lower[axis] != double(child.lower[axis]) ||
-                                 bounds.upper[axis] != double(child.upper[axis]);
-        const double tests = child.is_leaf && !wide ? double(child.triangles.size()) : 1.0;
+            facts.wrong_boxes +=
+                quantised
+                    ? bounds.lower[axis] < child.lower[axis] || bounds.upper[axis] > child.upper[axis]
+                    : bounds.lower[axis] != child.lower[axis] || bounds.upper[axis] != child.upper[axis];
+        const bool one_by_one = child.is_leaf && bvh.layout != BvhLayout::BVH8;
+        const double tests = one_by_one ? double(child.triangles.size()) : 1.0;
         facts.area_tested += tests * bounds.half_area();
         all.extend(bounds.lower, bounds.upper);
     }
@@ -109,11 +128,14 @@ TreeFacts check_tree(const Mesh& mesh, const Bvh& bvh) {
     EXPECT_EQ(facts.wrong_corners, 0u);
     EXPECT_EQ(facts.unsorted_leaves, 0u);
     EXPECT_EQ(facts.oversized_leaves, 0u);
-    EXPECT_EQ(facts.nodes * (wide ? BVH8_NODE_WORDS : BVH2_NODE_WORDS), bvh.nodes.size());
+    EXPECT_EQ(facts.nodes * node_words(bvh.layout), bvh.nodes.size());
     EXPECT_EQ(wide ? facts.leaves * BVH8_BLOCK_WORDS : usable * LEAF_TRIANGLE_WORDS, bvh.leaves.size());
     EXPECT_LE(bvh.depth, BVH_MAX_DEPTH);
     EXPECT_LE(facts.levels, std::max(bvh.depth, 1));
-    EXPECT_LT(facts.most_pending, wide ? STACK_ENTRIES : size_t(BVH_MAX_DEPTH));
+    EXPECT_LT(facts.most_pending, stack_entries(bvh.layout));
+    if (bvh.layout == BvhLayout::CWBVH) {
+        EXPECT_LE(facts.levels, CWBVH_MAX_LEVELS);
+    }
     EXPECT_NEAR(bvh.sah_cost, facts.area_tested, 1e-6 * facts.area_tested);
     return facts;
 }
@@ -150,7 +172,7 @@ TEST(Bvh, EmptySceneIsARootWithoutChildren) {
     for (BvhLayout layout : ALL_LAYOUTS) {
         const Bvh bvh = build_bvh({}, {}, layout);
         check_tree(Mesh{}, bvh);
-        EXPECT_EQ(bvh.nodes.size(), size_t(layout == BvhLayout::BVH8 ? BVH8_NODE_WORDS : BVH2_NODE_WORDS));
+        EXPECT_EQ(bvh.nodes.size(), node_words(layout));
         EXPECT_TRUE(decode_children(bvh, 0).empty());
         EXPECT_EQ(bvh.sah_cost, 0);
         EXPECT_EQ(bvh.depth, 0);

@@ -176,15 +176,17 @@ TEST(SameBits, SamplesGoRoundTheReplicates) {
     }
 }
 
-TEST(SameBits, BothTreesFindTheSameHits) {
+TEST(SameBits, AllTreesFindTheSameHits) {
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
         scene.options.bvh = BvhChoice::BVH8;
         const Render wide = scene.render();
-        scene.options.bvh = BvhChoice::BVH2;
-        const Render binary = scene.render();
-        EXPECT_EQ(count_differences(wide.film, binary.film), 0u) << name;
-        EXPECT_EQ(wide.counts.rays(), binary.counts.rays()) << name;
+        for (const BvhChoice choice : {BvhChoice::BVH2, BvhChoice::CWBVH}) {
+            scene.options.bvh = choice;
+            const Render other = scene.render();
+            EXPECT_EQ(count_differences(wide.film, other.film), 0u) << name << ", " << int(choice);
+            EXPECT_EQ(wide.counts.rays(), other.counts.rays()) << name << ", " << int(choice);
+        }
     }
 }
 

@@ -199,6 +199,23 @@ TEST(Degenerate, ADeepTreeOverflowsNoStack) {
     expect_hits_of_all(scene, rays, rays.size() * 2 / 5);
 }
 
+// Beside each of 58 shrinking levels stands a group of much larger triangles: the cheapest wide tree would have more
+// levels than the stack of cwbvh has entries. Rays near the small end meet nearly all boxes.
+TEST(Degenerate, TheLongestPathOverflowsNoStack) {
+    Scene scene = make_empty_scene();
+    for (int k = 0; k < 58; ++k)
+        for (int i = 0; i < 64; ++i) {
+            const double s = std::ldexp(1.0, 58 - 3 * k), step = s / 8, y = i % 8 * step, z = i / 8 * step;
+            add_triangle(scene, {0.9 * s, y, z}, {s, y + step / 2, z}, {0.95 * s, y, z + step / 2});
+        }
+    Random random(10);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 2000; ++i)
+        rays.push_back(make_ray_to(
+            {0, 0, 0}, corner_position(scene, scene.triangles[random.word() % scene.triangles.size()], i % 3)));
+    expect_hits_of_all(scene, rays, rays.size() / 4);
+}
+
 // Edges whose products underflow when they are squared, and edges that become parallel when they are rounded:
 // a normal has length 1 all the same, and faces the ray.
 TEST(Degenerate, TinyTrianglesAndNeedlesHaveUnitNormals) {
