@@ -50,7 +50,7 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
     out[10] += 1.0f;
 }
 
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void render_aov(const RenderParams params,
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void render_aov(const RenderParams params,
                                                                                       SCENE_PARAMS,
                                                                                       global float* restrict layers)
 {

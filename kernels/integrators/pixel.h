@@ -94,7 +94,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
         pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SHADOW] += rays.shadow;                         \
     }                                                                                                         \
                                                                                                               \
-    kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
+    CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
         const RenderParams params, SCENE_PARAMS, global long* restrict film,                                  \
         global uint* restrict pixel_rays, global volatile uint* counters)                                     \
     {                                                                                                         \
