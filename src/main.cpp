@@ -14,6 +14,7 @@
 #include "render/kernels.h"
 #include "render/picture.h"
 #include "render/render.h"
+#include "render/render_params.h"
 #include "render/report.h"
 #include "render/scene_buffers.h"
 #include "scene/load_scene.h"
@@ -64,10 +65,16 @@ int finish(const Report& report) {
         spdlog::warn("{} samples were not finite, negative or too large and count as 0 (the JSON of --stats lists them)",
                      render.counts.bad());
     if (render.stop_signal) {
-        spdlog::warn("stopped by a signal after {} spp; the picture is saved", render.passes);
+        spdlog::warn("stopped by a signal after {} spp; the picture is saved", film_samples(render.film));
         return 128 + render.stop_signal;
     }
-    return report.options.check == Check::STRICT && render.counts.bad() > 0 ? EXIT_CHECK : EXIT_DONE;
+    spdlog::info("ended after {} spp: {}", film_samples(render.film), render.stop_text);
+    const bool missed = report.options.error && !error_reached(report);
+    if (missed)
+        spdlog::warn("--error {:g} % is not reached", 100 * *report.options.error);
+    if (report.options.check == Check::STRICT && render.counts.bad() > 0)
+        return EXIT_CHECK;
+    return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
 }
 
 /// Prints what would be rendered and why.
@@ -102,7 +109,8 @@ int run_render(const Options& options) {
     const Render rendered = render(device, programs, buffers, scene, options, progress);
     progress.finish();
 
-    Report report{options, scene, effects, device.info, bvh, rendered, film_error(rendered.film), load_seconds,
+    const Crop window = render_window(options);
+    Report report{options, scene, effects, device.info, bvh, rendered, make_error_report(rendered, window.x0, window.y0), load_seconds,
                   programs.seconds, seconds_since(start)};
     write_outputs(report);
     if (options.verbosity >= 0)

@@ -13,9 +13,10 @@ namespace {
 
 /// The ray stack of the whitted kernel holds one ray a segment.
 constexpr int WHITTED_STACK_DEPTH = 64;
+/// Fewer give no interval.
+constexpr int FEWEST_REPLICATES_WITH_ERROR = 4;
 /// Samples a pixel are counted in 32 bits.
 constexpr std::uint64_t SAMPLE_LIMIT = std::uint64_t(1) << 32;
-constexpr std::uint32_t DEFAULT_SPP = 64;
 
 [[noreturn]] void reject(const Options& options, const std::string& message) {
     const bool from_file = !options.sidecar_path.empty();
@@ -57,10 +58,16 @@ void check_lens(const Options& options) {
 }
 
 void check_samples(const Options& options) {
-    const std::uint64_t end = std::uint64_t(options.first_sample) + options.spp.value_or(DEFAULT_SPP);
+    const std::uint64_t end = std::uint64_t(options.first_sample) + options.spp.value_or(options.error ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
     if (end >= SAMPLE_LIMIT)
         reject(options, "options --first-sample and --spp: expected a sum below " +
                             std::to_string(SAMPLE_LIMIT) + ", found " + std::to_string(end));
+}
+
+void check_error_target(const Options& options) {
+    if (options.error && options.replicates < FEWEST_REPLICATES_WITH_ERROR)
+        reject(options, "option --error: expected --replicates " + std::to_string(FEWEST_REPLICATES_WITH_ERROR) +
+                            " or more, whose spread is the error, found " + std::to_string(options.replicates));
 }
 
 void check_statistics_path(const Options& options) {
@@ -77,6 +84,7 @@ void check_combinations(const Options& options) {
     check_output_sizes(options);
     check_lens(options);
     check_samples(options);
+    check_error_target(options);
     check_statistics_path(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)
         reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +

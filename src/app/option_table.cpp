@@ -140,13 +140,17 @@ std::vector<OptionSpec> work_options() {
                                                          {"whitted", Integrator::WHITTED},
                                                          {"path", Integrator::PATH}});
          }},
-        {group, "s", "--spp", "N", "samples a pixel (default 64, or what --time allows)",
+        {group, "s", "--spp", "N", "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error)",
          [](Options& o, const OptionValue& v) {
              o.spp = static_cast<std::uint32_t>(parse_whole(v, 1, LARGEST_U32));
          }},
         {group, "t", "--time", "DURATION",
          "render for 90, 90s, 5m or 1h, up to a whole pass (default: no limit)",
          [](Options& o, const OptionValue& v) { o.time_seconds = parse_duration(v); }},
+        {group, "e", "--error", "X",
+         "render until the picture's relative error, root of mean squared over mean, is at most 0.02 or 2%; "
+         "whichever of -s, -t and -e comes first ends the render (default: no target)",
+         [](Options& o, const OptionValue& v) { o.error = parse_fraction(v); }},
         {group, "", "--max-depth", "N",
          "longest path in segments; 1 sees emitters, 2 adds direct light (default 64; whitted 10; raycast "
          "always 2)",

@@ -56,14 +56,20 @@ struct Crop {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
+/// Samples a pixel when none of --spp, --time and --error is given.
+constexpr std::uint32_t DEFAULT_SPP = 64;
+/// Samples a pixel at most when --error is given without --spp.
+constexpr std::uint32_t DEFAULT_SPP_WITH_ERROR = 65536;
+
 struct Options {
     // Work
     std::string scene_path;
     std::string device; ///< as given to --device; empty: CLRT_DEVICE, else the first GPU, else the CPU
     bool list_devices = false;
     Integrator integrator = Integrator::PATH;
-    std::optional<std::uint32_t> spp;   ///< 64 if neither spp nor time is given
-    std::optional<double> time_seconds; ///< bounds the render stage
+    std::optional<std::uint32_t> spp;   ///< 64 if none of spp, time and error is given; 65536 with error alone
+    std::optional<double> time_seconds; ///< bounds the render stage of this run
+    std::optional<double> error;        ///< target of the relative error
     std::optional<int> max_depth;       ///< path segments; 64, whitted 10, raycast always 2
     int roulette_depth = 5;             ///< path: first segment that Russian roulette may end
     double min_contribution = 0.002;    ///< whitted: smallest weight worth a ray
@@ -94,6 +100,10 @@ struct Options {
     Check check = Check::COUNT;
 
     // Runs
+    std::string checkpoint_path;              ///< film file to write; empty: none
+    double checkpoint_seconds = 300;          ///< between two of them
+    std::string resume_path;                  ///< film file to go on from; empty: none
+    std::optional<double> save_every_seconds; ///< between two pictures so far
     std::string kernels_folder; ///< replaces the embedded kernels
     std::string dump_folder;    ///< writes exactly what was compiled
     Toggle cache = Toggle::AUTO;

@@ -47,6 +47,7 @@ const std::map<std::string, std::string>& samples() {
         {"--integrator", "whitted"},
         {"--spp", "16"},
         {"--time", "5m"},
+        {"--error", "2%"},
         {"--max-depth", "12"},
         {"--roulette-depth", "9"},
         {"--min-contribution", "0.5%"},
@@ -111,6 +112,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     EXPECT_EQ(o.integrator, Integrator::PATH);
     EXPECT_FALSE(o.spp);
     EXPECT_FALSE(o.time_seconds);
+    EXPECT_FALSE(o.error);
     EXPECT_EQ(effective_max_depth(o), 64);
     EXPECT_EQ(o.roulette_depth, 5);
     EXPECT_EQ(o.min_contribution, 0.002);
@@ -262,6 +264,11 @@ TEST(CommandLine, DurationsHaveUnits) {
     EXPECT_EQ(parse({"-t", "1.5h"}).time_seconds, 5400.0);
 }
 
+TEST(CommandLine, TheErrorTargetIsAFractionOrPercent) {
+    EXPECT_EQ(parse({"-e", "0.02"}).error, 0.02);
+    EXPECT_EQ(parse({"--error=2%"}).error, 0.02);
+}
+
 TEST(CommandLine, ShortOptionsCanBeGlued) {
     const Options o = parse({"-s4", "-r16x8", "-lv"});
     EXPECT_EQ(o.spp, 4u);
@@ -356,6 +363,9 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--spp", "4294967296"},
         {"--spp", "-1"},
         {"--spp", "99999999999999999999"},
+        {"--error", "-1"},
+        {"--error", "101%"},
+        {"--error", "small"},
         {"--time", "0"},
         {"--time", "5d"},
         {"--time", "-5s"},
@@ -450,6 +460,8 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"-i", "whitted", "--max-depth", "65"}, "option --max-depth: expected at most 64");
     expect({"--first-sample", "4294967232"}, "expected a sum below 4294967296, found 4294967296");
     expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
+    expect({"--first-sample", "4294901760", "--error", "1%"}, "expected a sum below 4294967296");
+    expect({"--error", "1%", "--replicates", "3"}, "option --error: expected --replicates 4 or more");
     expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
     EXPECT_EQ(parse({"--first-sample", "4294967231"}).first_sample, 4294967231u);
     EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).max_depth, 64);

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_buffers.h"
+
+#include "device/opencl_error.h"
+
+#include <algorithm>
+#include <spdlog/spdlog.h>
+#include <tbb/parallel_for.h>
+
+namespace clrt {
+
+namespace {
+
+/// Slots of the film: whole tiles.
+size_t film_slots(const RenderParams& params) {
+    return size_t(params.tile_count) * TILE_PIXELS;
+}
+
+template <class T>
+std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t count) {
+    std::vector<T> values(count);
+    check_opencl("reading the picture back", [&] {
+        device.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
+    });
+    return values;
+}
+
+} // namespace
+
+int fitting_replicates(const Device& device, const RenderParams& params) {
+    const size_t plane = film_slots(params) * 3 * sizeof(std::int64_t);
+    const size_t most = std::min(device.info.largest_buffer_bytes, device.info.memory_bytes / 2);
+    int replicates = int(params.replicates);
+    while (size_t(replicates) * plane > most && replicates % 2 == 0)
+        replicates /= 2;
+    if (replicates != int(params.replicates))
+        spdlog::warn("the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
+                     params.replicates, replicates);
+    return replicates;
+}
+
+FilmBuffers::FilmBuffers(const Device& device, const RenderParams& params)
+    : device_(device), params_(params), slots_(film_slots(params)),
+      film_(create_buffer(device, "film", slots_ * 3 * params.film_replicates * sizeof(std::int64_t))),
+      pixel_rays_(create_buffer(device, "pixel_rays", slots_ * PIXEL_RAYS_WORDS * sizeof(u32))),
+      counters_(create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))) {}
+
+void FilmBuffers::bind(Kernel& kernel) const {
+    kernel.set("film", film_);
+    kernel.set("pixel_rays", pixel_rays_);
+    kernel.set("counters", counters_);
+}
+
+template <class Action>
+void FilmBuffers::for_each_pixel(Action&& action) const {
+    const size_t width = params_.crop_width, height = params_.crop_height;
+    tbb::parallel_for(size_t(0), size_t(params_.film_replicates) * height, [&](size_t row) {
+        const size_t replicate = row / height, y = row % height;
+        for (size_t x = 0; x < width; ++x) {
+            const size_t tile = y / TILE_SIZE * params_.tiles_x + x / TILE_SIZE;
+            const size_t slot = tile * TILE_PIXELS + (y % TILE_SIZE) * TILE_SIZE + x % TILE_SIZE;
+            action(3 * (replicate * slots_ + slot), 3 * (row * width + x));
+        }
+    });
+}
+
+void FilmBuffers::write_sums(const Film& film) {
+    std::vector<std::int64_t> tiles(slots_ * 3 * params_.film_replicates, 0);
+    for_each_pixel([&](size_t on_device, size_t in_film) { std::copy_n(&film.sums[in_film], 3, &tiles[on_device]); });
+    check_opencl("continuing the picture", [&] {
+        device_.queue.enqueueWriteBuffer(film_, CL_TRUE, 0, tiles.size() * sizeof(std::int64_t), tiles.data());
+    });
+}
+
+void FilmBuffers::read_sums(Film& film) const {
+    const auto tiles = read_buffer<std::int64_t>(device_, film_, slots_ * 3 * params_.film_replicates);
+    film.sums.resize(size_t(params_.film_replicates) * params_.crop_width * params_.crop_height * 3);
+    for_each_pixel([&](size_t on_device, size_t in_film) { std::copy_n(&tiles[on_device], 3, &film.sums[in_film]); });
+}
+
+RenderCounts FilmBuffers::read_counts() const {
+    const auto words = read_buffer<u32>(device_, counters_, COUNT_WORDS + 2 * REPLAY_CAPACITY);
+    RenderCounts counts;
+    counts.nan = words[COUNT_NAN];
+    counts.infinite = words[COUNT_INFINITE];
+    counts.negative = words[COUNT_NEGATIVE];
+    counts.overflow = words[COUNT_OVERFLOW];
+    const u32 noted = std::min<u32>(words[COUNT_BAD_SAMPLES], REPLAY_CAPACITY);
+    for (u32 i = 0; i < noted; ++i)
+        counts.bad_samples.emplace_back(words[COUNT_WORDS + 2 * i], words[COUNT_WORDS + 2 * i + 1]);
+    const auto rays = read_buffer<u32>(device_, pixel_rays_, slots_ * PIXEL_RAYS_WORDS);
+    for (size_t i = 0; i < rays.size(); i += PIXEL_RAYS_WORDS) {
+        counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
+        counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
+    }
+    return counts;
+}
+
+} // namespace clrt
