@@ -11,6 +11,7 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "render/checkpoint.h"
 #include "render/kernels.h"
 #include "render/picture.h"
 #include "render/render.h"
@@ -47,16 +48,57 @@ Device open_chosen_device(const Options& options) {
     return open_device(info);
 }
 
+void write_pictures(const Picture& picture, const Options& options) {
+    for (const std::string& path : options.outputs)
+        write_picture(picture, path, options.exposure_ev, options.tonemap);
+}
+
 void write_outputs(const Report& report) {
     Picture picture = make_picture(report.render, report.scene, report.options);
     picture.metadata = report_metadata(report);
-    for (const std::string& path : report.options.outputs) {
-        write_picture(picture, path, report.options.exposure_ev, report.options.tonemap);
+    write_pictures(picture, report.options);
+    for (const std::string& path : report.options.outputs)
         spdlog::info("wrote {}", path);
-    }
     if (!report.options.stats_path.empty())
         write_text_file(report.options.stats_path, report_json(report));
 }
+
+/// A save on the way must not end a render that goes on well: a full disk may have room later.
+void save_on_the_way(Progress& progress, const std::function<void()>& save) {
+    try {
+        save();
+    } catch (const SceneError& error) {
+        progress.finish();
+        spdlog::warn("{}; the render goes on", error.what());
+    }
+}
+
+/// Film files and pictures beside a render. Refers to its arguments.
+struct Saving {
+    FilmIdentity identity;
+    std::optional<RenderProgress> resumed;
+    RenderHooks hooks;
+
+    Saving(const Scene& scene, const Options& options, const DeviceInfo& device, Progress& progress) {
+        if (!options.checkpoint_path.empty() || !options.resume_path.empty())
+            identity = film_identity(scene, options, film_scale(scene));
+        if (!options.resume_path.empty())
+            resumed = read_resumed_film(options, identity);
+        hooks.resume = resumed ? &*resumed : nullptr;
+        hooks.save_picture = [&](const Render& render) {
+            save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
+        };
+        hooks.save_film = [&](const Render& render) {
+            save_on_the_way(progress, [&] { write_film_file(options.checkpoint_path, film_file(render, options, device)); });
+        };
+    }
+    Saving(const Saving&) = delete;
+    Saving& operator=(const Saving&) = delete;
+
+    FilmFile film_file(const Render& render, const Options& options, const DeviceInfo& device) const {
+        return make_film_file(render, identity, options, device);
+    }
+};
 
 /// The exit code of a finished run, and the warning that goes with it.
 int finish(const Report& report) {
@@ -96,6 +138,7 @@ int run_render(const Options& options) {
     for (const std::string& notice : scene.notices)
         spdlog::info("{}", notice);
     const Effects effects = find_effects(scene, options);
+    const Saving saving(scene, options, device.info, progress);
 
     // Compile while the tree is built.
     const BvhLayout layout = choose_layout(options.bvh, device.info);
@@ -106,8 +149,12 @@ int run_render(const Options& options) {
     const RenderPrograms programs = compiling.get();
     const SceneBuffers buffers = upload_scene(device, scene, bvh);
 
-    const Render rendered = render(device, programs, buffers, scene, options, progress);
+    const Render rendered = render(device, programs, buffers, scene, options, progress, saving.hooks);
     progress.finish();
+    if (!options.checkpoint_path.empty()) {
+        write_film_file(options.checkpoint_path, saving.film_file(rendered, options, device.info));
+        spdlog::info("wrote {}", options.checkpoint_path);
+    }
 
     const Crop window = render_window(options);
     Report report{options, scene, effects, device.info, bvh, rendered, make_error_report(rendered, window.x0, window.y0), load_seconds,

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "output/image.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace clrt {
@@ -70,11 +71,18 @@ void check_error_target(const Options& options) {
                             " or more, whose spread is the error, found " + std::to_string(options.replicates));
 }
 
-void check_statistics_path(const Options& options) {
+void check_written_paths(const Options& options) {
     std::error_code error; // a file that is not there yet is no other file
-    for (const std::string& input : {options.scene_path, options.sidecar_path})
+    for (const std::string& input : {options.scene_path, options.sidecar_path}) {
         if (!options.stats_path.empty() && std::filesystem::equivalent(options.stats_path, input, error))
             reject(options, "option --stats: expected a file to write, found the input " + input);
+        if (!options.checkpoint_path.empty() && std::filesystem::equivalent(options.checkpoint_path, input, error))
+            reject(options, "option --checkpoint: expected a file to write, found the input " + input);
+    }
+    const std::string& film = options.checkpoint_path;
+    const bool is_output = std::find(options.outputs.begin(), options.outputs.end(), film) != options.outputs.end();
+    if (!film.empty() && (is_output || film == options.stats_path))
+        reject(options, "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
 }
 
 } // namespace
@@ -85,7 +93,7 @@ void check_combinations(const Options& options) {
     check_lens(options);
     check_samples(options);
     check_error_target(options);
-    check_statistics_path(options);
+    check_written_paths(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)
         reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
                             " with --integrator whitted, found " + std::to_string(*options.max_depth));

@@ -7,6 +7,7 @@
 #include "output/image.h"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 namespace clrt {
@@ -111,6 +112,21 @@ void apply_output(Options& o, const OptionValue& v) {
     if (!is_output_path(path))
         reject_value(v, std::string("a file name that ends in ") + OUTPUT_EXTENSIONS);
     o.outputs.push_back(path);
+}
+
+/// FILE or FILE,DURATION: a comma in the name counts where no digit follows it.
+void apply_checkpoint(Options& o, const OptionValue& v) {
+    const size_t comma = v.text.rfind(',');
+    const bool has_interval =
+        comma != std::string::npos && comma + 1 < v.text.size() && std::isdigit(static_cast<unsigned char>(v.text[comma + 1]));
+    OptionValue path = v, interval = v;
+    path.text = has_interval ? v.text.substr(0, comma) : v.text;
+    o.checkpoint_path = parse_path(path);
+    o.checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;
+    if (!has_interval)
+        return;
+    interval.text = v.text.substr(comma + 1);
+    o.checkpoint_seconds = parse_duration(interval);
 }
 
 void apply_text(std::string& target, const OptionValue& v) {
@@ -304,6 +320,15 @@ std::vector<OptionSpec> promise_options() {
 std::vector<OptionSpec> run_options() {
     const char* const group = "Runs";
     return {
+        {group, "", "--checkpoint", "FILE[,TIME]",
+         "write a film file, from which --resume goes on and which clrt-merge merges, at the end and so often "
+         "(default: none; every 5m)",
+         apply_checkpoint},
+        {group, "", "--resume", "FILE",
+         "go on from a film file: with the same command, or alone with another --spp, --time or --error",
+         [](Options& o, const OptionValue& v) { o.resume_path = parse_path(v); }, Repeat::NO, COMMAND_LINE_ONLY},
+        {group, "", "--save-every", "DURATION", "write the pictures so far so often (default: at the end only)",
+         [](Options& o, const OptionValue& v) { o.save_every_seconds = parse_duration(v); }},
         {group, "", "--kernels", "DIR", "take the kernels from here (default: those inside clrt)",
          [](Options& o, const OptionValue& v) { o.kernels_folder = parse_path(v); }},
         {group, "", "--dump-kernels", "DIR", "write here exactly what is compiled",

@@ -61,6 +61,9 @@ constexpr std::uint32_t DEFAULT_SPP = 64;
 /// Samples a pixel at most when --error is given without --spp.
 constexpr std::uint32_t DEFAULT_SPP_WITH_ERROR = 65536;
 
+/// Between two film files of one run.
+constexpr double DEFAULT_CHECKPOINT_SECONDS = 300;
+
 struct Options {
     // Work
     std::string scene_path;
@@ -101,7 +104,7 @@ struct Options {
 
     // Runs
     std::string checkpoint_path;              ///< film file to write; empty: none
-    double checkpoint_seconds = 300;          ///< between two of them
+    double checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;        ///< between two of them
     std::string resume_path;                  ///< film file to go on from; empty: none
     std::optional<double> save_every_seconds; ///< between two pictures so far
     std::string kernels_folder; ///< replaces the embedded kernels
@@ -113,6 +116,8 @@ struct Options {
     bool no_sidecar = false;
     std::string sidecar_path;         ///< options file that was read; empty: none
     std::vector<std::string> command; ///< argv as given, for the metadata
+    /// The command line that a film file keeps for --resume: without --resume, with what that took from its film.
+    std::vector<std::string> resumable_command;
 };
 
 /// The largest path length in segments for these options (INTERFACE: raycast 2, whitted 10, path 64).

@@ -35,9 +35,10 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// Samples a pixel that the film holds and that 32-bit sample numbers reach.
-std::uint64_t film_limit(const RenderParams& params, const Options& options) {
-    return std::min(FILM_SAMPLES_PER_REPLICATE * std::uint64_t(params.film_replicates),
-                    std::uint64_t(UINT32_MAX - options.first_sample));
+std::uint64_t film_limit(const Film& film, const Options& options) {
+    const std::uint64_t next = film.ranges.empty() ? options.first_sample : film.ranges.back().end;
+    return std::min(FILM_SAMPLES_PER_REPLICATE * std::uint64_t(film.replicates),
+                    film_samples(film) + UINT32_MAX - next);
 }
 
 /// Reminds every so often; never without an interval.
@@ -92,6 +93,7 @@ private:
     RenderCounts earlier_counts_;
     double earlier_seconds_ = 0;
     std::uint64_t first_ = 0, samples_ = 0; ///< the next sample's number; samples of the whole film
+    std::optional<SquaredError> last_error_; ///< as last measured
     double launch_seconds_ = 0;             ///< of all launches of this run
     double pass_seconds_ = 0;               ///< of one pass, by the last launch
 };
@@ -101,7 +103,7 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
       progress_(progress), hooks_(hooks), result_(result), film_buffers_(device, params),
       launcher_(device, programs.picture, std::string("render_") + integrator_name(options.integrator), params, buffers),
-      rules_(options, film_limit(params, options)),
+      rules_(options, film_limit(result.film, options)),
       picture_reminder_(options.save_every_seconds),
       film_reminder_(options.checkpoint_path.empty() ? std::nullopt : std::optional(options.checkpoint_seconds)) {
     film_buffers_.bind(launcher_.kernel());
@@ -154,10 +156,9 @@ void Passes::run_launches(std::uint32_t samples) {
         pass_seconds_ = seconds / samples * params_.tile_count / (end - tile);
         tile = end;
         const double done = double(samples_) + double(samples) * tile / params_.tile_count;
-        const SquaredError* last = result_.history.empty() ? nullptr : &result_.history.back();
-        const std::optional<FilmError> error = last ? relative_error(*last) : std::nullopt;
-        progress_.update({"render", rules_.fraction(done, seconds_since(start_), last ? std::optional(*last) : std::nullopt),
-                          std::uint64_t(done), -1, error ? error->relative_rmse : -1});
+        const std::optional<FilmError> error = last_error_ ? relative_error(*last_error_) : std::nullopt;
+        progress_.update({"render", rules_.fraction(done, seconds_since(start_), last_error_), std::uint64_t(done), -1,
+                          error ? error->relative_rmse : -1});
     }
     samples_ += samples;
     first_ += samples;
@@ -168,12 +169,14 @@ void Passes::run_launches(std::uint32_t samples) {
     ranges.back().end = first_;
 }
 
-/// Reads the film and adds its error to the history.
+/// Reads the film and measures its error, for the history where the samples have doubled.
 void Passes::measure() {
     const auto start = Clock::now();
     film_buffers_.read_sums(result_.film);
-    if (std::optional<SquaredError> error = film_squared_error(result_.film))
-        result_.history.push_back(std::move(*error));
+    last_error_ = film_squared_error(result_.film);
+    const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
+    if (last_error_ && is_new && rules_.is_check(samples_))
+        result_.history.push_back(*last_error_);
     result_.check_seconds += seconds_since(start);
 }
 
@@ -181,15 +184,16 @@ void Passes::measure() {
 RenderState Passes::measured_state() {
     const double affordable = std::max(SMALL_CHECK_SECONDS, LARGEST_CHECK_SHARE * seconds_since(start_));
     const bool worth_it = options_.error || result_.check_seconds <= affordable;
-    if (result_.passes > 0 && rules_.is_check(samples_) && worth_it)
+    const bool resumed = samples_ > 0 && result_.passes == 0;
+    if ((rules_.is_check(samples_) && worth_it) || (resumed && options_.error))
         measure();
     RenderState state;
     state.samples = samples_;
     state.seconds = seconds_since(start_);
     state.pass_seconds = result_.passes > 0 ? launch_seconds_ / double(result_.passes) : 0;
     state.signal = stop_signal();
-    if (!result_.history.empty() && result_.history.back().samples == samples_)
-        state.error = relative_error(result_.history.back());
+    if (last_error_ && last_error_->samples == samples_)
+        state.error = relative_error(*last_error_);
     return state;
 }
 

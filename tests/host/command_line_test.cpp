@@ -80,6 +80,9 @@ const std::map<std::string, std::string>& samples() {
         {"--effects", "all"},
         {"--stats", "run.json"},
         {"--check", "strict"},
+        {"--checkpoint", "a.film,90s"},
+        {"--resume", "a.film"},
+        {"--save-every", "1m"},
         {"--kernels", "kernels"},
         {"--dump-kernels", "dump"},
         {"--cache", "on"},
@@ -267,6 +270,31 @@ TEST(CommandLine, DurationsHaveUnits) {
 TEST(CommandLine, TheErrorTargetIsAFractionOrPercent) {
     EXPECT_EQ(parse({"-e", "0.02"}).error, 0.02);
     EXPECT_EQ(parse({"--error=2%"}).error, 0.02);
+}
+
+TEST(CommandLine, ACheckpointMayHaveAnInterval) {
+    const auto expect = [](const std::string& text, const std::string& path, double seconds) {
+        const Options o = parse({"--checkpoint", text});
+        EXPECT_EQ(o.checkpoint_path, path);
+        EXPECT_EQ(o.checkpoint_seconds, seconds);
+    };
+    expect("a.film", "a.film", 300);
+    expect("a.film,90s", "a.film", 90);
+    expect("a,b.film", "a,b.film", 300);
+    expect("a,b.film,1.5m", "a,b.film", 90);
+    EXPECT_NE(refusal({"--checkpoint", "a.film,5d", "s.obj"}).find("option --checkpoint: expected a duration"),
+              std::string::npos);
+    EXPECT_NE(refusal({"--checkpoint", ",5s", "s.obj"}).find("option --checkpoint: expected a path"),
+              std::string::npos);
+    EXPECT_NE(refusal({"--checkpoint", "a.png", "-o", "a.png", "s.obj"}).find("a file of its own"),
+              std::string::npos);
+}
+
+TEST(CommandLine, TheCommandOfAFilmLacksResume) {
+    const Options o = parse({"--resume", "a.film", "-s", "16", "--checkpoint=b.film", "-v"});
+    EXPECT_EQ(o.resume_path, "a.film");
+    EXPECT_EQ(o.resumable_command, (std::vector<std::string>{"clrt", "--spp=16", "--checkpoint=b.film", "--verbose",
+                                                             "--", "scene.obj"}));
 }
 
 TEST(CommandLine, ShortOptionsCanBeGlued) {
