@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 clrt_test(render cut_out_test)
 clrt_test(render direct_light_test)
+clrt_test(render error_bar_test)
 clrt_test(render furnace_test)
 clrt_test(render glass_test)
 clrt_test(render interreflection_test)
