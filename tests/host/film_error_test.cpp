@@ -122,7 +122,11 @@ TEST(FilmError, TheSlopeIsThatOfTheLine) {
 TEST(FilmError, ThereIsNoSlopeUnderFourOctavesOrWithoutError) {
     EXPECT_FALSE(error_slope({}));
     EXPECT_FALSE(error_slope(falling_errors(0.5, -1, 3)));
-    auto history = falling_errors(0.5, -1, 4);
+    auto history = falling_errors(0.5, -1, 3);
+    history.push_back(history.back()); // five errors, three octaves
+    history.back().samples += 8;
+    EXPECT_FALSE(error_slope(history));
+    history = falling_errors(0.5, -1, 4);
     history.back().mean_squared = 0;
     EXPECT_FALSE(error_slope(history));
     history = falling_errors(0.5, -1, 4);
