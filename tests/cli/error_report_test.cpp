@@ -3,6 +3,7 @@
 #include "clrt_command.h"
 
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -44,6 +45,29 @@ TEST_F(ErrorReport, AReachedTargetEndsWithZeroAtADoubling) {
     EXPECT_EQ(json["passes"], spp);
     // With a quarter of the samples it was not reached yet: the render did not go on in vain.
     EXPECT_EQ(render({"--error", "2%", "--spp", std::to_string(spp / 2)}).exit_code, 5);
+}
+
+// The error that ended the render, against two long runs with other seeds: mean((x - a)(x - b)) is the squared error of x
+// without the noise of a and b.
+TEST_F(ErrorReport, AReachedTargetIsTrueOnTheCornellBox) {
+    const auto box = [&](const std::string& name, std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {CLRT_SCENES_FOLDER "/cornell_box/cornell_box.obj", "-r", "64x64", "--aov", "none",
+                                           "--stats", "s.json", "-o", name});
+        const CommandResult result = clrt(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return ReadPicture(folder.file(name));
+    };
+    const ReadPicture a = box("a.exr", {"--spp", "512", "--seed", "1"}), b = box("b.exr", {"--spp", "512", "--seed", "2"});
+    const ReadPicture x = box("x.exr", {"--error", "10%"});
+    double squared = 0, mean = 0;
+    for (size_t i = 0; i < x.values.size(); ++i) {
+        squared += double(x.values[i] - a.values[i]) * double(x.values[i] - b.values[i]) / double(x.values.size());
+        mean += double(x.values[i]) / double(x.values.size());
+    }
+    const double printed = stats()["error"]["rel_rmse"];
+    std::printf("printed %.2f %%, true over printed %.3f\n", 100 * printed, std::sqrt(squared) / mean / printed);
+    EXPECT_LE(printed, 0.1);
+    EXPECT_NEAR(std::sqrt(squared) / mean / printed, 1, 0.15);
 }
 
 TEST_F(ErrorReport, AMissedTargetEndsWithFiveAndThePicture) {

@@ -8,6 +8,7 @@ function(clrt_command_test name)
 endfunction()
 
 clrt_command_test(error_report_test)
+target_compile_definitions(error_report_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
 clrt_command_test(exit_code_test)
 clrt_command_test(film_command_test)
 target_compile_definitions(film_command_test PRIVATE CLRT_MERGE_EXECUTABLE="$<TARGET_FILE:clrt-merge>")
