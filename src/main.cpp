@@ -11,6 +11,7 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "paths/path_report.h"
 #include "render/kernels.h"
 #include "render/picture.h"
 #include "render/render.h"
@@ -70,6 +71,38 @@ int finish(const Report& report) {
     return report.options.check == Check::STRICT && render.counts.bad() > 0 ? EXIT_CHECK : EXIT_DONE;
 }
 
+/// What tree, program and passes give.
+struct Simulation {
+    Bvh bvh;
+    Render render;
+    double compile_seconds = 0;
+};
+
+Simulation simulate(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
+                    Progress& progress) {
+    // Compile while the tree is built.
+    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    progress.update({"compile", -1, 0, -1});
+    std::future<RenderPrograms> compiling = std::async(std::launch::async, [&] {
+        return build_render_programs(device, options, effects.mask, layout, effects.paths);
+    });
+    Simulation done;
+    done.bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const RenderPrograms programs = compiling.get();
+    const SceneBuffers buffers = upload_scene(device, scene, done.bvh);
+    done.render = render(device, programs, buffers, scene, options, progress);
+    done.compile_seconds = programs.seconds;
+    return done;
+}
+
+/// The black picture, when no path of the scene is asked for.
+Simulation simulate_nothing(const Scene& scene, const Effects& effects, const Options& options) {
+    spdlog::warn("{}", path_summary(effects.paths));
+    Simulation done;
+    done.render = render_nothing(scene, options);
+    return done;
+}
+
 /// Prints what would be rendered and why.
 int run_explain(const Options& options) {
     Progress progress(options.progress, options.verbosity < 0);
@@ -90,20 +123,13 @@ int run_render(const Options& options) {
         spdlog::info("{}", notice);
     const Effects effects = find_effects(scene, options);
 
-    // Compile while the tree is built.
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
-    progress.update({"compile", -1, 0, -1});
-    std::future<RenderPrograms> compiling = std::async(
-        std::launch::async, [&] { return build_render_programs(device, options, effects.mask, layout); });
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
-    const RenderPrograms programs = compiling.get();
-    const SceneBuffers buffers = upload_scene(device, scene, bvh);
-
-    const Render rendered = render(device, programs, buffers, scene, options, progress);
+    const Simulation done = effects.paths.is_empty
+                                ? simulate_nothing(scene, effects, options)
+                                : simulate(device, scene, effects, options, progress);
     progress.finish();
 
-    Report report{options, scene, effects, device.info, bvh, rendered, film_error(rendered.film), load_seconds,
-                  programs.seconds, seconds_since(start)};
+    Report report{options, scene, effects, device.info, done.bvh, done.render, film_error(done.render.film),
+                  load_seconds, done.compile_seconds, seconds_since(start)};
     write_outputs(report);
     if (options.verbosity >= 0)
         fmt::print("{}", format_report(report));

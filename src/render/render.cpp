@@ -71,12 +71,12 @@ size_t film_slots(const RenderParams& params) {
     return size_t(params.tile_count) * TILE_PIXELS;
 }
 
-/// Halves the number of replicates kept apart until their sums fit the device.
-int fitting_replicates(const Device& device, const RenderParams& params) {
+/// Halves the number of replicates kept apart until their sums and those of `layers` layers fit the device.
+int fitting_replicates(const Device& device, const RenderParams& params, size_t layers) {
     const size_t plane = film_slots(params) * 3 * sizeof(std::int64_t);
     const size_t most = std::min(device.info.largest_buffer_bytes, device.info.memory_bytes / 2);
     int replicates = int(params.replicates);
-    while (size_t(replicates) * plane > most && replicates % 2 == 0)
+    while ((size_t(replicates) + layers) * plane > most && replicates % 2 == 0)
         replicates /= 2;
     if (replicates != int(params.replicates))
         spdlog::warn("the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
@@ -147,19 +147,26 @@ private:
     std::uint64_t target_ = 0;
 };
 
+/// Samples a pixel that every sum of the film can hold; a layer of paths has one for all replicates.
+std::uint64_t film_capacity(const Options& options) {
+    return FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.path_layers.empty() ? options.replicates : 1);
+}
+
 void check_film_capacity(const Options& options, std::uint64_t samples) {
-    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.replicates);
+    const std::uint64_t most = film_capacity(options);
     if (options.spp && samples > most)
-        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with --replicates {}; "
+        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with {}; "
                                      "render disjoint ranges with --first-sample",
-                                     samples, most, options.replicates));
+                                     samples, most,
+                                     options.path_layers.empty() ? fmt::format("--replicates {}", options.replicates)
+                                                                 : "layers of paths"));
 }
 
 /// Runs all passes on a film buffer.
 void run_passes(const Options& options, const RenderParams& params, Launcher& launcher, Progress& progress,
                 Render& result) {
     const Schedule schedule(options, params.tile_count);
-    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.replicates);
+    const std::uint64_t most = film_capacity(options);
     const auto start = Clock::now();
     double pass_seconds = 0;
     while (result.passes < most) {
@@ -201,9 +208,11 @@ struct Targets {
     cl::Buffer film, pixel_rays, counters;
 };
 
-Targets create_targets(const Device& device, const RenderParams& params) {
+/// `layers`: of paths; their sums lie behind the replicates'.
+Targets create_targets(const Device& device, const RenderParams& params, size_t layers) {
     const size_t slots = film_slots(params);
-    return {create_buffer(device, "film", slots * 3 * params.film_replicates * sizeof(std::int64_t)),
+    const size_t planes = params.film_replicates + layers;
+    return {create_buffer(device, "film", slots * 3 * planes * sizeof(std::int64_t)),
             create_buffer(device, "pixel_rays", slots * PIXEL_RAYS_WORDS * sizeof(u32)),
             create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))};
 }
@@ -217,13 +226,12 @@ std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_
     return values;
 }
 
-/// Reads one replicate after the other from the device's tiles into the film's rows.
-void read_film(const Device& device, const RenderParams& params, const cl::Buffer& buffer, Film& film) {
+/// Reads one replicate after the other, from plane `first` on, from the device's tiles into the film's rows.
+void read_film(const RenderParams& params, const std::vector<std::int64_t>& tiles, size_t first, Film& film) {
     const size_t slots = film_slots(params);
-    const std::vector<std::int64_t> tiles = read_buffer<std::int64_t>(device, buffer, slots * 3 * film.replicates);
     film.sums.resize(size_t(film.replicates) * film.width * film.height * 3);
     size_t out = 0;
-    for (size_t r = 0; r < size_t(film.replicates); ++r)
+    for (size_t r = first; r < first + size_t(film.replicates); ++r)
         for (u32 y = 0; y < params.crop_height; ++y)
             for (u32 x = 0; x < params.crop_width; ++x, out += 3) {
                 const size_t tile = size_t(y / TILE_SIZE) * params.tiles_x + x / TILE_SIZE;
@@ -232,9 +240,22 @@ void read_film(const Device& device, const RenderParams& params, const cl::Buffe
             }
 }
 
-void read_results(const Device& device, const RenderParams& params, const Targets& targets, Render& result) {
+void read_films(const Device& device, const RenderParams& params, const Targets& targets, size_t layers,
+                Render& result) {
+    const size_t planes = params.film_replicates + layers;
+    const std::vector<std::int64_t> tiles =
+        read_buffer<std::int64_t>(device, targets.film, film_slots(params) * 3 * planes);
     result.film.samples = result.passes;
-    read_film(device, params, targets.film, result.film);
+    read_film(params, tiles, 0, result.film);
+    Film layer = result.film;
+    layer.replicates = 1;
+    for (size_t i = 0; i < layers; ++i) {
+        read_film(params, tiles, params.film_replicates + i, layer);
+        result.path_layers.push_back(layer);
+    }
+}
+
+void read_results(const Device& device, const RenderParams& params, const Targets& targets, Render& result) {
     result.counts = read_counts(read_buffer<u32>(device, targets.counters, COUNT_WORDS + 2 * REPLAY_CAPACITY));
     result.counts.primary = std::uint64_t(params.crop_width) * params.crop_height * result.passes;
     const size_t words = film_slots(params) * PIXEL_RAYS_WORDS;
@@ -256,11 +277,13 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     RenderParams params = make_render_params(scene, options, film.scale);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
-    film.replicates = fitting_replicates(device, params);
+    const size_t layers = programs.paths.layers.size();
+    film.replicates = fitting_replicates(device, params, layers);
     film.first_sample = options.first_sample;
     params.film_replicates = u32(film.replicates);
+    restrict_lights(programs.paths, params);
 
-    const Targets targets = create_targets(device, params);
+    const Targets targets = create_targets(device, params, layers);
     Launcher launcher(device, programs.picture, std::string("render_") + integrator_name(options.integrator), params,
                       buffers);
     launcher.kernel().set("film", targets.film);
@@ -274,9 +297,23 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     result.first_launch_seconds = seconds_since(start);
 
     run_passes(options, params, launcher, progress, result);
+    read_films(device, params, targets, layers, result);
     read_results(device, params, targets, result);
     if (programs.layers && result.passes > 0)
         render_layers(device, *programs.layers, buffers, params, options, result);
+    return result;
+}
+
+Render render_nothing(const Scene& scene, const Options& options) {
+    const Crop window = render_window(options);
+    Render result;
+    Film& film = result.film;
+    film.scale = film_scale(scene);
+    film.width = window.x1 - window.x0;
+    film.height = window.y1 - window.y0;
+    film.first_sample = options.first_sample;
+    film.sums.resize(size_t(film.width) * film.height * 3);
+    result.path_layers.assign(options.path_layers.size(), film);
     return result;
 }
 

@@ -33,6 +33,7 @@ struct Render {
     RenderCounts counts;
     HitLayers layers;
     std::uint32_t layer_samples = 0;
+    std::vector<Film> path_layers; ///< light of each layer NAME=EXPR in one replicate
     std::uint64_t passes = 0;        ///< samples a pixel in this run
     double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
     double seconds = 0;              ///< of all launches, first_launch_seconds not included
@@ -43,5 +44,8 @@ struct Render {
 /// Throws DeviceError, and UsageError for more samples than the film can hold.
 Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
               const Options& options, Progress& progress);
+
+/// A render without a launch: the black picture of a scene in which no path is accepted.
+Render render_nothing(const Scene& scene, const Options& options);
 
 } // namespace clrt

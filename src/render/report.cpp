@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/report.h"
 
+#include "paths/path_report.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -65,6 +67,14 @@ Json effects_json(const Effects& effects) {
     return list;
 }
 
+/// Expressions as metadata, where there are any.
+void add_paths(const PathPlan& paths, Metadata& metadata) {
+    if (!paths.expression.empty())
+        metadata.emplace_back("paths", paths.expression);
+    for (const PathLayerOption& layer : paths.layers)
+        metadata.emplace_back("paths." + layer.name, layer.expression);
+}
+
 } // namespace
 
 std::uint64_t peak_memory_bytes() {
@@ -89,6 +99,8 @@ std::string format_report(const Report& report) {
     text += fmt::format("error    {}\n", format_error(report.error));
     text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
                         counts.negative, counts.overflow);
+    if (report.effects.paths.is_asked)
+        text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
     text += fmt::format("absent   {}\n", fmt::join(effect_names(report.effects, false), ", "));
     return text;
 }
@@ -136,6 +148,7 @@ std::string report_json(const Report& report) {
     json["load"] = {{"obj_bytes", report.scene.statistics.obj_bytes},
                     {"obj_seconds", report.scene.statistics.obj_seconds},
                     {"texture_seconds", report.scene.statistics.texture_seconds}};
+    json["paths"] = paths_json(report.effects.paths);
     json["effects"] = effects_json(report.effects);
     json["notices"] = report.scene.notices;
     return json.dump(2) + "\n";
@@ -163,6 +176,7 @@ Metadata report_metadata(const Report& report) {
                       {"infinite", std::to_string(render.counts.infinite)},
                       {"negative", std::to_string(render.counts.negative)},
                       {"overflow", std::to_string(render.counts.overflow)}};
+    add_paths(report.effects.paths, metadata);
     if (report.error)
         metadata.emplace_back("error", fmt::format("{:.6g}", report.error->relative_rmse));
     return metadata;
