@@ -11,6 +11,7 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "paths/path_report.h"
 #include "render/checkpoint.h"
 #include "render/kernels.h"
 #include "render/picture.h"
@@ -111,12 +112,44 @@ int finish(const Report& report) {
         return 128 + render.stop_signal;
     }
     spdlog::info("ended after {} spp: {}", film_samples(render.film), render.stop_text);
-    const bool missed = report.options.error && !error_reached(report);
+    const bool missed = report.options.error && film_samples(render.film) > 0 && !error_reached(report);
     if (missed)
         spdlog::warn("--error {:g} % is not reached", 100 * *report.options.error);
     if (report.options.check == Check::STRICT && render.counts.bad() > 0)
         return EXIT_CHECK;
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
+}
+
+/// What tree, program and passes give.
+struct Simulation {
+    Bvh bvh;
+    Render render;
+    double compile_seconds = 0;
+};
+
+Simulation simulate(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
+                    Progress& progress, const RenderHooks& hooks) {
+    // Compile while the tree is built.
+    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    progress.update({"compile", -1, 0, -1});
+    std::future<RenderPrograms> compiling = std::async(std::launch::async, [&] {
+        return build_render_programs(device, options, effects.mask, layout, effects.paths);
+    });
+    Simulation done;
+    done.bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const RenderPrograms programs = compiling.get();
+    const SceneBuffers buffers = upload_scene(device, scene, done.bvh);
+    done.render = render(device, programs, buffers, scene, options, progress, hooks);
+    done.compile_seconds = programs.seconds;
+    return done;
+}
+
+/// The black picture, when no path of the scene is asked for.
+Simulation simulate_nothing(const Scene& scene, const Effects& effects, const Options& options) {
+    spdlog::warn("{}", path_summary(effects.paths));
+    Simulation done;
+    done.render = render_nothing(scene, options);
+    return done;
 }
 
 /// Prints what would be rendered and why.
@@ -140,25 +173,19 @@ int run_render(const Options& options) {
     const Effects effects = find_effects(scene, options);
     const Saving saving(scene, options, device.info, progress);
 
-    // Compile while the tree is built.
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
-    progress.update({"compile", -1, 0, -1});
-    std::future<RenderPrograms> compiling = std::async(
-        std::launch::async, [&] { return build_render_programs(device, options, effects.mask, layout); });
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
-    const RenderPrograms programs = compiling.get();
-    const SceneBuffers buffers = upload_scene(device, scene, bvh);
-
-    const Render rendered = render(device, programs, buffers, scene, options, progress, saving.hooks);
+    const Simulation done = effects.paths.is_empty
+                                ? simulate_nothing(scene, effects, options)
+                                : simulate(device, scene, effects, options, progress, saving.hooks);
     progress.finish();
-    if (!options.checkpoint_path.empty()) {
-        write_film_file(options.checkpoint_path, saving.film_file(rendered, options, device.info));
+    if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0) {
+        write_film_file(options.checkpoint_path, saving.film_file(done.render, options, device.info));
         spdlog::info("wrote {}", options.checkpoint_path);
     }
 
     const Crop window = render_window(options);
-    Report report{options, scene, effects, device.info, bvh, rendered, make_error_report(rendered, window.x0, window.y0), load_seconds,
-                  programs.seconds, seconds_since(start)};
+    Report report{options, scene, effects, device.info, done.bvh, done.render,
+                  make_error_report(done.render, window.x0, window.y0), load_seconds, done.compile_seconds,
+                  seconds_since(start)};
     write_outputs(report);
     if (options.verbosity >= 0)
         fmt::print("{}", format_report(report));

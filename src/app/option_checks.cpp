@@ -85,6 +85,22 @@ void check_written_paths(const Options& options) {
         reject(options, "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
 }
 
+/// Only `path` walks the automaton; the others simulate one language each.
+void check_paths(const Options& options) {
+    const bool has_paths = !options.paths.empty();
+    if (options.integrator != Integrator::PATH && (has_paths || !options.path_layers.empty())) {
+        const bool whitted = options.integrator == Integrator::WHITTED;
+        reject(options, std::string(has_paths ? "option --paths" : "option --aov NAME=EXPR") +
+                            ": expected --integrator path, found " +
+                            (whitted ? "whitted, which simulates 'LD?S*E' alone"
+                                     : "raycast, which simulates 'LD?E' alone"));
+    }
+    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_layered_output);
+    if (!options.path_layers.empty() && !has_exr && options.explain == Explain::NO)
+        reject(options, "option --aov: expected an output that ends in .exr for the layer '" +
+                            options.path_layers.front().name + "', found none; add -o FILE.exr");
+}
+
 } // namespace
 
 void check_combinations(const Options& options) {
@@ -94,6 +110,7 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_written_paths(options);
+    check_paths(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)
         reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
                             " with --integrator whitted, found " + std::to_string(*options.max_depth));

@@ -4,7 +4,9 @@
 
 #include "app/nearest_name.h"
 #include "error.h"
+#include "kernels/shared/path_types.h"
 #include "output/image.h"
+#include "paths/path_expression.h"
 
 #include <algorithm>
 #include <cctype>
@@ -90,19 +92,60 @@ void apply_filter(Options& o, const OptionValue& v) {
                                    [](double r) { return r > 0 && r <= LARGEST_FILTER_RADIUS; });
 }
 
-void apply_aov(Options& o, const OptionValue& v) {
-    static const std::vector<std::string> LAYERS = {"albedo",     "N",        "Z",       "P",    "objectId",
+constexpr size_t LARGEST_LAYER_NAME = 60;
+
+/// Reads an expression; a message of it says where the value is from.
+void check_paths(const OptionValue& v, const std::string& expression) {
+    try {
+        parse_path_expression(expression);
+    } catch (const UsageError& error) {
+        throw UsageError(v.origin + "option " + v.option + ": " + error.what());
+    }
+}
+
+const std::vector<std::string>& fixed_layers() {
+    static const std::vector<std::string> layers = {"albedo",     "N",        "Z",       "P",    "objectId",
                                                     "materialId", "variance", "samples", "alpha"};
-    o.aovs.emplace();
-    if (v.text == "none")
+    return layers;
+}
+
+/// A layer NAME=EXPR of paths.
+void add_path_layer(Options& o, const OptionValue& v, const std::string& name, const std::string& expression) {
+    static const std::string LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz", REST = "0123456789_-";
+    const std::vector<std::string>& fixed = fixed_layers();
+    const bool is_name = !name.empty() && name.size() <= LARGEST_LAYER_NAME &&
+                         LETTERS.find(name[0]) != std::string::npos &&
+                         name.find_first_not_of(LETTERS + REST) == std::string::npos;
+    const bool is_taken =
+        std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
+        std::any_of(o.path_layers.begin(), o.path_layers.end(), [&](const auto& l) { return l.name == name; });
+    if (!is_name || is_taken)
+        reject_value(v, "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
+    if (o.path_layers.size() == PATH_LAYERS_LIMIT)
+        reject_value(v, "at most " + std::to_string(PATH_LAYERS_LIMIT) + " layers NAME=EXPR");
+    check_paths(v, expression);
+    o.path_layers.push_back({name, expression});
+}
+
+/// Adds to the layers that other occurrences of the option name.
+void apply_aov(Options& o, const OptionValue& v) {
+    const std::vector<std::string>& fixed = fixed_layers();
+    const bool is_first = !o.aovs;
+    if (is_first)
+        o.aovs.emplace();
+    if (v.text == "none" && is_first)
         return;
     for (const std::string& layer : split_list(v.text)) {
-        const bool known = std::find(LAYERS.begin(), LAYERS.end(), layer) != LAYERS.end();
+        if (const size_t equals = layer.find('='); equals != std::string::npos) {
+            add_path_layer(o, v, layer.substr(0, equals), layer.substr(equals + 1));
+            continue;
+        }
+        const bool known = std::find(fixed.begin(), fixed.end(), layer) != fixed.end();
         const bool repeated = std::find(o.aovs->begin(), o.aovs->end(), layer) != o.aovs->end();
         if (!known || repeated)
             reject_value(
                 v, "none or a list such as albedo,N of different layers out of albedo, N, Z, P, objectId, "
-                   "materialId, variance, samples, alpha");
+                   "materialId, variance, samples, alpha, and NAME=EXPR");
         o.aovs->push_back(layer);
     }
 }
@@ -239,8 +282,9 @@ std::vector<OptionSpec> picture_options() {
          }},
         {group, "", "--aov", "LIST",
          "layers of EXR files, such as albedo,N or none: albedo N Z P objectId materialId variance samples "
-         "alpha (default: all but alpha)",
-         apply_aov},
+         "alpha, and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: "
+         "all but alpha)",
+         apply_aov, REPEATABLE},
     };
 }
 
@@ -306,6 +350,14 @@ std::vector<OptionSpec> promise_options() {
          "compile what the scene needs or everything; same picture (default auto)",
          [](Options& o, const OptionValue& v) {
              o.all_effects = parse_choice<bool>(v, {{"auto", false}, {"all", true}});
+         }},
+        {group, "", "--paths", "EXPR",
+         "path: simulate only these paths, light to eye: L light (La area, Lp point, Ld sun, Le sky), D matte, G "
+         "glossy, S specular (R mirror, T refraction), . any surface, E eye, and | * + ? ( ), such as "
+         "'L(D|S)*E' (default: all)",
+         [](Options& o, const OptionValue& v) {
+             check_paths(v, v.text);
+             o.paths = v.text;
          }},
         {group, "", "--stats", "FILE", "write statistics of the run as JSON, in SI units",
          [](Options& o, const OptionValue& v) { o.stats_path = parse_path(v); }},

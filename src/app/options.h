@@ -56,6 +56,12 @@ struct Crop {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
+/// An EXR layer with the light of some paths.
+struct PathLayerOption {
+    std::string name;
+    std::string expression; ///< path notation (paths/path_expression.h)
+};
+
 /// Samples a pixel when none of --spp, --time and --error is given.
 constexpr std::uint32_t DEFAULT_SPP = 64;
 /// Samples a pixel at most when --error is given without --spp.
@@ -92,6 +98,7 @@ struct Options {
     double exposure_ev = 0;              ///< stops, PNG and other 8-bit files only
     Tonemap tonemap = Tonemap::NONE;
     std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
+    std::vector<PathLayerOption> path_layers;     ///< further EXR layers, made from the picture's light
 
     CameraOptions camera;
     LightOptions light;
@@ -99,6 +106,7 @@ struct Options {
     // The promises
     Explain explain = Explain::NO;
     bool all_effects = false; ///< --effects all: the full kernel
+    std::string paths;        ///< path notation (paths/path_expression.h); empty: every path
     std::string stats_path;   ///< JSON; empty: none
     Check check = Check::COUNT;
 

@@ -48,6 +48,15 @@ FilmScale film_scale(const Scene& scene) {
     return {std::ldexp(1.0, exponent - QUANTUM_BITS), std::ldexp(1.0, exponent + LARGEST_BITS)};
 }
 
+Film film_layer(const Film& film) {
+    Film layer;
+    layer.width = film.width;
+    layer.height = film.height;
+    layer.scale = film.scale;
+    layer.ranges = film.ranges;
+    return layer;
+}
+
 std::uint64_t film_samples(const Film& film) {
     std::uint64_t samples = 0;
     for (const SampleRange& range : film.ranges)

@@ -44,6 +44,9 @@ inline size_t film_plane(const Film& film) {
     return size_t(film.width) * size_t(film.height) * 3;
 }
 
+/// A film of the same samples without their sums, in one replicate.
+Film film_layer(const Film& film);
+
 /// Samples of a pixel, over all replicates.
 std::uint64_t film_samples(const Film& film);
 

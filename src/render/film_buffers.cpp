@@ -27,11 +27,11 @@ std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_
 
 } // namespace
 
-int fitting_replicates(const Device& device, const RenderParams& params) {
+int fitting_replicates(const Device& device, const RenderParams& params, size_t layers) {
     const size_t plane = film_slots(params) * 3 * sizeof(std::int64_t);
     const size_t most = std::min(device.info.largest_buffer_bytes, device.info.memory_bytes / 2);
     int replicates = int(params.replicates);
-    while (size_t(replicates) * plane > most && replicates % 2 == 0)
+    while ((size_t(replicates) + layers) * plane > most && replicates % 2 == 0)
         replicates /= 2;
     if (replicates != int(params.replicates))
         spdlog::warn("the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
@@ -39,9 +39,9 @@ int fitting_replicates(const Device& device, const RenderParams& params) {
     return replicates;
 }
 
-FilmBuffers::FilmBuffers(const Device& device, const RenderParams& params)
-    : device_(device), params_(params), slots_(film_slots(params)),
-      film_(create_buffer(device, "film", slots_ * 3 * params.film_replicates * sizeof(std::int64_t))),
+FilmBuffers::FilmBuffers(const Device& device, const RenderParams& params, size_t layers)
+    : device_(device), params_(params), slots_(film_slots(params)), layers_(layers),
+      film_(create_buffer(device, "film", slots_ * 3 * (params.film_replicates + layers) * sizeof(std::int64_t))),
       pixel_rays_(create_buffer(device, "pixel_rays", slots_ * PIXEL_RAYS_WORDS * sizeof(u32))),
       counters_(create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))) {}
 
@@ -52,30 +52,47 @@ void FilmBuffers::bind(Kernel& kernel) const {
 }
 
 template <class Action>
-void FilmBuffers::for_each_pixel(Action&& action) const {
+void FilmBuffers::for_each_pixel(size_t first, size_t planes, Action&& action) const {
     const size_t width = params_.crop_width, height = params_.crop_height;
-    tbb::parallel_for(size_t(0), size_t(params_.film_replicates) * height, [&](size_t row) {
-        const size_t replicate = row / height, y = row % height;
+    tbb::parallel_for(size_t(0), planes * height, [&](size_t row) {
+        const size_t plane = first + row / height, y = row % height;
         for (size_t x = 0; x < width; ++x) {
             const size_t tile = y / TILE_SIZE * params_.tiles_x + x / TILE_SIZE;
             const size_t slot = tile * TILE_PIXELS + (y % TILE_SIZE) * TILE_SIZE + x % TILE_SIZE;
-            action(3 * (replicate * slots_ + slot), 3 * (row * width + x));
+            action(3 * (plane * slots_ + slot), 3 * (row * width + x));
         }
     });
 }
 
-void FilmBuffers::write_sums(const Film& film) {
-    std::vector<std::int64_t> tiles(slots_ * 3 * params_.film_replicates, 0);
-    for_each_pixel([&](size_t on_device, size_t in_film) { std::copy_n(&film.sums[in_film], 3, &tiles[on_device]); });
+void FilmBuffers::write_sums(const RenderProgress& render) {
+    const size_t replicates = params_.film_replicates;
+    std::vector<std::int64_t> tiles(slots_ * 3 * (replicates + layers_), 0);
+    const auto write = [&](size_t first, size_t planes, const Film& film) {
+        for_each_pixel(first, planes,
+                       [&](size_t on_device, size_t in_film) { std::copy_n(&film.sums[in_film], 3, &tiles[on_device]); });
+    };
+    write(0, replicates, render.film);
+    for (size_t i = 0; i < layers_; ++i)
+        write(replicates + i, 1, render.path_layers[i]);
     check_opencl("continuing the picture", [&] {
         device_.queue.enqueueWriteBuffer(film_, CL_TRUE, 0, tiles.size() * sizeof(std::int64_t), tiles.data());
     });
 }
 
-void FilmBuffers::read_sums(Film& film) const {
-    const auto tiles = read_buffer<std::int64_t>(device_, film_, slots_ * 3 * params_.film_replicates);
-    film.sums.resize(size_t(params_.film_replicates) * params_.crop_width * params_.crop_height * 3);
-    for_each_pixel([&](size_t on_device, size_t in_film) { std::copy_n(&tiles[on_device], 3, &film.sums[in_film]); });
+void FilmBuffers::read_sums(RenderProgress& render) const {
+    const size_t replicates = params_.film_replicates;
+    const auto tiles = read_buffer<std::int64_t>(device_, film_, slots_ * 3 * (replicates + layers_));
+    const auto read = [&](size_t first, size_t planes, Film& film) {
+        film.sums.resize(planes * film_plane(film));
+        for_each_pixel(first, planes,
+                       [&](size_t on_device, size_t in_film) { std::copy_n(&tiles[on_device], 3, &film.sums[in_film]); });
+    };
+    read(0, replicates, render.film);
+    render.path_layers.resize(layers_);
+    for (size_t i = 0; i < layers_; ++i) {
+        render.path_layers[i] = film_layer(render.film);
+        read(replicates + i, 1, render.path_layers[i]);
+    }
 }
 
 RenderCounts FilmBuffers::read_counts() const {

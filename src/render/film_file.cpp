@@ -122,6 +122,7 @@ FilmFile read_header(const Json& json) {
         film.render.history.push_back({error.at("samples"), error.at("mean_squared"), error.at("mean_radiance"),
                                        error.at("without").get<std::vector<double>>()});
     json.at("seconds").get_to(film.render.seconds);
+    film.render.path_layers.assign(film_layer_names(film.identity).size(), film_layer(sums));
     return film;
 }
 
@@ -153,15 +154,19 @@ public:
         return json;
     }
 
-    /// Reads the sums and compares the checksum.
-    void sums(Film& film) {
-        const std::uint64_t count = std::uint64_t(film.replicates) * film_plane(film);
-        const std::uint64_t expected = position_ + 8 * count + CHECKSUM_BYTES;
+    /// Reads the sums of film and layers and compares the checksum.
+    void sums(RenderProgress& render) {
+        const std::uint64_t plane = film_plane(render.film), count = std::uint64_t(render.film.replicates) * plane;
+        const std::uint64_t expected = position_ + 8 * (count + render.path_layers.size() * plane) + CHECKSUM_BYTES;
         if (size_ != expected)
             reject(fmt::format("{}: expected {} bytes, found {}", size_ < expected ? "truncated" : "damaged", expected,
                                size_));
-        film.sums.resize(count);
-        take(film.sums.data(), 8 * count);
+        render.film.sums.resize(count);
+        take(render.film.sums.data(), 8 * count);
+        for (Film& layer : render.path_layers) {
+            layer.sums.resize(plane);
+            take(layer.sums.data(), 8 * plane);
+        }
         const std::string computed = checksum_.text();
         if (take(CHECKSUM_BYTES) != computed)
             reject("damaged: the checksum at its end differs from that of its content");
@@ -218,8 +223,10 @@ void write_film_file(const std::string& path, const FilmFile& film) {
         position += std::int64_t(count);
     };
     append(start.data(), start.size());
-    const std::vector<std::int64_t>& sums = film.render.film.sums;
-    append(sums.data(), sums.size() * sizeof(std::int64_t));
+    const auto append_sums = [&](const Film& part) { append(part.sums.data(), part.sums.size() * sizeof(std::int64_t)); };
+    append_sums(film.render.film);
+    for (const Film& layer : film.render.path_layers)
+        append_sums(layer);
     const std::string end = checksum.text();
     append(end.data(), end.size());
     file.commit();
@@ -237,7 +244,7 @@ FilmFile read_film_file(const std::string& path) {
     }
     if (!in_order)
         reader.reject("damaged: the header's window, replicates or ranges are impossible");
-    reader.sums(film.render.film);
+    reader.sums(film.render);
     return film;
 }
 

@@ -128,6 +128,10 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Fil
     identity["max_depth"] = params.max_depth;
     identity["roulette_depth"] = params.roulette_depth;
     identity["min_contribution"] = params.min_contribution;
+    identity["paths"] = options.paths;
+    identity["layers"] = FilmIdentity::array();
+    for (const PathLayerOption& layer : options.path_layers)
+        identity["layers"].push_back({{"name", layer.name}, {"expression", layer.expression}});
     identity["quantum"] = scale.quantum;
     identity["largest"] = scale.largest;
     return identity;
@@ -137,6 +141,13 @@ FilmWindow film_window(const FilmIdentity& identity) {
     const auto window = identity.at("window").get<std::array<int, 4>>();
     const auto size = identity.at("size").get<std::array<int, 2>>();
     return {{window[0], window[1], window[2], window[3]}, {size[0], size[1]}};
+}
+
+std::vector<std::string> film_layer_names(const FilmIdentity& identity) {
+    std::vector<std::string> names;
+    for (const auto& layer : identity.value("layers", FilmIdentity::array()))
+        names.push_back(layer.at("name"));
+    return names;
 }
 
 std::optional<std::string> identity_difference(const FilmIdentity& expected, const FilmIdentity& found) {

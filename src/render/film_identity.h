@@ -29,6 +29,9 @@ struct FilmWindow {
 };
 FilmWindow film_window(const FilmIdentity& identity);
 
+/// Names of the layers of paths of an identity's film.
+std::vector<std::string> film_layer_names(const FilmIdentity& identity);
+
 /// The first field in which two identities differ, with both values, as "seed: expected 0, found 1"; none when they are
 /// the same.
 std::optional<std::string> identity_difference(const FilmIdentity& expected, const FilmIdentity& found);

@@ -55,10 +55,17 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
     fold_replicates(part.render.film, kept);
     std::transform(film.sums.begin(), film.sums.end(), part.render.film.sums.begin(), film.sums.begin(), std::plus<>());
 
+    for (size_t i = 0; i < sum.render.path_layers.size(); ++i) {
+        std::vector<std::int64_t>& layer = sum.render.path_layers[i].sums;
+        std::transform(layer.begin(), layer.end(), part.render.path_layers[i].sums.begin(), layer.begin(), std::plus<>());
+    }
+
     // The command of the first samples is the one that --resume can repeat; errors of parts are none of the whole.
     if (part.render.film.ranges.front().first < film.ranges.front().first)
         sum.origin = part.origin;
     film.ranges = std::move(ranges);
+    for (Film& layer : sum.render.path_layers)
+        layer.ranges = film.ranges;
     sum.render.counts.add(part.render.counts);
     sum.render.seconds += part.render.seconds;
     sum.render.history.clear();
@@ -75,6 +82,9 @@ Picture film_picture(const FilmFile& file) {
     picture.full_width = window.size.x;
     picture.full_height = window.size.y;
     picture.layers.push_back({"", {"R", "G", "B"}, film_mean(film), false});
+    const std::vector<std::string> layer_names = film_layer_names(file.identity);
+    for (size_t i = 0; i < layer_names.size(); ++i)
+        picture.layers.push_back({layer_names[i], {"R", "G", "B"}, film_mean(file.render.path_layers[i]), false});
     if (std::vector<float> variance = film_variance(film); !variance.empty())
         picture.layers.push_back({"variance", {"R", "G", "B"}, std::move(variance), false});
     const size_t pixels = size_t(film.width) * size_t(film.height);

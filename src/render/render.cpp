@@ -34,11 +34,15 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Samples a pixel that every sum of the film can hold; a layer of paths has one for all replicates.
+std::uint64_t film_capacity(const Film& film, const Options& options) {
+    return FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.path_layers.empty() ? film.replicates : 1);
+}
+
 /// Samples a pixel that the film holds and that 32-bit sample numbers reach.
 std::uint64_t film_limit(const Film& film, const Options& options) {
     const std::uint64_t next = film.ranges.empty() ? options.first_sample : film.ranges.back().end;
-    return std::min(FILM_SAMPLES_PER_REPLICATE * std::uint64_t(film.replicates),
-                    film_samples(film) + UINT32_MAX - next);
+    return std::min(film_capacity(film, options), film_samples(film) + UINT32_MAX - next);
 }
 
 /// Reminds every so often; never without an interval.
@@ -101,7 +105,7 @@ private:
 Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Options& options,
                const RenderParams& params, Progress& progress, const RenderHooks& hooks, Render& result)
     : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
-      progress_(progress), hooks_(hooks), result_(result), film_buffers_(device, params),
+      progress_(progress), hooks_(hooks), result_(result), film_buffers_(device, params, programs.paths.layers.size()),
       launcher_(device, programs.picture, std::string("render_") + integrator_name(options.integrator), params, buffers),
       rules_(options, film_limit(result.film, options)),
       picture_reminder_(options.save_every_seconds),
@@ -109,7 +113,7 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     film_buffers_.bind(launcher_.kernel());
     first_ = options.first_sample;
     if (!result.film.ranges.empty()) {
-        film_buffers_.write_sums(result.film);
+        film_buffers_.write_sums(result);
         first_ = result.film.ranges.back().end;
         samples_ = film_samples(result.film);
     }
@@ -172,7 +176,7 @@ void Passes::run_launches(std::uint32_t samples) {
 /// Reads the film and measures its error, for the history where the samples have doubled.
 void Passes::measure() {
     const auto start = Clock::now();
-    film_buffers_.read_sums(result_.film);
+    film_buffers_.read_sums(result_);
     last_error_ = film_squared_error(result_.film);
     const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
     if (last_error_ && is_new && rules_.is_check(samples_))
@@ -198,7 +202,7 @@ RenderState Passes::measured_state() {
 }
 
 void Passes::read_back() {
-    film_buffers_.read_sums(result_.film);
+    film_buffers_.read_sums(result_);
     result_.counts = film_buffers_.read_counts();
     result_.counts.primary = std::uint64_t(params_.crop_width) * params_.crop_height * result_.passes;
     result_.counts.add(earlier_counts_);
@@ -259,11 +263,13 @@ void Passes::render_layers() {
 
 /// --spp beyond what the film can hold.
 void check_film_capacity(const Options& options, const Film& film) {
-    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(film.replicates);
+    const std::uint64_t most = film_capacity(film, options);
     if (options.spp && *options.spp > most)
-        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with {} replicates; "
+        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with {}; "
                                      "render disjoint ranges with --first-sample",
-                                     *options.spp, most, film.replicates));
+                                     *options.spp, most,
+                                     options.path_layers.empty() ? fmt::format("{} replicates", film.replicates)
+                                                                 : "layers of paths"));
 }
 
 } // namespace
@@ -290,9 +296,10 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     Film& film = result.film;
     film.scale = film_scale(scene);
     RenderParams params = make_render_params(scene, options, film.scale);
+    restrict_lights(programs.paths, params);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
-    const int fitting = fitting_replicates(device, params);
+    const int fitting = fitting_replicates(device, params, programs.paths.layers.size());
     if (!hooks.resume)
         film.replicates = fitting;
     else
@@ -303,6 +310,19 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     progress.update({"compile", -1, 0, -1, -1});
     Passes passes(device, programs, buffers, options, params, progress, hooks, result);
     passes.run();
+    return result;
+}
+
+Render render_nothing(const Scene& scene, const Options& options) {
+    const Crop window = render_window(options);
+    Render result;
+    Film& film = result.film;
+    film.scale = film_scale(scene);
+    film.width = window.x1 - window.x0;
+    film.height = window.y1 - window.y0;
+    film.sums.resize(film_plane(film));
+    result.path_layers.assign(options.path_layers.size(), film);
+    result.stop_text = "no path of the scene is asked for";
     return result;
 }
 

@@ -37,6 +37,7 @@ constexpr int HIT_LAYER_FLOATS = 13;
 struct RenderProgress {
     Film film;
     RenderCounts counts;
+    std::vector<Film> path_layers;     ///< light of each layer NAME=EXPR in one replicate
     std::vector<SquaredError> history; ///< errors at doublings, for the slope
     double seconds = 0;                ///< of the launches
 };
@@ -66,5 +67,8 @@ struct RenderHooks {
 /// Throws DeviceError, and UsageError for more samples than the film can hold.
 Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
               const Options& options, Progress& progress, const RenderHooks& hooks = {});
+
+/// A render without a launch: the black picture of a scene in which no path is accepted.
+Render render_nothing(const Scene& scene, const Options& options);
 
 } // namespace clrt

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/report.h"
 
+#include "paths/path_report.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,6 +56,14 @@ Json effects_json(const Effects& effects) {
     return list;
 }
 
+/// Expressions as metadata, where there are any.
+void add_paths(const PathPlan& paths, Metadata& metadata) {
+    if (!paths.expression.empty())
+        metadata.emplace_back("paths", paths.expression);
+    for (const PathLayerOption& layer : paths.layers)
+        metadata.emplace_back("paths." + layer.name, layer.expression);
+}
+
 } // namespace
 
 bool error_reached(const Report& report) {
@@ -85,6 +95,8 @@ std::string format_report(const Report& report) {
     text += format_error_report(report.error);
     text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
                         counts.negative, counts.overflow);
+    if (report.effects.paths.is_asked)
+        text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
     text += fmt::format("absent   {}\n", fmt::join(effect_names(report.effects, false), ", "));
     return text;
 }
@@ -100,7 +112,7 @@ std::string report_json(const Report& report) {
     json["height"] = render.film.height;
     json["spp"] = film_samples(render.film);
     json["passes"] = render.passes;
-    json["first_sample"] = render.film.ranges.front().first;
+    json["first_sample"] = report.options.first_sample;
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = report.scene.triangles.size();
@@ -135,6 +147,7 @@ std::string report_json(const Report& report) {
     json["load"] = {{"obj_bytes", report.scene.statistics.obj_bytes},
                     {"obj_seconds", report.scene.statistics.obj_seconds},
                     {"texture_seconds", report.scene.statistics.texture_seconds}};
+    json["paths"] = paths_json(report.effects.paths);
     json["effects"] = effects_json(report.effects);
     json["notices"] = report.scene.notices;
     return json.dump(2) + "\n";
@@ -149,7 +162,7 @@ Metadata report_metadata(const Report& report) {
                       {"device", report.device.platform + ": " + report.device.name},
                       {"driver", report.device.driver},
                       {"seed", std::to_string(report.options.seed)},
-                      {"first_sample", std::to_string(render.film.ranges.front().first)},
+                      {"first_sample", std::to_string(report.options.first_sample)},
                       {"spp", std::to_string(film_samples(render.film))},
                       {"stop", render.stop_text},
                       {"seconds.load", seconds(report.load_seconds)},
@@ -163,6 +176,7 @@ Metadata report_metadata(const Report& report) {
                       {"infinite", std::to_string(render.counts.infinite)},
                       {"negative", std::to_string(render.counts.negative)},
                       {"overflow", std::to_string(render.counts.overflow)}};
+    add_paths(report.effects.paths, metadata);
     add_error_metadata(report.error, metadata);
     return metadata;
 }

@@ -78,6 +78,24 @@ TEST_F(FilmCommand, MergedRangesAreTheSingleRun) {
     expect_same_film("abc.film", "whole.film");
 }
 
+TEST_F(FilmCommand, LayersOfPathsGoAlong) {
+    const std::vector<std::string> layer = {"--aov", "direct=LDE"};
+    render_part("whole", 0, 12, layer);
+    render_part("a", 0, 5, layer);
+    render_part("b", 5, 4, layer);
+    EXPECT_EQ(merge({"b.film", "a.film", "-o", "ab.film", "-o", "ab.exr"}).exit_code, 0);
+    const CommandResult result = clrt({"--resume", "ab.film", "-s", "12", "-o", "resumed.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const ReadPicture whole(folder.file("whole.exr")), resumed(folder.file("resumed.exr")), ab(folder.file("ab.exr"));
+    double sum = 0;
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 32; ++x) {
+            ASSERT_EQ(resumed.at(x, y, "direct.R"), whole.at(x, y, "direct.R"));
+            sum += double(ab.at(x, y, "direct.R"));
+        }
+    EXPECT_GT(sum, 0);
+}
+
 TEST_F(FilmCommand, MergingSaysWhatDoesNotFit) {
     const std::vector<std::string> quick = {"-i", "raycast", "-o", "part.png"};
     render_part("a", 0, 2, quick);

@@ -15,4 +15,5 @@ target_compile_definitions(film_command_test PRIVATE CLRT_MERGE_EXECUTABLE="$<TA
 add_dependencies(film_command_test clrt-merge)
 clrt_command_test(information_test)
 clrt_command_test(odd_input_test)
+clrt_command_test(paths_command_test)
 clrt_command_test(picture_file_test)

@@ -22,6 +22,9 @@ FilmFile make_film() {
     file.render.film.sums[0] = INT64_MIN;
     file.identity = {{"scene", "abc"}, {"window", {1, 2, 6, 5}}, {"size", {10, 20}},
                      {"quantum", file.render.film.scale.quantum}, {"largest", file.render.film.scale.largest}};
+    file.identity["layers"] = {{{"name", "direct"}, {"expression", "LDE"}}};
+    file.render.path_layers = {film_layer(file.render.film)};
+    file.render.path_layers[0].sums.assign(film_plane(file.render.film), 77);
     file.origin = {{"clrt", "--spp=12", "--", "a \"b\".obj"}, "/some/folder", "a device"};
     RenderCounts& counts = file.render.counts;
     counts.primary = 1ull << 40;
@@ -74,6 +77,9 @@ TEST_F(FilmFileTest, EverythingComesBack) {
     EXPECT_EQ(a.scale.largest, b.scale.largest);
     EXPECT_EQ(a.ranges, b.ranges);
     EXPECT_EQ(a.sums, b.sums);
+    ASSERT_EQ(read.render.path_layers.size(), 1u);
+    EXPECT_EQ(read.render.path_layers[0].sums, written.render.path_layers[0].sums);
+    EXPECT_EQ(read.render.path_layers[0].ranges, b.ranges);
     EXPECT_EQ(read.render.counts.primary, written.render.counts.primary);
     EXPECT_EQ(read.render.counts.shadow, 3u);
     EXPECT_EQ(read.render.counts.nan, 2u);
@@ -94,7 +100,7 @@ TEST_F(FilmFileTest, TheLayoutIsTheDocumentedOne) {
     const size_t header = byte(12) + 256 * byte(13);
     EXPECT_EQ(file[16], '{');
     EXPECT_EQ(file[16 + header - 1], '}');
-    EXPECT_EQ(file.size(), 16 + header + 8 * 4 * 5 * 3 * 3 + 16);
+    EXPECT_EQ(file.size(), 16 + header + 8 * (4 + 1) * 5 * 3 * 3 + 16);
     EXPECT_EQ(file.substr(16 + header, 8), std::string("\0\0\0\0\0\0\0\x80", 8)) << "the smallest integer";
 }
 

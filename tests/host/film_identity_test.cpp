@@ -88,6 +88,8 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     EXPECT_EQ(field([](Options& o) { o.max_depth = 5; }), "max_depth");
     EXPECT_EQ(field([](Options& o) { o.roulette_depth = 9; }), "roulette_depth");
     EXPECT_EQ(field([](Options& o) { o.min_contribution = 0.1; }), "min_contribution");
+    EXPECT_EQ(field([](Options& o) { o.paths = "LDE"; }), "paths");
+    EXPECT_EQ(field([](Options& o) { o.path_layers = {{"direct", "LDE"}}; }), "layers");
     EXPECT_EQ(field([](Options& o) { o.size = {800, 599}; }), "size");
     EXPECT_EQ(field([](Options& o) { o.camera.fov_degrees = 30; }), "scene");
     EXPECT_EQ(field([](Options& o) { o.light.environment = glm::dvec3(1); }), "scene");
