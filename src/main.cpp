@@ -90,7 +90,9 @@ struct Saving {
             save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
         };
         hooks.save_film = [&](const Render& render) {
-            save_on_the_way(progress, [&] { write_film_file(options.checkpoint_path, film_file(render, options, device)); });
+            save_on_the_way(progress, [&] {
+                write_film_file(options.checkpoint_path, film_file(render, options, device));
+            });
         };
     }
     Saving(const Saving&) = delete;
@@ -105,7 +107,8 @@ struct Saving {
 int finish(const Report& report) {
     const Render& render = report.render;
     if (report.options.check != Check::OFF && render.counts.bad() > 0)
-        spdlog::warn("{} samples were not finite, negative or too large and count as 0 (the JSON of --stats lists them)",
+        spdlog::warn("{} samples were not finite, negative or too large and count as 0 (the JSON of --stats "
+                     "lists them)",
                      render.counts.bad());
     if (render.stop_signal) {
         spdlog::warn("stopped by a signal after {} spp; the picture is saved", film_samples(render.film));

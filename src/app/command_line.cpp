@@ -73,16 +73,17 @@ bool is_budget(const std::string& name) {
     return name == "--spp" || name == "--time" || name == "--error";
 }
 
-/// `clrt --resume FILM` and further options: the command that the film was rendered with, overruled by them. A new budget
-/// replaces the old one as a whole.
+/// `clrt --resume FILM` and further options: the command that the film was rendered with, overruled by them.
+/// A new budget replaces the old one as a whole.
 Arguments continue_command(const Arguments& given) {
     const auto resume = std::find_if(given.options.begin(), given.options.end(),
                                      [](const GivenOption& option) { return option.value.option == "--resume"; });
     const FilmOrigin origin = read_film_origin(resume->value.text);
     const std::string here = std::filesystem::current_path().string();
     if (origin.folder != here)
-        throw UsageError("option --resume: expected the whole command, or to run in the folder of the film's command, " +
-                         origin.folder + "; found " + here);
+        throw UsageError(
+            "option --resume: expected the whole command, or to run in the folder of the film's command, " +
+            origin.folder + "; found " + here);
     std::vector<const char*> words;
     for (const std::string& word : origin.command)
         words.push_back(word.c_str());

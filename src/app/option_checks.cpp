@@ -59,7 +59,8 @@ void check_lens(const Options& options) {
 }
 
 void check_samples(const Options& options) {
-    const std::uint64_t end = std::uint64_t(options.first_sample) + options.spp.value_or(options.error ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
+    const std::uint64_t end = std::uint64_t(options.first_sample) +
+                              options.spp.value_or(options.error ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
     if (end >= SAMPLE_LIMIT)
         reject(options, "options --first-sample and --spp: expected a sum below " +
                             std::to_string(SAMPLE_LIMIT) + ", found " + std::to_string(end));

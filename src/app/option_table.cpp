@@ -160,8 +160,8 @@ void apply_output(Options& o, const OptionValue& v) {
 /// FILE or FILE,DURATION: a comma in the name counts where no digit follows it.
 void apply_checkpoint(Options& o, const OptionValue& v) {
     const size_t comma = v.text.rfind(',');
-    const bool has_interval =
-        comma != std::string::npos && comma + 1 < v.text.size() && std::isdigit(static_cast<unsigned char>(v.text[comma + 1]));
+    const bool has_interval = comma != std::string::npos && comma + 1 < v.text.size() &&
+                              std::isdigit(static_cast<unsigned char>(v.text[comma + 1]));
     OptionValue path = v, interval = v;
     path.text = has_interval ? v.text.substr(0, comma) : v.text;
     o.checkpoint_path = parse_path(path);
@@ -199,7 +199,8 @@ std::vector<OptionSpec> work_options() {
                                                          {"whitted", Integrator::WHITTED},
                                                          {"path", Integrator::PATH}});
          }},
-        {group, "s", "--spp", "N", "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error)",
+        {group, "s", "--spp", "N",
+         "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error)",
          [](Options& o, const OptionValue& v) {
              o.spp = static_cast<std::uint32_t>(parse_whole(v, 1, LARGEST_U32));
          }},

@@ -70,8 +70,8 @@ private:
     std::vector<double> factor_; ///< quantum / samples of each
 };
 
-/// Adds the sums of replicates together until `replicates`, a divisor of their number, are kept apart: the picture keeps
-/// its bits, the error becomes coarser.
+/// Adds the sums of replicates together until `replicates`, a divisor of their number, are kept apart: the
+/// picture keeps its bits, the error becomes coarser.
 void fold_replicates(Film& film, int replicates);
 
 /// Mean radiance, rgb a pixel. Zero samples give black.

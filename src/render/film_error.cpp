@@ -33,8 +33,8 @@ struct ErrorSums {
     }
 };
 
-/// Adds the values of a range. With deviations d_k from the mean of n replicates and S = sum d_k^2, leaving out k leaves
-/// S - d_k^2 n / (n - 1).
+/// Adds the values of a range. With deviations d_k from the mean of n replicates and S = sum d_k^2, leaving
+/// out k leaves S - d_k^2 n / (n - 1).
 void add_values(const ReplicateMeans& replicates, size_t begin, size_t end, ErrorSums& sums) {
     const double n = double(replicates.count());
     std::vector<double> deviations(replicates.count());
@@ -47,8 +47,8 @@ void add_values(const ReplicateMeans& replicates, size_t begin, size_t end, Erro
     }
 }
 
-/// 97.5 % quantile of Student's t for 1 to 63 degrees of freedom (Abramowitz and Stegun, table 26.10, by their expansion
-/// 26.7.5 beyond 7).
+/// 97.5 % quantile of Student's t for 1 to 63 degrees of freedom (Abramowitz and Stegun, table 26.10, by
+/// their expansion 26.7.5 beyond 7).
 double student_quantile(size_t degrees) {
     static const double SMALL[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365};
     if (degrees <= 7)
@@ -205,7 +205,8 @@ std::optional<ErrorSpread> film_error_spread(const Film& film) {
     return spread;
 }
 
-std::optional<ErrorPrice> price_of_half(const FilmError& error, const std::optional<ErrorSlope>& slope, double seconds) {
+std::optional<ErrorPrice> price_of_half(const FilmError& error, const std::optional<ErrorSlope>& slope,
+                                        double seconds) {
     const double exponent = slope ? slope->slope : INDEPENDENT_SLOPE;
     if (!(error.relative_rmse > 0) || exponent > SLOWEST_SLOPE)
         return std::nullopt;

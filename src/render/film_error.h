@@ -20,8 +20,8 @@ struct SquaredError {
 /// None when fewer than two replicates have samples. The same film gives the same bits.
 std::optional<SquaredError> film_squared_error(const Film& film);
 
-/// Relative error of the picture: sqrt(mean over pixels and channels of the variance of the mean) / mean radiance, with a
-/// 95 % interval by the jackknife over replicates (on the logarithm, Student's t).
+/// Relative error of the picture: sqrt(mean over pixels and channels of the variance of the mean) / mean
+/// radiance, with a 95 % interval by the jackknife over replicates (on the logarithm, Student's t).
 struct FilmError {
     double relative_rmse = 0;
     std::optional<double> low, high; ///< none under four replicates

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Film files: everything that is needed to go on with a render, or to merge it with others, to the last bit. --checkpoint
-// writes them, --resume and clrt-merge read them.
+// Film files: everything that is needed to go on with a render, or to merge it with others, to the last bit.
+// --checkpoint writes them, --resume and clrt-merge read them.
 //
 //   bytes        what
 //   8            "CLRTFILM"

@@ -13,7 +13,8 @@ namespace clrt {
 namespace {
 
 /// The ranges of both, in order, neighbours joined. Throws where they overlap.
-std::vector<SampleRange> join_ranges(const Film& a, const std::string& a_path, const Film& b, const std::string& b_path) {
+std::vector<SampleRange> join_ranges(const Film& a, const std::string& a_path, const Film& b,
+                                     const std::string& b_path) {
     std::vector<SampleRange> all = a.ranges;
     all.insert(all.end(), b.ranges.begin(), b.ranges.end());
     std::sort(all.begin(), all.end(), [](const SampleRange& x, const SampleRange& y) { return x.first < y.first; });

@@ -129,7 +129,8 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     }
     if (wants(options, "samples")) {
         const size_t pixels = size_t(picture.width) * size_t(picture.height);
-        picture.layers.push_back({"", {"samples"}, std::vector<float>(pixels, float(film_samples(render.film))), false});
+        picture.layers.push_back(
+            {"", {"samples"}, std::vector<float>(pixels, float(film_samples(render.film))), false});
     }
     return picture;
 }

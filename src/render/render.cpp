@@ -48,7 +48,8 @@ std::uint64_t film_limit(const Film& film, const Options& options) {
 /// Reminds every so often; never without an interval.
 class Reminder {
 public:
-    explicit Reminder(const std::optional<double>& interval_seconds) : interval_(interval_seconds), last_(Clock::now()) {}
+    explicit Reminder(const std::optional<double>& interval_seconds)
+        : interval_(interval_seconds), last_(Clock::now()) {}
     bool due() {
         if (!interval_ || seconds_since(last_) < *interval_)
             return false;
@@ -102,14 +103,17 @@ private:
     double pass_seconds_ = 0;               ///< of one pass, by the last launch
 };
 
-Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Options& options,
-               const RenderParams& params, Progress& progress, const RenderHooks& hooks, Render& result)
+Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
+               const Options& options, const RenderParams& params, Progress& progress,
+               const RenderHooks& hooks, Render& result)
     : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
-      progress_(progress), hooks_(hooks), result_(result), film_buffers_(device, params, programs.paths.layers.size()),
-      launcher_(device, programs.picture, std::string("render_") + integrator_name(options.integrator), params, buffers),
-      rules_(options, film_limit(result.film, options)),
-      picture_reminder_(options.save_every_seconds),
-      film_reminder_(options.checkpoint_path.empty() ? std::nullopt : std::optional(options.checkpoint_seconds)) {
+      progress_(progress), hooks_(hooks), result_(result),
+      film_buffers_(device, params, programs.paths.layers.size()),
+      launcher_(device, programs.picture, std::string("render_") + integrator_name(options.integrator),
+                params, buffers),
+      rules_(options, film_limit(result.film, options)), picture_reminder_(options.save_every_seconds),
+      film_reminder_(options.checkpoint_path.empty() ? std::nullopt
+                                                     : std::optional(options.checkpoint_seconds)) {
     film_buffers_.bind(launcher_.kernel());
     first_ = options.first_sample;
     if (!result.film.ranges.empty()) {

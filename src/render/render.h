@@ -63,8 +63,8 @@ struct RenderHooks {
     std::function<void(const Render&)> save_film;     ///< every --checkpoint seconds, at a whole pass
 };
 
-/// Renders until samples, time, error or a signal end it (stop_rules.h); always ends at a whole pass (one sample a pixel).
-/// Throws DeviceError, and UsageError for more samples than the film can hold.
+/// Renders until samples, time, error or a signal end it (stop_rules.h); always ends at a whole pass (one
+/// sample a pixel). Throws DeviceError, and UsageError for more samples than the film can hold.
 Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
               const Options& options, Progress& progress, const RenderHooks& hooks = {});
 

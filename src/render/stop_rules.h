@@ -25,8 +25,9 @@ struct RenderState {
     int signal = 0;                  ///< that came, or 0
 };
 
-/// The rules of one render. The error is looked at when the number of samples has doubled, and at the end: looking after
-/// every pass would end renders where the estimate happens to be low and so bias the printed error.
+/// The rules of one render. The error is looked at when the number of samples has doubled, and at the end:
+/// looking after every pass would end renders where the estimate happens to be low and so bias the printed
+/// error.
 class StopRules {
 public:
     /// `film_limit`: samples a pixel that the film can hold.

@@ -22,7 +22,8 @@ protected:
     }
     /// Runs on the lamp with 32 x 32 pixels.
     CommandResult render(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.end(), {"lamp.obj", "-r", "32x32", "--stats", "s.json", "--eye", "0,3,0.1", "--at", "0,0,0"});
+        arguments.insert(arguments.end(), {"lamp.obj", "-r", "32x32", "--stats", "s.json", "--eye", "0,3,0.1",
+                                           "--at", "0,0,0"});
         return clrt(arguments);
     }
     nlohmann::json stats() const { return nlohmann::json::parse(folder.read("s.json")); }
@@ -47,17 +48,18 @@ TEST_F(ErrorReport, AReachedTargetEndsWithZeroAtADoubling) {
     EXPECT_EQ(render({"--error", "2%", "--spp", std::to_string(spp / 2)}).exit_code, 5);
 }
 
-// The error that ended the render, against two long runs with other seeds: mean((x - a)(x - b)) is the squared error of x
-// without the noise of a and b.
+// The error that ended the render, against two long runs with other seeds: mean((x - a)(x - b)) is the
+// squared error of x without the noise of a and b.
 TEST_F(ErrorReport, AReachedTargetIsTrueOnTheCornellBox) {
     const auto box = [&](const std::string& name, std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), {CLRT_SCENES_FOLDER "/cornell_box/cornell_box.obj", "-r", "64x64", "--aov", "none",
-                                           "--stats", "s.json", "-o", name});
+        arguments.insert(arguments.end(), {CLRT_SCENES_FOLDER "/cornell_box/cornell_box.obj", "-r", "64x64",
+                                           "--aov", "none", "--stats", "s.json", "-o", name});
         const CommandResult result = clrt(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return ReadPicture(folder.file(name));
     };
-    const ReadPicture a = box("a.exr", {"--spp", "512", "--seed", "1"}), b = box("b.exr", {"--spp", "512", "--seed", "2"});
+    const ReadPicture a = box("a.exr", {"--spp", "512", "--seed", "1"}),
+                      b = box("b.exr", {"--spp", "512", "--seed", "2"});
     const ReadPicture x = box("x.exr", {"--error", "10%"});
     double squared = 0, mean = 0;
     for (size_t i = 0; i < x.values.size(); ++i) {
@@ -92,9 +94,11 @@ TEST_F(ErrorReport, TheReportHasErrorPriceWorstTileAndTails) {
     for (const std::string& line :
          {"error    " + number + " relative RMSE \\(95 %: " + number + " to " + number +
               "\\), slope -[0-9.]+ \\+- [0-9.]+ from 8 to 128 spp\n",
-          "price    " + number + " takes [0-9.]+ times the samples, [0-9.]+ s more \\(extrapolated by the measured slope",
-          "worst    " + number + " of the picture's mean in the 32 x 32 tile at 0,0\n", std::string("tails    the noisiest "),
-          std::string("checked  NaN 0, infinite 0"), std::string("absent   "), std::string("seconds  load")})
+          "price    " + number +
+              " takes [0-9.]+ times the samples, [0-9.]+ s more \\(extrapolated by the measured slope",
+          "worst    " + number + " of the picture's mean in the 32 x 32 tile at 0,0\n",
+          std::string("tails    the noisiest "), std::string("checked  NaN 0, infinite 0"),
+          std::string("absent   "), std::string("seconds  load")})
         EXPECT_TRUE(std::regex_search(result.out, std::regex(line))) << line << "\n" << result.out;
 
     const nlohmann::json json = stats(), error = json["error"];

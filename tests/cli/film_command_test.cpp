@@ -66,7 +66,8 @@ TEST_F(FilmCommand, MergedRangesAreTheSingleRun) {
     render_part("a", 0, 5);
     render_part("b", 5, 1, {"--effects", "all"});
     render_part("c", 6, 15, {"--bvh", "bvh2"});
-    const CommandResult result = merge({"c.film", "a.film", "b.film", "-o", "merged.exr", "-o", "merged.film", "-o", "merged.png"});
+    const CommandResult result =
+        merge({"c.film", "a.film", "b.film", "-o", "merged.exr", "-o", "merged.film", "-o", "merged.png"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.out, {"21 spp of 3 films", "error    ", " % relative RMSE"}));
     expect_same_film("merged.film", "whole.film");

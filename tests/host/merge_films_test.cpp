@@ -43,7 +43,8 @@ TEST(MergeFilms, AnyOrderGivesTheSameFilm) {
     std::vector<size_t> order = {0, 1, 2};
     std::vector<std::int64_t> expected(film_plane(parts[0].render.film) * 8, 0);
     for (const FilmFile& film : parts)
-        std::transform(expected.begin(), expected.end(), film.render.film.sums.begin(), expected.begin(), std::plus<>());
+        std::transform(expected.begin(), expected.end(), film.render.film.sums.begin(), expected.begin(),
+                       std::plus<>());
     do {
         FilmFile sum = parts[order[0]];
         for (size_t i = 1; i < 3; ++i)

@@ -112,8 +112,8 @@ TEST(StopRules, ProgressFollowsTheNearestLimit) {
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(64, 8, check), 0.25);
 }
 
-// Ends many renders by their error. Looking repeatedly favours estimates that happen to be low; at doublings of an error
-// that is the mean over a picture the effect must stay below the statistical error of one render.
+// Ends many renders by their error. Looking repeatedly favours estimates that happen to be low; at doublings
+// of an error that is the mean over a picture the effect must stay below the statistical error of one render.
 TEST(StopRules, EndingByTheErrorDoesNotMakeItLookSmaller) {
     std::mt19937 random(1);
     const int trials = 300;
