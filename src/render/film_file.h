@@ -16,7 +16,8 @@
 //                  counts      rays and bad samples; bad_samples lists pairs of pixel and sample
 //                  history     errors at doublings of the samples
 //                  seconds     of rendering
-//   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers: [replicate][row][column][red, green, blue]
+//   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:
+//                [replicate][row][column][red, green, blue]
 //   8 w h 3      of each layer of paths (identity.layers), in one replicate
 //   16           XXH3-128 of all bytes before it, canonical (most significant byte first)
 //
