@@ -2,16 +2,20 @@
 # What `cmake --install` installs beside the programs, and the Debian package: `cpack` in the build folder writes
 # clrt_VERSION_ARCH.deb (needs dpkg-dev and file, to find the libraries it depends on).
 
-# The man page is made from the program's own --help.
+# The man pages are made from the programs' own --help.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
-  set(CLRT_MAN_PAGE ${CMAKE_BINARY_DIR}/clrt.1)
-  add_custom_command(OUTPUT ${CLRT_MAN_PAGE}
-    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manpage.py $<TARGET_FILE:clrt> > ${CLRT_MAN_PAGE}
-    DEPENDS clrt ${PROJECT_SOURCE_DIR}/tools/manpage.py
-    VERBATIM)
-  add_custom_target(man_page ALL DEPENDS ${CLRT_MAN_PAGE})
-  install(FILES ${CLRT_MAN_PAGE} DESTINATION share/man/man1)
+  set(CLRT_MAN_PAGES)
+  foreach(program clrt clrt-merge)
+    set(page ${CMAKE_BINARY_DIR}/${program}.1)
+    add_custom_command(OUTPUT ${page}
+      COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manpage.py $<TARGET_FILE:${program}> > ${page}
+      DEPENDS ${program} ${PROJECT_SOURCE_DIR}/tools/manpage.py
+      VERBATIM)
+    list(APPEND CLRT_MAN_PAGES ${page})
+  endforeach()
+  add_custom_target(man_page ALL DEPENDS ${CLRT_MAN_PAGES})
+  install(FILES ${CLRT_MAN_PAGES} DESTINATION share/man/man1)
 else()
   message(STATUS "clrt: python3 not found, no man page")
 endif()

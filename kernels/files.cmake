@@ -37,6 +37,9 @@ set(CLRT_KERNEL_FILES
   numerics/sampler.h
   numerics/vector.h
   numerics/warp.h
+  path/automaton.h
+  path/filter.h
+  path/layers.h
   path/mis.h
   scattering/bsdf.h
   scattering/bsdf_dielectric.h
@@ -48,6 +51,7 @@ set(CLRT_KERNEL_FILES
   scattering/microfacet.h
   shared/bvh_types.h
   shared/effects.h
+  shared/path_types.h
   shared/render_types.h
   shared/scene_types.h
   shared/types.h

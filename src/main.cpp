@@ -11,9 +11,12 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "paths/path_report.h"
+#include "render/checkpoint.h"
 #include "render/kernels.h"
 #include "render/picture.h"
 #include "render/render.h"
+#include "render/render_params.h"
 #include "render/report.h"
 #include "render/scene_buffers.h"
 #include "scene/load_scene.h"
@@ -46,28 +49,110 @@ Device open_chosen_device(const Options& options) {
     return open_device(info);
 }
 
+void write_pictures(const Picture& picture, const Options& options) {
+    for (const std::string& path : options.outputs)
+        write_picture(picture, path, options.exposure_ev, options.tonemap);
+}
+
 void write_outputs(const Report& report) {
     Picture picture = make_picture(report.render, report.scene, report.options);
     picture.metadata = report_metadata(report);
-    for (const std::string& path : report.options.outputs) {
-        write_picture(picture, path, report.options.exposure_ev, report.options.tonemap);
+    write_pictures(picture, report.options);
+    for (const std::string& path : report.options.outputs)
         spdlog::info("wrote {}", path);
-    }
     if (!report.options.stats_path.empty())
         write_text_file(report.options.stats_path, report_json(report));
 }
+
+/// A save on the way must not end a render that goes on well: a full disk may have room later.
+void save_on_the_way(Progress& progress, const std::function<void()>& save) {
+    try {
+        save();
+    } catch (const SceneError& error) {
+        progress.finish();
+        spdlog::warn("{}; the render goes on", error.what());
+    }
+}
+
+/// Film files and pictures beside a render. Refers to its arguments.
+struct Saving {
+    FilmIdentity identity;
+    std::optional<RenderProgress> resumed;
+    RenderHooks hooks;
+
+    Saving(const Scene& scene, const Options& options, const DeviceInfo& device, Progress& progress) {
+        if (!options.checkpoint_path.empty() || !options.resume_path.empty())
+            identity = film_identity(scene, options, film_scale(scene));
+        if (!options.resume_path.empty())
+            resumed = read_resumed_film(options, identity);
+        hooks.resume = resumed ? &*resumed : nullptr;
+        hooks.save_picture = [&](const Render& render) {
+            save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
+        };
+        hooks.save_film = [&](const Render& render) {
+            save_on_the_way(progress, [&] {
+                write_film_file(options.checkpoint_path, film_file(render, options, device));
+            });
+        };
+    }
+    Saving(const Saving&) = delete;
+    Saving& operator=(const Saving&) = delete;
+
+    FilmFile film_file(const Render& render, const Options& options, const DeviceInfo& device) const {
+        return make_film_file(render, identity, options, device);
+    }
+};
 
 /// The exit code of a finished run, and the warning that goes with it.
 int finish(const Report& report) {
     const Render& render = report.render;
     if (report.options.check != Check::OFF && render.counts.bad() > 0)
-        spdlog::warn("{} samples were not finite, negative or too large and count as 0 (the JSON of --stats lists them)",
+        spdlog::warn("{} samples were not finite, negative or too large and count as 0 (the JSON of --stats "
+                     "lists them)",
                      render.counts.bad());
     if (render.stop_signal) {
-        spdlog::warn("stopped by a signal after {} spp; the picture is saved", render.passes);
+        spdlog::warn("stopped by a signal after {} spp; the picture is saved", film_samples(render.film));
         return 128 + render.stop_signal;
     }
-    return report.options.check == Check::STRICT && render.counts.bad() > 0 ? EXIT_CHECK : EXIT_DONE;
+    spdlog::info("ended after {} spp: {}", film_samples(render.film), render.stop_text);
+    const bool missed = report.options.error && film_samples(render.film) > 0 && !error_reached(report);
+    if (missed)
+        spdlog::warn("--error {:g} % is not reached", 100 * *report.options.error);
+    if (report.options.check == Check::STRICT && render.counts.bad() > 0)
+        return EXIT_CHECK;
+    return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
+}
+
+/// What tree, program and passes give.
+struct Simulation {
+    Bvh bvh;
+    Render render;
+    double compile_seconds = 0;
+};
+
+Simulation simulate(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
+                    Progress& progress, const RenderHooks& hooks) {
+    // Compile while the tree is built.
+    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    progress.update({"compile", -1, 0, -1});
+    std::future<RenderPrograms> compiling = std::async(std::launch::async, [&] {
+        return build_render_programs(device, options, effects.mask, layout, effects.paths);
+    });
+    Simulation done;
+    done.bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const RenderPrograms programs = compiling.get();
+    const SceneBuffers buffers = upload_scene(device, scene, done.bvh);
+    done.render = render(device, programs, buffers, scene, options, progress, hooks);
+    done.compile_seconds = programs.seconds;
+    return done;
+}
+
+/// The black picture, when no path of the scene is asked for.
+Simulation simulate_nothing(const Scene& scene, const Effects& effects, const Options& options) {
+    spdlog::warn("{}", path_summary(effects.paths));
+    Simulation done;
+    done.render = render_nothing(scene, options);
+    return done;
 }
 
 /// Prints what would be rendered and why.
@@ -89,21 +174,21 @@ int run_render(const Options& options) {
     for (const std::string& notice : scene.notices)
         spdlog::info("{}", notice);
     const Effects effects = find_effects(scene, options);
+    const Saving saving(scene, options, device.info, progress);
 
-    // Compile while the tree is built.
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
-    progress.update({"compile", -1, 0, -1});
-    std::future<RenderPrograms> compiling = std::async(
-        std::launch::async, [&] { return build_render_programs(device, options, effects.mask, layout); });
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
-    const RenderPrograms programs = compiling.get();
-    const SceneBuffers buffers = upload_scene(device, scene, bvh);
-
-    const Render rendered = render(device, programs, buffers, scene, options, progress);
+    const Simulation done = effects.paths.is_empty
+                                ? simulate_nothing(scene, effects, options)
+                                : simulate(device, scene, effects, options, progress, saving.hooks);
     progress.finish();
+    if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0) {
+        write_film_file(options.checkpoint_path, saving.film_file(done.render, options, device.info));
+        spdlog::info("wrote {}", options.checkpoint_path);
+    }
 
-    Report report{options, scene, effects, device.info, bvh, rendered, film_error(rendered.film), load_seconds,
-                  programs.seconds, seconds_since(start)};
+    const Crop window = render_window(options);
+    Report report{options, scene, effects, device.info, done.bvh, done.render,
+                  make_error_report(done.render, window.x0, window.y0), load_seconds, done.compile_seconds,
+                  seconds_since(start)};
     write_outputs(report);
     if (options.verbosity >= 0)
         fmt::print("{}", format_report(report));

@@ -1,15 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Turns `clrt --help` into a man page: manpage.py PATH/clrt > clrt.1
+"""Turns `clrt --help` or `clrt-merge --help` into a man page: manpage.py PATH/clrt > clrt.1
 
 Reads the layout of src/app/help_text.cpp: a usage line, a paragraph, then headings that end in ':' at the left edge;
 below them entries that start with a dash or a number, whose text begins after two blanks and goes on in lines
 further in, or plain text.
 """
+import os
 import re
 import subprocess
 import sys
 
+SUMMARIES = {"clrt": "render a Wavefront OBJ on any OpenCL device",
+             "clrt-merge": "merge film files of clrt into one picture"}
 HEADINGS = {"Example": "EXAMPLE", "Options file": "FILES", "Exit codes": "EXIT STATUS"}
 
 
@@ -53,12 +56,13 @@ def bold_names(name):
                    re.sub(r"[^\s,=\[\]|:]+", lambda m: f"\\fI{escaped(m.group())}\\fR", p) for p in parts)
 
 
-def page(help_text, version):
+def page(command, help_text, version):
     parts = dict(sections(help_text))
+    usage = parts[""][0].split(None, 2)[2]
     about = " ".join(" ".join(parts[""][1:]).split())
-    out = [f'.TH CLRT 1 "" "{version}" "User Commands"', ".SH NAME",
-           "clrt \\- render a Wavefront OBJ on any OpenCL device", ".SH SYNOPSIS",
-           ".B clrt", "[\\fIoptions\\fR] \\fIscene.obj\\fR", ".SH DESCRIPTION", escaped(about), ".SH OPTIONS"]
+    out = [f'.TH {command.upper()} 1 "" "{version}" "User Commands"', ".SH NAME",
+           f"{escaped(command)} \\- {SUMMARIES[command]}", ".SH SYNOPSIS",
+           f".B {escaped(command)}", f"\\fI{escaped(usage)}\\fR", ".SH DESCRIPTION", escaped(about), ".SH OPTIONS"]
     tail = []
     for heading, lines in parts.items():
         if heading in HEADINGS:
@@ -82,7 +86,7 @@ def main():
         sys.exit("usage: manpage.py PATH/clrt > clrt.1")
     output = [subprocess.run([sys.argv[1], option], check=True, capture_output=True, text=True).stdout
               for option in ("--help", "--version")]
-    sys.stdout.write(page(output[0], output[1].strip()))
+    sys.stdout.write(page(os.path.basename(sys.argv[1]), output[0], output[1].strip()))
 
 
 if __name__ == "__main__":

@@ -8,6 +8,8 @@
 #include "film/film.h"
 #include "geometry/visibility.h"
 #include "lights/lights.h"
+#include "path/filter.h"
+#include "path/layers.h"
 #include "pixel.h"
 
 /* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
@@ -53,6 +55,8 @@ typedef struct {
     real pdf_w;            /* of the ray's direction; 0 for camera rays and delta lobes */
     Ray shadow;            /* from the vertex to a light, */
     real3 connection;      /* and what arrives if nothing is in between */
+    uint state;            /* of the automaton, behind all vertices so far */
+    LayerPath layers;
     bool is_alive, is_connected;
 } Path;
 
@@ -62,18 +66,66 @@ static inline void path_begin(Path* path, const Ray* ray)
     path->throughput = (real3)(REAL(1.0));
     path->eta_squared = REAL(1.0);
     path->pdf_w = REAL(0.0);
+    path->state = STATE_START;
+    layers_begin_path(&path->layers);
     path->is_alive = true;
+}
+
+/* The kinds of light whose emission the path may add. */
+static inline uint path_accepted(const Path* path)
+{
+    return HAS(EFFECT_PATH_FILTER) ? AUTOMATON_STATES[path->state] & STATE_KINDS_MASK : KINDS_ALL;
+}
+
+/* Adds light of one kind that the path has met to the layers. */
+static inline void path_add_layers(const Path* path, uint kind, real3 radiance, CameraSample* sample)
+{
+#if PATH_LAYERS > 0
+    layers_add(path->state, kind, path->throughput * path->layers.share * radiance, &sample->layers);
+#endif
+}
+
+/* The same connection for the layers, class by class of the event; `factor` is all that arrives over the BSDF's value. */
+static inline void path_connect_layers(const Bsdf* bsdf, const AutomatonStep* step, const LightSample* light,
+                                       real3 factor, Path* path)
+{
+#if PATH_LAYERS > 0
+    path->layers.kind = light->kind;
+    path->layers.matte_state = step->matte;
+    path->layers.glossy_state = step->glossy;
+    const real3 shared = factor * path->layers.share;
+    path->layers.matte = path->layers.glossy = (real3)(REAL(0.0));
+    if (filter_is_ambiguous(step, bsdf)) {
+        path->layers.matte = shared * filter_matte_part(bsdf, light->wi);
+        path->layers.glossy = shared * filter_glossy_part(bsdf, light->wi);
+    } else if (bsdf->lobes & LOBE_MATTE)
+        path->layers.matte = path->connection * path->layers.share;
+    else
+        path->layers.glossy = path->connection * path->layers.share;
+#endif
+}
+
+/* Adds the share of the connection that arrives. */
+static inline void path_add_connection(const Path* path, real share, CameraSample* sample)
+{
+    sample->radiance += path->connection * share;
+#if PATH_LAYERS > 0
+    layers_add(path->layers.matte_state, path->layers.kind, path->layers.matte * share, &sample->layers);
+    layers_add(path->layers.glossy_state, path->layers.kind, path->layers.glossy * share, &sample->layers);
+#endif
 }
 
 /* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling. */
 static inline void path_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                       const Bsdf* bsdf, Path* path)
+                                const Bsdf* bsdf, const AutomatonStep* step, Path* path)
 {
     const LightSample light =
         lights_sample(scene, params, surface, bsdf->frame.z, path->numbers.light, path->numbers.alias);
     if (light.pdf_w == REAL(0.0))
         return;
-    const BsdfValue eval = bsdf_eval(bsdf, light.wi);
+    BsdfValue eval = bsdf_eval(bsdf, light.wi);
+    if (HAS(EFFECT_PATH_FILTER))
+        eval.value = filter_value(step, bsdf, light.wi, light.kind, eval.value);
     const real3 arriving = eval.value * light.radiance;
     if (vector_is_black(arriving))
         return;
@@ -81,6 +133,28 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     path->connection = path->throughput * arriving * (weight / light.pdf_w);
     path->shadow = light_shadow_ray(surface, &light);
     path->is_connected = true;
+    path_connect_layers(bsdf, step, &light, path->throughput * light.radiance * (weight / light.pdf_w), path);
+}
+
+/* Moves the automaton along a sampled direction; false if a ray would find nothing there. */
+static inline bool path_follow(const Sampler* sampler, uint segment, const Bsdf* bsdf, const AutomatonStep* step,
+                               const BsdfSample* next, Path* path)
+{
+    if (!filter_is_ambiguous(step, bsdf) || next->pdf_w == REAL(0.0)) {
+        path->state = filter_state(step, bsdf, next);
+        return automaton_continues(path->state);
+    }
+    real3 share;
+    const real u = sampler_number(sampler, segment, SAMPLE_CLASS);
+    const bool is_matte = filter_choose_matte(step, bsdf, next->wi, u, &share);
+    if (automaton_splits(path->state))
+        path->throughput *= share;
+#if PATH_LAYERS > 0
+    else
+        path->layers.share *= share;
+#endif
+    path->state = is_matte ? step->matte : step->glossy;
+    return true;
 }
 
 /* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios crossed so far
@@ -97,6 +171,18 @@ static inline bool path_survives(const RenderParams* params, const Sampler* samp
     return true;
 }
 
+/* Adds the light from outside the scene. */
+static inline void path_escape(const Scene* scene, const RenderParams* params, const Path* path, CameraSample* sample)
+{
+    const real3 direction = path->ray.direction;
+    sample->radiance +=
+        path->throughput * lights_escape(scene, params, direction, path->pdf_w, path_accepted(path));
+    if (PATH_LAYERS == 0)
+        return;
+    path_add_layers(path, KIND_SKY, lights_escape(scene, params, direction, path->pdf_w, KIND_SKY), sample);
+    path_add_layers(path, KIND_SUN, lights_escape(scene, params, direction, path->pdf_w, KIND_SUN), sample);
+}
+
 /* Handles the vertex at the end of a segment: adds its emission, connects it to a light, chooses the next segment or ends
    the path. */
 static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* params, uint segment, Path* path,
@@ -105,30 +191,43 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const real3 wo = -path->ray.direction;
     path->is_alive = false;
     if (path->hit.triangle == NO_INDEX) {
-        sample->radiance += path->throughput * lights_escape(scene, params, path->ray.direction, path->pdf_w);
+        path_escape(scene, params, path, sample);
         return;
     }
     const Surface surface = surface_at(scene, &path->hit, wo);
 
     /* Add what it emits. */
-    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-        sample->radiance +=
-            path->throughput * path_emission(scene, params, &surface, path->hit.t, wo, path->pdf_w);
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && (path_accepted(path) & KIND_AREA)) {
+        const real3 emitted = path_emission(scene, params, &surface, path->hit.t, wo, path->pdf_w);
+        sample->radiance += path->throughput * emitted;
+        path_add_layers(path, KIND_AREA, emitted, sample);
+    }
     if (segment >= params->max_depth)
         return;
-    const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    AutomatonStep step;
+    bool continues = true;
+    if (HAS(EFFECT_PATH_FILTER)) {
+        step = automaton_step(params, path->state, segment);
+        filter_lobes(&step, &bsdf);
+        continues = filter_continues(&step, &bsdf);
+    }
     if (bsdf.lobes == 0u)
         return;
 
     /* Choose the next direction, connect to a light. */
     const BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);
-    if (bsdf_has_smooth_lobe(&bsdf))
-        path_connect(scene, params, &surface, &bsdf, path);
+    if (bsdf_has_smooth_lobe(&bsdf) && (!HAS(EFFECT_PATH_FILTER) || filter_wants_light(&step, &bsdf)))
+        path_connect(scene, params, &surface, &bsdf, &step, path);
 
     /* Go on, or let Russian roulette end the path. */
-    if (!next.is_valid)
+    if (!next.is_valid || !continues)
         return;
     path->throughput *= next.weight;
+    if (HAS(EFFECT_PATH_FILTER)) {
+        if (!path_follow(&sample->sampler, segment, &bsdf, &step, &next, path))
+            return;
+    }
     path->pdf_w = next.pdf_w;
     path->eta_squared *= next.eta * next.eta;
     path->is_alive = path_survives(params, &sample->sampler, segment, path);
@@ -164,7 +263,7 @@ static inline uint path_advance(const Scene* scene, const RenderParams* params, 
         if (!paths[k].is_connected)
             continue;
         ++rays->shadow;
-        samples[k].radiance += paths[k].connection * visible_share(scene, params, &paths[k].shadow);
+        path_add_connection(&paths[k], visible_share(scene, params, &paths[k].shadow), &samples[k]);
     }
     return alive;
 }
@@ -176,7 +275,7 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
     for (uint k = 0; k < count; ++k)
         path_begin(&paths[k], &samples[k].ray);
     uint segment = 1u;
-    while (path_advance(scene, params, segment, paths, samples, count, rays) != 0u)
+    while (path_advance(scene, params, segment, paths, samples, count, rays) != 0u && segment < PATH_SEGMENTS)
         ++segment;
 }
 

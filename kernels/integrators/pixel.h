@@ -9,6 +9,7 @@
 #include "film/film.h"
 #include "film/tile.h"
 #include "geometry/scene.h"
+#include "path/layers.h"
 
 /* Samples of a pixel that are simulated side by side. Their arithmetic does not depend on each other, so a processor that works
    ahead fills the waits of one with the others: four give a seventh more samples a second than one on a CPU. The host sets 1
@@ -20,6 +21,7 @@
 /* One sample of a pixel: what an integrator gets and gives. */
 typedef struct {
     Sampler sampler;
+    LayerSums layers;
     Ray ray;
     real3 radiance;
 } CameraSample;
@@ -55,6 +57,7 @@ static CLRT_NOINLINE void pixel_aim(const RenderParams* params, uint x, uint y, 
         samples[k].sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
         samples[k].ray = camera_ray(params, &samples[k].sampler, x, y);
         samples[k].radiance = (real3)(REAL(0.0));
+        layers_begin(&samples[k].layers);
     }
 }
 
@@ -65,10 +68,12 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
     const uint pixel = (params->crop_y + place.y) * params->width + params->crop_x + place.x;
     for (uint k = 0; k < count; ++k, sample_counter_next(params, counter)) {
         const uint fault = film_fault(params, samples[k].radiance);
-        if (fault == COUNT_WORDS)
+        if (fault == COUNT_WORDS) {
             film_add(params, film_sums(params, film, place.slot, counter->replicate), &samples[k].sampler,
                      samples[k].radiance);
-        else
+            if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u)
+                film_report_fault(counters, COUNT_OVERFLOW, pixel, counter->sample);
+        } else
             film_report_fault(counters, fault, pixel, counter->sample);
     }
 }

@@ -12,7 +12,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     const real3 wo = -ray.direction;
     const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
     if (hit.triangle == NO_INDEX)
-        return lights_escape(scene, params, ray.direction, REAL(0.0));
+        return lights_escape(scene, params, ray.direction, REAL(0.0), KINDS_ALL);
     const Surface surface = surface_at(scene, &hit, wo);
     real3 radiance = (real3)(REAL(0.0));
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)

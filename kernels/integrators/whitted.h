@@ -85,7 +85,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         /* Find the surface, or the light outside the scene. */
         const Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
         if (hit.triangle == NO_INDEX) {
-            radiance += current.weight * lights_escape(scene, params, current.ray.direction, REAL(0.0));
+            radiance += current.weight * lights_escape(scene, params, current.ray.direction, REAL(0.0), KINDS_ALL);
             continue;
         }
         const Surface surface = surface_at(scene, &hit, wo);

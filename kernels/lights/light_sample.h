@@ -5,13 +5,14 @@
 
 #include "geometry/surface.h"
 #include "numerics/warp.h"
-#include "shared/types.h"
+#include "shared/path_types.h"
 
 typedef struct {
     real3 wi;       /* world, unit, from the surface */
     real3 radiance; /* arriving if nothing is in between; irradiance at normal incidence for a delta light */
     real3 target;   /* where the shadow ray ends; unused when distant */
     real pdf_w;     /* per steradian as seen from the surface; 1 for a delta light, 0 where no light was found */
+    uint kind;      /* KIND_*, set where lights of several kinds are chosen from */
     bool is_distant;
     bool is_delta;
 } LightSample;
@@ -24,6 +25,7 @@ static inline LightSample light_sample_none(void)
     sample.radiance = (real3)(REAL(0.0));
     sample.target = (real3)(REAL(0.0));
     sample.pdf_w = REAL(0.0);
+    sample.kind = KINDS_ALL;
     sample.is_distant = true;
     sample.is_delta = true;
     return sample;

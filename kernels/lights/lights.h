@@ -23,30 +23,34 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
     if (HAS(EFFECT_AREA_LIGHT) && v < emitter) {
         sample = emitter_sample(scene, params, surface->position, words.x, alias_word, v / emitter);
         sample.pdf_w *= emitter;
+        sample.kind = KIND_AREA;
     } else if (HAS(EFFECT_ENVIRONMENT_MAP) && v < emitter + sky) {
         sample = environment_sample(scene, params, n, words.x, alias_word, (v - emitter) / sky);
         sample.pdf_w *= sky;
+        sample.kind = KIND_SKY;
     } else if (HAS(EFFECT_DELTA_LIGHT) && light > REAL(0.0)) {
         const uint index = delta_light_choose(scene, params, words.x, alias_word);
         const real2 u = (real2)(warp_rest(words.x, params->light_count, alias_word), (v - emitter - sky) / light);
         sample = delta_light_sample(scene, index, surface->position, u);
         sample.pdf_w *= light * (real)scene->lights[index].probability;
+        sample.kind = scene->lights[index].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
     }
     return sample;
 }
 
-/* Radiance from outside the scene along wi: the environment and the discs of suns. pdf_w is the density with which the
-   direction was sampled, 0 for camera rays and delta lobes; each part is weighted against next-event estimation. */
-static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams* params, real3 wi, real pdf_w)
+/* Radiance from outside the scene along wi: the environment and the discs of suns, as far as `kinds` (KIND_*) names them.
+   pdf_w is the density with which the direction was sampled, 0 for camera rays and delta lobes; each part is weighted
+   against next-event estimation. */
+static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams* params, real3 wi, real pdf_w, uint kinds)
 {
     real3 radiance = (real3)(REAL(0.0));
-    if (HAS(EFFECT_ENVIRONMENT)) {
+    if (HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY)) {
         real light_pdf_w = REAL(0.0);
         if (HAS(EFFECT_ENVIRONMENT_MAP) && pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
             light_pdf_w = (real)params->choose_environment * environment_map_pdf_w(scene, params, wi);
         radiance = environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);
     }
-    if (!HAS(EFFECT_DELTA_LIGHT))
+    if (!HAS(EFFECT_DELTA_LIGHT) || !(kinds & KIND_SUN))
         return radiance;
     for (uint i = 0; i < params->light_count; ++i) {
         if (!delta_light_covers(scene, i, wi))

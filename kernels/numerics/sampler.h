@@ -17,6 +17,7 @@
 #define SAMPLE_ROULETTE 6u
 #define SAMPLE_ROUNDING 7u    /* of the film's fixed point */
 #define SAMPLE_COVERAGE 8u    /* cut-outs; hashed on with their number along the ray */
+#define SAMPLE_CLASS 9u       /* matte or glossy, where a path filter must know and both are possible */
 #define SAMPLER_PURPOSES 16u
 
 typedef struct {

@@ -60,6 +60,17 @@ static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
     return result;
 }
 
+/* Probability of reflecting where F would reflect: F itself, unless one of the two ways is closed. */
+static inline real bsdf_dielectric_choose(const Bsdf* bsdf, real f)
+{
+    if (!HAS(EFFECT_PATH_FILTER))
+        return f;
+    if (bsdf->flags & BSDF_NO_REFRACTION)
+        return REAL(1.0);
+    /* Total reflection leaves nothing to refract: the weight becomes 0. */
+    return (bsdf->flags & BSDF_NO_REFLECTION) ? REAL(0.0) : f;
+}
+
 /* Reflects with probability F, else refracts. Gives the local direction; fills weight, density and index ratio. */
 static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 u, BsdfSample* sample)
 {
@@ -70,7 +81,8 @@ static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 
     const real cos_oh = clamp(vector_dot(wo, h), REAL(0.0), REAL(1.0));
     real cos_t;
     const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
-    const bool reflects = u_lobe < f;
+    const real choose = bsdf_dielectric_choose(bsdf, f);
+    const bool reflects = u_lobe < choose;
     const real3 wi = reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
     /* A microfacet may send light through the macroscopic surface the wrong way, and the horizon sees none: such paths
        end. */
@@ -78,6 +90,8 @@ static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 
         return wi;
     sample->eta = reflects ? REAL(1.0) : bsdf->eta;
     sample->weight = reflects ? bsdf->specular : bsdf->transmission * (bsdf->eta * bsdf->eta);
+    if (HAS(EFFECT_PATH_FILTER) && choose != f)
+        sample->weight *= reflects ? f : REAL(1.0) - f;
     if (!smooth) {
         sample->weight *=
             microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) / microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);

@@ -7,6 +7,10 @@
 #include "shared/effects.h"
 #include "shared/scene_types.h"
 
+/* Ways of a smooth dielectric that a path must not go (path/filter.h), beside MATERIAL_*. */
+#define BSDF_NO_REFLECTION 0x10000u
+#define BSDF_NO_REFRACTION 0x20000u
+
 typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
     real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
@@ -20,7 +24,7 @@ typedef struct {
     real exponent;      /* of Phong's highlight; 0: none */
     uint lobes;         /* LOBE_* */
     uint fresnel;       /* FRESNEL_* */
-    uint flags;         /* MATERIAL_* */
+    uint flags;         /* MATERIAL_*, BSDF_* */
     real choose_matte, choose_glossy; /* probabilities of the lobes; the rest is the mirror or the dielectric */
 } Bsdf;
 

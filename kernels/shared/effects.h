@@ -19,7 +19,8 @@
 #define EFFECT_SMOOTH_NORMALS 0x0800u  /* vn that differ from the face's normal */
 #define EFFECT_CUT_OUT 0x1000u         /* coverage below 1 */
 #define EFFECT_FILTER 0x2000u          /* pixel filter other than the box */
-#define EFFECT_ALL 0x3fffu
+#define EFFECT_PATH_FILTER 0x4000u     /* --paths, layers of paths (path/automaton.h) */
+#define EFFECT_ALL 0x7fffu
 
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS

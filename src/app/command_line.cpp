@@ -9,6 +9,7 @@
 #include "app/terminal.h"
 #include "error.h"
 #include "output/image.h"
+#include "render/film_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -63,19 +64,63 @@ bool overruled(const GivenOption& from_file, const std::vector<GivenOption>& com
     return is_given(command_line, name);
 }
 
+/// Whether any of the options that end a render is given.
+bool has_budget(const std::vector<GivenOption>& options) {
+    return is_given(options, "--spp") || is_given(options, "--time") || is_given(options, "--error");
+}
+
+bool is_budget(const std::string& name) {
+    return name == "--spp" || name == "--time" || name == "--error";
+}
+
+/// `clrt --resume FILM` and further options: the command that the film was rendered with, overruled by them.
+/// A new budget replaces the old one as a whole.
+Arguments continue_command(const Arguments& given) {
+    const auto resume = std::find_if(given.options.begin(), given.options.end(),
+                                     [](const GivenOption& option) { return option.value.option == "--resume"; });
+    const FilmOrigin origin = read_film_origin(resume->value.text);
+    const std::string here = std::filesystem::current_path().string();
+    if (origin.folder != here)
+        throw UsageError(
+            "option --resume: expected the whole command, or to run in the folder of the film's command, " +
+            origin.folder + "; found " + here);
+    std::vector<const char*> words;
+    for (const std::string& word : origin.command)
+        words.push_back(word.c_str());
+    Arguments earlier = split_arguments(int(words.size()), words.data());
+    Arguments all{{}, earlier.scenes};
+    for (const GivenOption& option : earlier.options)
+        if (!overruled(option, given.options) && !(is_budget(option.value.option) && has_budget(given.options)))
+            all.options.push_back(option);
+    all.options.insert(all.options.end(), given.options.begin(), given.options.end());
+    return all;
+}
+
+/// The words of a command line without --resume.
+std::vector<std::string> resumable_command(const Arguments& arguments) {
+    std::vector<std::string> words{"clrt"};
+    for (const GivenOption& option : arguments.options)
+        if (option.value.option != "--resume")
+            words.push_back(option.value.option + (option.value.text.empty() ? "" : "=" + option.value.text));
+    words.emplace_back("--"); // scenes may start with a dash
+    words.insert(words.end(), arguments.scenes.begin(), arguments.scenes.end());
+    return words;
+}
+
 /// A render of minutes must not end in "no such folder".
 void check_folders(const Options& options) {
     for (const std::string& path : options.outputs)
         check_output_folder(path);
-    if (!options.stats_path.empty())
-        check_output_folder(options.stats_path);
+    for (const std::string& path : {options.stats_path, options.checkpoint_path})
+        if (!path.empty())
+            check_output_folder(path);
 }
 
 } // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
     // Split the command line; help and version need nothing else.
-    const Arguments arguments = split_arguments(argc, argv);
+    Arguments arguments = split_arguments(argc, argv);
     CommandLine result;
     if (is_given(arguments.options, "--help"))
         result.print = help_text(help_columns());
@@ -85,9 +130,14 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         return result;
     reject_exclusive(arguments.options);
 
+    // A film without a scene brings its own command.
+    if (arguments.scenes.empty() && is_given(arguments.options, "--resume"))
+        arguments = continue_command(arguments);
+
     // Read the options file beside the scene, less what the command line overrules.
     Options& options = result.options;
     options.command.assign(argv, argv + argc);
+    options.resumable_command = resumable_command(arguments);
     const bool list_devices = is_given(arguments.options, "--list-devices");
     options.scene_path = only_scene(arguments.scenes, list_devices);
     if (!list_devices && !is_given(arguments.options, "--no-sidecar"))

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "output/image.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace clrt {
@@ -13,9 +14,10 @@ namespace {
 
 /// The ray stack of the whitted kernel holds one ray a segment.
 constexpr int WHITTED_STACK_DEPTH = 64;
+/// Fewer give no interval.
+constexpr int FEWEST_REPLICATES_WITH_ERROR = 4;
 /// Samples a pixel are counted in 32 bits.
 constexpr std::uint64_t SAMPLE_LIMIT = std::uint64_t(1) << 32;
-constexpr std::uint32_t DEFAULT_SPP = 64;
 
 [[noreturn]] void reject(const Options& options, const std::string& message) {
     const bool from_file = !options.sidecar_path.empty();
@@ -57,17 +59,47 @@ void check_lens(const Options& options) {
 }
 
 void check_samples(const Options& options) {
-    const std::uint64_t end = std::uint64_t(options.first_sample) + options.spp.value_or(DEFAULT_SPP);
+    const std::uint64_t end = std::uint64_t(options.first_sample) +
+                              options.spp.value_or(options.error ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
     if (end >= SAMPLE_LIMIT)
         reject(options, "options --first-sample and --spp: expected a sum below " +
                             std::to_string(SAMPLE_LIMIT) + ", found " + std::to_string(end));
 }
 
-void check_statistics_path(const Options& options) {
+void check_error_target(const Options& options) {
+    if (options.error && options.replicates < FEWEST_REPLICATES_WITH_ERROR)
+        reject(options, "option --error: expected --replicates " + std::to_string(FEWEST_REPLICATES_WITH_ERROR) +
+                            " or more, whose spread is the error, found " + std::to_string(options.replicates));
+}
+
+void check_written_paths(const Options& options) {
     std::error_code error; // a file that is not there yet is no other file
-    for (const std::string& input : {options.scene_path, options.sidecar_path})
+    for (const std::string& input : {options.scene_path, options.sidecar_path}) {
         if (!options.stats_path.empty() && std::filesystem::equivalent(options.stats_path, input, error))
             reject(options, "option --stats: expected a file to write, found the input " + input);
+        if (!options.checkpoint_path.empty() && std::filesystem::equivalent(options.checkpoint_path, input, error))
+            reject(options, "option --checkpoint: expected a file to write, found the input " + input);
+    }
+    const std::string& film = options.checkpoint_path;
+    const bool is_output = std::find(options.outputs.begin(), options.outputs.end(), film) != options.outputs.end();
+    if (!film.empty() && (is_output || film == options.stats_path))
+        reject(options, "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
+}
+
+/// Only `path` walks the automaton; the others simulate one language each.
+void check_paths(const Options& options) {
+    const bool has_paths = !options.paths.empty();
+    if (options.integrator != Integrator::PATH && (has_paths || !options.path_layers.empty())) {
+        const bool whitted = options.integrator == Integrator::WHITTED;
+        reject(options, std::string(has_paths ? "option --paths" : "option --aov NAME=EXPR") +
+                            ": expected --integrator path, found " +
+                            (whitted ? "whitted, which simulates 'LD?S*E' alone"
+                                     : "raycast, which simulates 'LD?E' alone"));
+    }
+    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_layered_output);
+    if (!options.path_layers.empty() && !has_exr && options.explain == Explain::NO)
+        reject(options, "option --aov: expected an output that ends in .exr for the layer '" +
+                            options.path_layers.front().name + "', found none; add -o FILE.exr");
 }
 
 } // namespace
@@ -77,7 +109,9 @@ void check_combinations(const Options& options) {
     check_output_sizes(options);
     check_lens(options);
     check_samples(options);
-    check_statistics_path(options);
+    check_error_target(options);
+    check_written_paths(options);
+    check_paths(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)
         reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
                             " with --integrator whitted, found " + std::to_string(*options.max_depth));

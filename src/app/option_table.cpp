@@ -4,9 +4,12 @@
 
 #include "app/nearest_name.h"
 #include "error.h"
+#include "kernels/shared/path_types.h"
 #include "output/image.h"
+#include "paths/path_expression.h"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 namespace clrt {
@@ -89,19 +92,60 @@ void apply_filter(Options& o, const OptionValue& v) {
                                    [](double r) { return r > 0 && r <= LARGEST_FILTER_RADIUS; });
 }
 
-void apply_aov(Options& o, const OptionValue& v) {
-    static const std::vector<std::string> LAYERS = {"albedo",     "N",        "Z",       "P",    "objectId",
+constexpr size_t LARGEST_LAYER_NAME = 60;
+
+/// Reads an expression; a message of it says where the value is from.
+void check_paths(const OptionValue& v, const std::string& expression) {
+    try {
+        parse_path_expression(expression);
+    } catch (const UsageError& error) {
+        throw UsageError(v.origin + "option " + v.option + ": " + error.what());
+    }
+}
+
+const std::vector<std::string>& fixed_layers() {
+    static const std::vector<std::string> layers = {"albedo",     "N",        "Z",       "P",    "objectId",
                                                     "materialId", "variance", "samples", "alpha"};
-    o.aovs.emplace();
-    if (v.text == "none")
+    return layers;
+}
+
+/// A layer NAME=EXPR of paths.
+void add_path_layer(Options& o, const OptionValue& v, const std::string& name, const std::string& expression) {
+    static const std::string LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz", REST = "0123456789_-";
+    const std::vector<std::string>& fixed = fixed_layers();
+    const bool is_name = !name.empty() && name.size() <= LARGEST_LAYER_NAME &&
+                         LETTERS.find(name[0]) != std::string::npos &&
+                         name.find_first_not_of(LETTERS + REST) == std::string::npos;
+    const bool is_taken =
+        std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
+        std::any_of(o.path_layers.begin(), o.path_layers.end(), [&](const auto& l) { return l.name == name; });
+    if (!is_name || is_taken)
+        reject_value(v, "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
+    if (o.path_layers.size() == PATH_LAYERS_LIMIT)
+        reject_value(v, "at most " + std::to_string(PATH_LAYERS_LIMIT) + " layers NAME=EXPR");
+    check_paths(v, expression);
+    o.path_layers.push_back({name, expression});
+}
+
+/// Adds to the layers that other occurrences of the option name.
+void apply_aov(Options& o, const OptionValue& v) {
+    const std::vector<std::string>& fixed = fixed_layers();
+    const bool is_first = !o.aovs;
+    if (is_first)
+        o.aovs.emplace();
+    if (v.text == "none" && is_first)
         return;
     for (const std::string& layer : split_list(v.text)) {
-        const bool known = std::find(LAYERS.begin(), LAYERS.end(), layer) != LAYERS.end();
+        if (const size_t equals = layer.find('='); equals != std::string::npos) {
+            add_path_layer(o, v, layer.substr(0, equals), layer.substr(equals + 1));
+            continue;
+        }
+        const bool known = std::find(fixed.begin(), fixed.end(), layer) != fixed.end();
         const bool repeated = std::find(o.aovs->begin(), o.aovs->end(), layer) != o.aovs->end();
         if (!known || repeated)
             reject_value(
                 v, "none or a list such as albedo,N of different layers out of albedo, N, Z, P, objectId, "
-                   "materialId, variance, samples, alpha");
+                   "materialId, variance, samples, alpha, and NAME=EXPR");
         o.aovs->push_back(layer);
     }
 }
@@ -111,6 +155,21 @@ void apply_output(Options& o, const OptionValue& v) {
     if (!is_output_path(path))
         reject_value(v, std::string("a file name that ends in ") + OUTPUT_EXTENSIONS);
     o.outputs.push_back(path);
+}
+
+/// FILE or FILE,DURATION: a comma in the name counts where no digit follows it.
+void apply_checkpoint(Options& o, const OptionValue& v) {
+    const size_t comma = v.text.rfind(',');
+    const bool has_interval = comma != std::string::npos && comma + 1 < v.text.size() &&
+                              std::isdigit(static_cast<unsigned char>(v.text[comma + 1]));
+    OptionValue path = v, interval = v;
+    path.text = has_interval ? v.text.substr(0, comma) : v.text;
+    o.checkpoint_path = parse_path(path);
+    o.checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;
+    if (!has_interval)
+        return;
+    interval.text = v.text.substr(comma + 1);
+    o.checkpoint_seconds = parse_duration(interval);
 }
 
 void apply_text(std::string& target, const OptionValue& v) {
@@ -140,13 +199,18 @@ std::vector<OptionSpec> work_options() {
                                                          {"whitted", Integrator::WHITTED},
                                                          {"path", Integrator::PATH}});
          }},
-        {group, "s", "--spp", "N", "samples a pixel (default 64, or what --time allows)",
+        {group, "s", "--spp", "N",
+         "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error)",
          [](Options& o, const OptionValue& v) {
              o.spp = static_cast<std::uint32_t>(parse_whole(v, 1, LARGEST_U32));
          }},
         {group, "t", "--time", "DURATION",
          "render for 90, 90s, 5m or 1h, up to a whole pass (default: no limit)",
          [](Options& o, const OptionValue& v) { o.time_seconds = parse_duration(v); }},
+        {group, "e", "--error", "X",
+         "render until the picture's relative error, root of mean squared over mean, is at most 0.02 or 2%; "
+         "whichever of -s, -t and -e comes first ends the render (default: no target)",
+         [](Options& o, const OptionValue& v) { o.error = parse_fraction(v); }},
         {group, "", "--max-depth", "N",
          "longest path in segments; 1 sees emitters, 2 adds direct light (default 64; whitted 10; raycast "
          "always 2)",
@@ -222,8 +286,9 @@ std::vector<OptionSpec> picture_options() {
          }},
         {group, "", "--aov", "LIST",
          "layers of EXR files, such as albedo,N or none: albedo N Z P objectId materialId variance samples "
-         "alpha (default: all but alpha)",
-         apply_aov},
+         "alpha, and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: "
+         "all but alpha)",
+         apply_aov, REPEATABLE},
     };
 }
 
@@ -290,6 +355,14 @@ std::vector<OptionSpec> promise_options() {
          [](Options& o, const OptionValue& v) {
              o.all_effects = parse_choice<bool>(v, {{"auto", false}, {"all", true}});
          }},
+        {group, "", "--paths", "EXPR",
+         "path: simulate only these paths, light to eye: L light (La area, Lp point, Ld sun, Le sky), D matte, G "
+         "glossy, S specular (R mirror, T refraction), . any surface, E eye, and | * + ? ( ), such as "
+         "'L(D|S)*E' (default: all)",
+         [](Options& o, const OptionValue& v) {
+             check_paths(v, v.text);
+             o.paths = v.text;
+         }},
         {group, "", "--stats", "FILE", "write statistics of the run as JSON, in SI units",
          [](Options& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
         {group, "", "--check", "MODE", "non-finite samples: off, count, strict (exit 4) (default count)",
@@ -303,6 +376,15 @@ std::vector<OptionSpec> promise_options() {
 std::vector<OptionSpec> run_options() {
     const char* const group = "Runs";
     return {
+        {group, "", "--checkpoint", "FILE[,TIME]",
+         "write a film file, from which --resume goes on and which clrt-merge merges, at the end and so often "
+         "(default: none; every 5m)",
+         apply_checkpoint},
+        {group, "", "--resume", "FILE",
+         "go on from a film file: with the same command, or alone with another --spp, --time or --error",
+         [](Options& o, const OptionValue& v) { o.resume_path = parse_path(v); }, Repeat::NO, COMMAND_LINE_ONLY},
+        {group, "", "--save-every", "DURATION", "write the pictures so far so often (default: at the end only)",
+         [](Options& o, const OptionValue& v) { o.save_every_seconds = parse_duration(v); }},
         {group, "", "--kernels", "DIR", "take the kernels from here (default: those inside clrt)",
          [](Options& o, const OptionValue& v) { o.kernels_folder = parse_path(v); }},
         {group, "", "--dump-kernels", "DIR", "write here exactly what is compiled",

@@ -56,14 +56,29 @@ struct Crop {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
+/// An EXR layer with the light of some paths.
+struct PathLayerOption {
+    std::string name;
+    std::string expression; ///< path notation (paths/path_expression.h)
+};
+
+/// Samples a pixel when none of --spp, --time and --error is given.
+constexpr std::uint32_t DEFAULT_SPP = 64;
+/// Samples a pixel at most when --error is given without --spp.
+constexpr std::uint32_t DEFAULT_SPP_WITH_ERROR = 65536;
+
+/// Between two film files of one run.
+constexpr double DEFAULT_CHECKPOINT_SECONDS = 300;
+
 struct Options {
     // Work
     std::string scene_path;
     std::string device; ///< as given to --device; empty: CLRT_DEVICE, else the first GPU, else the CPU
     bool list_devices = false;
     Integrator integrator = Integrator::PATH;
-    std::optional<std::uint32_t> spp;   ///< 64 if neither spp nor time is given
-    std::optional<double> time_seconds; ///< bounds the render stage
+    std::optional<std::uint32_t> spp;   ///< 64 if none of spp, time and error is given; 65536 with error alone
+    std::optional<double> time_seconds; ///< bounds the render stage of this run
+    std::optional<double> error;        ///< target of the relative error
     std::optional<int> max_depth;       ///< path segments; 64, whitted 10, raycast always 2
     int roulette_depth = 5;             ///< path: first segment that Russian roulette may end
     double min_contribution = 0.002;    ///< whitted: smallest weight worth a ray
@@ -83,6 +98,7 @@ struct Options {
     double exposure_ev = 0;              ///< stops, PNG and other 8-bit files only
     Tonemap tonemap = Tonemap::NONE;
     std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
+    std::vector<PathLayerOption> path_layers;     ///< further EXR layers, made from the picture's light
 
     CameraOptions camera;
     LightOptions light;
@@ -90,10 +106,15 @@ struct Options {
     // The promises
     Explain explain = Explain::NO;
     bool all_effects = false; ///< --effects all: the full kernel
+    std::string paths;        ///< path notation (paths/path_expression.h); empty: every path
     std::string stats_path;   ///< JSON; empty: none
     Check check = Check::COUNT;
 
     // Runs
+    std::string checkpoint_path;              ///< film file to write; empty: none
+    double checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;        ///< between two of them
+    std::string resume_path;                  ///< film file to go on from; empty: none
+    std::optional<double> save_every_seconds; ///< between two pictures so far
     std::string kernels_folder; ///< replaces the embedded kernels
     std::string dump_folder;    ///< writes exactly what was compiled
     Toggle cache = Toggle::AUTO;
@@ -103,6 +124,8 @@ struct Options {
     bool no_sidecar = false;
     std::string sidecar_path;         ///< options file that was read; empty: none
     std::vector<std::string> command; ///< argv as given, for the metadata
+    /// The command line that a film file keeps for --resume: without --resume, with what that took from its film.
+    std::vector<std::string> resumable_command;
 };
 
 /// The largest path length in segments for these options (INTERFACE: raycast 2, whitted 10, path 64).

@@ -49,6 +49,8 @@ std::string progress_line(const ProgressState& state, double seconds) {
         line += "  ETA " + duration_text(seconds * (1 / state.fraction - 1));
     if (state.rays_per_second >= 0)
         line += fmt::format("  {:.1f} Mrays/s", state.rays_per_second * 1e-6);
+    if (state.error >= 0)
+        line += fmt::format("  error {:.2f} %", 100 * state.error);
     return line;
 }
 

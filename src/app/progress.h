@@ -15,10 +15,11 @@ struct ProgressState {
     double fraction = -1;  ///< 0..1, percentages are rounded down
     std::uint64_t spp = 0; ///< samples a pixel so far
     double rays_per_second = -1;
+    double error = -1; ///< relative, as last measured
 };
 
 /// The line for a state that its phase has reached after `seconds`, without a line end: phase, percentage,
-/// samples a pixel, seconds, estimated seconds to go, rays a second; what is not known is left out.
+/// samples a pixel, seconds, estimated seconds to go, rays a second, error; what is not known is left out.
 std::string progress_line(const ProgressState& state, double seconds);
 
 /// Not for several threads at once. Log lines come between two lines only: call finish() before logging.

@@ -2,6 +2,7 @@
 #include "effects/effects.h"
 
 #include "kernels/shared/effects.h"
+#include "paths/path_report.h"
 
 #include <fmt/format.h>
 #include <functional>
@@ -112,6 +113,8 @@ Effects find_effects(const Scene& scene, const Options& options) {
     finder.fact(EFFECT_FILTER, "pixel filter", filtered, filtered ? "--filter" : "box filter");
 
     Effects effects;
+    effects.paths = plan_paths(scene, options);
+    finder.fact(EFFECT_PATH_FILTER, "path filter", effects.paths.is_filter, path_summary(effects.paths));
     effects.list = std::move(finder.list);
     for (const Effect& effect : effects.list)
         if (effect.present || options.all_effects)

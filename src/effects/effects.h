@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/options.h"
+#include "paths/path_plan.h"
 #include "scene/scene.h"
 
 #include <string>
@@ -24,6 +25,8 @@ struct Effects {
     std::vector<Effect> list;
     /// Bits to compile with: the present effects, or all of them with --effects all.
     u32 mask = 0;
+    /// What --paths and layers of paths ask for, and its automaton.
+    PathPlan paths;
 };
 
 /// Examines materials on triangles, lights, environment and options. Pure.

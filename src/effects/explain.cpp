@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects/explain.h"
 
+#include "paths/path_report.h"
 #include "scene/material_rules.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ std::string explain_json(const Scene& scene, const Effects& effects) {
                                    {"present", effect.present},
                                    {"compiled", (effects.mask & effect.bit) != 0},
                                    {"witness", effect.witness}});
+    json["paths"] = paths_json(effects.paths);
     json["notices"] = scene.notices;
     return json.dump(2) + "\n";
 }
@@ -31,6 +33,8 @@ std::string explain(const Scene& scene, const Effects& effects, const Options& o
     std::string text = fmt::format("Effects of {} ({} triangles):\n{}", options.scene_path, scene.triangles.size(),
                                    format_effects(effects));
     text += fmt::format("compiled with CLRT_EFFECTS={:#x}\n\nMaterials:\n{}", effects.mask, material_table(scene));
+    if (effects.paths.is_asked)
+        text += "\nPaths:\n" + format_paths(effects.paths);
     if (!scene.notices.empty())
         text += "\nNotices:\n";
     for (const std::string& notice : scene.notices)

@@ -54,6 +54,10 @@ bool is_output_path(const std::string& path) {
     return kind_of(path) != Kind::UNKNOWN;
 }
 
+bool is_layered_output(const std::string& path) {
+    return kind_of(path) == Kind::EXR;
+}
+
 void check_output_path(const std::string& path) {
     if (!is_output_path(path))
         throw UsageError("output '" + path + "': expected a name that ends in " + OUTPUT_EXTENSIONS);

@@ -42,6 +42,9 @@ bool is_output_path(const std::string& path);
 /// Throws UsageError when the name ends in none of them, before any work is done.
 void check_output_path(const std::string& path);
 
+/// Whether such a picture holds layers beside the picture itself.
+bool is_layered_output(const std::string& path);
+
 /// Pixels that a side of such a picture can have at most; libjpeg ends the process beyond its limit.
 int largest_output_side(const std::string& path);
 

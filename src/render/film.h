@@ -4,8 +4,8 @@
 
 #include "scene/scene.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace clrt {
@@ -24,18 +24,55 @@ FilmScale film_scale(const Scene& scene);
 /// Most samples that a pixel of one replicate can hold: 2^63 / 2^44 contributions.
 constexpr std::uint64_t FILM_SAMPLES_PER_REPLICATE = std::uint64_t(1) << 19;
 
+/// Sample numbers first .. end - 1 of every pixel.
+struct SampleRange {
+    std::uint64_t first = 0, end = 0;
+    bool operator==(const SampleRange& other) const { return first == other.first && end == other.end; }
+};
+
 /// Sums of a window of pixels: [replicate][pixel][rgb].
 struct Film {
     int width = 0, height = 0;
     int replicates = 1;              ///< kept apart
     FilmScale scale;
-    std::uint32_t first_sample = 0;
-    std::uint64_t samples = 0;       ///< a pixel, over all replicates
+    std::vector<SampleRange> ranges; ///< the samples inside: in order, disjoint, not empty; merged films can have gaps
     std::vector<std::int64_t> sums;
 };
 
+/// Sums of one replicate.
+inline size_t film_plane(const Film& film) {
+    return size_t(film.width) * size_t(film.height) * 3;
+}
+
+/// A film of the same samples without their sums, in one replicate.
+Film film_layer(const Film& film);
+
+/// Samples of a pixel, over all replicates.
+std::uint64_t film_samples(const Film& film);
+
 /// Samples of a pixel that fell into replicate `replicate`: sample s belongs to replicate s mod replicates.
 std::uint64_t film_replicate_samples(const Film& film, int replicate);
+
+/// Means of the replicates that have samples, one value (pixel and channel) after the other.
+class ReplicateMeans {
+public:
+    explicit ReplicateMeans(const Film& film);
+    /// Replicates that have samples.
+    size_t count() const { return first_.size(); }
+    /// Their means of value `i` of a replicate's plane.
+    void read(size_t i, double* means) const;
+    /// Returns the mean of their means, and how each differs from it, with the sum of the squared differences.
+    double read_deviations(size_t i, double* deviations, double& squares) const;
+
+private:
+    const Film& film_;
+    std::vector<size_t> first_;  ///< where each replicate's plane starts
+    std::vector<double> factor_; ///< quantum / samples of each
+};
+
+/// Adds the sums of replicates together until `replicates`, a divisor of their number, are kept apart: the
+/// picture keeps its bits, the error becomes coarser.
+void fold_replicates(Film& film, int replicates);
 
 /// Mean radiance, rgb a pixel. Zero samples give black.
 std::vector<float> film_mean(const Film& film);
@@ -43,15 +80,5 @@ std::vector<float> film_mean(const Film& film);
 /// Variance of the mean of each pixel and channel, from the spread of the replicates' means; empty when fewer than two
 /// replicates have samples.
 std::vector<float> film_variance(const Film& film);
-
-/// Relative error of the picture: sqrt(mean over pixels and channels of the variance of the mean) / mean radiance, with a
-/// 95 % interval by the jackknife over replicates (on the logarithm, Student's t).
-struct FilmError {
-    double relative_rmse = 0;
-    std::optional<double> low, high; ///< none under four replicates
-};
-
-/// None when fewer than two replicates have samples, or the picture is black.
-std::optional<FilmError> film_error(const Film& film);
 
 } // namespace clrt

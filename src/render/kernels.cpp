@@ -2,10 +2,10 @@
 #include "render/kernels.h"
 
 #include "device/kernel_source.h"
+#include "output/image.h"
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace clrt {
@@ -52,34 +52,35 @@ BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
 }
 
 bool wants_layers(const Options& options) {
-    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
-        return std::filesystem::path(path).extension() == ".exr";
-    });
+    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_layered_output);
     if (!has_exr || !options.aovs)
         return has_exr;
     return std::any_of(options.aovs->begin(), options.aovs->end(),
                        [](const std::string& name) { return is_hit_layer(name) || name == "alpha"; });
 }
 
-RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout) {
+RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout,
+                                     const PathPlan& paths) {
     const auto start = std::chrono::steady_clock::now();
     const KernelFiles files =
         options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
-    const auto build = [&](const std::string& name) {
+    const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
         ProgramRequest request;
         request.name = name;
         request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
         request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
                            fmt::format("SAMPLES_AT_ONCE={}", samples_at_once(device.info))};
+        request.defines.insert(request.defines.end(), defines.begin(), defines.end());
         request.precision = options.precision;
         request.dump_folder = options.dump_folder;
         request.cache = {options.cache, options.cache_folder};
         return build_program(device, request);
     };
     RenderPrograms programs;
-    programs.picture = build(integrator_name(options.integrator));
+    programs.paths = paths;
+    programs.picture = build(integrator_name(options.integrator), path_defines(paths));
     if (wants_layers(options))
-        programs.layers = build("aov");
+        programs.layers = build("aov", {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return programs;
 }

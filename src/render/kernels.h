@@ -5,6 +5,7 @@
 #include "app/options.h"
 #include "bvh/bvh.h"
 #include "device/program.h"
+#include "paths/path_plan.h"
 
 #include <optional>
 
@@ -14,6 +15,7 @@ namespace clrt {
 struct RenderPrograms {
     Program picture;
     std::optional<Program> layers; ///< auxiliary layers, when a file wants them
+    PathPlan paths;                ///< what the picture's program was built for
     double seconds = 0;            ///< wall time of building both
 };
 
@@ -27,7 +29,8 @@ BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device);
 /// True if some output file can hold auxiliary layers and the options want one.
 bool wants_layers(const Options& options);
 
-/// Compiles what the options ask for with this effects mask.
-RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout);
+/// Compiles what the options ask for with this effects mask and, where paths are told apart, the automaton of the plan.
+RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout,
+                                     const PathPlan& paths = {});
 
 } // namespace clrt

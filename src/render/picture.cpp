@@ -118,6 +118,9 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     picture.full_width = options.size.x;
     picture.full_height = options.size.y;
     picture.layers.push_back({"", {"R", "G", "B"}, film_mean(render.film), false});
+    for (size_t i = 0; i < render.path_layers.size(); ++i)
+        picture.layers.push_back(
+            {options.path_layers[i].name, {"R", "G", "B"}, film_mean(render.path_layers[i]), false});
     add_hit_layers(render, scene, options, picture);
     if (wants(options, "variance")) {
         std::vector<float> variance = film_variance(render.film);
@@ -126,7 +129,8 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     }
     if (wants(options, "samples")) {
         const size_t pixels = size_t(picture.width) * size_t(picture.height);
-        picture.layers.push_back({"", {"samples"}, std::vector<float>(pixels, float(render.passes)), false});
+        picture.layers.push_back(
+            {"", {"samples"}, std::vector<float>(pixels, float(film_samples(render.film))), false});
     }
     return picture;
 }

@@ -4,13 +4,14 @@
 #include "app/signals.h"
 #include "device/opencl_error.h"
 #include "error.h"
+#include "render/film_buffers.h"
+#include "render/launcher.h"
 #include "render/render_params.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace clrt {
 
@@ -18,265 +19,314 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t DEFAULT_SPP = 64;
 /// Launches aim at this long: short enough for progress, Ctrl-C and the watchdogs of display drivers.
 constexpr double LAUNCH_SECONDS = 0.5;
-/// Work-groups a row of the launch grid; keeps both grid dimensions below 65535 work-items, beyond which some drivers
-/// compile another variant.
-constexpr u32 GRID_COLUMNS = 2048;
 /// Launches take multiples of this many samples where they can: kernels simulate up to four at once.
 constexpr double SAMPLE_GROUP = 4;
 /// Samples a pixel that the auxiliary layers average.
-constexpr std::uint32_t LAYER_SAMPLES = 16;
+constexpr std::uint64_t LAYER_SAMPLES = 16;
+/// Without --error, measuring errors may take this part of the render; the slope is worth no more.
+constexpr double LARGEST_CHECK_SHARE = 0.05;
+/// So much is always worth it, seconds.
+constexpr double SMALL_CHECK_SECONDS = 0.2;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// One kernel with its parameters; launches tiles and samples of them.
-class Launcher {
-public:
-    Launcher(const Device& device, const Program& program, const std::string& name, const RenderParams& params,
-             const SceneBuffers& buffers)
-        : device_(device), kernel_(program, name), params_(params) {
-        bind_scene(buffers, kernel_);
-    }
-    Kernel& kernel() { return kernel_; }
+/// Samples a pixel that every sum of the film can hold; a layer of paths has one for all replicates.
+std::uint64_t film_capacity(const Film& film, const Options& options) {
+    return FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.path_layers.empty() ? film.replicates : 1);
+}
 
-    /// Runs `count` samples from `first` on tiles [first_tile, end_tile) and waits.
-    void run(std::uint32_t first, std::uint32_t count, u32 first_tile, u32 end_tile) {
-        params_.first_sample = first;
-        params_.sample_count = count;
-        params_.first_tile = first_tile;
-        params_.end_tile = end_tile;
-        kernel_.set("params", params_);
-        const u32 groups = std::max(end_tile - first_tile, 1u);
-        const u32 columns = std::min(groups, GRID_COLUMNS);
-        const u32 rows = (groups + columns - 1) / columns;
-        check_opencl("rendering", [&] {
-            device_.queue.enqueueNDRangeKernel(kernel_.handle(), cl::NullRange, cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
-                                               cl::NDRange(TILE_SIZE, TILE_SIZE));
-            device_.queue.finish();
-        });
+/// Samples a pixel that the film holds and that 32-bit sample numbers reach.
+std::uint64_t film_limit(const Film& film, const Options& options) {
+    const std::uint64_t next = film.ranges.empty() ? options.first_sample : film.ranges.back().end;
+    return std::min(film_capacity(film, options), film_samples(film) + UINT32_MAX - next);
+}
+
+/// Reminds every so often; never without an interval.
+class Reminder {
+public:
+    explicit Reminder(const std::optional<double>& interval_seconds)
+        : interval_(interval_seconds), last_(Clock::now()) {}
+    bool due() {
+        if (!interval_ || seconds_since(last_) < *interval_)
+            return false;
+        last_ = Clock::now();
+        return true;
     }
 
 private:
+    std::optional<double> interval_;
+    Clock::time_point last_;
+};
+
+/// The passes of one render.
+class Passes {
+public:
+    Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Options& options,
+           const RenderParams& params, Progress& progress, const RenderHooks& hooks, Render& result);
+
+    /// Runs passes until a rule ends them, then reads everything back.
+    void run();
+
+private:
+    StopRule run_until_stopped();
+    void run_launches(std::uint32_t samples);
+    std::uint32_t next_samples(const RenderState& state) const;
+    u32 launch_tiles(std::uint32_t samples) const;
+    RenderState measured_state();
+    void measure();
+    void read_back();
+    void render_layers();
+    void save_when_due();
+
     const Device& device_;
-    Kernel kernel_;
-    RenderParams params_;
-};
-
-/// Slots of the film: whole tiles.
-size_t film_slots(const RenderParams& params) {
-    return size_t(params.tile_count) * TILE_PIXELS;
-}
-
-/// Halves the number of replicates kept apart until their sums fit the device.
-int fitting_replicates(const Device& device, const RenderParams& params) {
-    const size_t plane = film_slots(params) * 3 * sizeof(std::int64_t);
-    const size_t most = std::min(device.info.largest_buffer_bytes, device.info.memory_bytes / 2);
-    int replicates = int(params.replicates);
-    while (size_t(replicates) * plane > most && replicates % 2 == 0)
-        replicates /= 2;
-    if (replicates != int(params.replicates))
-        spdlog::warn("the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
-                     params.replicates, replicates);
-    return replicates;
-}
-
-RenderCounts read_counts(const std::vector<u32>& words) {
-    RenderCounts counts;
-    counts.nan = words[COUNT_NAN];
-    counts.infinite = words[COUNT_INFINITE];
-    counts.negative = words[COUNT_NEGATIVE];
-    counts.overflow = words[COUNT_OVERFLOW];
-    const u32 noted = std::min<u32>(words[COUNT_BAD_SAMPLES], REPLAY_CAPACITY);
-    for (u32 i = 0; i < noted; ++i)
-        counts.bad_samples.emplace_back(words[COUNT_WORDS + 2 * i], words[COUNT_WORDS + 2 * i + 1]);
-    return counts;
-}
-
-/// Decides how much each launch does and when to stop.
-class Schedule {
-public:
-    Schedule(const Options& options, u32 tiles) : options_(options), tiles_(tiles) {
-        const bool bounded = options.spp || options.time_seconds;
-        target_ = options.spp ? *options.spp : (bounded ? UINT32_MAX - options.first_sample : DEFAULT_SPP);
-    }
-    std::uint64_t target() const { return target_; }
-
-    /// Samples of the next launch on all tiles; 0 ends the render. `done` samples took `seconds`.
-    std::uint32_t next_samples(std::uint64_t done, double seconds) const {
-        if (done >= target_ || (done > 0 && stop_signal()))
-            return 0;
-        if (done == 0)
-            return 1;
-        const double pass = std::max(seconds / double(done), 1e-6);
-        const double fitting = LAUNCH_SECONDS / pass;
-        double samples = fitting <= 1 ? 1 : std::ceil(fitting / SAMPLE_GROUP) * SAMPLE_GROUP;
-        // Grow slowly: the first passes may be unlike the later ones.
-        samples = std::min(samples, 2.0 * double(done));
-        if (options_.time_seconds) {
-            const double left = *options_.time_seconds - seconds;
-            if (left < 0.5 * pass)
-                return 0;
-            samples = std::min(samples, std::max(1.0, left / pass));
-        }
-        return std::uint32_t(std::min(double(target_ - done), samples));
-    }
-
-    /// Tiles of a launch when one pass takes `pass_seconds` (0: not known yet, a cautious first share).
-    u32 launch_tiles(double pass_seconds) const {
-        if (pass_seconds <= 0)
-            return std::max(tiles_ / 16, std::min(tiles_, 64u));
-        const double share = LAUNCH_SECONDS / pass_seconds;
-        return share >= 1 ? tiles_ : std::max(u32(share * tiles_), 1u);
-    }
-
-    /// Progress in [0, 1] by whichever limit is nearer.
-    double fraction(double done, double seconds) const {
-        double fraction = done / double(target_);
-        if (options_.time_seconds)
-            fraction = std::max(fraction, seconds / *options_.time_seconds);
-        return std::min(fraction, 1.0);
-    }
-
-private:
+    const RenderPrograms& programs_;
+    const SceneBuffers& scene_buffers_;
     const Options& options_;
-    u32 tiles_;
-    std::uint64_t target_ = 0;
+    const RenderParams params_;
+    Progress& progress_;
+    const RenderHooks& hooks_;
+    Render& result_;
+    FilmBuffers film_buffers_;
+    Launcher launcher_;
+    StopRules rules_;
+    Reminder picture_reminder_, film_reminder_;
+    Clock::time_point start_;
+    RenderCounts earlier_counts_;
+    double earlier_seconds_ = 0;
+    std::uint64_t first_ = 0, samples_ = 0; ///< the next sample's number; samples of the whole film
+    std::optional<SquaredError> last_error_; ///< as last measured
+    double launch_seconds_ = 0;             ///< of all launches of this run
+    double pass_seconds_ = 0;               ///< of one pass, by the last launch
 };
 
-void check_film_capacity(const Options& options, std::uint64_t samples) {
-    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.replicates);
-    if (options.spp && samples > most)
-        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with --replicates {}; "
-                                     "render disjoint ranges with --first-sample",
-                                     samples, most, options.replicates));
+Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
+               const Options& options, const RenderParams& params, Progress& progress,
+               const RenderHooks& hooks, Render& result)
+    : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
+      progress_(progress), hooks_(hooks), result_(result),
+      film_buffers_(device, params, programs.paths.layers.size()),
+      launcher_(device, programs.picture, std::string("render_") + integrator_name(options.integrator),
+                params, buffers),
+      rules_(options, film_limit(result.film, options)), picture_reminder_(options.save_every_seconds),
+      film_reminder_(options.checkpoint_path.empty() ? std::nullopt
+                                                     : std::optional(options.checkpoint_seconds)) {
+    film_buffers_.bind(launcher_.kernel());
+    first_ = options.first_sample;
+    if (!result.film.ranges.empty()) {
+        film_buffers_.write_sums(result);
+        first_ = result.film.ranges.back().end;
+        samples_ = film_samples(result.film);
+    }
+    earlier_counts_ = result.counts;
+    earlier_seconds_ = result.seconds;
+
+    // A launch without samples makes the driver finish its compilation.
+    const auto start = Clock::now();
+    launcher_.run(0, 0, 0, 0);
+    result.first_launch_seconds = seconds_since(start);
 }
 
-/// Runs all passes on a film buffer.
-void run_passes(const Options& options, const RenderParams& params, Launcher& launcher, Progress& progress,
-                Render& result) {
-    const Schedule schedule(options, params.tile_count);
-    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.replicates);
-    const auto start = Clock::now();
-    double pass_seconds = 0;
-    while (result.passes < most) {
-        const std::uint32_t samples = schedule.next_samples(result.passes, result.seconds);
-        if (samples == 0)
-            break;
-        for (u32 tile = 0; tile < params.tile_count;) {
-            const u32 end = std::min(params.tile_count, tile + schedule.launch_tiles(pass_seconds * samples));
-            const auto launch = Clock::now();
-            launcher.run(options.first_sample + std::uint32_t(result.passes), samples, tile, end);
-            pass_seconds = seconds_since(launch) / samples * params.tile_count / (end - tile);
-            tile = end;
-            const double done = double(result.passes) + double(samples) * tile / params.tile_count;
-            progress.update({"render", schedule.fraction(done, seconds_since(start)), std::uint64_t(done), -1});
-        }
-        result.passes += samples;
-        result.seconds = seconds_since(start);
+/// Samples of the next launch on all tiles: what fits the aimed time, up to the next measurement or the end.
+std::uint32_t Passes::next_samples(const RenderState& state) const {
+    if (result_.passes == 0)
+        return 1;
+    const double pass = std::max(state.pass_seconds, 1e-6);
+    const double fitting = LAUNCH_SECONDS / pass;
+    double samples = fitting <= 1 ? 1 : std::ceil(fitting / SAMPLE_GROUP) * SAMPLE_GROUP;
+    // Grow slowly: the first passes may be unlike the later ones.
+    samples = std::min(samples, 2.0 * double(result_.passes));
+    if (options_.time_seconds)
+        samples = std::min(samples, std::max(1.0, (*options_.time_seconds - state.seconds) / pass));
+    const std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
+    return std::uint32_t(std::min(double(end - samples_), samples));
+}
+
+/// Tiles of a launch; a cautious first share while no pass has been timed.
+u32 Passes::launch_tiles(std::uint32_t samples) const {
+    if (pass_seconds_ <= 0)
+        return std::max(params_.tile_count / 16, std::min(params_.tile_count, 64u));
+    const double share = LAUNCH_SECONDS / (pass_seconds_ * samples);
+    return share >= 1 ? params_.tile_count : std::max(u32(share * params_.tile_count), 1u);
+}
+
+/// Runs whole passes, in several launches where they take long.
+void Passes::run_launches(std::uint32_t samples) {
+    for (u32 tile = 0; tile < params_.tile_count;) {
+        const u32 end = std::min(params_.tile_count, tile + launch_tiles(samples));
+        const auto launch = Clock::now();
+        launcher_.run(std::uint32_t(first_), samples, tile, end);
+        const double seconds = seconds_since(launch);
+        launch_seconds_ += seconds;
+        pass_seconds_ = seconds / samples * params_.tile_count / (end - tile);
+        tile = end;
+        const double done = double(samples_) + double(samples) * tile / params_.tile_count;
+        const std::optional<FilmError> error = last_error_ ? relative_error(*last_error_) : std::nullopt;
+        progress_.update({"render", rules_.fraction(done, seconds_since(start_), last_error_), std::uint64_t(done), -1,
+                          error ? error->relative_rmse : -1});
     }
-    result.stop_signal = result.passes < schedule.target() ? stop_signal() : 0;
+    samples_ += samples;
+    first_ += samples;
+    result_.passes += samples;
+    std::vector<SampleRange>& ranges = result_.film.ranges;
+    if (ranges.empty())
+        ranges.push_back({first_ - samples, first_});
+    ranges.back().end = first_;
+}
+
+/// Reads the film and measures its error, for the history where the samples have doubled.
+void Passes::measure() {
+    const auto start = Clock::now();
+    film_buffers_.read_sums(result_);
+    last_error_ = film_squared_error(result_.film);
+    const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
+    if (last_error_ && is_new && rules_.is_check(samples_))
+        result_.history.push_back(*last_error_);
+    result_.check_seconds += seconds_since(start);
+}
+
+/// Where the render stands, with the error where it is time to measure it.
+RenderState Passes::measured_state() {
+    const double affordable = std::max(SMALL_CHECK_SECONDS, LARGEST_CHECK_SHARE * seconds_since(start_));
+    const bool worth_it = options_.error || result_.check_seconds <= affordable;
+    const bool resumed = samples_ > 0 && result_.passes == 0;
+    if ((rules_.is_check(samples_) && worth_it) || (resumed && options_.error))
+        measure();
+    RenderState state;
+    state.samples = samples_;
+    state.seconds = seconds_since(start_);
+    state.pass_seconds = result_.passes > 0 ? launch_seconds_ / double(result_.passes) : 0;
+    state.signal = stop_signal();
+    if (last_error_ && last_error_->samples == samples_)
+        state.error = relative_error(*last_error_);
+    return state;
+}
+
+void Passes::read_back() {
+    film_buffers_.read_sums(result_);
+    result_.counts = film_buffers_.read_counts();
+    result_.counts.primary = std::uint64_t(params_.crop_width) * params_.crop_height * result_.passes;
+    result_.counts.add(earlier_counts_);
+    result_.run_seconds = seconds_since(start_);
+    result_.seconds = earlier_seconds_ + result_.run_seconds;
+}
+
+/// Saves film and picture so far when it is time to.
+void Passes::save_when_due() {
+    if (film_reminder_.due() && hooks_.save_film) {
+        read_back();
+        hooks_.save_film(result_);
+    }
+    if (picture_reminder_.due() && hooks_.save_picture) {
+        read_back();
+        result_.error = film_error(result_.film);
+        render_layers();
+        hooks_.save_picture(result_);
+    }
+}
+
+StopRule Passes::run_until_stopped() {
+    for (;;) {
+        const RenderState state = measured_state();
+        if (const std::optional<StopRule> rule = rules_.ended(state))
+            return *rule;
+        run_launches(next_samples(state));
+        save_when_due();
+    }
+}
+
+void Passes::run() {
+    start_ = Clock::now();
+    result_.stop = run_until_stopped();
+    result_.stop_text = rules_.describe(result_.stop);
+    result_.stop_signal = result_.stop == StopRule::SIGNAL ? stop_signal() : 0;
+    read_back();
+    result_.error = film_error(result_.film);
+    render_layers();
 }
 
 /// The auxiliary layers of the primary hits.
-void render_layers(const Device& device, const Program& program, const SceneBuffers& buffers, const RenderParams& params,
-                   const Options& options, Render& result) {
-    const size_t floats = size_t(params.crop_width) * params.crop_height * HIT_LAYER_FLOATS;
-    const cl::Buffer layers = create_buffer(device, "layers", floats * sizeof(float));
-    Launcher launcher(device, program, "render_aov", params, buffers);
+void Passes::render_layers() {
+    if (!programs_.layers)
+        return;
+    const size_t floats = size_t(params_.crop_width) * params_.crop_height * HIT_LAYER_FLOATS;
+    const cl::Buffer layers = create_buffer(device_, "layers", floats * sizeof(float));
+    Launcher launcher(device_, *programs_.layers, "render_aov", params_, scene_buffers_);
     launcher.kernel().set("layers", layers);
-    result.layer_samples = std::uint32_t(std::min<std::uint64_t>(LAYER_SAMPLES, result.passes));
-    launcher.run(options.first_sample, result.layer_samples, 0, params.tile_count);
-    result.layers.resize(floats);
+    const SampleRange& range = result_.film.ranges.front();
+    result_.layer_samples = std::uint32_t(std::min(LAYER_SAMPLES, range.end - range.first));
+    launcher.run(std::uint32_t(range.first), result_.layer_samples, 0, params_.tile_count);
+    result_.layers.resize(floats);
     check_opencl("reading the picture back", [&] {
-        device.queue.enqueueReadBuffer(layers, CL_TRUE, 0, floats * sizeof(float), result.layers.data());
+        device_.queue.enqueueReadBuffer(layers, CL_TRUE, 0, floats * sizeof(float), result_.layers.data());
     });
 }
 
-/// The buffers that a render writes to.
-struct Targets {
-    cl::Buffer film, pixel_rays, counters;
-};
-
-Targets create_targets(const Device& device, const RenderParams& params) {
-    const size_t slots = film_slots(params);
-    return {create_buffer(device, "film", slots * 3 * params.film_replicates * sizeof(std::int64_t)),
-            create_buffer(device, "pixel_rays", slots * PIXEL_RAYS_WORDS * sizeof(u32)),
-            create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))};
-}
-
-template <class T>
-std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t count) {
-    std::vector<T> values(count);
-    check_opencl("reading the picture back", [&] {
-        device.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
-    });
-    return values;
-}
-
-/// Reads one replicate after the other from the device's tiles into the film's rows.
-void read_film(const Device& device, const RenderParams& params, const cl::Buffer& buffer, Film& film) {
-    const size_t slots = film_slots(params);
-    const std::vector<std::int64_t> tiles = read_buffer<std::int64_t>(device, buffer, slots * 3 * film.replicates);
-    film.sums.resize(size_t(film.replicates) * film.width * film.height * 3);
-    size_t out = 0;
-    for (size_t r = 0; r < size_t(film.replicates); ++r)
-        for (u32 y = 0; y < params.crop_height; ++y)
-            for (u32 x = 0; x < params.crop_width; ++x, out += 3) {
-                const size_t tile = size_t(y / TILE_SIZE) * params.tiles_x + x / TILE_SIZE;
-                const size_t slot = tile * TILE_PIXELS + (y % TILE_SIZE) * TILE_SIZE + x % TILE_SIZE;
-                std::copy_n(&tiles[3 * (r * slots + slot)], 3, &film.sums[out]);
-            }
-}
-
-void read_results(const Device& device, const RenderParams& params, const Targets& targets, Render& result) {
-    result.film.samples = result.passes;
-    read_film(device, params, targets.film, result.film);
-    result.counts = read_counts(read_buffer<u32>(device, targets.counters, COUNT_WORDS + 2 * REPLAY_CAPACITY));
-    result.counts.primary = std::uint64_t(params.crop_width) * params.crop_height * result.passes;
-    const size_t words = film_slots(params) * PIXEL_RAYS_WORDS;
-    const std::vector<u32> rays = read_buffer<u32>(device, targets.pixel_rays, words);
-    for (size_t i = 0; i < words; i += PIXEL_RAYS_WORDS) {
-        result.counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
-        result.counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
-    }
+/// --spp beyond what the film can hold.
+void check_film_capacity(const Options& options, const Film& film) {
+    const std::uint64_t most = film_capacity(film, options);
+    if (options.spp && *options.spp > most)
+        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with {}; "
+                                     "render disjoint ranges with --first-sample",
+                                     *options.spp, most,
+                                     options.path_layers.empty() ? fmt::format("{} replicates", film.replicates)
+                                                                 : "layers of paths"));
 }
 
 } // namespace
 
+void RenderCounts::add(const RenderCounts& other) {
+    primary += other.primary;
+    secondary += other.secondary;
+    shadow += other.shadow;
+    nan += other.nan;
+    infinite += other.infinite;
+    negative += other.negative;
+    overflow += other.overflow;
+    bad_samples.insert(bad_samples.end(), other.bad_samples.begin(), other.bad_samples.end());
+    std::sort(bad_samples.begin(), bad_samples.end(),
+              [](const auto& a, const auto& b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
+    bad_samples.resize(std::min<size_t>(bad_samples.size(), REPLAY_CAPACITY));
+}
+
 Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
-              const Options& options, Progress& progress) {
-    check_film_capacity(options, options.spp.value_or(DEFAULT_SPP));
+              const Options& options, Progress& progress, const RenderHooks& hooks) {
     Render result;
+    if (hooks.resume)
+        static_cast<RenderProgress&>(result) = *hooks.resume;
     Film& film = result.film;
     film.scale = film_scale(scene);
     RenderParams params = make_render_params(scene, options, film.scale);
+    restrict_lights(programs.paths, params);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
-    film.replicates = fitting_replicates(device, params);
-    film.first_sample = options.first_sample;
+    const int fitting = fitting_replicates(device, params, programs.paths.layers.size());
+    if (!hooks.resume)
+        film.replicates = fitting;
+    else
+        fold_replicates(film, std::min(fitting, film.replicates));
     params.film_replicates = u32(film.replicates);
+    check_film_capacity(options, film);
 
-    const Targets targets = create_targets(device, params);
-    Launcher launcher(device, programs.picture, std::string("render_") + integrator_name(options.integrator), params,
-                      buffers);
-    launcher.kernel().set("film", targets.film);
-    launcher.kernel().set("pixel_rays", targets.pixel_rays);
-    launcher.kernel().set("counters", targets.counters);
+    progress.update({"compile", -1, 0, -1, -1});
+    Passes passes(device, programs, buffers, options, params, progress, hooks, result);
+    passes.run();
+    return result;
+}
 
-    // A launch without samples makes the driver finish its compilation.
-    progress.update({"compile", -1, 0, -1});
-    const auto start = Clock::now();
-    launcher.run(0, 0, 0, 0);
-    result.first_launch_seconds = seconds_since(start);
-
-    run_passes(options, params, launcher, progress, result);
-    read_results(device, params, targets, result);
-    if (programs.layers && result.passes > 0)
-        render_layers(device, *programs.layers, buffers, params, options, result);
+Render render_nothing(const Scene& scene, const Options& options) {
+    const Crop window = render_window(options);
+    Render result;
+    Film& film = result.film;
+    film.scale = film_scale(scene);
+    film.width = window.x1 - window.x0;
+    film.height = window.y1 - window.y0;
+    film.sums.resize(film_plane(film));
+    result.path_layers.assign(options.path_layers.size(), film);
+    result.stop_text = "no path of the scene is asked for";
     return result;
 }
 

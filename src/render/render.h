@@ -4,10 +4,14 @@
 
 #include "app/progress.h"
 #include "render/film.h"
+#include "render/film_error.h"
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
+#include "render/stop_rules.h"
 
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,32 +20,55 @@ namespace clrt {
 /// Counts of a run (kernels/shared/render_types.h).
 struct RenderCounts {
     std::uint64_t primary = 0, secondary = 0, shadow = 0; ///< rays
-    std::uint32_t nan = 0, infinite = 0, negative = 0, overflow = 0;
+    std::uint64_t nan = 0, infinite = 0, negative = 0, overflow = 0;
     /// Addresses of the first bad samples: pixel (y width + x of the whole picture) and sample.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> bad_samples;
-    std::uint32_t bad() const { return nan + infinite + negative + overflow; }
+    std::uint64_t bad() const { return nan + infinite + negative + overflow; }
     std::uint64_t rays() const { return primary + secondary + shadow; }
+    /// Adds another run's counts.
+    void add(const RenderCounts& other);
 };
 
 /// Sums over the primary hits of a pixel (AOV_FLOATS in kernels/integrators/aov.cl), empty if not asked for.
 using HitLayers = std::vector<float>;
 constexpr int HIT_LAYER_FLOATS = 13;
 
-/// What a render gives.
-struct Render {
+/// What a render has when it starts anew, and what one that goes on from a film file starts with.
+struct RenderProgress {
     Film film;
     RenderCounts counts;
-    HitLayers layers;
-    std::uint32_t layer_samples = 0;
-    std::uint64_t passes = 0;        ///< samples a pixel in this run
-    double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
-    double seconds = 0;              ///< of all launches, first_launch_seconds not included
-    int stop_signal = 0;             ///< the signal that ended it early, or 0
+    std::vector<Film> path_layers;     ///< light of each layer NAME=EXPR in one replicate
+    std::vector<SquaredError> history; ///< errors at doublings, for the slope
+    double seconds = 0;                ///< of the launches
 };
 
-/// Renders until the samples, the time or a signal end it; always ends at a whole pass (one sample a pixel).
-/// Throws DeviceError, and UsageError for more samples than the film can hold.
+/// What a render gives: film, counts, history and seconds of the whole picture, the rest of this run.
+struct Render : RenderProgress {
+    HitLayers layers;
+    std::uint32_t layer_samples = 0;
+    std::uint64_t passes = 0;          ///< samples a pixel in this run
+    double first_launch_seconds = 0;   ///< what the driver still compiles at the first launch
+    double run_seconds = 0;            ///< of this run's render stage, first_launch_seconds not included
+    double check_seconds = 0;          ///< of them: reading the film and measuring its error
+    std::optional<FilmError> error;    ///< of the film as it is
+    StopRule stop = StopRule::SPP;     ///< what ended it
+    std::string stop_text;             ///< the same in words
+    int stop_signal = 0;               ///< the signal that ended it early, or 0
+};
+
+/// What happens beside a render.
+struct RenderHooks {
+    const RenderProgress* resume = nullptr;           ///< goes on from here
+    std::function<void(const Render&)> save_picture;  ///< every --save-every seconds, at a whole pass
+    std::function<void(const Render&)> save_film;     ///< every --checkpoint seconds, at a whole pass
+};
+
+/// Renders until samples, time, error or a signal end it (stop_rules.h); always ends at a whole pass (one
+/// sample a pixel). Throws DeviceError, and UsageError for more samples than the film can hold.
 Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
-              const Options& options, Progress& progress);
+              const Options& options, Progress& progress, const RenderHooks& hooks = {});
+
+/// A render without a launch: the black picture of a scene in which no path is accepted.
+Render render_nothing(const Scene& scene, const Options& options);
 
 } // namespace clrt

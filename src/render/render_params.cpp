@@ -112,4 +112,20 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     return params;
 }
 
+void restrict_lights(const PathPlan& paths, RenderParams& params) {
+    const unsigned kinds = accepted_kinds(paths);
+    if (!(kinds & KIND_AREA))
+        params.choose_emitter = 0.0f;
+    if (!(kinds & KIND_SKY))
+        params.choose_environment = 0.0f;
+    if (!(kinds & (KIND_POINT | KIND_SUN)))
+        params.choose_light = 0.0f;
+    const float sum = params.choose_emitter + params.choose_environment + params.choose_light;
+    if (paths.is_filter && sum > 0.0f) {
+        params.choose_emitter /= sum;
+        params.choose_environment /= sum;
+        params.choose_light /= sum;
+    }
+}
+
 } // namespace clrt

@@ -4,6 +4,7 @@
 
 #include "app/options.h"
 #include "kernels/shared/render_types.h"
+#include "paths/path_plan.h"
 #include "render/film.h"
 #include "scene/scene.h"
 
@@ -14,5 +15,8 @@ Crop render_window(const Options& options);
 
 /// Everything but the samples and tiles of a single launch, which are 0.
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale);
+
+/// Leaves lights that end no accepted path out of next-event estimation.
+void restrict_lights(const PathPlan& paths, RenderParams& params);
 
 } // namespace clrt

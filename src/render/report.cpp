@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/report.h"
 
+#include "paths/path_report.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -34,25 +36,14 @@ std::vector<std::string> effect_names(const Effects& effects, bool present) {
     return names;
 }
 
-std::string format_error(const std::optional<FilmError>& error) {
-    if (!error)
-        return "not known (fewer than two replicates have samples, or the picture is black)";
-    std::string text = fmt::format("{:.2f} % relative RMSE", 100 * error->relative_rmse);
-    if (error->low && error->high)
-        text += fmt::format(" (95 %: {:.2f} - {:.2f})", 100 * *error->low, 100 * *error->high);
-    return text;
-}
-
-Json optional_number(const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
-Json error_json(const std::optional<FilmError>& error) {
-    if (!error)
-        return {{"rel_rmse", nullptr}, {"low", nullptr}, {"high", nullptr}};
-    return {{"rel_rmse", error->relative_rmse},
-            {"low", optional_number(error->low)},
-            {"high", optional_number(error->high)}};
+/// What ended the render; whether --error is reached, null without it.
+Json stop_json(const Report& report) {
+    Json json{{"rule", stop_rule_name(report.render.stop)}, {"error_target", nullptr}, {"error_reached", nullptr}};
+    if (report.options.error) {
+        json["error_target"] = *report.options.error;
+        json["error_reached"] = error_reached(report);
+    }
+    return json;
 }
 
 Json effects_json(const Effects& effects) {
@@ -65,7 +56,20 @@ Json effects_json(const Effects& effects) {
     return list;
 }
 
+/// Expressions as metadata, where there are any.
+void add_paths(const PathPlan& paths, Metadata& metadata) {
+    if (!paths.expression.empty())
+        metadata.emplace_back("paths", paths.expression);
+    for (const PathLayerOption& layer : paths.layers)
+        metadata.emplace_back("paths." + layer.name, layer.expression);
+}
+
 } // namespace
+
+bool error_reached(const Report& report) {
+    const std::optional<FilmError>& error = report.error.error;
+    return report.options.error && error && error->relative_rmse <= *report.options.error;
+}
 
 std::uint64_t peak_memory_bytes() {
     rusage usage{};
@@ -76,19 +80,23 @@ std::uint64_t peak_memory_bytes() {
 std::string format_report(const Report& report) {
     const Render& render = report.render;
     const RenderCounts& counts = render.counts;
-    const double samples = double(render.film.width) * render.film.height * double(render.passes);
+    const double samples = double(counts.primary);
     std::string text;
-    text += fmt::format("{} x {}, {} spp, {}, seed {}, on {}\n", render.film.width, render.film.height, render.passes,
+    text += fmt::format("{} x {}, {} spp, {}, seed {}, on {}\n", render.film.width, render.film.height,
+                        film_samples(render.film),
                         integrator_name(report.options.integrator), report.options.seed, report.device.name);
+    text += fmt::format("ended    {}\n", render.stop_text);
     text += fmt::format("seconds  load {:.2f}  bvh {:.2f}  compile {:.2f} + {:.2f}  render {:.2f}  total {:.2f}\n",
                         report.load_seconds, report.bvh.seconds, report.compile_seconds, render.first_launch_seconds,
-                        render.seconds, report.total_seconds);
+                        render.run_seconds, report.total_seconds);
     text += fmt::format("rays     {:.2f} a sample, {:.2f} Mrays/s, {:.2f} Msamples/s\n",
                         samples > 0 ? double(counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,
                         render.seconds > 0 ? samples / render.seconds * 1e-6 : 0);
-    text += fmt::format("error    {}\n", format_error(report.error));
+    text += format_error_report(report.error);
     text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
                         counts.negative, counts.overflow);
+    if (report.effects.paths.is_asked)
+        text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
     text += fmt::format("absent   {}\n", fmt::join(effect_names(report.effects, false), ", "));
     return text;
 }
@@ -102,8 +110,9 @@ std::string report_json(const Report& report) {
     json["integrator"] = integrator_name(report.options.integrator);
     json["width"] = render.film.width;
     json["height"] = render.film.height;
-    json["spp"] = render.film.samples;
+    json["spp"] = film_samples(render.film);
     json["passes"] = render.passes;
+    json["first_sample"] = report.options.first_sample;
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = report.scene.triangles.size();
@@ -111,12 +120,14 @@ std::string report_json(const Report& report) {
                        {"bvh", report.bvh.seconds},
                        {"compile", report.compile_seconds},
                        {"first_launch", render.first_launch_seconds},
-                       {"render", render.seconds},
+                       {"render", render.run_seconds},
+                       {"checks", render.check_seconds},
                        {"total", report.total_seconds}};
     json["rays"] = {{"primary", counts.primary}, {"shadow", counts.shadow}, {"secondary", counts.secondary}};
     json["rays_per_second"] = rays_per_second(render);
     json["peak_memory_bytes"] = peak_memory_bytes();
-    json["error"] = error_json(report.error);
+    json["error"] = error_report_json(report.error);
+    json["stop"] = stop_json(report);
     json["nonfinite"] = {{"nan", counts.nan},
                          {"infinite", counts.infinite},
                          {"negative", counts.negative},
@@ -136,6 +147,7 @@ std::string report_json(const Report& report) {
     json["load"] = {{"obj_bytes", report.scene.statistics.obj_bytes},
                     {"obj_seconds", report.scene.statistics.obj_seconds},
                     {"texture_seconds", report.scene.statistics.texture_seconds}};
+    json["paths"] = paths_json(report.effects.paths);
     json["effects"] = effects_json(report.effects);
     json["notices"] = report.scene.notices;
     return json.dump(2) + "\n";
@@ -151,20 +163,21 @@ Metadata report_metadata(const Report& report) {
                       {"driver", report.device.driver},
                       {"seed", std::to_string(report.options.seed)},
                       {"first_sample", std::to_string(report.options.first_sample)},
-                      {"spp", std::to_string(render.passes)},
+                      {"spp", std::to_string(film_samples(render.film))},
+                      {"stop", render.stop_text},
                       {"seconds.load", seconds(report.load_seconds)},
                       {"seconds.bvh", seconds(report.bvh.seconds)},
                       {"seconds.compile", seconds(report.compile_seconds)},
                       {"seconds.first_launch", seconds(render.first_launch_seconds)},
-                      {"seconds.render", seconds(render.seconds)},
+                      {"seconds.render", seconds(render.run_seconds)},
                       {"effects", fmt::format("{}", fmt::join(effect_names(report.effects, true), ", "))},
                       {"effects_mask", fmt::format("{:#x}", report.effects.mask)},
                       {"nan", std::to_string(render.counts.nan)},
                       {"infinite", std::to_string(render.counts.infinite)},
                       {"negative", std::to_string(render.counts.negative)},
                       {"overflow", std::to_string(render.counts.overflow)}};
-    if (report.error)
-        metadata.emplace_back("error", fmt::format("{:.6g}", report.error->relative_rmse));
+    add_paths(report.effects.paths, metadata);
+    add_error_metadata(report.error, metadata);
     return metadata;
 }
 

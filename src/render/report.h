@@ -5,9 +5,9 @@
 #include "bvh/bvh.h"
 #include "effects/effects.h"
 #include "output/image.h"
+#include "render/error_report.h"
 #include "render/render.h"
 
-#include <optional>
 #include <string>
 
 namespace clrt {
@@ -20,9 +20,12 @@ struct Report {
     const DeviceInfo& device;
     const Bvh& bvh;
     const Render& render;
-    std::optional<FilmError> error;
+    ErrorReport error;
     double load_seconds = 0, compile_seconds = 0, total_seconds = 0;
 };
+
+/// Whether --error is given and the picture satisfies it.
+bool error_reached(const Report& report);
 
 /// Largest resident memory of this process so far, bytes.
 std::uint64_t peak_memory_bytes();

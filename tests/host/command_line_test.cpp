@@ -47,6 +47,7 @@ const std::map<std::string, std::string>& samples() {
         {"--integrator", "whitted"},
         {"--spp", "16"},
         {"--time", "5m"},
+        {"--error", "2%"},
         {"--max-depth", "12"},
         {"--roulette-depth", "9"},
         {"--min-contribution", "0.5%"},
@@ -77,8 +78,12 @@ const std::map<std::string, std::string>& samples() {
         {"--two-sided-lights", ""},
         {"--explain", ""},
         {"--effects", "all"},
+        {"--paths", "L(D|S)*E"},
         {"--stats", "run.json"},
         {"--check", "strict"},
+        {"--checkpoint", "a.film,90s"},
+        {"--resume", "a.film"},
+        {"--save-every", "1m"},
         {"--kernels", "kernels"},
         {"--dump-kernels", "dump"},
         {"--cache", "on"},
@@ -111,6 +116,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     EXPECT_EQ(o.integrator, Integrator::PATH);
     EXPECT_FALSE(o.spp);
     EXPECT_FALSE(o.time_seconds);
+    EXPECT_FALSE(o.error);
     EXPECT_EQ(effective_max_depth(o), 64);
     EXPECT_EQ(o.roulette_depth, 5);
     EXPECT_EQ(o.min_contribution, 0.002);
@@ -262,6 +268,36 @@ TEST(CommandLine, DurationsHaveUnits) {
     EXPECT_EQ(parse({"-t", "1.5h"}).time_seconds, 5400.0);
 }
 
+TEST(CommandLine, TheErrorTargetIsAFractionOrPercent) {
+    EXPECT_EQ(parse({"-e", "0.02"}).error, 0.02);
+    EXPECT_EQ(parse({"--error=2%"}).error, 0.02);
+}
+
+TEST(CommandLine, ACheckpointMayHaveAnInterval) {
+    const auto expect = [](const std::string& text, const std::string& path, double seconds) {
+        const Options o = parse({"--checkpoint", text});
+        EXPECT_EQ(o.checkpoint_path, path);
+        EXPECT_EQ(o.checkpoint_seconds, seconds);
+    };
+    expect("a.film", "a.film", 300);
+    expect("a.film,90s", "a.film", 90);
+    expect("a,b.film", "a,b.film", 300);
+    expect("a,b.film,1.5m", "a,b.film", 90);
+    EXPECT_NE(refusal({"--checkpoint", "a.film,5d", "s.obj"}).find("option --checkpoint: expected a duration"),
+              std::string::npos);
+    EXPECT_NE(refusal({"--checkpoint", ",5s", "s.obj"}).find("option --checkpoint: expected a path"),
+              std::string::npos);
+    EXPECT_NE(refusal({"--checkpoint", "a.png", "-o", "a.png", "s.obj"}).find("a file of its own"),
+              std::string::npos);
+}
+
+TEST(CommandLine, TheCommandOfAFilmLacksResume) {
+    const Options o = parse({"--resume", "a.film", "-s", "16", "--checkpoint=b.film", "-v"});
+    EXPECT_EQ(o.resume_path, "a.film");
+    EXPECT_EQ(o.resumable_command, (std::vector<std::string>{"clrt", "--spp=16", "--checkpoint=b.film", "--verbose",
+                                                             "--", "scene.obj"}));
+}
+
 TEST(CommandLine, ShortOptionsCanBeGlued) {
     const Options o = parse({"-s4", "-r16x8", "-lv"});
     EXPECT_EQ(o.spp, 4u);
@@ -356,6 +392,9 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--spp", "4294967296"},
         {"--spp", "-1"},
         {"--spp", "99999999999999999999"},
+        {"--error", "-1"},
+        {"--error", "101%"},
+        {"--error", "small"},
         {"--time", "0"},
         {"--time", "5d"},
         {"--time", "-5s"},
@@ -393,6 +432,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--aov", "N,N"},
         {"--aov", "N,none"},
         {"--aov", ""},
+        {"--aov", "N=LDE"},
         {"--eye", "1,2"},
         {"--eye", "1,2,x"},
         {"--eye", "1,2,nan"},
@@ -450,6 +490,8 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"-i", "whitted", "--max-depth", "65"}, "option --max-depth: expected at most 64");
     expect({"--first-sample", "4294967232"}, "expected a sum below 4294967296, found 4294967296");
     expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
+    expect({"--first-sample", "4294901760", "--error", "1%"}, "expected a sum below 4294967296");
+    expect({"--error", "1%", "--replicates", "3"}, "option --error: expected --replicates 4 or more");
     expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
     EXPECT_EQ(parse({"--first-sample", "4294967231"}).first_sample, 4294967231u);
     EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).max_depth, 64);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures and error bars from made-up sums, against direct computation.
-#include "render/film.h"
+// Pictures and variances from made-up sums, against direct computation.
+#include "render/film_error.h"
 
+#include "support/noise_film.h"
 #include "support/statistics.h"
 
 #include <cmath>
@@ -12,30 +13,6 @@ namespace clrt {
 
 namespace {
 
-/// A film of empty sums with room for `samples` samples from `first`.
-Film empty_film(int width, int height, int replicates, std::uint32_t first, std::uint64_t samples) {
-    Film film;
-    film.width = width;
-    film.height = height;
-    film.replicates = replicates;
-    film.scale = {std::ldexp(1.0, -12), std::ldexp(1.0, 20)};
-    film.first_sample = first;
-    film.samples = samples;
-    film.sums.assign(size_t(replicates) * size_t(width) * size_t(height) * 3, 0);
-    return film;
-}
-
-/// Fills a film as a renderer whose samples are normal with these moments would.
-void fill_with_noise(Film& film, double mean, double deviation, std::mt19937& random) {
-    const size_t plane = film.sums.size() / size_t(film.replicates);
-    for (int r = 0; r < film.replicates; ++r) {
-        const double n = double(film_replicate_samples(film, r));
-        std::normal_distribution<double> sum(n * mean, std::sqrt(n) * deviation);
-        for (size_t i = 0; i < plane; ++i)
-            film.sums[size_t(r) * plane + i] = std::llround(sum(random) / film.scale.quantum);
-    }
-}
-
 /// Means of value `i` in the replicates that have samples.
 std::vector<double> replicate_means(const Film& film, size_t i) {
     std::vector<double> means;
@@ -44,19 +21,6 @@ std::vector<double> replicate_means(const Film& film, size_t i) {
         if (const double n = double(film_replicate_samples(film, r)); n > 0)
             means.push_back(double(film.sums[size_t(r) * plane + i]) * film.scale.quantum / n);
     return means;
-}
-
-/// Mean squared error by the spread of the replicates, without one of them (none: -1).
-double mean_squared_error(const Film& film, int without) {
-    const size_t plane = film.sums.size() / size_t(film.replicates);
-    double sum = 0;
-    for (size_t i = 0; i < plane; ++i) {
-        std::vector<double> means = replicate_means(film, i);
-        if (without >= 0)
-            means.erase(means.begin() + without);
-        sum += moments_of(means).variance_of_mean();
-    }
-    return sum / double(plane);
 }
 
 /// A scene that only shines as told.
@@ -133,66 +97,30 @@ TEST(Film, OneReplicateSaysNothingAboutItsError) {
     }
 }
 
-TEST(Film, TheErrorIsRootMeanSquareOverTheMean) {
-    std::mt19937 random(3);
-    Film film = empty_film(6, 5, 8, 0, 80);
-    fill_with_noise(film, 2, 1, random);
-    double mean = 0;
-    for (const float value : film_mean(film))
-        mean += double(value) / 90;
-    const auto error = film_error(film);
-    ASSERT_TRUE(error);
-    EXPECT_NEAR(error->relative_rmse, std::sqrt(mean_squared_error(film, -1)) / mean, 1e-6);
-    EXPECT_NEAR(error->relative_rmse, 1 / std::sqrt(80.0) / 2, 0.01);
-
-    // Jackknife of the logarithm: mean and spread of what leaves out one; half of it belongs to the root.
-    std::vector<double> logs;
-    for (int r = 0; r < 8; ++r)
-        logs.push_back(std::log(mean_squared_error(film, r)));
-    const double spread = std::sqrt(moments_of(logs).variance * 7 * 7 / 8);
-    const double t = 2.3646242516; // 97.5 % of Student's distribution with 7 degrees of freedom
-    ASSERT_TRUE(error->low && error->high);
-    EXPECT_NEAR(*error->high / error->relative_rmse, std::exp(0.5 * t * spread), 1e-3);
-    EXPECT_NEAR(*error->low * *error->high, error->relative_rmse * error->relative_rmse, 1e-9);
-}
-
-TEST(Film, UnderFourReplicatesThereIsNoInterval) {
+TEST(Film, FoldedReplicatesKeepThePicture) {
     std::mt19937 random(4);
-    Film film = empty_film(6, 5, 3, 0, 9);
+    Film film = empty_film(3, 2, 8, 0, 24);
     fill_with_noise(film, 2, 1, random);
-    const auto error = film_error(film);
-    ASSERT_TRUE(error);
-    EXPECT_GT(error->relative_rmse, 0);
-    EXPECT_FALSE(error->low || error->high);
-}
-
-TEST(Film, APictureWithoutNoiseHasErrorZeroAndABlackOneNone) {
-    Film film = empty_film(2, 2, 8, 0, 16);
-    film.sums.assign(film.sums.size(), 4096);
-    const auto error = film_error(film);
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->relative_rmse, 0);
-    film.sums.assign(film.sums.size(), 0);
-    EXPECT_FALSE(film_error(film));
-}
-
-TEST(Film, TheIntervalHoldsTheTrueErrorAsOftenAsItSays) {
-    std::mt19937 random(5);
-    for (const int replicates : {4, 8, 32}) {
-        int covered = 0;
-        const int trials = 400;
-        for (int trial = 0; trial < trials; ++trial) {
-            Film film = empty_film(4, 4, replicates, 0, std::uint64_t(4 * replicates));
-            fill_with_noise(film, 10, 1, random);
-            const auto error = film_error(film);
-            ASSERT_TRUE(error && error->low && error->high);
-            const double truth = 1 / std::sqrt(4.0 * replicates) / 10;
-            covered += *error->low <= truth && truth <= *error->high;
-        }
-        // 380 expected; the standard deviation is 4.4.
-        EXPECT_GE(covered, 355) << replicates;
-        EXPECT_LE(covered, 399) << replicates;
+    Film folded = film;
+    fold_replicates(folded, 2);
+    EXPECT_EQ(folded.sums.size(), 2 * film_plane(film));
+    EXPECT_EQ(film_mean(folded), film_mean(film));
+    EXPECT_EQ(film_replicate_samples(folded, 1), 12u);
+    for (size_t i = 0; i < film_plane(film); ++i) {
+        std::int64_t odd = 0;
+        for (size_t r = 1; r < 8; r += 2)
+            odd += film.sums[r * film_plane(film) + i];
+        EXPECT_EQ(folded.sums[film_plane(film) + i], odd);
     }
+}
+
+TEST(Film, RangesWithAGapCountTheirSamples) {
+    Film film = empty_film(1, 1, 4, 0, 6);
+    film.ranges.push_back({9, 12});
+    EXPECT_EQ(film_samples(film), 9u);
+    const std::vector<std::uint64_t> expected = {2, 3, 2, 2}; // 0 4, 1 5 9, 2 10, 3 11
+    for (int r = 0; r < 4; ++r)
+        EXPECT_EQ(film_replicate_samples(film, r), expected[size_t(r)]);
 }
 
 TEST(FilmScale, TheQuantumIsAMillionthOfTheMeanLevel) {

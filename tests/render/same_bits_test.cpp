@@ -112,6 +112,8 @@ TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
         scene.options.all_effects = false;
+        if (make == make_room)
+            scene.options.paths = "LDE";
         const u32 mask = find_effects(scene.load(), scene.options).mask;
         present |= mask;
         absent |= ~mask;
@@ -150,8 +152,7 @@ TEST(SameBits, RangesOfSamplesAddUpToTheWhole) {
         scene.options.first_sample = first;
         scene.options.spp = count;
         const Film part = scene.render().film;
-        EXPECT_EQ(part.first_sample, first);
-        EXPECT_EQ(part.samples, count);
+        EXPECT_EQ(part.ranges, (std::vector<SampleRange>{{first, first + count}}));
         if (merged.sums.empty())
             merged = part;
         else

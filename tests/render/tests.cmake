@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 clrt_test(render cut_out_test)
 clrt_test(render direct_light_test)
+clrt_test(render error_bar_test)
 clrt_test(render furnace_test)
 clrt_test(render glass_test)
 clrt_test(render interreflection_test)
+clrt_test(render paths_test)
 clrt_test(render pixel_filter_test)
 clrt_test(render ray_tree_test)
 clrt_test(render same_bits_test)

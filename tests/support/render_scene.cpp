@@ -33,18 +33,19 @@ void write_texture(const std::string& path, int width, int height, int channels,
         throw std::runtime_error("cannot write the texture " + path);
 }
 
-const RenderPrograms& programs_for(const Options& options, u32 mask, BvhLayout layout) {
-    using Key = std::tuple<Integrator, Precision, u32, BvhLayout>;
+const RenderPrograms& programs_for(const Options& options, const Effects& effects, BvhLayout layout) {
+    using Key = std::tuple<Integrator, Precision, u32, BvhLayout, std::vector<std::string>>;
     // Never freed: at exit some drivers are gone before our statics.
     static auto* const programs = new std::map<Key, RenderPrograms>;
-    const Key key{options.integrator, options.precision, mask, layout};
+    const Key key{options.integrator, options.precision, effects.mask, layout, path_defines(effects.paths)};
     const auto found = programs->find(key);
     if (found != programs->end())
         return found->second;
     Options with_kernels = options;
     const char* folder = std::getenv("CLRT_TEST_KERNELS");
     with_kernels.kernels_folder = folder ? folder : "";
-    return programs->emplace(key, build_render_programs(test_device(), with_kernels, mask, layout))
+    return programs
+        ->emplace(key, build_render_programs(test_device(), with_kernels, effects.mask, layout, effects.paths))
         .first->second;
 }
 
@@ -96,7 +97,7 @@ Render render_loaded(const Scene& scene, const Options& options) {
     const Device& device = test_device();
     const BvhLayout layout = choose_layout(options.bvh, device.info);
     const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
-    const RenderPrograms& programs = programs_for(options, find_effects(scene, options).mask, layout);
+    const RenderPrograms& programs = programs_for(options, find_effects(scene, options), layout);
     const SceneBuffers buffers = upload_scene(device, scene, bvh);
     Progress progress(Toggle::OFF, true);
     return render(device, programs, buffers, scene, options, progress);

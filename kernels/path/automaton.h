@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The automaton of --paths and of layers of paths (src/paths): a path carries a state, every scattering event is a letter
+// that leads to the next one. The host gives the tables as literals (layout: shared/path_types.h); without them there is one
+// state that accepts every path.
+#ifndef CLRT_PATH_AUTOMATON_H
+#define CLRT_PATH_AUTOMATON_H
+
+#include "shared/effects.h"
+#include "shared/path_types.h"
+#include "shared/render_types.h"
+
+#ifndef PATH_NEXT
+#define PATH_NEXT 0u, 0x01010101u
+#define PATH_STATES 0u, (KINDS_ALL | STATE_CONTINUES)
+#endif
+#ifndef PATH_LAYERS
+#define PATH_LAYERS 0
+#endif
+/* Segments of the longest accepted path, where there is a longest. */
+#ifndef PATH_SEGMENTS
+#define PATH_SEGMENTS 0xffffffffu
+#endif
+
+constant uint AUTOMATON_NEXT[] = {PATH_NEXT};
+constant uint AUTOMATON_STATES[] = {PATH_STATES};
+
+/* The states behind a vertex, one for each letter that its BSDF may write. */
+typedef struct {
+    uint matte, glossy, mirror, refraction;
+} AutomatonStep;
+
+/* The state behind a letter; dead too where the path has become too long to end within max_depth segments. */
+static inline uint automaton_next(const RenderParams* params, uint state, uint letter, uint segment)
+{
+    const uint next = (AUTOMATON_NEXT[state] >> (NEXT_STATE_BITS * letter)) & NEXT_STATE_MASK;
+    const uint distance = AUTOMATON_STATES[next] >> STATE_DISTANCE_SHIFT;
+    return segment + 1u + distance > params->max_depth ? STATE_DEAD : next;
+}
+
+/* All that may happen at the end of a segment. */
+static inline AutomatonStep automaton_step(const RenderParams* params, uint state, uint segment)
+{
+    AutomatonStep step;
+    step.matte = automaton_next(params, state, LETTER_MATTE, segment);
+    step.glossy = automaton_next(params, state, LETTER_GLOSSY, segment);
+    step.mirror = automaton_next(params, state, LETTER_MIRROR, segment);
+    step.refraction = automaton_next(params, state, LETTER_REFRACTION, segment);
+    return step;
+}
+
+/* True if light of this kind (KIND_*) ends an accepted path. */
+static inline bool automaton_accepts(uint state, uint kind) { return (AUTOMATON_STATES[state] & kind) != 0u; }
+
+/* True if a ray that leaves in this state can find anything: false after the last surface before a point light. */
+static inline bool automaton_continues(uint state) { return (AUTOMATON_STATES[state] & STATE_CONTINUES) != 0u; }
+
+/* True if after this state the picture must know whether an event was matte or glossy. */
+static inline bool automaton_splits(uint state) { return (AUTOMATON_STATES[state] & STATE_SPLITS) != 0u; }
+
+#endif

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "paths/path_plan.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <functional>
+
+namespace clrt {
+
+namespace {
+
+/// Every path there is; with G, so that D means matte alone.
+const char* const EVERY_PATH = "L(D|G|S)*E";
+
+/// Longer distances are written as this: the deepest --max-depth lies above, so only a few rays more are
+/// traced.
+constexpr int LARGEST_DISTANCE = 0xffff;
+
+std::string describe_material(const Scene& scene, size_t index) {
+    const SourcePlace& place = scene.material_places[index];
+    const std::string where = place.line ? fmt::format(" ({}:{})", place.file, place.line) : "";
+    return fmt::format("material \"{}\"{}", scene.material_names[index], where);
+}
+
+/// The first material on a triangle that has a property; empty if there is none.
+std::string find_material(const Scene& scene, const std::function<bool(const Material&)>& has) {
+    std::vector<bool> is_used(scene.materials.size(), false);
+    for (const Triangle& triangle : scene.triangles)
+        is_used[triangle.material] = true;
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        if (is_used[i] && has(scene.materials[i]))
+            return describe_material(scene, i);
+    return "";
+}
+
+bool is_dielectric(const Material& m) {
+    return (m.lobes & LOBE_DIELECTRIC) != 0;
+}
+/// A map can make any dielectric rough.
+bool can_be_rough(const Material& m) {
+    return m.alpha_x > 0 || m.map_roughness != NO_INDEX;
+}
+/// Without a change of index there is nothing to refract at, rough or not.
+bool can_be_smooth(const Material& m) {
+    return m.alpha_x == 0 || m.transmission.w == 1.0f;
+}
+
+std::string find_light(const Scene& scene, u32 kind, const char* option) {
+    const auto is_kind = [&](const Light& light) { return light.kind == kind; };
+    const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), is_kind);
+    return count ? fmt::format("{} by {}", count, option) : "";
+}
+
+std::vector<PathLetter> find_letters(const Scene& scene) {
+    const glm::dvec3& sky = scene.environment.radiance;
+    const bool is_bright = sky.x > 0 || sky.y > 0 || sky.z > 0;
+    const std::string lamp =
+        scene.emitters.empty()
+            ? ""
+            : describe_material(scene, scene.triangles[scene.emitters[0].triangle].material);
+    return {
+        {"D", find_material(scene, [](const Material& m) { return (m.lobes & LOBE_MATTE) != 0; })},
+        {"G", find_material(scene,
+                            [](const Material& m) {
+                                return (m.lobes & LOBE_GLOSSY) || (is_dielectric(m) && can_be_rough(m));
+                            })},
+        {"R", find_material(scene,
+                            [](const Material& m) {
+                                return (m.lobes & LOBE_MIRROR) || (is_dielectric(m) && can_be_smooth(m));
+                            })},
+        {"T", find_material(scene, [](const Material& m) { return is_dielectric(m) && can_be_smooth(m); })},
+        {"La", lamp},
+        {"Lp", find_light(scene, LIGHT_POINT, "--point")},
+        {"Ld", find_light(scene, LIGHT_SUN, "--sun")},
+        {"Le", is_bright ? "environment above 0" : ""},
+    };
+}
+
+PathAlphabet make_alphabet(const std::vector<PathLetter>& letters) {
+    PathAlphabet alphabet;
+    for (unsigned i = 0; i < letters.size(); ++i)
+        if (!letters[i].witness.empty())
+            (i < LETTER_COUNT ? alphabet.letters : alphabet.kinds) |=
+                1u << (i < LETTER_COUNT ? i : i - LETTER_COUNT);
+    return alphabet;
+}
+
+unsigned find_found_by_rays(const Scene& scene) {
+    const bool has_disc = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+        return l.kind == LIGHT_SUN && l.one_minus_cos > 0;
+    });
+    return KIND_AREA | KIND_SKY | (has_disc ? unsigned(KIND_SUN) : 0u);
+}
+
+/// Successors, eight bits each.
+u32 next_word(const AutomatonState& state) {
+    u32 word = 0;
+    for (unsigned letter = 0; letter < LETTER_COUNT; ++letter)
+        word |= u32(state.next[letter]) << (NEXT_STATE_BITS * letter);
+    return word;
+}
+
+u32 state_word(const PathPlan& plan, const AutomatonState& state) {
+    const std::vector<AutomatonState>& states = plan.automaton.states;
+    const bool goes_on =
+        std::any_of(state.next.begin(), state.next.end(), [](int next) { return next != 0; });
+    const bool splits =
+        states[size_t(state.next[LETTER_MATTE])].picture != states[size_t(state.next[LETTER_GLOSSY])].picture;
+    return state.kinds | (goes_on || (state.kinds & plan.found_by_rays) ? STATE_CONTINUES : 0u) |
+           (splits ? STATE_SPLITS : 0u) |
+           u32(std::min(state.distance, LARGEST_DISTANCE)) << STATE_DISTANCE_SHIFT;
+}
+
+u32 layer_word(const AutomatonState& state) {
+    u32 word = 0;
+    for (unsigned layer = 0; layer < PATH_LAYERS_LIMIT; ++layer)
+        word |= state.layers[layer] << (LAYER_KINDS_BITS * layer);
+    return word;
+}
+
+} // namespace
+
+PathPlan plan_paths(const Scene& scene, const Options& options) {
+    PathPlan plan;
+    plan.expression = options.paths;
+    plan.layers = options.path_layers;
+    plan.letters = find_letters(scene);
+    plan.alphabet = make_alphabet(plan.letters);
+    plan.found_by_rays = find_found_by_rays(scene);
+    plan.is_asked = !plan.expression.empty() || !plan.layers.empty();
+    if (!plan.is_asked)
+        return plan;
+
+    std::vector<PathExpression> layers;
+    for (const PathLayerOption& layer : plan.layers)
+        layers.push_back(parse_path_expression(layer.expression));
+    const std::string& picture = plan.expression.empty() ? EVERY_PATH : plan.expression;
+    plan.automaton = make_automaton(parse_path_expression(picture), layers, plan.alphabet);
+
+    // A path of n scattering events has n + 1 segments.
+    const int depth = effective_max_depth(options);
+    plan.is_empty = plan.automaton.is_empty() || plan.automaton.states[1].distance + 1 > depth;
+    if (const std::optional<int> longest = longest_path(plan.automaton))
+        plan.segments = std::min(*longest + 1, depth);
+    plan.is_filter = !layers.empty() || !accepts_everything(plan.automaton, plan.alphabet);
+    return plan;
+}
+
+std::vector<std::string> path_defines(const PathPlan& plan) {
+    if (!plan.is_filter)
+        return {};
+    std::vector<std::string> next, what, layers;
+    std::vector<AutomatonState> states = plan.automaton.states;
+    states.resize(std::max<size_t>(states.size(), STATE_START + 1)); // paths start there, dead or not
+    for (const AutomatonState& state : states) {
+        next.push_back(fmt::format("{:#x}u", next_word(state)));
+        what.push_back(fmt::format("{:#x}u", state_word(plan, state)));
+        layers.push_back(fmt::format("{:#x}u", layer_word(state)));
+    }
+    std::vector<std::string> defines{fmt::format("PATH_NEXT={}", fmt::join(next, ",")),
+                                     fmt::format("PATH_STATES={}", fmt::join(what, ","))};
+    if (!plan.layers.empty()) {
+        defines.push_back(fmt::format("PATH_LAYERS={}", plan.layers.size()));
+        defines.push_back(fmt::format("PATH_LAYER_KINDS={}", fmt::join(layers, ",")));
+    }
+    if (plan.segments)
+        defines.push_back(fmt::format("PATH_SEGMENTS={}u", *plan.segments));
+    return defines;
+}
+
+unsigned accepted_kinds(const PathPlan& plan) {
+    if (!plan.is_filter)
+        return KINDS_ALL;
+    unsigned kinds = 0;
+    for (const AutomatonState& state : plan.automaton.states)
+        kinds |= state.kinds;
+    return kinds;
+}
+
+} // namespace clrt

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// --paths and the layers of paths against one scene: what can occur in it, the automaton, and what the kernel
+// is told.
+#pragma once
+
+#include "app/options.h"
+#include "paths/automaton.h"
+#include "scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// A letter of the notation and what in the scene writes it.
+struct PathLetter {
+    std::string symbol;  ///< "D", "La", ...
+    std::string witness; ///< such as `material "glass" (room.mtl:12)`; empty: nothing does
+};
+
+/// What the options ask of the paths of a scene.
+struct PathPlan {
+    std::string expression;              ///< as given; empty: every path
+    std::vector<PathLayerOption> layers; ///< as given
+    std::vector<PathLetter> letters;     ///< all, in the order D G R T La Lp Ld Le
+    PathAlphabet alphabet;               ///< those with a witness
+    unsigned found_by_rays =
+        0;                  ///< KIND_* of lights that a ray can meet: all but points and suns without a disc
+    Automaton automaton;    ///< empty where nothing was asked for
+    bool is_asked = false;  ///< --paths or a layer was given
+    bool is_filter = false; ///< the kernel needs the automaton; else it changes nothing
+    bool is_empty = false;  ///< no path of the scene is accepted within --max-depth
+    std::optional<int> segments; ///< most that an accepted path has; none: no bound but --max-depth
+};
+
+/// Examines materials on triangles and lights. Pure. Throws UsageError for expressions that are wrong or too
+/// large.
+PathPlan plan_paths(const Scene& scene, const Options& options);
+
+/// The automaton as defines for the kernel (kernels/path/automaton.h); none where it is no filter.
+std::vector<std::string> path_defines(const PathPlan& plan);
+
+/// KIND_* of lights that end some accepted path: next-event estimation leaves the others alone.
+unsigned accepted_kinds(const PathPlan& plan);
+
+} // namespace clrt

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/error_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace clrt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json optional_number(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+/// "0.00123 %": three digits, never in exponent form.
+std::string percent(double fraction) {
+    const double value = 100 * fraction;
+    return fmt::format("{:.{}f} %", value, value >= 0.1 ? 2 : 5);
+}
+
+std::string error_line(const ErrorReport& report) {
+    if (!report.error)
+        return report.replicates < 2 ? "not known: fewer than two replicates have samples"
+                                     : "not known: the picture is black";
+    const FilmError& error = *report.error;
+    std::string text = percent(error.relative_rmse) + " relative RMSE";
+    if (error.low && error.high)
+        text += fmt::format(" (95 %: {} to {})", percent(*error.low), percent(*error.high));
+    else if (error.relative_rmse > 0)
+        text += " (no interval: it takes four replicates)";
+    if (report.slope)
+        text += fmt::format(", slope {:.2f} +- {:.2f} from {} to {} spp", report.slope->slope, report.slope->reach,
+                            report.slope->first_samples, report.slope->last_samples);
+    return text;
+}
+
+std::string price_line(const ErrorReport& report) {
+    if (!report.price)
+        return "half the error: not known, more samples hardly change it";
+    const ErrorPrice& price = *report.price;
+    return fmt::format("{} takes {:.1f} times the samples, {:.1f} s more (extrapolated by {} slope of {:.2f})",
+                       percent(price.relative_rmse), price.factor, price.seconds,
+                       price.measured ? "the measured" : "the usual", price.slope);
+}
+
+} // namespace
+
+ErrorReport make_error_report(const RenderProgress& render, int x, int y) {
+    ErrorReport report;
+    report.replicates = int(ReplicateMeans(render.film).count());
+    report.window_x = x;
+    report.window_y = y;
+    const std::optional<SquaredError> squared = film_squared_error(render.film);
+    if (!squared)
+        return report;
+    report.error = relative_error(*squared);
+    std::vector<SquaredError> history = render.history;
+    if (history.empty() || history.back().samples < squared->samples)
+        history.push_back(*squared);
+    report.slope = error_slope(history);
+    report.spread = film_error_spread(render.film);
+    if (report.error)
+        report.price = price_of_half(*report.error, report.slope, render.seconds);
+    return report;
+}
+
+std::string format_error_report(const ErrorReport& report) {
+    std::string text = fmt::format("error    {}\n", error_line(report));
+    if (!report.error || !report.spread)
+        return text;
+    const ErrorSpread& spread = *report.spread;
+    text += fmt::format("price    {}\n", price_line(report));
+    text += fmt::format("worst    {} of the picture's mean in the {} x {} tile at {},{}\n", percent(spread.worst_tile),
+                        ERROR_TILE_SIZE, ERROR_TILE_SIZE, report.window_x + spread.tile_x,
+                        report.window_y + spread.tile_y);
+    text += fmt::format("tails    the noisiest {} of the pixels hold {:.0f} % of the squared error: {}\n",
+                        spread.tail_pixels == 1 ? "one" : "thousandth", 100 * spread.tail_share,
+                        spread.usable() ? "the error can be believed"
+                                        : "do not believe the error, rare bright samples are still to come");
+    return text;
+}
+
+Json error_report_json(const ErrorReport& report) {
+    Json json;
+    json["rel_rmse"] = report.error ? Json(report.error->relative_rmse) : Json(nullptr);
+    json["low"] = report.error ? optional_number(report.error->low) : Json(nullptr);
+    json["high"] = report.error ? optional_number(report.error->high) : Json(nullptr);
+    json["slope"] = nullptr;
+    if (report.slope)
+        json["slope"] = {{"value", report.slope->slope},
+                         {"low", report.slope->slope - report.slope->reach},
+                         {"high", report.slope->slope + report.slope->reach},
+                         {"first_spp", report.slope->first_samples},
+                         {"last_spp", report.slope->last_samples}};
+    json["half"] = nullptr;
+    if (report.price)
+        json["half"] = {{"rel_rmse", report.price->relative_rmse},
+                        {"samples_factor", report.price->factor},
+                        {"seconds", report.price->seconds},
+                        {"slope", report.price->slope},
+                        {"slope_measured", report.price->measured}};
+    json["worst_tile"] = nullptr;
+    json["tails"] = nullptr;
+    if (report.spread) {
+        json["worst_tile"] = {{"rel_rmse", report.spread->worst_tile},
+                              {"x", report.window_x + report.spread->tile_x},
+                              {"y", report.window_y + report.spread->tile_y},
+                              {"size", ERROR_TILE_SIZE}};
+        json["tails"] = {{"pixels", report.spread->tail_pixels},
+                         {"share", report.spread->tail_share},
+                         {"usable", report.spread->usable()}};
+    }
+    return json;
+}
+
+void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
+    const auto add = [&](const char* name, double value) { metadata.emplace_back(name, fmt::format("{:.6g}", value)); };
+    if (!report.error)
+        return;
+    add("error", report.error->relative_rmse);
+    if (report.error->low && report.error->high) {
+        add("error.low", *report.error->low);
+        add("error.high", *report.error->high);
+    }
+    if (report.slope)
+        add("error.slope", report.slope->slope);
+    if (report.price)
+        add("error.half_seconds", report.price->seconds);
+    if (report.spread) {
+        add("error.worst_tile", report.spread->worst_tile);
+        add("error.tail_share", report.spread->tail_share);
+    }
+}
+
+} // namespace clrt

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said about a picture's error: printed lines, JSON and metadata.
+#pragma once
+
+#include "output/image.h"
+#include "render/render.h"
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+namespace clrt {
+
+/// The error of a film with all that belongs to it.
+struct ErrorReport {
+    std::optional<FilmError> error;
+    std::optional<ErrorSlope> slope;
+    std::optional<ErrorSpread> spread;
+    std::optional<ErrorPrice> price;
+    int replicates = 0;                      ///< with samples
+    int window_x = 0, window_y = 0;          ///< the window's place in the whole picture
+};
+
+/// Makes the report of a render; (x, y) is the window's top left pixel in the whole picture.
+ErrorReport make_error_report(const RenderProgress& render, int x, int y);
+
+/// Lines "error", "price", "worst" and "tails".
+std::string format_error_report(const ErrorReport& report);
+
+/// The JSON's "error".
+nlohmann::ordered_json error_report_json(const ErrorReport& report);
+
+/// The same facts as metadata.
+void add_error_metadata(const ErrorReport& report, Metadata& metadata);
+
+} // namespace clrt

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_buffers.h"
+
+#include "device/opencl_error.h"
+
+#include <algorithm>
+#include <spdlog/spdlog.h>
+#include <tbb/parallel_for.h>
+
+namespace clrt {
+
+namespace {
+
+/// Slots of the film: whole tiles.
+size_t film_slots(const RenderParams& params) {
+    return size_t(params.tile_count) * TILE_PIXELS;
+}
+
+template <class T>
+std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t count) {
+    std::vector<T> values(count);
+    check_opencl("reading the picture back", [&] {
+        device.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
+    });
+    return values;
+}
+
+} // namespace
+
+int fitting_replicates(const Device& device, const RenderParams& params, size_t layers) {
+    const size_t plane = film_slots(params) * 3 * sizeof(std::int64_t);
+    const size_t most = std::min(device.info.largest_buffer_bytes, device.info.memory_bytes / 2);
+    int replicates = int(params.replicates);
+    while ((size_t(replicates) + layers) * plane > most && replicates % 2 == 0)
+        replicates /= 2;
+    if (replicates != int(params.replicates))
+        spdlog::warn("the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
+                     params.replicates, replicates);
+    return replicates;
+}
+
+FilmBuffers::FilmBuffers(const Device& device, const RenderParams& params, size_t layers)
+    : device_(device), params_(params), slots_(film_slots(params)), layers_(layers),
+      film_(create_buffer(device, "film", slots_ * 3 * (params.film_replicates + layers) * sizeof(std::int64_t))),
+      pixel_rays_(create_buffer(device, "pixel_rays", slots_ * PIXEL_RAYS_WORDS * sizeof(u32))),
+      counters_(create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))) {}
+
+void FilmBuffers::bind(Kernel& kernel) const {
+    kernel.set("film", film_);
+    kernel.set("pixel_rays", pixel_rays_);
+    kernel.set("counters", counters_);
+}
+
+template <class Action>
+void FilmBuffers::for_each_pixel(size_t first, size_t planes, Action&& action) const {
+    const size_t width = params_.crop_width, height = params_.crop_height;
+    tbb::parallel_for(size_t(0), planes * height, [&](size_t row) {
+        const size_t plane = first + row / height, y = row % height;
+        for (size_t x = 0; x < width; ++x) {
+            const size_t tile = y / TILE_SIZE * params_.tiles_x + x / TILE_SIZE;
+            const size_t slot = tile * TILE_PIXELS + (y % TILE_SIZE) * TILE_SIZE + x % TILE_SIZE;
+            action(3 * (plane * slots_ + slot), 3 * (row * width + x));
+        }
+    });
+}
+
+void FilmBuffers::write_sums(const RenderProgress& render) {
+    const size_t replicates = params_.film_replicates;
+    std::vector<std::int64_t> tiles(slots_ * 3 * (replicates + layers_), 0);
+    const auto write = [&](size_t first, size_t planes, const Film& film) {
+        for_each_pixel(first, planes,
+                       [&](size_t on_device, size_t in_film) { std::copy_n(&film.sums[in_film], 3, &tiles[on_device]); });
+    };
+    write(0, replicates, render.film);
+    for (size_t i = 0; i < layers_; ++i)
+        write(replicates + i, 1, render.path_layers[i]);
+    check_opencl("continuing the picture", [&] {
+        device_.queue.enqueueWriteBuffer(film_, CL_TRUE, 0, tiles.size() * sizeof(std::int64_t), tiles.data());
+    });
+}
+
+void FilmBuffers::read_sums(RenderProgress& render) const {
+    const size_t replicates = params_.film_replicates;
+    const auto tiles = read_buffer<std::int64_t>(device_, film_, slots_ * 3 * (replicates + layers_));
+    const auto read = [&](size_t first, size_t planes, Film& film) {
+        film.sums.resize(planes * film_plane(film));
+        for_each_pixel(first, planes,
+                       [&](size_t on_device, size_t in_film) { std::copy_n(&tiles[on_device], 3, &film.sums[in_film]); });
+    };
+    read(0, replicates, render.film);
+    render.path_layers.resize(layers_);
+    for (size_t i = 0; i < layers_; ++i) {
+        render.path_layers[i] = film_layer(render.film);
+        read(replicates + i, 1, render.path_layers[i]);
+    }
+}
+
+RenderCounts FilmBuffers::read_counts() const {
+    const auto words = read_buffer<u32>(device_, counters_, COUNT_WORDS + 2 * REPLAY_CAPACITY);
+    RenderCounts counts;
+    counts.nan = words[COUNT_NAN];
+    counts.infinite = words[COUNT_INFINITE];
+    counts.negative = words[COUNT_NEGATIVE];
+    counts.overflow = words[COUNT_OVERFLOW];
+    const u32 noted = std::min<u32>(words[COUNT_BAD_SAMPLES], REPLAY_CAPACITY);
+    for (u32 i = 0; i < noted; ++i)
+        counts.bad_samples.emplace_back(words[COUNT_WORDS + 2 * i], words[COUNT_WORDS + 2 * i + 1]);
+    const auto rays = read_buffer<u32>(device_, pixel_rays_, slots_ * PIXEL_RAYS_WORDS);
+    for (size_t i = 0; i < rays.size(); i += PIXEL_RAYS_WORDS) {
+        counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
+        counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
+    }
+    return counts;
+}
+
+} // namespace clrt

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The buffers that a render writes to, and their way back into a Film.
+#pragma once
+
+#include "device/device.h"
+#include "device/program.h"
+#include "kernels/shared/render_types.h"
+#include "render/render.h"
+
+namespace clrt {
+
+/// Halves the number of replicates kept apart until their sums and those of `layers` layers of paths fit the device.
+int fitting_replicates(const Device& device, const RenderParams& params, size_t layers);
+
+/// Film, ray counts and counters on the device.
+class FilmBuffers {
+public:
+    /// Zeroed buffers for params.film_replicates replicates of the window, and behind them `layers` layers of paths.
+    FilmBuffers(const Device& device, const RenderParams& params, size_t layers);
+    /// Binds the outputs of a render kernel.
+    void bind(Kernel& kernel) const;
+    /// Starts from the sums of an earlier run.
+    void write_sums(const RenderProgress& render);
+    /// Reads the sums, from the device's tiles into the rows of film and layers.
+    void read_sums(RenderProgress& render) const;
+    /// Reads the counts since the start; primary rays are the caller's to count.
+    RenderCounts read_counts() const;
+
+private:
+    /// Calls action(index of a pixel's sums on the device, its index in the film) for `planes` planes from `first` on.
+    template <class Action>
+    void for_each_pixel(size_t first, size_t planes, Action&& action) const;
+
+    const Device& device_;
+    RenderParams params_;
+    size_t slots_;  ///< pixels of whole tiles
+    size_t layers_; ///< of paths
+    cl::Buffer film_, pixel_rays_, counters_;
+};
+
+} // namespace clrt

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr size_t FEWEST_FOR_INTERVAL = 4;    ///< replicates
+constexpr size_t FEWEST_FOR_SLOPE = 5;       ///< errors
+constexpr double OCTAVES_FOR_SLOPE = 16;     ///< last over first samples: four octaves
+constexpr double INDEPENDENT_SLOPE = -0.5;   ///< of the error of independent samples
+constexpr double SLOWEST_SLOPE = -0.1;       ///< half the error for 1024 times the samples
+constexpr size_t TAIL_PART = 1000;           ///< the tail is this part of the pixels
+constexpr size_t VALUES_AT_ONCE = 1u << 14;  ///< of a parallel sum: its order, and so its bits, follow from this
+
+/// Sums over values of their squared error and mean, with and without each replicate.
+struct ErrorSums {
+    double squared = 0, mean = 0;
+    std::vector<double> without;
+
+    explicit ErrorSums(size_t replicates) : without(replicates, 0.0) {}
+    void add(const ErrorSums& other) {
+        squared += other.squared;
+        mean += other.mean;
+        for (size_t k = 0; k < without.size(); ++k)
+            without[k] += other.without[k];
+    }
+};
+
+/// Adds the values of a range. With deviations d_k from the mean of n replicates and S = sum d_k^2, leaving
+/// out k leaves S - d_k^2 n / (n - 1).
+void add_values(const ReplicateMeans& replicates, size_t begin, size_t end, ErrorSums& sums) {
+    const double n = double(replicates.count());
+    std::vector<double> deviations(replicates.count());
+    double squares = 0;
+    for (size_t i = begin; i < end; ++i) {
+        sums.mean += replicates.read_deviations(i, deviations.data(), squares);
+        sums.squared += squares / (n * (n - 1));
+        for (size_t k = 0; k < sums.without.size(); ++k)
+            sums.without[k] += (squares - deviations[k] * deviations[k] * n / (n - 1)) / ((n - 1) * (n - 2));
+    }
+}
+
+/// 97.5 % quantile of Student's t for 1 to 63 degrees of freedom (Abramowitz and Stegun, table 26.10, by
+/// their expansion 26.7.5 beyond 7).
+double student_quantile(size_t degrees) {
+    static const double SMALL[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365};
+    if (degrees <= 7)
+        return SMALL[degrees - 1];
+    const double z = 1.959964, n = double(degrees);
+    return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
+}
+
+/// Half the length of the 95 % interval of a number that takes these values when one replicate is left out.
+double jackknife_reach(const std::vector<double>& values) {
+    const double n = double(values.size());
+    double mean = 0, spread = 0;
+    for (const double value : values)
+        mean += value / n;
+    for (const double value : values)
+        spread += (value - mean) * (value - mean);
+    return student_quantile(values.size() - 1) * std::sqrt(spread * (n - 1) / n);
+}
+
+/// Slope of the line of least squares.
+double line_slope(const std::vector<double>& x, const std::vector<double>& y) {
+    const double n = double(x.size());
+    double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+        mean_x += x[i] / n;
+        mean_y += y[i] / n;
+    }
+    for (size_t i = 0; i < x.size(); ++i) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+    }
+    return xy / xx;
+}
+
+/// Variance of the mean of every pixel, summed over its channels.
+std::vector<double> pixel_variances(const Film& film) {
+    const std::vector<float> values = film_variance(film);
+    std::vector<double> pixels(values.size() / 3);
+    for (size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = double(values[3 * i]) + double(values[3 * i + 1]) + double(values[3 * i + 2]);
+    return pixels;
+}
+
+/// Mean over a tile's pixels; (x, y) is its top left pixel.
+double tile_mean(const std::vector<double>& pixels, const Film& film, int x, int y) {
+    const int end_x = std::min(x + ERROR_TILE_SIZE, film.width), end_y = std::min(y + ERROR_TILE_SIZE, film.height);
+    double sum = 0;
+    for (int row = y; row < end_y; ++row)
+        for (int column = x; column < end_x; ++column)
+            sum += pixels[size_t(row) * size_t(film.width) + size_t(column)];
+    return sum / (double(end_x - x) * double(end_y - y));
+}
+
+} // namespace
+
+std::optional<SquaredError> film_squared_error(const Film& film) {
+    const ReplicateMeans replicates(film);
+    const size_t count = replicates.count();
+    if (count < 2)
+        return std::nullopt;
+    const ErrorSums none(count >= FEWEST_FOR_INTERVAL ? count : 0);
+    const ErrorSums sums = tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<size_t>(0, film_plane(film), VALUES_AT_ONCE), none,
+        [&](const tbb::blocked_range<size_t>& range, ErrorSums part) {
+            add_values(replicates, range.begin(), range.end(), part);
+            return part;
+        },
+        [](ErrorSums a, const ErrorSums& b) {
+            a.add(b);
+            return a;
+        });
+    const double values = double(film_plane(film));
+    SquaredError error{film_samples(film), sums.squared / values, sums.mean / values, sums.without};
+    for (double& squared : error.without)
+        squared /= values;
+    return error;
+}
+
+std::optional<FilmError> relative_error(const SquaredError& squared) {
+    if (!(squared.mean_radiance > 0))
+        return std::nullopt;
+    FilmError error;
+    error.relative_rmse = std::sqrt(squared.mean_squared) / squared.mean_radiance;
+    if (squared.without.empty() || !(squared.mean_squared > 0))
+        return error;
+    // Jackknife on log MSE; half of it is the log of the error.
+    std::vector<double> logs;
+    for (const double value : squared.without)
+        logs.push_back(0.5 * std::log(value));
+    const double reach = std::exp(jackknife_reach(logs));
+    error.low = error.relative_rmse / reach;
+    error.high = error.relative_rmse * reach;
+    return error;
+}
+
+std::optional<FilmError> film_error(const Film& film) {
+    const std::optional<SquaredError> squared = film_squared_error(film);
+    return squared ? relative_error(*squared) : std::nullopt;
+}
+
+std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history) {
+    if (history.size() < FEWEST_FOR_SLOPE ||
+        double(history.back().samples) < OCTAVES_FOR_SLOPE * double(history.front().samples))
+        return std::nullopt;
+    const size_t replicates = history.back().without.size();
+    for (const SquaredError& error : history)
+        if (error.without.size() != replicates || replicates == 0 || !(error.mean_squared > 0))
+            return std::nullopt;
+    // Fit the errors, then those that leave out one replicate: what they share by being nested is inside the spread.
+    std::vector<double> x, y, without;
+    for (const SquaredError& error : history) {
+        x.push_back(std::log(double(error.samples)));
+        y.push_back(0.5 * std::log(error.mean_squared));
+    }
+    ErrorSlope result{line_slope(x, y), 0, history.front().samples, history.back().samples};
+    for (size_t k = 0; k < replicates; ++k) {
+        for (size_t i = 0; i < history.size(); ++i)
+            y[i] = 0.5 * std::log(history[i].without[k]);
+        without.push_back(line_slope(x, y));
+    }
+    result.reach = jackknife_reach(without);
+    return result;
+}
+
+std::optional<ErrorSpread> film_error_spread(const Film& film) {
+    std::vector<double> pixels = pixel_variances(film);
+    double total = 0, radiance = 0;
+    for (const double variance : pixels)
+        total += variance;
+    for (const float value : film_mean(film))
+        radiance += double(value) / double(film_plane(film));
+    if (!(total > 0) || !(radiance > 0))
+        return std::nullopt;
+
+    // Find the worst tile.
+    ErrorSpread spread;
+    double worst = -1;
+    for (int y = 0; y < film.height; y += ERROR_TILE_SIZE)
+        for (int x = 0; x < film.width; x += ERROR_TILE_SIZE)
+            if (const double mean = tile_mean(pixels, film, x, y); mean > worst) {
+                worst = mean;
+                spread.tile_x = x;
+                spread.tile_y = y;
+            }
+    spread.worst_tile = std::sqrt(worst / 3) / radiance;
+
+    // Sum the noisiest pixels.
+    spread.tail_pixels = (pixels.size() + TAIL_PART - 1) / TAIL_PART;
+    const auto tail_end = pixels.begin() + std::ptrdiff_t(spread.tail_pixels);
+    std::nth_element(pixels.begin(), tail_end - 1, pixels.end(), std::greater<>());
+    std::sort(pixels.begin(), tail_end); // one order of summation
+    for (auto pixel = pixels.begin(); pixel != tail_end; ++pixel)
+        spread.tail_share += *pixel / total;
+    return spread;
+}
+
+std::optional<ErrorPrice> price_of_half(const FilmError& error, const std::optional<ErrorSlope>& slope,
+                                        double seconds) {
+    const double exponent = slope ? slope->slope : INDEPENDENT_SLOPE;
+    if (!(error.relative_rmse > 0) || exponent > SLOWEST_SLOPE)
+        return std::nullopt;
+    const double factor = std::exp2(-1 / exponent);
+    return ErrorPrice{error.relative_rmse / 2, factor, seconds * (factor - 1), exponent, slope.has_value()};
+}
+
+} // namespace clrt

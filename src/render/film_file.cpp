@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_file.h"
+
+#include "error.h"
+#include "output/atomic_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <xxhash.h>
+
+namespace clrt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr char MAGIC[] = "CLRTFILM";
+constexpr size_t MAGIC_BYTES = 8, START_BYTES = 16, CHECKSUM_BYTES = 16;
+constexpr std::uint32_t FORMAT_VERSION = 1;
+/// Larger than any header; keeps a damaged length from asking for all memory.
+constexpr std::uint32_t LARGEST_HEADER = 1u << 26;
+
+/// Appends an unsigned number, least significant byte first.
+template <class T>
+void append_little_endian(std::string& bytes, T value) {
+    for (size_t i = 0; i < sizeof value; ++i)
+        bytes += char((value >> (8 * i)) & 0xff);
+}
+
+std::uint32_t read_little_endian(const std::string& bytes, size_t at) {
+    std::uint32_t value = 0;
+    for (size_t i = 0; i < sizeof value; ++i)
+        value |= std::uint32_t(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+    return value;
+}
+
+// Sums are written and read as they lie in memory.
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "film files need their sums swapped on this machine");
+
+/// Checksum of all bytes of a file but the last.
+class Checksum {
+public:
+    Checksum() : state_(XXH3_createState(), XXH3_freeState) {
+        if (!state_)
+            throw std::bad_alloc();
+        XXH3_128bits_reset(state_.get());
+    }
+    void add(const void* bytes, size_t count) { XXH3_128bits_update(state_.get(), bytes, count); }
+    std::string text() const {
+        XXH128_canonical_t canonical;
+        XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state_.get()));
+        return std::string(reinterpret_cast<const char*>(canonical.digest), sizeof canonical.digest);
+    }
+
+private:
+    std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
+};
+
+Json counts_json(const RenderCounts& counts) {
+    return {{"primary", counts.primary},   {"secondary", counts.secondary}, {"shadow", counts.shadow},
+            {"nan", counts.nan},           {"infinite", counts.infinite},   {"negative", counts.negative},
+            {"overflow", counts.overflow}, {"bad_samples", counts.bad_samples}};
+}
+
+RenderCounts read_counts(const Json& json) {
+    RenderCounts counts;
+    json.at("primary").get_to(counts.primary);
+    json.at("secondary").get_to(counts.secondary);
+    json.at("shadow").get_to(counts.shadow);
+    json.at("nan").get_to(counts.nan);
+    json.at("infinite").get_to(counts.infinite);
+    json.at("negative").get_to(counts.negative);
+    json.at("overflow").get_to(counts.overflow);
+    json.at("bad_samples").get_to(counts.bad_samples);
+    return counts;
+}
+
+Json header_json(const FilmFile& film) {
+    const RenderProgress& render = film.render;
+    Json json;
+    json["identity"] = film.identity;
+    json["command"] = film.origin.command;
+    json["folder"] = film.origin.folder;
+    json["device"] = film.origin.device;
+    json["replicates"] = render.film.replicates;
+    json["ranges"] = Json::array();
+    for (const SampleRange& range : render.film.ranges)
+        json["ranges"].push_back({range.first, range.end});
+    json["counts"] = counts_json(render.counts);
+    json["history"] = Json::array();
+    for (const SquaredError& error : render.history)
+        json["history"].push_back({{"samples", error.samples},
+                                   {"mean_squared", error.mean_squared},
+                                   {"mean_radiance", error.mean_radiance},
+                                   {"without", error.without}});
+    json["seconds"] = render.seconds;
+    return json;
+}
+
+FilmOrigin read_origin(const Json& json) {
+    return {json.at("command"), json.at("folder"), json.at("device")};
+}
+
+/// Everything but the sums.
+FilmFile read_header(const Json& json) {
+    FilmFile film;
+    film.identity = json.at("identity");
+    film.origin = read_origin(json);
+    Film& sums = film.render.film;
+    const Crop window = film_window(film.identity).window;
+    sums.width = window.x1 - window.x0;
+    sums.height = window.y1 - window.y0;
+    sums.scale = {film.identity.at("quantum"), film.identity.at("largest")};
+    json.at("replicates").get_to(sums.replicates);
+    for (const Json& range : json.at("ranges"))
+        sums.ranges.push_back({range.at(0), range.at(1)});
+    film.render.counts = read_counts(json.at("counts"));
+    for (const Json& error : json.at("history"))
+        film.render.history.push_back({error.at("samples"), error.at("mean_squared"), error.at("mean_radiance"),
+                                       error.at("without").get<std::vector<double>>()});
+    json.at("seconds").get_to(film.render.seconds);
+    film.render.path_layers.assign(film_layer_names(film.identity).size(), film_layer(sums));
+    return film;
+}
+
+/// A film file that is being read.
+class FilmReader {
+public:
+    explicit FilmReader(const std::string& path) : path_(path), input_(path, std::ios::binary) {
+        std::error_code error;
+        size_ = std::filesystem::file_size(path, error);
+        if (!input_ || error)
+            throw SceneError(path, 0, "expected a film file as --checkpoint writes it, found none that can be read");
+    }
+
+    /// Checks the beginning and parses the header.
+    Json header() {
+        std::string start = take(START_BYTES);
+        if (start.compare(0, MAGIC_BYTES, MAGIC) != 0)
+            reject("expected a film file as --checkpoint writes it, found another kind of file; pictures lack the "
+                   "sums that --resume and clrt-merge need");
+        const std::uint32_t version = read_little_endian(start, MAGIC_BYTES);
+        if (version != FORMAT_VERSION)
+            reject(fmt::format("expected format version {}, found {}", FORMAT_VERSION, version));
+        const std::uint32_t length = read_little_endian(start, MAGIC_BYTES + 4);
+        if (length > LARGEST_HEADER)
+            reject(fmt::format("damaged: expected a header of at most {} bytes, found {}", LARGEST_HEADER, length));
+        Json json = Json::parse(take(length), nullptr, false);
+        if (json.is_discarded())
+            reject("damaged: the header is no JSON");
+        return json;
+    }
+
+    /// Reads the sums of film and layers and compares the checksum.
+    void sums(RenderProgress& render) {
+        const std::uint64_t plane = film_plane(render.film), count = std::uint64_t(render.film.replicates) * plane;
+        const std::uint64_t expected = position_ + 8 * (count + render.path_layers.size() * plane) + CHECKSUM_BYTES;
+        if (size_ != expected)
+            reject(fmt::format("{}: expected {} bytes, found {}", size_ < expected ? "truncated" : "damaged", expected,
+                               size_));
+        render.film.sums.resize(count);
+        take(render.film.sums.data(), 8 * count);
+        for (Film& layer : render.path_layers) {
+            layer.sums.resize(plane);
+            take(layer.sums.data(), 8 * plane);
+        }
+        const std::string computed = checksum_.text();
+        if (take(CHECKSUM_BYTES) != computed)
+            reject("damaged: the checksum at its end differs from that of its content");
+    }
+
+    [[noreturn]] void reject(const std::string& message) const { throw SceneError(path_, 0, message); }
+
+private:
+    void take(void* bytes, size_t count) {
+        input_.read(static_cast<char*>(bytes), std::streamsize(count));
+        if (size_t(input_.gcount()) != count)
+            reject(fmt::format("truncated: expected {} bytes or more, found {}", position_ + count, size_));
+        checksum_.add(bytes, count);
+        position_ += count;
+    }
+    std::string take(size_t count) {
+        std::string bytes(std::min<std::uint64_t>(count, size_ + 1), '\0');
+        take(bytes.data(), bytes.size());
+        return bytes;
+    }
+
+    std::string path_;
+    std::ifstream input_;
+    Checksum checksum_;
+    std::uint64_t size_ = 0, position_ = 0;
+};
+
+/// Parses a header; a wrong one is the file's fault.
+template <class Parse>
+auto parse_header(FilmReader& reader, Parse&& parse) {
+    const Json json = reader.header();
+    try {
+        return parse(json);
+    } catch (const Json::exception& error) {
+        reader.reject(fmt::format("damaged: the header lacks what it must have ({})", error.what()));
+    }
+}
+
+} // namespace
+
+void write_film_file(const std::string& path, const FilmFile& film) {
+    const std::string header = header_json(film).dump();
+    std::string start(MAGIC, MAGIC_BYTES);
+    append_little_endian(start, FORMAT_VERSION);
+    append_little_endian(start, std::uint32_t(header.size()));
+    start += header;
+
+    AtomicFile file(path);
+    Checksum checksum;
+    std::int64_t position = 0;
+    const auto append = [&](const void* bytes, size_t count) {
+        checksum.add(bytes, count);
+        file.write_at(bytes, count, position);
+        position += std::int64_t(count);
+    };
+    append(start.data(), start.size());
+    const auto append_sums = [&](const Film& part) { append(part.sums.data(), part.sums.size() * sizeof(std::int64_t)); };
+    append_sums(film.render.film);
+    for (const Film& layer : film.render.path_layers)
+        append_sums(layer);
+    const std::string end = checksum.text();
+    append(end.data(), end.size());
+    file.commit();
+}
+
+FilmFile read_film_file(const std::string& path) {
+    FilmReader reader(path);
+    FilmFile film = parse_header(reader, read_header);
+    const Film& sums = film.render.film;
+    bool in_order = !sums.ranges.empty() && sums.replicates > 0 && sums.width > 0 && sums.height > 0;
+    std::uint64_t end = 0;
+    for (const SampleRange& range : sums.ranges) {
+        in_order = in_order && end <= range.first && range.first < range.end;
+        end = range.end;
+    }
+    if (!in_order)
+        reader.reject("damaged: the header's window, replicates or ranges are impossible");
+    reader.sums(film.render);
+    return film;
+}
+
+FilmOrigin read_film_origin(const std::string& path) {
+    FilmReader reader(path);
+    return parse_header(reader, read_origin);
+}
+
+} // namespace clrt

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Film files: everything that is needed to go on with a render, or to merge it with others, to the last bit.
+// --checkpoint writes them, --resume and clrt-merge read them.
+//
+//   bytes        what
+//   8            "CLRTFILM"
+//   4            version of this format, 1
+//   4            n, the length of the header
+//   n            the header, a JSON object in UTF-8:
+//                  identity    every field that decides the bits (film_identity.h)
+//                  command     the command line, word by word, that --resume alone repeats
+//                  folder      where it was given
+//                  device      on which the samples were rendered
+//                  replicates  whose sums are kept apart
+//                  ranges      of sample numbers inside, [first, end), in order
+//                  counts      rays and bad samples; bad_samples lists pairs of pixel and sample
+//                  history     errors at doublings of the samples
+//                  seconds     of rendering
+//   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:
+//                [replicate][row][column][red, green, blue]
+//   8 w h 3      of each layer of paths (identity.layers), in one replicate
+//   16           XXH3-128 of all bytes before it, canonical (most significant byte first)
+//
+// Integers are little endian.
+#pragma once
+
+#include "render/film_identity.h"
+#include "render/render.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// Where a film's samples come from.
+struct FilmOrigin {
+    std::vector<std::string> command; ///< without --resume
+    std::string folder;
+    std::string device;
+};
+
+/// A film with what belongs to it.
+struct FilmFile {
+    FilmIdentity identity;
+    FilmOrigin origin;
+    RenderProgress render;
+};
+
+/// Writes under a temporary name and renames: a killed process leaves the older file whole. Throws SceneError.
+void write_film_file(const std::string& path, const FilmFile& film);
+
+/// Reads and checks it all. Throws SceneError that says what was expected and what was found: no film file, another
+/// version, truncated, damaged.
+FilmFile read_film_file(const std::string& path);
+
+/// Reads the header only. Throws SceneError likewise.
+FilmOrigin read_film_origin(const std::string& path);
+
+} // namespace clrt

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_identity.h"
+
+#include "device/kernel_source.h"
+#include "render/kernels.h"
+#include "render/render_params.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <memory>
+#include <xxhash.h>
+
+namespace clrt {
+
+namespace {
+
+/// A hash that is fed piece by piece.
+class Hash {
+public:
+    Hash() : state_(XXH3_createState(), XXH3_freeState) {
+        if (!state_)
+            throw std::bad_alloc();
+        XXH3_128bits_reset(state_.get());
+    }
+    void bytes(const void* data, size_t count) {
+        if (count > 0)
+            XXH3_128bits_update(state_.get(), data, count);
+    }
+    /// An array with its length in front, so that bytes cannot move between arrays unseen.
+    template <class T>
+    void array(const std::vector<T>& values) {
+        const std::uint64_t count = values.size();
+        bytes(&count, sizeof count);
+        bytes(values.data(), values.size() * sizeof(T));
+    }
+    void number(double value) { bytes(&value, sizeof value); }
+    void vector(const glm::dvec3& v) {
+        number(v.x);
+        number(v.y);
+        number(v.z);
+    }
+    std::string text() const {
+        const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+        return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    }
+
+private:
+    std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
+};
+
+const char* precision_name(Precision precision) {
+    switch (precision) {
+    case Precision::SINGLE:
+        return "single";
+    case Precision::DOUBLE:
+        return "double";
+    case Precision::FAST:
+        break;
+    }
+    return "fast";
+}
+
+const char* filter_name(Filter filter) {
+    switch (filter) {
+    case Filter::BOX:
+        return "box";
+    case Filter::TENT:
+        return "tent";
+    case Filter::GAUSSIAN:
+        break;
+    }
+    return "gaussian";
+}
+
+/// Hash of the kernels that the options name.
+std::string kernels_hash(const Options& options) {
+    const KernelFiles files =
+        options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
+    const std::string entry = std::string("integrators/") + integrator_name(options.integrator) + ".cl";
+    const std::string source = expand_kernel_source(files, entry);
+    Hash hash;
+    hash.bytes(source.data(), source.size());
+    return hash.text();
+}
+
+} // namespace
+
+std::string scene_hash(const Scene& scene) {
+    Hash hash;
+    hash.array(scene.positions);
+    hash.array(scene.normals);
+    hash.array(scene.uvs);
+    hash.array(scene.triangles);
+    hash.array(scene.materials);
+    hash.array(scene.textures);
+    hash.array(scene.texel_words);
+    hash.array(scene.emitters);
+    hash.array(scene.lights);
+    hash.array(scene.environment.texels);
+    hash.vector(scene.environment.radiance);
+    hash.number(scene.environment.width);
+    hash.number(scene.environment.height);
+    hash.number(scene.environment.rotation_degrees);
+    hash.vector(scene.camera.eye);
+    hash.vector(scene.camera.at);
+    hash.vector(scene.camera.up);
+    hash.number(scene.camera.fov_degrees);
+    hash.vector(scene.normalisation.centre);
+    hash.number(scene.normalisation.scale);
+    return hash.text();
+}
+
+FilmIdentity film_identity(const Scene& scene, const Options& options, const FilmScale& scale) {
+    const RenderParams params = make_render_params(scene, options, scale);
+    FilmIdentity identity;
+    identity["version"] = CLRT_VERSION;
+    identity["integrator"] = integrator_name(options.integrator);
+    identity["kernels"] = kernels_hash(options);
+    identity["scene"] = scene_hash(scene);
+    identity["precision"] = precision_name(options.precision);
+    identity["seed"] = params.seed;
+    identity["replicates"] = params.replicates;
+    identity["size"] = {params.width, params.height};
+    identity["window"] = {params.crop_x, params.crop_y, params.crop_x + params.crop_width,
+                          params.crop_y + params.crop_height};
+    identity["filter"] = filter_name(options.filter);
+    identity["filter_radius"] = params.filter_radius;
+    identity["max_depth"] = params.max_depth;
+    identity["roulette_depth"] = params.roulette_depth;
+    identity["min_contribution"] = params.min_contribution;
+    identity["paths"] = options.paths;
+    identity["layers"] = FilmIdentity::array();
+    for (const PathLayerOption& layer : options.path_layers)
+        identity["layers"].push_back({{"name", layer.name}, {"expression", layer.expression}});
+    identity["quantum"] = scale.quantum;
+    identity["largest"] = scale.largest;
+    return identity;
+}
+
+FilmWindow film_window(const FilmIdentity& identity) {
+    const auto window = identity.at("window").get<std::array<int, 4>>();
+    const auto size = identity.at("size").get<std::array<int, 2>>();
+    return {{window[0], window[1], window[2], window[3]}, {size[0], size[1]}};
+}
+
+std::vector<std::string> film_layer_names(const FilmIdentity& identity) {
+    std::vector<std::string> names;
+    for (const auto& layer : identity.value("layers", FilmIdentity::array()))
+        names.push_back(layer.at("name"));
+    return names;
+}
+
+std::optional<std::string> identity_difference(const FilmIdentity& expected, const FilmIdentity& found) {
+    for (const auto& [name, value] : expected.items()) {
+        const auto other = found.find(name);
+        if (other == found.end() || *other != value)
+            return fmt::format("{}: expected {}, found {}", name, value.dump(),
+                               other == found.end() ? "none" : other->dump());
+    }
+    for (const auto& [name, value] : found.items())
+        if (!expected.contains(name))
+            return fmt::format("{}: expected none, found {}", name, value.dump());
+    return std::nullopt;
+}
+
+} // namespace clrt

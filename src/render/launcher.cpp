@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/launcher.h"
+
+#include "device/opencl_error.h"
+
+#include <algorithm>
+
+namespace clrt {
+
+namespace {
+
+/// Work-groups a row of the launch grid; keeps both grid dimensions below 65535 work-items, beyond which some drivers
+/// compile another variant.
+constexpr u32 GRID_COLUMNS = 2048;
+
+} // namespace
+
+Launcher::Launcher(const Device& device, const Program& program, const std::string& name, const RenderParams& params,
+                   const SceneBuffers& buffers)
+    : device_(device), kernel_(program, name), params_(params) {
+    bind_scene(buffers, kernel_);
+}
+
+void Launcher::run(std::uint32_t first, std::uint32_t count, u32 first_tile, u32 end_tile) {
+    params_.first_sample = first;
+    params_.sample_count = count;
+    params_.first_tile = first_tile;
+    params_.end_tile = end_tile;
+    kernel_.set("params", params_);
+    const u32 groups = std::max(end_tile - first_tile, 1u);
+    const u32 columns = std::min(groups, GRID_COLUMNS);
+    const u32 rows = (groups + columns - 1) / columns;
+    check_opencl("rendering", [&] {
+        device_.queue.enqueueNDRangeKernel(kernel_.handle(), cl::NullRange,
+                                           cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
+                                           cl::NDRange(TILE_SIZE, TILE_SIZE));
+        device_.queue.finish();
+    });
+}
+
+} // namespace clrt

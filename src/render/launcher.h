@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Launches a render kernel on a range of samples and tiles.
+#pragma once
+
+#include "device/device.h"
+#include "device/program.h"
+#include "kernels/shared/render_types.h"
+#include "render/scene_buffers.h"
+
+#include <cstdint>
+#include <string>
+
+namespace clrt {
+
+/// One kernel with its parameters; launches tiles and samples of them.
+class Launcher {
+public:
+    Launcher(const Device& device, const Program& program, const std::string& name, const RenderParams& params,
+             const SceneBuffers& buffers);
+    /// For binding the outputs.
+    Kernel& kernel() { return kernel_; }
+
+    /// Runs `count` samples from `first` on tiles [first_tile, end_tile) and waits.
+    void run(std::uint32_t first, std::uint32_t count, u32 first_tile, u32 end_tile);
+
+private:
+    const Device& device_;
+    Kernel kernel_;
+    RenderParams params_;
+};
+
+} // namespace clrt

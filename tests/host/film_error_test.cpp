@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors, intervals, slopes and prices from made-up sums, against direct computation and the truth.
+#include "render/film_error.h"
+
+#include "support/noise_film.h"
+#include "support/statistics.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace clrt {
+
+namespace {
+
+/// Means of value `i` in the replicates that have samples.
+std::vector<double> replicate_means(const Film& film, size_t i) {
+    std::vector<double> means;
+    const size_t plane = film.sums.size() / size_t(film.replicates);
+    for (int r = 0; r < film.replicates; ++r)
+        if (const double n = double(film_replicate_samples(film, r)); n > 0)
+            means.push_back(double(film.sums[size_t(r) * plane + i]) * film.scale.quantum / n);
+    return means;
+}
+
+/// Mean squared error by the spread of the replicates, without one of them (none: -1).
+double mean_squared_error(const Film& film, int without) {
+    const size_t plane = film.sums.size() / size_t(film.replicates);
+    double sum = 0;
+    for (size_t i = 0; i < plane; ++i) {
+        std::vector<double> means = replicate_means(film, i);
+        if (without >= 0)
+            means.erase(means.begin() + without);
+        sum += moments_of(means).variance_of_mean();
+    }
+    return sum / double(plane);
+}
+
+/// Errors of a render whose mean squared error is `first` at 8 samples and falls by `power`.
+std::vector<SquaredError> falling_errors(double first, double power, int octaves) {
+    std::vector<SquaredError> history;
+    for (int k = 0; k <= octaves; ++k) {
+        const double squared = first * std::exp2(power * k);
+        history.push_back({std::uint64_t(8) << k, squared, 2, std::vector<double>(8, squared)});
+    }
+    return history;
+}
+
+} // namespace
+
+TEST(FilmError, TheErrorIsRootMeanSquareOverTheMean) {
+    std::mt19937 random(3);
+    Film film = empty_film(6, 5, 8, 0, 80);
+    fill_with_noise(film, 2, 1, random);
+    double mean = 0;
+    for (const float value : film_mean(film))
+        mean += double(value) / 90;
+    const auto error = film_error(film);
+    ASSERT_TRUE(error);
+    EXPECT_NEAR(error->relative_rmse, std::sqrt(mean_squared_error(film, -1)) / mean, 1e-6);
+    EXPECT_NEAR(error->relative_rmse, 1 / std::sqrt(80.0) / 2, 0.01);
+
+    // Jackknife of the logarithm: mean and spread of what leaves out one; half of it belongs to the root.
+    std::vector<double> logs;
+    for (int r = 0; r < 8; ++r)
+        logs.push_back(std::log(mean_squared_error(film, r)));
+    const double spread = std::sqrt(moments_of(logs).variance * 7 * 7 / 8);
+    const double t = 2.3646242516; // 97.5 % of Student's distribution with 7 degrees of freedom
+    ASSERT_TRUE(error->low && error->high);
+    EXPECT_NEAR(*error->high / error->relative_rmse, std::exp(0.5 * t * spread), 1e-3);
+    EXPECT_NEAR(*error->low * *error->high, error->relative_rmse * error->relative_rmse, 1e-9);
+}
+
+TEST(FilmError, UnderFourReplicatesThereIsNoInterval) {
+    std::mt19937 random(4);
+    Film film = empty_film(6, 5, 3, 0, 9);
+    fill_with_noise(film, 2, 1, random);
+    const auto error = film_error(film);
+    ASSERT_TRUE(error);
+    EXPECT_GT(error->relative_rmse, 0);
+    EXPECT_FALSE(error->low || error->high);
+}
+
+TEST(FilmError, APictureWithoutNoiseHasErrorZeroAndABlackOneNone) {
+    Film film = empty_film(2, 2, 8, 0, 16);
+    film.sums.assign(film.sums.size(), 4096);
+    const auto error = film_error(film);
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->relative_rmse, 0);
+    film.sums.assign(film.sums.size(), 0);
+    EXPECT_FALSE(film_error(film));
+}
+
+TEST(FilmError, TheIntervalHoldsTheTrueErrorAsOftenAsItSays) {
+    std::mt19937 random(5);
+    for (const int replicates : {4, 8, 32}) {
+        int covered = 0;
+        const int trials = 400;
+        for (int trial = 0; trial < trials; ++trial) {
+            Film film = empty_film(4, 4, replicates, 0, std::uint64_t(4 * replicates));
+            fill_with_noise(film, 10, 1, random);
+            const auto error = film_error(film);
+            ASSERT_TRUE(error && error->low && error->high);
+            const double truth = 1 / std::sqrt(4.0 * replicates) / 10;
+            covered += *error->low <= truth && truth <= *error->high;
+        }
+        // 380 expected; the standard deviation is 4.4.
+        EXPECT_GE(covered, 355) << replicates;
+        EXPECT_LE(covered, 399) << replicates;
+    }
+}
+
+TEST(FilmError, TheSlopeIsThatOfTheLine) {
+    const auto slope = error_slope(falling_errors(0.5, -1.4, 4));
+    ASSERT_TRUE(slope);
+    EXPECT_NEAR(slope->slope, -0.7, 1e-12) << "of the error, not of its square";
+    EXPECT_NEAR(slope->reach, 0, 1e-12);
+    EXPECT_EQ(slope->first_samples, 8u);
+    EXPECT_EQ(slope->last_samples, 128u);
+}
+
+TEST(FilmError, ThereIsNoSlopeUnderFourOctavesOrWithoutError) {
+    EXPECT_FALSE(error_slope({}));
+    EXPECT_FALSE(error_slope(falling_errors(0.5, -1, 3)));
+    auto history = falling_errors(0.5, -1, 3);
+    history.push_back(history.back()); // five errors, three octaves
+    history.back().samples += 8;
+    EXPECT_FALSE(error_slope(history));
+    history = falling_errors(0.5, -1, 4);
+    history.back().mean_squared = 0;
+    EXPECT_FALSE(error_slope(history));
+    history = falling_errors(0.5, -1, 4);
+    history[2].without.clear();
+    EXPECT_FALSE(error_slope(history));
+}
+
+TEST(FilmError, TheSlopeOfIndependentSamplesIsInItsInterval) {
+    std::mt19937 random(6);
+    int covered = 0;
+    double sum = 0;
+    const int trials = 200;
+    for (int trial = 0; trial < trials; ++trial) {
+        Film film = empty_film(8, 8, 8, 0, 0);
+        std::vector<SquaredError> history;
+        for (std::uint64_t samples = 8; samples <= 256; samples *= 2) {
+            add_noise(film, samples, 10, 1, random);
+            history.push_back(*film_squared_error(film));
+        }
+        const auto slope = error_slope(history);
+        ASSERT_TRUE(slope);
+        sum += slope->slope / trials;
+        covered += std::abs(slope->slope + 0.5) <= slope->reach;
+    }
+    EXPECT_NEAR(sum, -0.5, 0.01);
+    EXPECT_GE(covered, 178) << "of 190 expected; the standard deviation is 3.1";
+}
+
+TEST(FilmError, TheWorstTileIsFound) {
+    std::mt19937 random(7);
+    Film film = empty_film(70, 40, 8, 0, 64);
+    fill_with_noise(film, 10, 1, random);
+    const size_t plane = film_plane(film);
+    // Noise in the tile at 64,32, which is cut off by the picture's edges: 6 x 8 pixels.
+    std::normal_distribution<double> noise(0, 8 * 20);
+    for (size_t r = 0; r < 8; ++r)
+        for (size_t y = 32; y < 40; ++y)
+            for (size_t x = 64; x < 70; ++x)
+                for (size_t c = 0; c < 3; ++c)
+                    film.sums[r * plane + 3 * (y * 70 + x) + c] += std::llround(noise(random) / film.scale.quantum);
+    const auto spread = film_error_spread(film);
+    ASSERT_TRUE(spread);
+    EXPECT_EQ(spread->tile_x, 64);
+    EXPECT_EQ(spread->tile_y, 32);
+    EXPECT_NEAR(spread->worst_tile, 20 / std::sqrt(8.0) / 10, 0.05) << "over the picture's mean";
+    EXPECT_TRUE(spread->usable());
+}
+
+TEST(FilmError, AFewPixelsWithMostOfTheErrorMakeItUnusable) {
+    std::mt19937 random(8);
+    Film film = empty_film(50, 40, 8, 0, 64); // two pixels are a thousandth
+    fill_with_noise(film, 10, 1, random);
+    auto spread = film_error_spread(film);
+    ASSERT_TRUE(spread);
+    EXPECT_EQ(spread->tail_pixels, 2u);
+    EXPECT_LT(spread->tail_share, 0.01);
+    // One replicate saw something a thousand times as bright in one pixel.
+    film.sums[3 * film_plane(film) + 300] += std::llround(10000 / film.scale.quantum);
+    spread = film_error_spread(film);
+    ASSERT_TRUE(spread);
+    EXPECT_GT(spread->tail_share, 0.9);
+    EXPECT_FALSE(spread->usable());
+}
+
+TEST(FilmError, HalfTheErrorIsPricedByTheSlope) {
+    const FilmError error{0.04, 0.03, 0.05};
+    const auto usual = price_of_half(error, std::nullopt, 10);
+    ASSERT_TRUE(usual);
+    EXPECT_EQ(usual->relative_rmse, 0.02);
+    EXPECT_DOUBLE_EQ(usual->factor, 4);
+    EXPECT_DOUBLE_EQ(usual->seconds, 30);
+    EXPECT_FALSE(usual->measured);
+    const auto steep = price_of_half(error, ErrorSlope{-1, 0.1, 8, 128}, 10);
+    ASSERT_TRUE(steep);
+    EXPECT_DOUBLE_EQ(steep->factor, 2);
+    EXPECT_DOUBLE_EQ(steep->seconds, 10);
+    EXPECT_TRUE(steep->measured);
+    EXPECT_FALSE(price_of_half(error, ErrorSlope{-0.05, 0.1, 8, 128}, 10)) << "it does not fall";
+    EXPECT_FALSE(price_of_half(FilmError{}, std::nullopt, 10)) << "there is none";
+}
+
+TEST(FilmError, TheSameFilmGivesTheSameBits) {
+    std::mt19937 random(9);
+    Film film = empty_film(300, 200, 8, 0, 64);
+    fill_with_noise(film, 10, 1, random);
+    const auto first = film_squared_error(film);
+    for (int run = 0; run < 5; ++run) {
+        const auto again = film_squared_error(film);
+        EXPECT_EQ(again->mean_squared, first->mean_squared);
+        EXPECT_EQ(again->without, first->without);
+    }
+}
+
+} // namespace clrt

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Film files: what is written is read, what is damaged is refused.
+#include "render/film_file.h"
+
+#include "error.h"
+#include "support/noise_film.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// A small film with something in every field.
+FilmFile make_film() {
+    FilmFile file;
+    std::mt19937 random(1);
+    file.render.film = empty_film(5, 3, 4, 8, 12);
+    file.render.film.ranges.push_back({40, 44});
+    fill_with_noise(file.render.film, 2, 1, random);
+    file.render.film.sums[0] = INT64_MIN;
+    file.identity = {{"scene", "abc"}, {"window", {1, 2, 6, 5}}, {"size", {10, 20}},
+                     {"quantum", file.render.film.scale.quantum}, {"largest", file.render.film.scale.largest}};
+    file.identity["layers"] = {{{"name", "direct"}, {"expression", "LDE"}}};
+    file.render.path_layers = {film_layer(file.render.film)};
+    file.render.path_layers[0].sums.assign(film_plane(file.render.film), 77);
+    file.origin = {{"clrt", "--spp=12", "--", "a \"b\".obj"}, "/some/folder", "a device"};
+    RenderCounts& counts = file.render.counts;
+    counts.primary = 1ull << 40;
+    counts.shadow = 3;
+    counts.nan = 2;
+    counts.bad_samples = {{7, 9}, {8, 10}};
+    file.render.history = {{8, 0.1, 1.0 / 3, {1, 2, 3, 0.1}}};
+    file.render.seconds = 1.1;
+    return file;
+}
+
+class FilmFileTest : public testing::Test {
+protected:
+    /// The message with which a file of these bytes is refused.
+    std::string refusal(const std::string& bytes) const {
+        try {
+            read_film_file(folder.write("bad.film", bytes));
+        } catch (const SceneError& error) {
+            EXPECT_NE(std::string(error.what()).find("bad.film: "), std::string::npos) << error.what();
+            return error.what();
+        }
+        return "accepted";
+    }
+    void expect_refused(const std::string& bytes, const std::string& part) const {
+        const std::string message = refusal(bytes);
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+    }
+    std::string bytes() const {
+        write_film_file(folder.file("good.film"), make_film());
+        return folder.read("good.film");
+    }
+    ScratchFolder folder;
+};
+
+} // namespace
+
+TEST_F(FilmFileTest, EverythingComesBack) {
+    const FilmFile written = make_film();
+    write_film_file(folder.file("a.film"), written);
+    const FilmFile read = read_film_file(folder.file("a.film"));
+    EXPECT_EQ(read.identity, written.identity);
+    EXPECT_EQ(read.origin.command, written.origin.command);
+    EXPECT_EQ(read.origin.folder, written.origin.folder);
+    EXPECT_EQ(read.origin.device, written.origin.device);
+    const Film &a = read.render.film, &b = written.render.film;
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.replicates, b.replicates);
+    EXPECT_EQ(a.scale.quantum, b.scale.quantum);
+    EXPECT_EQ(a.scale.largest, b.scale.largest);
+    EXPECT_EQ(a.ranges, b.ranges);
+    EXPECT_EQ(a.sums, b.sums);
+    ASSERT_EQ(read.render.path_layers.size(), 1u);
+    EXPECT_EQ(read.render.path_layers[0].sums, written.render.path_layers[0].sums);
+    EXPECT_EQ(read.render.path_layers[0].ranges, b.ranges);
+    EXPECT_EQ(read.render.counts.primary, written.render.counts.primary);
+    EXPECT_EQ(read.render.counts.shadow, 3u);
+    EXPECT_EQ(read.render.counts.nan, 2u);
+    EXPECT_EQ(read.render.counts.bad_samples, written.render.counts.bad_samples);
+    ASSERT_EQ(read.render.history.size(), 1u);
+    EXPECT_EQ(read.render.history[0].samples, 8u);
+    EXPECT_EQ(read.render.history[0].mean_radiance, 1.0 / 3) << "to the last bit";
+    EXPECT_EQ(read.render.history[0].without, written.render.history[0].without);
+    EXPECT_EQ(read.render.seconds, 1.1);
+    EXPECT_EQ(folder.count(), 1u) << "no temporary file";
+}
+
+TEST_F(FilmFileTest, TheLayoutIsTheDocumentedOne) {
+    const std::string file = bytes();
+    EXPECT_EQ(file.substr(0, 8), "CLRTFILM");
+    EXPECT_EQ(file.substr(8, 4), std::string("\1\0\0\0", 4));
+    const auto byte = [&](size_t i) { return size_t(static_cast<unsigned char>(file[i])); };
+    const size_t header = byte(12) + 256 * byte(13);
+    EXPECT_EQ(file[16], '{');
+    EXPECT_EQ(file[16 + header - 1], '}');
+    EXPECT_EQ(file.size(), 16 + header + 8 * (4 + 1) * 5 * 3 * 3 + 16);
+    EXPECT_EQ(file.substr(16 + header, 8), std::string("\0\0\0\0\0\0\0\x80", 8)) << "the smallest integer";
+}
+
+TEST_F(FilmFileTest, EveryTruncationIsRefused) {
+    const std::string file = bytes();
+    for (size_t size = 0; size < file.size(); size += size < 40 ? 1 : 37)
+        EXPECT_NE(refusal(file.substr(0, size)), "accepted") << size;
+    expect_refused(file.substr(0, file.size() - 1),
+                   "truncated: expected " + std::to_string(file.size()) + " bytes, found " +
+                       std::to_string(file.size() - 1));
+    expect_refused(file + "x", "damaged: expected " + std::to_string(file.size()) + " bytes");
+}
+
+TEST_F(FilmFileTest, EveryFlippedBitIsRefused) {
+    const std::string file = bytes();
+    for (size_t i = 0; i < file.size(); ++i) {
+        std::string damaged = file;
+        damaged[i] = char(damaged[i] ^ (1 << (i % 8)));
+        EXPECT_NE(refusal(damaged), "accepted") << "byte " << i;
+    }
+    std::string damaged = file;
+    damaged[file.size() - 100] = char(damaged[file.size() - 100] ^ 1);
+    expect_refused(damaged, "damaged: the checksum");
+}
+
+TEST_F(FilmFileTest, OtherFilesAreRefusedByWhatTheyAre) {
+    expect_refused("\x76\x2f\x31\x01 is how a picture starts", "expected a film file as --checkpoint writes it");
+    std::string newer = bytes();
+    newer[8] = 2;
+    expect_refused(newer, "expected format version 1, found 2");
+    EXPECT_THROW(read_film_file(folder.file("none.film")), SceneError);
+    EXPECT_THROW(read_film_file(folder.file("")), SceneError) << "a folder";
+}
+
+TEST_F(FilmFileTest, TheOriginIsReadWithoutTheSums) {
+    const std::string file = bytes();
+    folder.write("short.film", file.substr(0, file.size() - 300));
+    EXPECT_EQ(read_film_origin(folder.file("short.film")).command, make_film().origin.command);
+    folder.write("other.film", "no film at all");
+    EXPECT_THROW(read_film_origin(folder.file("other.film")), SceneError);
+}
+
+} // namespace clrt

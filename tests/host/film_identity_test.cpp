@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The identity of a film: the same for the same scene and options, another for whatever changes a bit.
+#include "render/film_identity.h"
+
+#include "app/progress.h"
+#include "scene/load_scene.h"
+#include "scene_support.h"
+
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+class FilmIdentityTest : public testing::Test {
+protected:
+    FilmIdentityTest() {
+        write("s.mtl", "newmtl m\nKd 0.5 0.5 0.5\nnewmtl l\nKe 3 3 3\n");
+        write("s.obj", "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m\nf 1 2 3\nusemtl l\nf 1 2 4\n");
+    }
+    void write(const std::string& name, const std::string& text) const { folder.write(name, text); }
+    Scene load(Options options = {}) const {
+        options.scene_path = folder.path("s.obj");
+        Progress progress(Toggle::OFF, true);
+        return load_scene(options, progress);
+    }
+    FilmIdentity identity(const Options& options) const { return film_identity(load(options), options, {1, 2}); }
+    /// The field that tells changed options from the default ones.
+    std::string field(const std::function<void(Options&)>& change) const {
+        Options options;
+        const FilmIdentity before = identity(options);
+        change(options);
+        const std::string difference = identity_difference(before, identity(options)).value_or("none");
+        return difference.substr(0, difference.find(':'));
+    }
+    TemporaryFolder folder;
+};
+
+} // namespace
+
+TEST_F(FilmIdentityTest, TheSameFilesHaveTheSameHash) {
+    EXPECT_EQ(scene_hash(load()), scene_hash(load()));
+    EXPECT_EQ(scene_hash(load()).size(), 32u);
+}
+
+TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
+    const Scene scene = load();
+    const std::function<void(Scene&)> changes[] = {
+        [](Scene& s) { s.positions[0].x += 1e-6f; },
+        [](Scene& s) { s.normals.push_back({0, 1, 0, 0}); },
+        [](Scene& s) { s.uvs.push_back(0); },
+        [](Scene& s) { s.triangles[0].material = 1; },
+        [](Scene& s) { s.triangles.pop_back(); },
+        [](Scene& s) { s.materials[0].matte.x = 0.51f; },
+        [](Scene& s) { s.textures.emplace_back(); },
+        [](Scene& s) { s.texel_words.push_back(0); },
+        [](Scene& s) { s.emitters[0].pdf_a *= 2; },
+        [](Scene& s) { s.lights.emplace_back(); },
+        [](Scene& s) { s.environment.texels.emplace_back(); },
+        [](Scene& s) { s.environment.radiance.y += 1; },
+        [](Scene& s) { s.environment.rotation_degrees = 1; },
+        [](Scene& s) { s.camera.eye.z += 1; },
+        [](Scene& s) { s.camera.at.z += 1; },
+        [](Scene& s) { s.camera.up.x += 1; },
+        [](Scene& s) { s.camera.fov_degrees += 1; },
+        [](Scene& s) { s.normalisation.scale *= 2; },
+    };
+    for (size_t i = 0; i < std::size(changes); ++i) {
+        Scene changed = scene;
+        changes[i](changed);
+        EXPECT_NE(scene_hash(changed), scene_hash(scene)) << "change " << i;
+    }
+    Scene named = scene;
+    named.material_names[0] = "other";
+    named.notices.emplace_back("something");
+    EXPECT_EQ(scene_hash(named), scene_hash(scene)) << "names change no pixel";
+}
+
+TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
+    EXPECT_EQ(field([](Options& o) { o.integrator = Integrator::WHITTED; }), "integrator");
+    EXPECT_EQ(field([](Options& o) { o.precision = Precision::DOUBLE; }), "precision");
+    EXPECT_EQ(field([](Options& o) { o.seed = 1; }), "seed");
+    EXPECT_EQ(field([](Options& o) { o.replicates = 4; }), "replicates");
+    EXPECT_EQ(field([](Options& o) { o.crop = Crop{0, 0, 8, 8}; }), "window");
+    EXPECT_EQ(field([](Options& o) { o.filter = Filter::TENT; }), "filter");
+    EXPECT_EQ(field([](Options& o) { o.filter_radius = 0.7; }), "filter_radius");
+    EXPECT_EQ(field([](Options& o) { o.max_depth = 5; }), "max_depth");
+    EXPECT_EQ(field([](Options& o) { o.roulette_depth = 9; }), "roulette_depth");
+    EXPECT_EQ(field([](Options& o) { o.min_contribution = 0.1; }), "min_contribution");
+    EXPECT_EQ(field([](Options& o) { o.paths = "LDE"; }), "paths");
+    EXPECT_EQ(field([](Options& o) { o.path_layers = {{"direct", "LDE"}}; }), "layers");
+    EXPECT_EQ(field([](Options& o) { o.size = {800, 599}; }), "size");
+    EXPECT_EQ(field([](Options& o) { o.camera.fov_degrees = 30; }), "scene");
+    EXPECT_EQ(field([](Options& o) { o.light.environment = glm::dvec3(1); }), "scene");
+}
+
+TEST_F(FilmIdentityTest, OptionsThatChangeNoBitAreNone) {
+    const std::function<void(Options&)> changes[] = {
+        [](Options& o) { o.spp = 5; },         [](Options& o) { o.first_sample = 5; },
+        [](Options& o) { o.time_seconds = 5; }, [](Options& o) { o.error = 0.5; },
+        [](Options& o) { o.all_effects = true; }, [](Options& o) { o.bvh = BvhChoice::BVH2; },
+        [](Options& o) { o.threads = 1; },     [](Options& o) { o.exposure_ev = 1; },
+        [](Options& o) { o.outputs = {"a.exr"}; },
+    };
+    for (size_t i = 0; i < std::size(changes); ++i)
+        EXPECT_EQ(field(changes[i]), "none") << "change " << i;
+}
+
+} // namespace clrt

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Merged films: any order, folded replicates, gaps, and what is refused.
+#include "render/merge_films.h"
+
+#include "error.h"
+#include "support/noise_film.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+FilmFile part(std::uint32_t first, std::uint64_t samples, int kept = 8, unsigned seed = 0) {
+    FilmFile file;
+    std::mt19937 random(first + 1);
+    file.render.film = empty_film(4, 3, 8, first, samples);
+    fill_with_noise(file.render.film, 2, 1, random);
+    fold_replicates(file.render.film, kept);
+    file.identity = {{"scene", "abc"}, {"seed", seed}, {"window", {0, 0, 4, 3}}, {"size", {4, 3}}};
+    file.origin.folder = std::to_string(first);
+    file.render.counts.shadow = samples;
+    file.render.counts.bad_samples = {{1, first}};
+    file.render.seconds = double(samples);
+    file.render.history = {{samples, 1, 1, {}}};
+    return file;
+}
+
+std::string refusal(FilmFile sum, const FilmFile& other) {
+    try {
+        merge_film(sum, "a.film", other, "b.film");
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
+TEST(MergeFilms, AnyOrderGivesTheSameFilm) {
+    const std::vector<FilmFile> parts = {part(0, 5), part(5, 1), part(6, 10)};
+    std::vector<size_t> order = {0, 1, 2};
+    std::vector<std::int64_t> expected(film_plane(parts[0].render.film) * 8, 0);
+    for (const FilmFile& film : parts)
+        std::transform(expected.begin(), expected.end(), film.render.film.sums.begin(), expected.begin(),
+                       std::plus<>());
+    do {
+        FilmFile sum = parts[order[0]];
+        for (size_t i = 1; i < 3; ++i)
+            merge_film(sum, "a", parts[order[i]], "b");
+        EXPECT_EQ(sum.render.film.sums, expected);
+        EXPECT_EQ(sum.render.film.ranges, (std::vector<SampleRange>{{0, 16}}));
+        EXPECT_EQ(sum.render.counts.shadow, 16u);
+        EXPECT_EQ(sum.render.counts.bad_samples,
+                  (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1, 0}, {1, 5}, {1, 6}}));
+        EXPECT_EQ(sum.render.seconds, 16);
+        EXPECT_EQ(sum.origin.folder, "0") << "of the first samples";
+        EXPECT_TRUE(sum.render.history.empty()) << "parts tell nothing about the whole's slope";
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(MergeFilms, GapsStayGaps) {
+    FilmFile sum = part(20, 4);
+    merge_film(sum, "a", part(0, 8), "b");
+    EXPECT_EQ(sum.render.film.ranges, (std::vector<SampleRange>{{0, 8}, {20, 24}}));
+    EXPECT_EQ(film_samples(sum.render.film), 12u);
+    merge_film(sum, "a", part(8, 12), "b");
+    EXPECT_EQ(sum.render.film.ranges, (std::vector<SampleRange>{{0, 24}}));
+}
+
+TEST(MergeFilms, FoldedReplicatesFoldTheOthers) {
+    FilmFile sum = part(0, 8);
+    const std::vector<float> first = film_mean(sum.render.film);
+    merge_film(sum, "a", part(8, 8, 2), "b");
+    EXPECT_EQ(sum.render.film.replicates, 2);
+    EXPECT_EQ(sum.render.film.sums.size(), 2 * film_plane(sum.render.film));
+    const std::vector<float> second = film_mean(part(8, 8).render.film), merged = film_mean(sum.render.film);
+    for (size_t i = 0; i < merged.size(); ++i)
+        EXPECT_NEAR(merged[i], 0.5f * (first[i] + second[i]), 1e-6f);
+}
+
+TEST(MergeFilms, OverlapsAndStrangersAreRefused) {
+    const std::string overlap = refusal(part(0, 8), part(7, 4));
+    EXPECT_NE(overlap.find("b.film: "), std::string::npos) << overlap;
+    EXPECT_NE(overlap.find("samples 7 to 7 in both"), std::string::npos) << overlap;
+    EXPECT_NE(refusal(part(4, 2), part(0, 8)).find("samples 4 to 5 in both"), std::string::npos);
+    const std::string seed = refusal(part(0, 8), part(8, 4, 8, 1));
+    EXPECT_NE(seed.find("another seed: expected 0, found 1"), std::string::npos) << seed;
+    FilmFile with_more = part(8, 4);
+    with_more.identity["paths"] = "LDE";
+    EXPECT_NE(refusal(part(0, 8), with_more).find("another paths: expected none"), std::string::npos);
+    EXPECT_NE(refusal(with_more, part(0, 8)).find("found none"), std::string::npos);
+}
+
+TEST(MergeFilms, ThePictureHasVarianceAndSamples) {
+    const FilmFile film = part(0, 16);
+    const Picture picture = film_picture(film);
+    EXPECT_EQ(picture.width, 4);
+    EXPECT_EQ(picture.full_height, 3);
+    ASSERT_EQ(picture.layers.size(), 3u);
+    EXPECT_EQ(picture.layers[0].values, film_mean(film.render.film));
+    EXPECT_EQ(picture.layers[1].values, film_variance(film.render.film));
+    EXPECT_EQ(picture.layers[2].values, std::vector<float>(12, 16.0f));
+}
+
+} // namespace clrt

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the printed error is the error: many renders of a small scene with different seeds against a long run.
+#include "render/film_error.h"
+#include "render/kernels.h"
+#include "support/render_scene.h"
+#include "support/statistics.h"
+
+#include <cmath>
+#include <cstdio>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr int SEEDS = 50;
+constexpr std::uint32_t SPP = 16, REFERENCE_SPP = 1024, REFERENCE_SEED = 1000;
+/// Of 50 intervals of 95 %, 47.5 hold the truth on average; fewer than 43 happen once in 200 times.
+constexpr int FEWEST_COVERED = 43;
+constexpr double LARGEST_Z = 3;
+
+/// A room with a lamp, a block that throws soft shadows, and a mirror.
+void make_room(TestScene& scene) {
+    scene.build.material("white", "Kd 0.7 0.7 0.7").material("red", "Kd 0.6 0.1 0.1");
+    scene.build.material("mirror", "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.8\nillum 3").material("lamp", "Kd 0 0 0\nKe 8 7 5");
+    scene.build.use("white").box({-1, 0, -1}, {1, 2, 1}, Facing::INWARD);
+    scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
+    scene.build.use("red").box({-0.6, 0.01, -0.5}, {0, 0.8, 0.1});
+    scene.build.use("mirror").box({0.2, 0.01, -0.7}, {0.7, 1.1, -0.2});
+    scene.look({0.2, 1, 0.9}, {0, 0.7, -1}, 80);
+    scene.options.size = {32, 32};
+    scene.options.replicates = 8;
+}
+
+/// mean((x - a)(x - b)): the squared error of x without the noise of two independent references.
+double realised_squared_error(const std::vector<float>& x, const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (size_t i = 0; i < x.size(); ++i)
+        sum += (double(x[i]) - double(a[i])) * (double(x[i]) - double(b[i])) / double(x.size());
+    return sum;
+}
+
+struct ErrorBar : testing::TestWithParam<Integrator> {};
+
+} // namespace
+
+TEST_P(ErrorBar, HoldsTheErrorThatOtherSeedsHave) {
+    TestScene scene;
+    make_room(scene);
+    scene.options.integrator = GetParam();
+    const Scene loaded = scene.load();
+    const auto render = [&](std::uint32_t seed, std::uint32_t spp) {
+        scene.options.seed = seed;
+        scene.options.spp = spp;
+        return render_loaded(loaded, scene.options).film;
+    };
+    const std::vector<float> a = film_mean(render(REFERENCE_SEED, REFERENCE_SPP));
+    const std::vector<float> b = film_mean(render(REFERENCE_SEED + 1, REFERENCE_SPP));
+
+    // Compare what each render says with what it is wrong by.
+    std::vector<double> realised, differences, ratios;
+    std::vector<SquaredError> estimates;
+    for (int seed = 0; seed < SEEDS; ++seed) {
+        const Film film = render(std::uint32_t(seed), SPP);
+        const auto estimate = film_squared_error(film);
+        ASSERT_TRUE(estimate);
+        estimates.push_back(*estimate);
+        realised.push_back(realised_squared_error(film_mean(film), a, b));
+        differences.push_back(estimate->mean_squared - realised.back());
+    }
+    const double truth = moments_of(realised).mean;
+    int covered = 0;
+    for (const SquaredError& estimate : estimates) {
+        const auto error = relative_error(estimate);
+        ASSERT_TRUE(error && error->low && error->high);
+        const double expected = std::sqrt(truth) / estimate.mean_radiance;
+        covered += *error->low <= expected && expected <= *error->high;
+        ratios.push_back(estimate.mean_squared / truth);
+    }
+    const Moments ratio = moments_of(ratios);
+    std::printf("%-8s error %.2f %%, squared error estimated over true %.3f +- %.3f, interval holds it in %d of %d\n",
+                integrator_name(GetParam()), 100 * std::sqrt(truth) / estimates[0].mean_radiance, ratio.mean,
+                std::sqrt(ratio.variance_of_mean()), covered, SEEDS);
+    EXPECT_GT(truth, 0);
+    EXPECT_GE(covered, FEWEST_COVERED);
+    EXPECT_LE(std::abs(z_of_mean(moments_of(differences), 0)), LARGEST_Z);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, ErrorBar,
+                         testing::Values(Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST),
+                         [](const auto& test) { return std::string(integrator_name(test.param)); });
+
+// Direct light without a penumbra, one bounce: what Sobol points are good at.
+TEST(ErrorSlope, OfUnshadowedDirectLightIsSteep) {
+    TestScene scene;
+    scene.build.material("white", "Kd 0.7 0.7 0.7").material("lamp", "Kd 0 0 0\nKe 8 7 5");
+    scene.build.use("white").floor(3);
+    scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
+    scene.look({0, 1.5, 3}, {0, 0, 0}, 30);
+    scene.options.size = {32, 32};
+    scene.options.replicates = 8;
+    scene.options.max_depth = 2;
+    scene.options.spp = 512;
+    const Render rendered = scene.render();
+    const auto slope = error_slope(rendered.history);
+    ASSERT_TRUE(slope);
+    std::printf("slope %.3f +- %.3f\n", slope->slope, slope->reach);
+    EXPECT_LE(slope->slope, -0.7);
+    EXPECT_EQ(slope->first_samples, 8u);
+    EXPECT_EQ(slope->last_samples, 512u);
+}
+
+} // namespace clrt
