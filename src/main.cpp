@@ -8,6 +8,7 @@
 #include "device/device.h"
 #include "effects/effects.h"
 #include "effects/explain.h"
+#include "effects/take_out.h"
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
@@ -79,16 +80,19 @@ int run_explain(const Options& options) {
     return EXIT_DONE;
 }
 
-int run_render(const Options& options) {
+int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
-    const Scene scene = load_scene(options, progress);
+    Scene scene = load_scene(options, progress);
     const double load_seconds = seconds_since(start);
     progress.finish();
     for (const std::string& notice : scene.notices)
         spdlog::info("{}", notice);
     const Effects effects = find_effects(scene, options);
+    for (const std::string& line : describe_left_out(effects))
+        spdlog::warn("{}", line);
+    take_out_effects(effects.left_out, scene, options);
 
     // Compile while the tree is built.
     const BvhLayout layout = choose_layout(options.bvh, device.info);

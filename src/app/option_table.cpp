@@ -2,6 +2,7 @@
 // Every option once. The order is the order of --help.
 #include "app/option_table.h"
 
+#include "app/effect_option.h"
 #include "app/nearest_name.h"
 #include "error.h"
 #include "output/image.h"
@@ -282,11 +283,10 @@ std::vector<OptionSpec> promise_options() {
                  reject_value(v, "--explain or --explain=json");
              o.explain = v.text.empty() ? Explain::TABLE : Explain::JSON;
          }},
-        {group, "", "--effects", "auto|all",
-         "compile what the scene needs or everything; same picture (default auto)",
-         [](Options& o, const OptionValue& v) {
-             o.all_effects = parse_choice<bool>(v, {{"auto", false}, {"all", true}});
-         }},
+        {group, "", "--effects", "auto|all|LIST",
+         "simulate what the scene needs (auto), with everything compiled in (all; same picture), or only the effects "
+         "listed, such as matte,area-lights; -NAME takes one away: --effects=-refraction (default auto)",
+         apply_effects},
         {group, "", "--stats", "FILE", "write statistics of the run as JSON, in SI units",
          [](Options& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
         {group, "", "--check", "MODE", "non-finite samples: off, count, strict (exit 4) (default count)",

@@ -73,6 +73,13 @@ FAULTS = [
     ("film rounds down", "film/film.h", "(sampler_unit(word) < quanta - whole ? 1 : 0)", "0", "direct_light_test"),
     ("rays below the minimum are followed", "integrators/whitted.h",
      "vector_max_component(child.weight) < (real)params->min_contribution || ", "", "ray_tree_test"),
+    ("without a filter, the film shares the lobe's number", "camera/camera.h", "sampler_pair(sampler, 0u, SAMPLE_FILM)",
+     "sampler_pair(sampler, 0u, HAS(EFFECT_FILTER) ? SAMPLE_FILM : SAMPLE_DIRECTION)", "effect_masks_test"),
+    ("a mirror's map forgotten without glossy lobes", "scattering/material.h", "if (material->map_specular != NO_INDEX)",
+     "if (HAS(EFFECT_GLOSSY) && material->map_specular != NO_INDEX)", "effect_masks_test"),
+    ("tangents forgotten without normal maps", "geometry/surface.h",
+     "if (!HAS(EFFECT_NORMAL_MAP | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))", "if (!HAS(EFFECT_NORMAL_MAP))",
+     "effect_masks_test"),
     ("highlight without its normalisation", "integrators/direct.h", "(bsdf->exponent + REAL(2.0)) * ", "REAL(2.0) * ",
      "ray_tree_test"),
 ]
