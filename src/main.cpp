@@ -13,6 +13,7 @@
 #include "exit_code.h"
 #include "output/image.h"
 #include "render/kernels.h"
+#include "render/ledger.h"
 #include "render/picture.h"
 #include "render/render.h"
 #include "render/report.h"
@@ -80,6 +81,19 @@ int run_explain(const Options& options) {
     return EXIT_DONE;
 }
 
+/// Prints what every effect costs and gives.
+int run_ledger(const Options& options) {
+    const Device device = open_chosen_device(options);
+    Progress progress(options.progress, options.verbosity < 0);
+    const Scene scene = load_scene(options, progress);
+    const Ledger ledger = make_ledger(device, scene, options, progress);
+    progress.finish();
+    fmt::print("{}", format_ledger(ledger, options, device.info));
+    if (!options.stats_path.empty())
+        write_text_file(options.stats_path, ledger_json(ledger, options, device.info));
+    return EXIT_DONE;
+}
+
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     const Device device = open_chosen_device(options);
@@ -130,7 +144,9 @@ int run(int argc, const char* const* argv) {
     if (!options.sidecar_path.empty())
         spdlog::info("options file: {}", options.sidecar_path);
     catch_stop_signals();
-    return options.explain == Explain::NO ? run_render(options) : run_explain(options);
+    if (options.explain != Explain::NO)
+        return run_explain(options);
+    return options.ledger ? run_ledger(options) : run_render(options);
 }
 
 int report_error(int code, const char* what) {

@@ -112,6 +112,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     }
     if (options.outputs.empty() && !options.scene_path.empty())
         options.outputs.push_back(std::filesystem::path(options.scene_path).stem().string() + ".png");
+    // A ledger's compile seconds are those of a first start; its samples are its own unless the command line says how many.
+    if (options.ledger && options.cache == Toggle::AUTO)
+        options.cache = Toggle::OFF;
+    if (options.ledger && !is_given(arguments.options, "--spp"))
+        options.spp.reset();
+    if (options.ledger && !is_given(arguments.options, "--time"))
+        options.time_seconds.reset();
     check_combinations(options);
     if (!options.scene_path.empty() && !list_devices && options.explain == Explain::NO)
         check_folders(options);

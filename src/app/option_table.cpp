@@ -287,6 +287,10 @@ std::vector<OptionSpec> promise_options() {
          "simulate what the scene needs (auto), with everything compiled in (all; same picture), or only the effects "
          "listed, such as matte,area-lights; -NAME takes one away: --effects=-refraction (default auto)",
          apply_effects},
+        {group, "", "--ledger", "",
+         "measure what every effect costs in time and gives in light, by rendering without it; --time bounds it "
+         "(default 60 s); writes no picture",
+         [](Options& o, const OptionValue&) { o.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--stats", "FILE", "write statistics of the run as JSON, in SI units",
          [](Options& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
         {group, "", "--check", "MODE", "non-finite samples: off, count, strict (exit 4) (default count)",

@@ -90,6 +90,7 @@ struct Options {
 
     // The promises
     Explain explain = Explain::NO;
+    bool ledger = false; ///< measure what every effect costs and gives; no picture
     bool all_effects = false;                  ///< --effects all: the full kernel
     std::optional<std::uint32_t> effects_list; ///< --effects LIST: these and no others
     std::uint32_t effects_off = 0;             ///< --effects -NAME: taken away

@@ -74,6 +74,23 @@ TEST_F(Information, LeavingAnEffectOutIsSaidAndNearMissesAreToldTheName) {
     EXPECT_TRUE(holds(wrong.err, {"the nearest to 'area-lihts' is area-lights", "rough-refraction"}));
 }
 
+TEST_F(Information, TheLedgerBillsEveryEffectAndWritesNoPicture) {
+    write_square("scene");
+    const auto result = clrt({"scene.obj", "--ledger", "-s", "2", "-r", "16x12", "--stats", "bill.json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(holds(result.out, {"Ledger of scene.obj: 16 x 12, path", "environment", "matte", "interreflection",
+                                   "by the full program", "Compiling for the scene pays"}));
+    EXPECT_EQ(listing(), (std::vector<std::string>{"bill.json", "scene.obj"}));
+    const auto json = nlohmann::json::parse(folder.read("bill.json"));
+    ASSERT_EQ(json["effects"].size(), 3u);
+    EXPECT_EQ(json["spp"], 2);
+    // All light comes from the sky; a square does not light itself.
+    EXPECT_EQ(json["effects"][0]["light_share"]["median"], 1.0);
+    EXPECT_EQ(json["effects"][2]["light_share"]["high"], 0.0);
+    EXPECT_GT(json["effects"][1]["light_share"]["low"], 0.0);
+    EXPECT_LT(json["effects"][1]["light_share"]["high"], 1.0);
+}
+
 TEST_F(Information, ExplainNeedsNoDevice) {
     write_square("scene");
     CommandSettings settings;

@@ -77,6 +77,7 @@ const std::map<std::string, std::string>& samples() {
         {"--point", "-1,2,3,4,5,6"},
         {"--two-sided-lights", ""},
         {"--explain", ""},
+        {"--ledger", ""},
         {"--effects", "all"},
         {"--stats", "run.json"},
         {"--check", "strict"},
