@@ -30,15 +30,12 @@ Json optional(const std::optional<double>& value) {
 }
 
 std::string break_even_text(const Ledger& ledger) {
-    std::string line;
     if (!ledger.break_even)
-        line = "never: the full program is not slower here";
-    else
-        line = fmt::format("after {:.0f} samples a pixel ({:.0f} - {})", *ledger.break_even,
-                           ledger.break_even_low.value_or(0),
-                           ledger.break_even_high ? fmt::format("{:.0f}", *ledger.break_even_high) : "never");
-    const bool at_once = ledger.break_even && ledger.specialised.compile_seconds <= ledger.full.compile_seconds;
-    return line + " where the full program is compiled already" + (at_once ? ", at once where neither is" : "");
+        return "does not pay here: the full program is not slower";
+    return fmt::format("pays after {:.0f} samples a pixel ({:.0f} - {}) where the full program is compiled already{}",
+                       *ledger.break_even, ledger.break_even_low.value_or(0),
+                       ledger.break_even_high ? fmt::format("{:.0f}", *ledger.break_even_high) : "never",
+                       ledger.specialised.compile_seconds <= ledger.full.compile_seconds ? ", at once where neither is" : "");
 }
 
 } // namespace
@@ -57,7 +54,7 @@ std::string format_ledger(const Ledger& ledger, const Options& options, const De
                        fmt::format("{:.2f}", ledger.specialised.compile_seconds));
     out += fmt::format(fmt::runtime(row), "by the full program", text(ledger.full.seconds, 1e3),
                        text(ledger.full_extra_share, 100) + " more", "", fmt::format("{:.2f}", ledger.full.compile_seconds));
-    out += fmt::format("\nCompiling for the scene pays {}.\n", break_even_text(ledger));
+    out += fmt::format("\nCompiling for the scene {}.\n", break_even_text(ledger));
     return out;
 }
 

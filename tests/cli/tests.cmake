@@ -7,6 +7,7 @@ function(clrt_command_test name)
   add_dependencies(${name} clrt)
 endfunction()
 
+clrt_command_test(compile_time_test)
 clrt_command_test(exit_code_test)
 clrt_command_test(information_test)
 clrt_command_test(odd_input_test)

@@ -36,7 +36,7 @@ TEST(Ledger, TheTableHoldsEveryFigure) {
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
     Ledger slower = example();
     slower.break_even.reset();
-    EXPECT_NE(format_ledger(slower, {}, {}).find("never: the full program is not slower"), std::string::npos);
+    EXPECT_NE(format_ledger(slower, {}, {}).find("does not pay here"), std::string::npos);
 }
 
 TEST(Ledger, TheJsonHoldsTheSame) {
