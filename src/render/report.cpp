@@ -29,7 +29,7 @@ double rays_per_second(const Render& render) {
 std::vector<std::string> names_of_effects(const Effects& effects, bool present) {
     std::vector<std::string> names;
     for (const Effect& effect : effects.list)
-        if (effect.present == present)
+        if (effect.present == present && !(effects.left_out & effect.bit))
             names.push_back(effect.name);
     return names;
 }
