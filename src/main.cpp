@@ -8,12 +8,14 @@
 #include "device/device.h"
 #include "effects/effects.h"
 #include "effects/explain.h"
+#include "effects/take_out.h"
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
 #include "paths/path_report.h"
 #include "render/checkpoint.h"
 #include "render/kernels.h"
+#include "render/ledger.h"
 #include "render/picture.h"
 #include "render/render.h"
 #include "render/render_params.h"
@@ -164,16 +166,34 @@ int run_explain(const Options& options) {
     return EXIT_DONE;
 }
 
-int run_render(const Options& options) {
-    const auto start = std::chrono::steady_clock::now();
+/// Prints what every effect costs and gives.
+int run_ledger(const Options& options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
     const Scene scene = load_scene(options, progress);
+    const Ledger ledger = make_ledger(device, scene, options, progress);
+    progress.finish();
+    fmt::print("{}", format_ledger(ledger, options, device.info));
+    if (!options.stats_path.empty())
+        write_text_file(options.stats_path, ledger_json(ledger, options, device.info));
+    return EXIT_DONE;
+}
+
+int run_render(Options options) {
+    const auto start = std::chrono::steady_clock::now();
+    const Device device = open_chosen_device(options);
+    Progress progress(options.progress, options.verbosity < 0);
+    Scene scene = load_scene(options, progress);
     const double load_seconds = seconds_since(start);
     progress.finish();
     for (const std::string& notice : scene.notices)
         spdlog::info("{}", notice);
-    const Effects effects = find_effects(scene, options);
+    Effects effects = find_effects(scene, options);
+    for (const std::string& line : describe_left_out(effects))
+        spdlog::warn("{}", line);
+    take_out_effects(effects.left_out, scene, options);
+    if (effects.left_out)
+        effects.paths = plan_paths(scene, options);
     const Saving saving(scene, options, device.info, progress);
 
     const Simulation done = effects.paths.is_empty
@@ -211,7 +231,9 @@ int run(int argc, const char* const* argv) {
     if (!options.sidecar_path.empty())
         spdlog::info("options file: {}", options.sidecar_path);
     catch_stop_signals();
-    return options.explain == Explain::NO ? run_render(options) : run_explain(options);
+    if (options.explain != Explain::NO)
+        return run_explain(options);
+    return options.ledger ? run_ledger(options) : run_render(options);
 }
 
 int report_error(int code, const char* what) {

@@ -258,10 +258,35 @@ def textured_interior():
     })
 
 
+def every_effect():
+    obj = Obj("Six things on a terrace: every effect in one picture")
+    obj.begin("terrace", "brick")
+    obj.quad((-3, 0, 2.5), (6, 0, 0), (0, 0, -5), (0, 1, 0), repeat=(6, 5))
+    obj.begin("wall", "plaster")
+    obj.quad((-3, 0, -2.5), (6, 0, 0), (0, 1.6, 0), (0, 0, 1), repeat=(6, 1.6))
+    obj.begin("mirror_sphere", "mirror")
+    obj.sphere((-1.5, 0.6, -1.2), 0.6, SPHERE_LEVEL - 1)
+    obj.begin("glass_sphere", "glass")
+    obj.sphere((-0.2, 0.45, 0.7), 0.45, SPHERE_LEVEL - 1)
+    obj.begin("frosted_sphere", "frosted")
+    obj.sphere((0.95, 0.4, 0.3), 0.4, SPHERE_LEVEL - 1)
+    obj.begin("bowl", "brass")
+    obj.lathe((-1.3, 0, 0.6), [(0, 0.004), (0.15, 0.004), (0.3, 0.08), (0.42, 0.18), (0.48, 0.34), (0.46, 0.34),
+                               (0.39, 0.19), (0.28, 0.1), (0.14, 0.03), (0, 0.03)], 48)
+    obj.begin("plant", "leaf")
+    leaves(obj, (1.6, 0, -1.2), 18)
+    obj.begin("lamp", "lamp")
+    obj.quad((0.2, 1.9, -1), (0.6, 0, 0), (0, 0, 0.6), (0, -1, 0))
+    return files("every_effect", obj, {
+        "brick": textures.brick(), "brick_normal": textures.brick_normal(), "plaster_bump": textures.plaster_bump(),
+        "leaf": textures.leaf(), "sky": textures.sky(),
+    })
+
+
 def all_files():
     made = {}
     for scene in (cornell_box, spheres_over_plane, mirror_glass_depth10, colour_bleeding, caustic, furnace,
-                  glossy_plates, textured_interior):
+                  glossy_plates, textured_interior, every_effect):
         made.update(scene())
     return made
 

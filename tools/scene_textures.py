@@ -176,3 +176,18 @@ def leaf():
         return colour(*(mix(green, (0.55, 0.68, 0.35), 0.7) if vein else green)) + (255 if inside else 0,)
 
     return picture(64, 128, pixel)
+
+
+def sky():
+    """A latitude-longitude sky: blue above, pale at the horizon, dark ground, clouds."""
+    cloud = noise(16, 16, 11)
+    width, height = 64, 32
+
+    def pixel(x, y):
+        v = (y + 0.5) / height
+        if v > 0.5:
+            return colour(0.24, 0.22, 0.20)
+        blue = mix((0.36, 0.50, 0.80), (0.80, 0.84, 0.88), (2 * v) ** 2)
+        return colour(*mix(blue, (0.95, 0.95, 0.95), 0.6 * cloud(x / 4, y / 2) ** 2))
+
+    return picture(width, height, pixel)

@@ -155,10 +155,20 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
     // Understand the values (the last one counts unless they make a list), fill in the picture's name, and
     // see whether all of it fits together and can be written.
-    for (const GivenOption& option : given)
+    for (const GivenOption& option : given) {
         option.spec->apply(options, option.value);
+        const std::string& origin = option.value.origin; // "file:line: "
+        options.given[option.value.option] = origin.substr(0, origin.find_last_not_of(": ") + 1);
+    }
     if (options.outputs.empty() && !options.scene_path.empty())
         options.outputs.push_back(std::filesystem::path(options.scene_path).stem().string() + ".png");
+    // A ledger's compile seconds are those of a first start; its samples are its own unless the command line says how many.
+    if (options.ledger && options.cache == Toggle::AUTO)
+        options.cache = Toggle::OFF;
+    if (options.ledger && !is_given(arguments.options, "--spp"))
+        options.spp.reset();
+    if (options.ledger && !is_given(arguments.options, "--time"))
+        options.time_seconds.reset();
     check_combinations(options);
     if (!options.scene_path.empty() && !list_devices && options.explain == Explain::NO)
         check_folders(options);

@@ -2,6 +2,7 @@
 // Every option once. The order is the order of --help.
 #include "app/option_table.h"
 
+#include "app/effect_option.h"
 #include "app/nearest_name.h"
 #include "error.h"
 #include "kernels/shared/path_types.h"
@@ -350,11 +351,10 @@ std::vector<OptionSpec> promise_options() {
                  reject_value(v, "--explain or --explain=json");
              o.explain = v.text.empty() ? Explain::TABLE : Explain::JSON;
          }},
-        {group, "", "--effects", "auto|all",
-         "compile what the scene needs or everything; same picture (default auto)",
-         [](Options& o, const OptionValue& v) {
-             o.all_effects = parse_choice<bool>(v, {{"auto", false}, {"all", true}});
-         }},
+        {group, "", "--effects", "auto|all|LIST",
+         "simulate what the scene needs (auto), with everything compiled in (all; same picture), or only the effects "
+         "listed, such as matte,area-lights; -NAME takes one away: --effects=-refraction (default auto)",
+         apply_effects},
         {group, "", "--paths", "EXPR",
          "path: simulate only these paths, light to eye: L light (La area, Lp point, Ld sun, Le sky), D matte, G "
          "glossy, S specular (R mirror, T refraction), . any surface, E eye, and | * + ? ( ), such as "
@@ -363,6 +363,10 @@ std::vector<OptionSpec> promise_options() {
              check_paths(v, v.text);
              o.paths = v.text;
          }},
+        {group, "", "--ledger", "",
+         "measure what every effect costs in time and gives in light, by rendering without it; --time bounds it "
+         "(default 60 s); writes no picture",
+         [](Options& o, const OptionValue&) { o.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--stats", "FILE", "write statistics of the run as JSON, in SI units",
          [](Options& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
         {group, "", "--check", "MODE", "non-finite samples: off, count, strict (exit 4) (default count)",

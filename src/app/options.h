@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -105,9 +106,12 @@ struct Options {
 
     // The promises
     Explain explain = Explain::NO;
-    bool all_effects = false; ///< --effects all: the full kernel
-    std::string paths;        ///< path notation (paths/path_expression.h); empty: every path
-    std::string stats_path;   ///< JSON; empty: none
+    bool ledger = false; ///< measure what every effect costs and gives; no picture
+    bool all_effects = false;                  ///< --effects all: the full kernel
+    std::optional<std::uint32_t> effects_list; ///< --effects LIST: these and no others
+    std::uint32_t effects_off = 0;             ///< --effects -NAME: taken away
+    std::string paths;                         ///< path notation (paths/path_expression.h); empty: every path
+    std::string stats_path;                    ///< JSON; empty: none
     Check check = Check::COUNT;
 
     // Runs
@@ -123,6 +127,8 @@ struct Options {
     int verbosity = 0; ///< -1 quiet, 0, 1 verbose
     bool no_sidecar = false;
     std::string sidecar_path;         ///< options file that was read; empty: none
+    /// The options that were given, by their long names: "file:line" in an options file, empty on the command line.
+    std::map<std::string, std::string> given;
     std::vector<std::string> command; ///< argv as given, for the metadata
     /// The command line that a film file keeps for --resume: without --resume, with what that took from its film.
     std::vector<std::string> resumable_command;

@@ -3,6 +3,8 @@
 // the machine's byte order, strings are a length and bytes.
 #include "device/program_cache.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -12,6 +14,7 @@
 #include <spdlog/spdlog.h>
 #include <sstream>
 #include <unistd.h>
+#include <vector>
 #include <xxhash.h>
 
 namespace fs = std::filesystem;
@@ -118,13 +121,63 @@ std::optional<CachedProgram> decode(const std::string& key, const std::string& b
     return program;
 }
 
+const char* const ENTRY_EXTENSION = ".clrtprogram";
+const char* const TEMPORARY_NAME = "new-XXXXXX";
+/// A temporary file of this age belongs to a process that was killed: writing one takes milliseconds.
+constexpr auto ABANDONED_AGE = std::chrono::hours(1);
+
 fs::path entry_path(const std::string& folder, const std::string& key) {
-    return fs::path(folder) / (key + ".clrtprogram");
+    return fs::path(folder) / (key + ENTRY_EXTENSION);
+}
+
+/// A file of the cache as it was when it was looked at; others may remove it at any time.
+struct CacheFile {
+    fs::path path;
+    fs::file_time_type used;
+    std::uint64_t bytes = 0;
+};
+
+/// Lists the entries, and removes abandoned temporary files.
+std::vector<CacheFile> list_entries(const fs::path& folder) {
+    std::vector<CacheFile> entries;
+    std::error_code error;
+    const std::string temporary = std::string(TEMPORARY_NAME).substr(0, 4);
+    for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error)) {
+        std::error_code gone;
+        const CacheFile found{file->path(), file->last_write_time(gone), file->file_size(gone)};
+        if (gone)
+            continue;
+        if (found.path.extension() == ENTRY_EXTENSION)
+            entries.push_back(found);
+        else if (found.path.filename().string().compare(0, temporary.size(), temporary) == 0 &&
+                 fs::file_time_type::clock::now() - found.used > ABANDONED_AGE)
+            fs::remove(found.path, gone);
+    }
+    return entries;
+}
+
+/// Removes the least recently used entries but `kept` until the rest fits.
+void limit_size(const fs::path& folder, const fs::path& kept, std::uint64_t limit_bytes) {
+    std::vector<CacheFile> entries = list_entries(folder);
+    std::sort(entries.begin(), entries.end(),
+              [](const CacheFile& a, const CacheFile& b) { return a.used < b.used; });
+    std::uint64_t total = 0;
+    for (const CacheFile& entry : entries)
+        total += entry.bytes;
+    for (const CacheFile& entry : entries) {
+        if (total <= limit_bytes)
+            return;
+        std::error_code ignored; // another process may have been faster
+        if (entry.path == kept)
+            continue;
+        fs::remove(entry.path, ignored);
+        total -= entry.bytes;
+    }
 }
 
 /// Writes a new file with a name that no other process has; empty on failure.
 std::string write_temporary(const fs::path& folder, const std::string& bytes) {
-    std::string path = (folder / "new-XXXXXX").string();
+    std::string path = (folder / TEMPORARY_NAME).string();
     const int descriptor = mkstemp(path.data());
     if (descriptor < 0)
         return {};
@@ -177,10 +230,14 @@ std::optional<CachedProgram> read_cached_program(const std::string& folder, cons
     if (!program)
         spdlog::debug("The program cache's entry {} is damaged or not ours; it will be replaced.",
                       entry_path(folder, key).string());
+    std::error_code ignored; // a folder that only can be read serves as well
+    if (program)
+        fs::last_write_time(entry_path(folder, key), fs::file_time_type::clock::now(), ignored);
     return program;
 }
 
-void write_cached_program(const std::string& folder, const std::string& key, const CachedProgram& program) {
+void write_cached_program(const std::string& folder, const std::string& key, const CachedProgram& program,
+                          std::uint64_t limit_bytes) {
     std::error_code error;
     fs::create_directories(folder, error);
     const std::string temporary = write_temporary(folder, encode(key, program));
@@ -194,6 +251,7 @@ void write_cached_program(const std::string& folder, const std::string& key, con
                       error.message());
         fs::remove(temporary, error);
     }
+    limit_size(folder, entry_path(folder, key), limit_bytes);
 }
 
 } // namespace clrt

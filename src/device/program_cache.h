@@ -4,6 +4,7 @@
 
 #include "device/program.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,11 +30,16 @@ std::string program_cache_folder(const ProgramCache& cache);
 std::string program_cache_key(const DeviceInfo& device, const std::string& source,
                               const std::string& options);
 
-/// The entry of this key, if there is a sound one.
+/// The size of the cache: some hundred programs. The least recently used ones go first.
+constexpr std::uint64_t PROGRAM_CACHE_BYTES = std::uint64_t(256) << 20;
+
+/// The entry of this key, if there is a sound one; it becomes the most recently used.
 std::optional<CachedProgram> read_cached_program(const std::string& folder, const std::string& key);
 
 /// Writes an entry under a temporary name and renames it, so that readers never see half of one. A folder
-/// that cannot be written is a debug message.
-void write_cached_program(const std::string& folder, const std::string& key, const CachedProgram& program);
+/// that cannot be written is a debug message. Afterwards removes the least recently used others until all entries together
+/// have at most `limit_bytes`, and files that a killed process left. Any number of processes may do so at once.
+void write_cached_program(const std::string& folder, const std::string& key, const CachedProgram& program,
+                          std::uint64_t limit_bytes = PROGRAM_CACHE_BYTES);
 
 } // namespace clrt

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects/effects.h"
 
-#include "kernels/shared/effects.h"
 #include "paths/path_report.h"
 
+#include <algorithm>
+#include <cassert>
 #include <fmt/format.h>
 #include <functional>
 
@@ -19,28 +20,67 @@ std::vector<bool> used_materials(const Scene& scene) {
     return used;
 }
 
-std::string describe_material(const Scene& scene, size_t index) {
-    const SourcePlace& place = scene.material_places[index];
-    const std::string where = place.line ? fmt::format(" ({}:{})", place.file, place.line) : "";
-    return fmt::format("material \"{}\"{}", scene.material_names[index], where);
+std::string quoted_place(const SourcePlace& place) {
+    return place.line ? fmt::format(" ({}:{})", place.file, place.line) : "";
 }
 
-/// Collects effects; every question is asked of the used materials or of one fact.
+std::string describe_material(const Scene& scene, size_t index) {
+    return fmt::format("material \"{}\"{}", scene.material_names[index], quoted_place(scene.material_places[index]));
+}
+
+/// Where an option was given: a line of the options file, or the command line.
+SourcePlace place_of(const Options& options, const std::string& name) {
+    const auto given = options.given.find(name);
+    if (given == options.given.end())
+        return {};
+    const size_t colon = given->second.rfind(':');
+    if (colon == std::string::npos)
+        return {};
+    return {given->second.substr(0, colon), std::stoul(given->second.substr(colon + 1))};
+}
+
+/// An option as a witness: its name and its line in the options file.
+std::string describe_option(const Options& options, const std::string& name) {
+    return name + quoted_place(place_of(options, name));
+}
+
+/// Collects effects in the order of the table; every question is asked of the used materials or of one fact.
 class EffectFinder {
 public:
     explicit EffectFinder(const Scene& scene) : scene_(scene), used_(used_materials(scene)) {}
 
+    /// The first used material with a property, or the number of materials.
+    size_t first_material(const std::function<bool(const Material&)>& calls) const {
+        size_t i = 0;
+        while (i < used_.size() && !(used_[i] && calls(scene_.materials[i])))
+            ++i;
+        return i;
+    }
+
     /// An effect that the first used material with a property calls for.
-    void material(u32 bit, const char* name, const char* absent, const std::function<bool(const Material&)>& calls) {
-        for (size_t i = 0; i < scene_.materials.size(); ++i)
-            if (used_[i] && calls(scene_.materials[i]))
-                return fact(bit, name, true, describe_material(scene_, i));
-        fact(bit, name, false, absent);
+    void material(u32 bit, const char* absent, const std::function<bool(const Material&)>& calls) {
+        const size_t i = first_material(calls);
+        if (i == used_.size())
+            return fact(bit, false, absent);
+        fact(bit, true, describe_material(scene_, i), scene_.material_places[i]);
+    }
+
+    /// An effect that a map of the first used material with one of these maps calls for.
+    void map(u32 bit, const char* absent, const std::function<std::vector<u32>(const Material&)>& maps_of) {
+        for (size_t i = 0; i < used_.size(); ++i)
+            for (const u32 map : used_[i] ? maps_of(scene_.materials[i]) : std::vector<u32>())
+                if (map != NO_INDEX)
+                    return fact(bit, true,
+                                fmt::format("{}, map \"{}\"{}", describe_material(scene_, i), scene_.texture_names[map],
+                                            quoted_place(scene_.texture_places[map])),
+                                scene_.texture_places[map]);
+        fact(bit, false, absent);
     }
 
     /// An effect that one fact decides.
-    void fact(u32 bit, const char* name, bool present, const std::string& witness) {
-        list.push_back({bit, name, present, witness});
+    void fact(u32 bit, bool present, const std::string& witness, const SourcePlace& place = {}) {
+        list.push_back({bit, effect_table()[list.size()].name, present, witness, place});
+        assert(effect_table()[list.size() - 1].bit == bit);
     }
 
     std::vector<Effect> list;
@@ -50,83 +90,156 @@ private:
     const std::vector<bool> used_;
 };
 
-void find_light_effects(const Scene& scene, EffectFinder& finder) {
-    const bool area = !scene.emitters.empty();
-    finder.fact(EFFECT_AREA_LIGHT, "area lights", area,
-                area ? fmt::format("{} emissive triangles, first {}", scene.emitters.size(),
-                                   describe_material(scene, scene.triangles[scene.emitters[0].triangle].material))
-                     : "no triangle emits");
-    const bool delta = !scene.lights.empty();
-    finder.fact(EFFECT_DELTA_LIGHT, "point lights and suns", delta,
-                delta ? fmt::format("{} by --point or --sun", scene.lights.size()) : "no --point, no --sun");
+void find_delta_lights(const Scene& scene, const Options& options, EffectFinder& finder) {
+    const auto is_point = [](const Light& light) { return light.kind == LIGHT_POINT; };
+    const auto points = std::count_if(scene.lights.begin(), scene.lights.end(), is_point);
+    const auto suns = std::ptrdiff_t(scene.lights.size()) - points;
+    std::vector<std::string> parts;
+    if (points > 0)
+        parts.push_back(fmt::format("{} by {}", points, describe_option(options, "--point")));
+    if (suns > 0)
+        parts.push_back(fmt::format("{} by {}", suns, describe_option(options, "--sun")));
+    const bool given = !options.light.points.empty() || !options.light.suns.empty();
+    if (parts.empty())
+        parts.push_back(given ? "no --point, no --sun with power" : "no --point, no --sun");
+    finder.fact(EFFECT_DELTA_LIGHT, !scene.lights.empty(), fmt::format("{}", fmt::join(parts, ", ")),
+                place_of(options, points > 0 ? "--point" : "--sun"));
+}
+
+void find_environment(const Scene& scene, const Options& options, EffectFinder& finder) {
     const Environment& sky = scene.environment;
     const bool map = !sky.texels.empty();
     const bool bright = sky.radiance.x > 0 || sky.radiance.y > 0 || sky.radiance.z > 0;
-    finder.fact(EFFECT_ENVIRONMENT, "environment", bright, bright ? "radiance above 0 outside the scene" : "black");
-    finder.fact(EFFECT_ENVIRONMENT_MAP, "environment map", map && bright,
-                map ? fmt::format("--env, {} x {} texels", sky.width, sky.height) : "no map");
+    const bool given = !options.light.environment_file.empty() || options.light.environment;
+    const std::string option = describe_option(options, "--env");
+    const SourcePlace place = place_of(options, "--env");
+    finder.fact(EFFECT_ENVIRONMENT, bright,
+                !bright ? (given ? option + ": black" : "no --env, and other light is there")
+                : given ? option + ": radiance above 0"
+                        : "white sky: radiance above 0 where nothing else gives light",
+                place);
+    finder.fact(EFFECT_ENVIRONMENT_MAP, map && bright,
+                !map ? "no map" : fmt::format("{}, {} x {} texels{}", option, sky.width, sky.height, bright ? "" : ", black"),
+                map ? place : SourcePlace{});
+}
+
+void find_light_effects(const Scene& scene, const Options& options, EffectFinder& finder) {
+    const bool area = !scene.emitters.empty();
+    const size_t first = area ? scene.triangles[scene.emitters[0].triangle].material : 0;
+    finder.fact(EFFECT_AREA_LIGHT, area,
+                area ? fmt::format("{} emissive triangles, first {}", scene.emitters.size(), describe_material(scene, first))
+                     : "no triangle emits",
+                area ? scene.material_places[first] : SourcePlace{});
+    find_delta_lights(scene, options, finder);
+    find_environment(scene, options, finder);
 }
 
 void find_material_effects(EffectFinder& finder) {
-    finder.material(EFFECT_MATTE, "matte reflection", "no material has Kd above 0",
-                    [](const Material& m) { return (m.lobes & LOBE_MATTE) != 0; });
-    finder.material(EFFECT_GLOSSY, "glossy reflection", "no material reflects roughly",
-                    [](const Material& m) { return (m.lobes & LOBE_GLOSSY) != 0; });
-    finder.material(EFFECT_MIRROR, "mirror reflection", "no material is a mirror",
-                    [](const Material& m) { return (m.lobes & LOBE_MIRROR) != 0; });
-    finder.material(EFFECT_REFRACTION, "refraction", "no material is a dielectric",
-                    [](const Material& m) { return (m.lobes & LOBE_DIELECTRIC) != 0; });
-    finder.material(EFFECT_ROUGH_REFRACTION, "rough refraction", "no dielectric is rough",
+    const auto lobe = [&](u32 bit, u32 lobe_bit, const char* absent) {
+        finder.material(bit, absent, [lobe_bit](const Material& m) { return (m.lobes & lobe_bit) != 0; });
+    };
+    lobe(EFFECT_MATTE, LOBE_MATTE, "no material has Kd above 0");
+    lobe(EFFECT_GLOSSY, LOBE_GLOSSY, "no material reflects roughly");
+    lobe(EFFECT_MIRROR, LOBE_MIRROR, "no material is a mirror");
+    lobe(EFFECT_REFRACTION, LOBE_DIELECTRIC, "no material is a dielectric");
+    finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough",
                     [](const Material& m) { return (m.lobes & LOBE_DIELECTRIC) && m.alpha_x > 0; });
-    finder.material(EFFECT_TEXTURES, "textures", "no material has a map", [](const Material& m) {
-        for (u32 map : {m.map_matte, m.map_specular, m.map_emission, m.map_coverage, m.map_roughness, m.map_metallic,
-                        m.map_normal, m.map_bump})
-            if (map != NO_INDEX)
-                return true;
-        return false;
+    finder.map(EFFECT_TEXTURES, "no material has a map", [](const Material& m) {
+        return std::vector<u32>{m.map_matte,     m.map_specular, m.map_emission, m.map_coverage,
+                                m.map_roughness, m.map_metallic, m.map_normal,   m.map_bump};
     });
-    finder.material(EFFECT_NORMAL_MAP, "normal and bump maps", "no material has one",
-                    [](const Material& m) { return m.map_normal != NO_INDEX || m.map_bump != NO_INDEX; });
+    finder.map(EFFECT_NORMAL_MAP, "no material has one",
+               [](const Material& m) { return std::vector<u32>{m.map_normal, m.map_bump}; });
 }
 
-/// The first triangle with corner normals, or the number of triangles.
-size_t first_smooth_triangle(const Scene& scene) {
-    size_t i = 0;
-    while (i < scene.triangles.size() && scene.triangles[i].n0 == NO_INDEX)
-        ++i;
-    return i;
+void find_smooth_normals(const Scene& scene, EffectFinder& finder) {
+    size_t first = 0;
+    while (first < scene.triangles.size() && scene.triangles[first].n0 == NO_INDEX)
+        ++first;
+    const bool has = first < scene.triangles.size();
+    finder.fact(EFFECT_SMOOTH_NORMALS, has,
+                has ? fmt::format("vn on triangle {}{}", first, quoted_place(scene.first_smooth)) : "no vn",
+                scene.first_smooth);
+}
+
+void find_cut_outs(EffectFinder& finder) {
+    finder.material(EFFECT_CUT_OUT, "no coverage below 1",
+                    [](const Material& m) { return (m.flags & MATERIAL_CUT_OUT) != 0; });
+}
+
+void find_filter(const Options& options, EffectFinder& finder) {
+    const bool filtered = options.filter != Filter::BOX;
+    finder.fact(EFFECT_FILTER, filtered, filtered ? describe_option(options, "--filter") : "box filter",
+                place_of(options, "--filter"));
+}
+
+/// A path of three segments scatters twice.
+void find_interreflection(const Scene& scene, const Options& options, EffectFinder& finder) {
+    const int depth = effective_max_depth(options);
+    const size_t reflecting = finder.first_material([](const Material& m) { return m.lobes != 0; });
+    const std::string limit = options.max_depth && options.integrator != Integrator::RAYCAST
+                                  ? fmt::format("{} {}", describe_option(options, "--max-depth"), depth)
+                                  : fmt::format("paths of at most {} segments", depth);
+    if (reflecting == scene.materials.size())
+        finder.fact(EFFECT_INTERREFLECTION, false, "no material reflects");
+    else if (depth <= 2)
+        finder.fact(EFFECT_INTERREFLECTION, false, limit, place_of(options, "--max-depth"));
+    else
+        finder.fact(EFFECT_INTERREFLECTION, true, limit + ", " + describe_material(scene, reflecting),
+                    scene.material_places[reflecting]);
+}
+
+/// What --effects asks for, of all effects.
+u32 chosen_effects(const Options& options, u32 needed) {
+    const u32 start = options.effects_list ? with_implied(*options.effects_list)
+                      : options.all_effects ? EVERY_EFFECT
+                                            : needed;
+    return without_effects(start, options.effects_off);
 }
 
 } // namespace
 
 Effects find_effects(const Scene& scene, const Options& options) {
     EffectFinder finder(scene);
-    find_light_effects(scene, finder);
+    find_light_effects(scene, options, finder);
     find_material_effects(finder);
-    const size_t smooth = first_smooth_triangle(scene);
-    const bool has_smooth = smooth < scene.triangles.size();
-    finder.fact(EFFECT_SMOOTH_NORMALS, "smooth normals", has_smooth,
-                has_smooth ? fmt::format("vn on triangle {}", smooth) : "no vn");
-    finder.material(EFFECT_CUT_OUT, "cut-outs", "no coverage below 1",
-                    [](const Material& m) { return (m.flags & MATERIAL_CUT_OUT) != 0; });
-    const bool filtered = options.filter != Filter::BOX;
-    finder.fact(EFFECT_FILTER, "pixel filter", filtered, filtered ? "--filter" : "box filter");
-
+    find_smooth_normals(scene, finder);
+    find_cut_outs(finder);
+    find_filter(options, finder);
     Effects effects;
     effects.paths = plan_paths(scene, options);
-    finder.fact(EFFECT_PATH_FILTER, "path filter", effects.paths.is_filter, path_summary(effects.paths));
+    finder.fact(EFFECT_PATH_FILTER, effects.paths.is_filter, path_summary(effects.paths), place_of(options, "--paths"));
+    find_interreflection(scene, options, finder);
+
     effects.list = std::move(finder.list);
     for (const Effect& effect : effects.list)
-        if (effect.present || options.all_effects)
-            effects.mask |= effect.bit;
+        if (effect.present)
+            effects.needed |= effect.bit;
+    const u32 chosen = chosen_effects(options, effects.needed);
+    effects.mask = chosen & EFFECT_ALL;
+    effects.left_out = effects.needed & ~chosen;
+    if (effects.left_out & EFFECT_PATH_FILTER)
+        effects.paths = {};
     return effects;
 }
 
 std::string format_effects(const Effects& effects) {
     std::string text;
     for (const Effect& effect : effects.list)
-        text += fmt::format("  {:<7} {:<22} {}\n", effect.present ? "present" : "absent", effect.name, effect.witness);
+        text += fmt::format("  {:<8} {:<22} {}\n",
+                            !effect.present                   ? "absent"
+                            : effects.left_out & effect.bit ? "left out"
+                                                              : "present",
+                            effect.name, effect.witness);
     return text;
+}
+
+std::vector<std::string> describe_left_out(const Effects& effects) {
+    std::vector<std::string> lines;
+    for (const EffectSpec& effect : effect_table())
+        if (effects.left_out & effect.bit)
+            lines.push_back(fmt::format("--effects leaves out {}: {}", effect.name, effect.without));
+    return lines;
 }
 
 } // namespace clrt

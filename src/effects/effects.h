@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/options.h"
+#include "effects/effect_table.h"
 #include "paths/path_plan.h"
 #include "scene/scene.h"
 
@@ -18,13 +19,18 @@ struct Effect {
     std::string name;    ///< as in messages and files, such as "rough refraction"
     bool present = false;
     std::string witness; ///< what calls for it, such as `material "glass" (room.mtl:12)`, or why nothing does
+    SourcePlace place;   ///< the file and line that the witness names; line 0: none
 };
 
 /// All effects, in the order of their bits.
 struct Effects {
     std::vector<Effect> list;
-    /// Bits to compile with: the present effects, or all of them with --effects all.
+    /// What the scene calls for, all effects.
+    u32 needed = 0;
+    /// Bits to compile with: the needed ones, all with --effects all, or those of the list, without what is taken away.
     u32 mask = 0;
+    /// What the scene calls for and --effects leaves out, with the effects that imply it: take_out.h.
+    u32 left_out = 0;
     /// What --paths and layers of paths ask for, and its automaton.
     PathPlan paths;
 };
@@ -34,5 +40,8 @@ Effects find_effects(const Scene& scene, const Options& options);
 
 /// The table of --explain, one line an effect.
 std::string format_effects(const Effects& effects);
+
+/// What becomes of the effects that are left out, one line each; empty if none is.
+std::vector<std::string> describe_left_out(const Effects& effects);
 
 } // namespace clrt

@@ -11,15 +11,43 @@ namespace clrt {
 
 namespace {
 
-std::string explain_json(const Scene& scene, const Effects& effects) {
-    nlohmann::ordered_json json;
+using Json = nlohmann::ordered_json;
+
+Json effect_json(const Effects& effects, const Effect& effect) {
+    Json json{{"name", effect.name},
+              {"present", effect.present},
+              {"compiled", ((effects.mask | ~u32(EFFECT_ALL)) & effect.bit) != 0},
+              {"left_out", (effects.left_out & effect.bit) != 0},
+              {"witness", effect.witness},
+              {"file", nullptr},
+              {"line", nullptr}};
+    if (effect.place.line) {
+        json["file"] = effect.place.file;
+        json["line"] = effect.place.line;
+    }
+    return json;
+}
+
+Json materials_json(const Scene& scene) {
+    Json list = Json::array();
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        list.push_back({{"name", scene.material_names[i]},
+                        {"file", scene.material_places[i].file},
+                        {"line", scene.material_places[i].line},
+                        {"rule", scene.material_rules[i]},
+                        {"became", material_summary(scene, i)}});
+    return list;
+}
+
+std::string explain_json(const Scene& scene, const Effects& effects, const Options& options) {
+    Json json;
+    json["scene"] = options.scene_path;
     json["triangles"] = scene.triangles.size();
-    json["effects"] = nlohmann::ordered_json::array();
+    json["effects"] = Json::array();
     for (const Effect& effect : effects.list)
-        json["effects"].push_back({{"name", effect.name},
-                                   {"present", effect.present},
-                                   {"compiled", (effects.mask & effect.bit) != 0},
-                                   {"witness", effect.witness}});
+        json["effects"].push_back(effect_json(effects, effect));
+    json["effects_mask"] = effects.mask;
+    json["materials"] = materials_json(scene);
     json["paths"] = paths_json(effects.paths);
     json["notices"] = scene.notices;
     return json.dump(2) + "\n";
@@ -29,9 +57,11 @@ std::string explain_json(const Scene& scene, const Effects& effects) {
 
 std::string explain(const Scene& scene, const Effects& effects, const Options& options) {
     if (options.explain == Explain::JSON)
-        return explain_json(scene, effects);
+        return explain_json(scene, effects, options);
     std::string text = fmt::format("Effects of {} ({} triangles):\n{}", options.scene_path, scene.triangles.size(),
                                    format_effects(effects));
+    for (const std::string& line : describe_left_out(effects))
+        text += line + "\n";
     text += fmt::format("compiled with CLRT_EFFECTS={:#x}\n\nMaterials:\n{}", effects.mask, material_table(scene));
     if (effects.paths.is_asked)
         text += "\nPaths:\n" + format_paths(effects.paths);

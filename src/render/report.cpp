@@ -28,10 +28,10 @@ double rays_per_second(const Render& render) {
     return render.seconds > 0 ? double(render.counts.rays()) / render.seconds : 0;
 }
 
-std::vector<std::string> effect_names(const Effects& effects, bool present) {
+std::vector<std::string> names_of_effects(const Effects& effects, bool present) {
     std::vector<std::string> names;
     for (const Effect& effect : effects.list)
-        if (effect.present == present)
+        if (effect.present == present && !(effects.left_out & effect.bit))
             names.push_back(effect.name);
     return names;
 }
@@ -51,7 +51,8 @@ Json effects_json(const Effects& effects) {
     for (const Effect& effect : effects.list)
         list.push_back({{"name", effect.name},
                         {"present", effect.present},
-                        {"compiled", (effects.mask & effect.bit) != 0},
+                        {"compiled", ((effects.mask | ~u32(EFFECT_ALL)) & effect.bit) != 0},
+                        {"left_out", (effects.left_out & effect.bit) != 0},
                         {"witness", effect.witness}});
     return list;
 }
@@ -97,7 +98,7 @@ std::string format_report(const Report& report) {
                         counts.negative, counts.overflow);
     if (report.effects.paths.is_asked)
         text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
-    text += fmt::format("absent   {}\n", fmt::join(effect_names(report.effects, false), ", "));
+    text += fmt::format("absent   {}\n", fmt::join(names_of_effects(report.effects, false), ", "));
     return text;
 }
 
@@ -170,7 +171,7 @@ Metadata report_metadata(const Report& report) {
                       {"seconds.compile", seconds(report.compile_seconds)},
                       {"seconds.first_launch", seconds(render.first_launch_seconds)},
                       {"seconds.render", seconds(render.run_seconds)},
-                      {"effects", fmt::format("{}", fmt::join(effect_names(report.effects, true), ", "))},
+                      {"effects", fmt::format("{}", fmt::join(names_of_effects(report.effects, true), ", "))},
                       {"effects_mask", fmt::format("{:#x}", report.effects.mask)},
                       {"nan", std::to_string(render.counts.nan)},
                       {"infinite", std::to_string(render.counts.infinite)},

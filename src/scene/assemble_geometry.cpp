@@ -138,6 +138,8 @@ void assemble_geometry(ObjMesh& mesh, const Bounds& bounds, const Normalisation&
             triangle_area(scene.positions[to.v0], scene.positions[to.v1], scene.positions[to.v2]) <= 0;
     });
     release(mesh.triangles);
+    if (mesh.first_normals_line && scene.triangles[mesh.first_normals_triangle].n0 != NO_INDEX)
+        scene.first_smooth = {obj_path, mesh.first_normals_line};
 
     scene.statistics.degenerate_triangles = degenerate;
     note_count(notices, degenerate, obj_path, "triangles of zero area: they are not seen and give no light");

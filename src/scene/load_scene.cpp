@@ -81,6 +81,7 @@ std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, 
     }
     scene.textures = store.take_textures();
     scene.texture_names = store.take_names();
+    scene.texture_places = store.take_places();
     scene.texel_words = store.take_words();
     return exitance;
 }

@@ -53,6 +53,9 @@ RuledMaterial rule_material(const MtlMaterial& mtl, const MaterialContext& conte
 /// The material of faces without one: matte, Kd 0.8.
 RuledMaterial default_material();
 
+/// What a material of a scene became, such as "matte 0.5 0.5 0.5, Kd map "wood.png"".
+std::string material_summary(const Scene& scene, size_t index);
+
 /// The materials of a scene as a table for --explain: name, rule, what each became.
 std::string material_table(const Scene& scene);
 

@@ -63,6 +63,11 @@ std::string maps_of(const Material& m, const Scene& scene) {
 
 } // namespace
 
+std::string material_summary(const Scene& scene, size_t index) {
+    const Material& material = scene.materials[index];
+    return fmt::format("{}{}", fmt::join(parts_of(material), ", "), maps_of(material, scene));
+}
+
 std::string material_table(const Scene& scene) {
     size_t name_width = 8, rule_width = 4;
     std::vector<std::string> names;
@@ -75,8 +80,8 @@ std::string material_table(const Scene& scene) {
         fmt::format("{:<{}}  {:<{}}  {}\n", "material", name_width, "rule", rule_width, "became");
     for (size_t i = 0; i < scene.materials.size(); ++i)
         table +=
-            fmt::format("{:<{}}  {:<{}}  {}{}\n", names[i], name_width, scene.material_rules[i], rule_width,
-                        fmt::join(parts_of(scene.materials[i]), ", "), maps_of(scene.materials[i], scene));
+            fmt::format("{:<{}}  {:<{}}  {}\n", names[i], name_width, scene.material_rules[i], rule_width,
+                        material_summary(scene, i));
     return table;
 }
 

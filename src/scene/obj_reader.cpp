@@ -36,6 +36,8 @@ struct Piece {
     ObjCounts before;          ///< elements in the chunks before it
     size_t first_triangle = 0; ///< into ObjMesh::triangles
     size_t triangle_count = 0;
+    size_t normals_triangle = 0; ///< into ObjMesh::triangles: the first with corner normals,
+    size_t normals_line = 0;     ///< and its face's line in the file; 0: none
     std::vector<NameRun> materials, objects;
 };
 
@@ -242,10 +244,25 @@ void triangulate_piece(Piece& piece, ObjMesh& mesh) {
             continue;
         if (!triangulate(polygon, cut))
             piece.chunk.tallies[CRUDE_CUTS].add(face.line);
-        for (size_t i = 0; i < cut.size(); i += 3)
-            *out++ = make_triangle(corners[cut[i]], corners[cut[i + 1]], corners[cut[i + 2]], material->name,
-                                   object->name);
+        for (size_t i = 0; i < cut.size(); i += 3, ++out) {
+            *out = make_triangle(corners[cut[i]], corners[cut[i + 1]], corners[cut[i + 2]], material->name,
+                                 object->name);
+            if (piece.normals_line || out->n[0] == NO_INDEX)
+                continue;
+            piece.normals_line = piece.first_line + face.line;
+            piece.normals_triangle = size_t(out - mesh.triangles.data());
+        }
     }
+}
+
+/// Remembers the first triangle with corner normals.
+void note_first_normals(const Pieces& pieces, ObjMesh& mesh) {
+    for (const Piece& piece : pieces)
+        if (piece.normals_line) {
+            mesh.first_normals_triangle = piece.normals_triangle;
+            mesh.first_normals_line = piece.normals_line;
+            return;
+        }
 }
 
 size_t count_oddities(const Pieces& pieces, ObjOddity kind) {
@@ -351,6 +368,7 @@ ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes
     progress.update({"load", PROGRESS_RESOLVED});
     place_triangles(path, pieces, mesh);
     for_each_piece(pieces, [&](Piece& piece) { triangulate_piece(piece, mesh); });
+    note_first_normals(pieces, mesh);
     mesh.notices = make_notices(path, pieces);
     progress.update({"load", 1});
     return mesh;

@@ -60,11 +60,13 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<u32> texel_words;
     std::vector<std::string> texture_names;
+    std::vector<SourcePlace> texture_places; ///< the map_* statement of each
     std::vector<Emitter> emitters;
     std::vector<Light> lights;
     Environment environment;
     Camera camera;
     Normalisation normalisation;
+    SourcePlace first_smooth;         ///< the face that the first triangle with corner normals is from
     float extent = 0;                 ///< largest |coordinate| of the geometry, normalised frame
     double emitted_power = 0;         ///< luminance of all lights but the environment, normalised frame
     std::vector<std::string> notices; ///< every fallback, one line each, for the log and --explain

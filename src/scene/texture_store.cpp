@@ -62,6 +62,7 @@ u32 TextureStore::add(const MtlTexture& use, TextureRole role, NoticeList& notic
         texture.channel = *use.channel;
     textures_.push_back(texture);
     names_.push_back(use.file);
+    places_.push_back(use.place);
     return u32(textures_.size() - 1);
 }
 

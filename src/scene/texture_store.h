@@ -43,6 +43,7 @@ public:
     std::vector<Texture> take_textures() { return std::move(textures_); }
     std::vector<u32> take_words() { return std::move(words_); }
     std::vector<std::string> take_names() { return std::move(names_); }
+    std::vector<SourcePlace> take_places() { return std::move(places_); }
     const std::vector<Texture>& textures() const { return textures_; }
     const std::vector<u32>& words() const { return words_; }
 
@@ -58,6 +59,7 @@ private:
 
     std::vector<Texture> textures_;
     std::vector<std::string> names_;
+    std::vector<SourcePlace> places_;
     std::vector<u32> words_;
     std::map<std::pair<std::string, ImageEncoding>, StoredImage> images_;
 };

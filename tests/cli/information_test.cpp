@@ -51,8 +51,7 @@ TEST_F(Information, ExplainTellsWhatWouldBeRenderedAndWritesNothing) {
     write_square("scene", "mtllib none.mtl\n");
     const auto result = clrt({"scene.obj", "--explain"});
     EXPECT_EQ(result.exit_code, 0);
-    EXPECT_TRUE(holds(result.out, {"scene.obj (2 triangles)", "present matte reflection",
-                                   "absent  refraction", "Materials:", "Notices:", "none.mtl", "white sky"}));
+    EXPECT_TRUE(holds(result.out, {"scene.obj (2 triangles)", "present  matte ", "absent   refraction", "Materials:", "Notices:", "none.mtl", "white sky"}));
     EXPECT_EQ(listing(), std::vector<std::string>{"scene.obj"});
 }
 
@@ -63,6 +62,33 @@ TEST_F(Information, ExplainAsJsonCanBeRead) {
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["triangles"], 2);
     EXPECT_GT(json["effects"].size(), 10u);
+}
+
+TEST_F(Information, LeavingAnEffectOutIsSaidAndNearMissesAreToldTheName) {
+    write_square("scene");
+    const auto result = clrt(quick({"scene.obj", "--effects", "-matte"}));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(holds(result.err, {"leaves out matte: no material has a matte lobe"}));
+    const auto wrong = clrt(quick({"scene.obj", "--effects=area-lihts"}));
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_TRUE(holds(wrong.err, {"the nearest to 'area-lihts' is area-lights", "rough-refraction"}));
+}
+
+TEST_F(Information, TheLedgerBillsEveryEffectAndWritesNoPicture) {
+    write_square("scene");
+    const auto result = clrt({"scene.obj", "--ledger", "-s", "2", "-r", "16x12", "--stats", "bill.json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(holds(result.out, {"Ledger of scene.obj: 16 x 12, path", "environment", "matte", "interreflection",
+                                   "by the full program", "Compiling for the scene"}));
+    EXPECT_EQ(listing(), (std::vector<std::string>{"bill.json", "scene.obj"}));
+    const auto json = nlohmann::json::parse(folder.read("bill.json"));
+    ASSERT_EQ(json["effects"].size(), 3u);
+    EXPECT_EQ(json["spp"], 2);
+    // All light comes from the sky; a square does not light itself.
+    EXPECT_EQ(json["effects"][0]["light_share"]["median"], 1.0);
+    EXPECT_EQ(json["effects"][2]["light_share"]["high"], 0.0);
+    EXPECT_GT(json["effects"][1]["light_share"]["low"], 0.0);
+    EXPECT_LT(json["effects"][1]["light_share"]["high"], 1.0);
 }
 
 TEST_F(Information, ExplainNeedsNoDevice) {

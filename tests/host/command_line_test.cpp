@@ -5,6 +5,7 @@
 #include "app/help_text.h"
 #include "app/nearest_name.h"
 #include "app/option_table.h"
+#include "effects/effect_table.h"
 #include "error.h"
 #include "support/scratch_folder.h"
 
@@ -77,6 +78,7 @@ const std::map<std::string, std::string>& samples() {
         {"--point", "-1,2,3,4,5,6"},
         {"--two-sided-lights", ""},
         {"--explain", ""},
+        {"--ledger", ""},
         {"--effects", "all"},
         {"--paths", "L(D|S)*E"},
         {"--stats", "run.json"},
@@ -235,6 +237,20 @@ TEST(CommandLine, EnvironmentIsAColourWhereItLooksLikeNumbers) {
     EXPECT_TRUE(o.light.environment_file.empty());
     EXPECT_NE(refusal({"--env", "0.1,0.2", "s.obj"}).find("a radiance r,g,b"), std::string::npos);
     EXPECT_NE(refusal({"--env", "1,1,-1", "s.obj"}).find("a radiance r,g,b"), std::string::npos);
+}
+
+TEST(CommandLine, EffectsAreAListOrTakenAway) {
+    const Options list = parse({"--effects", "matte, area-lights"});
+    EXPECT_EQ(list.effects_list, std::optional<std::uint32_t>(EFFECT_MATTE | EFFECT_AREA_LIGHT));
+    EXPECT_FALSE(list.all_effects);
+    const Options less = parse({"--effects=all,-refraction,-interreflection"});
+    EXPECT_TRUE(less.all_effects);
+    EXPECT_EQ(less.effects_off, EFFECT_REFRACTION | EFFECT_INTERREFLECTION);
+    EXPECT_EQ(parse({"--effects", "-matte"}).effects_off, EFFECT_MATTE);
+    EXPECT_EQ(parse({"--effects", "all", "--effects", "auto"}).all_effects, false);
+    EXPECT_NE(refusal({"--effects", "mate", "s.obj"}).find("the nearest to 'mate' is matte"), std::string::npos);
+    for (const char* wrong : {"matte,all", "auto,matte", "-matte,glossy", ",", "-"})
+        EXPECT_NE(refusal({std::string("--effects=") + wrong, "s.obj"}).find("--effects"), std::string::npos) << wrong;
 }
 
 TEST(CommandLine, PromisesAndRunOptionsArrive) {

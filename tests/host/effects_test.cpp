@@ -41,6 +41,15 @@ void expect_present(const OneQuad& scene, u32 bit, const std::string& witness) {
     EXPECT_EQ(effects.mask & bit, bit) << effect.name;
 }
 
+/// The same for an effect that no program is built without.
+void expect_present_at_run_time(const OneQuad& scene, u32 bit, const std::string& witness) {
+    const Effects effects = scene.effects();
+    const Effect& effect = find(effects, bit);
+    EXPECT_TRUE(effect.present && (effects.needed & bit)) << effect.name << ": " << effect.witness;
+    EXPECT_NE(effect.witness.find(witness), std::string::npos) << effect.witness;
+    EXPECT_EQ(effects.mask & bit, 0u);
+}
+
 void expect_absent(const OneQuad& scene, u32 bit) {
     const Effects effects = scene.effects();
     const Effect& effect = find(effects, bit);
@@ -59,14 +68,13 @@ TEST(Effects, AMatteQuadInTheDarkCallsForOneEffect) {
             expect_absent(scene, bit);
 }
 
-TEST(Effects, EveryBitIsListedOnceInOrder) {
-    u32 bit = 1;
-    for (const Effect& effect : OneQuad().effects().list) {
-        EXPECT_EQ(effect.bit, bit) << effect.name;
-        EXPECT_FALSE(effect.name.empty());
-        bit <<= 1;
+TEST(Effects, EveryEffectOfTheTableIsListedInOrder) {
+    const Effects effects = OneQuad().effects();
+    ASSERT_EQ(effects.list.size(), effect_table().size());
+    for (size_t i = 0; i < effects.list.size(); ++i) {
+        EXPECT_EQ(effects.list[i].bit, effect_table()[i].bit);
+        EXPECT_EQ(effects.list[i].name, effect_table()[i].name);
     }
-    EXPECT_EQ(bit - 1, u32(EFFECT_ALL));
 }
 
 TEST(Effects, MaterialsAreNamedWithTheirPlace) {
@@ -134,7 +142,7 @@ TEST(Effects, LightOptionsCallForTheirKind) {
     OneQuad lights;
     lights.options.light.points.push_back({{0, 0, 1}, glm::dvec3(1)});
     lights.options.light.suns.push_back({{0, 0, 1}, glm::dvec3(1), 0});
-    expect_present(lights, EFFECT_DELTA_LIGHT, "2 by --point or --sun");
+    expect_present(lights, EFFECT_DELTA_LIGHT, "1 by --point, 1 by --sun");
     lights.options.light.points[0].intensity = lights.options.light.suns[0].irradiance = glm::dvec3(0);
     expect_absent(lights, EFFECT_DELTA_LIGHT);
 }
@@ -142,7 +150,7 @@ TEST(Effects, LightOptionsCallForTheirKind) {
 TEST(Effects, NormalsAndFiltersAreFoundWithoutMaterials) {
     OneQuad smooth;
     smooth.build.raw("v 0 0 1\nv 1 0 1\nv 0 1 1\nvn 0 0.6 0.8\nf -3//-1 -2//-1 -1//-1");
-    expect_present(smooth, EFFECT_SMOOTH_NORMALS, "triangle 2");
+    expect_present(smooth, EFFECT_SMOOTH_NORMALS, "triangle 2 (" + smooth.folder.file("scene.obj") + ":");
 
     OneQuad filtered;
     filtered.options.filter = Filter::GAUSSIAN;
@@ -161,12 +169,65 @@ TEST(Effects, AllIsTheFullMaskAndChangesNoWitness) {
     }
 }
 
+TEST(Effects, OptionsOfTheOptionsFileAreNamedWithTheirLine) {
+    OneQuad scene;
+    scene.options.light.environment = glm::dvec3(1);
+    scene.options.given["--env"] = "room.clrt:7";
+    expect_present(scene, EFFECT_ENVIRONMENT, "--env (room.clrt:7)");
+    const Effects effects = scene.effects();
+    EXPECT_EQ(find(effects, EFFECT_ENVIRONMENT).place.file, "room.clrt");
+    EXPECT_EQ(find(effects, EFFECT_ENVIRONMENT).place.line, 7u);
+    scene.options.given["--env"] = ""; // on the command line
+    EXPECT_EQ(scene.effects().list[2].witness, "--env: radiance above 0");
+}
+
+TEST(Effects, MapsAreNamedWithTheLineOfTheirStatement) {
+    const OneQuad scene("Kd 0.5 0.5 0.5\nmap_Kd map.exr\nnorm map.exr");
+    const std::string mtl = scene.folder.file("scene.mtl");
+    expect_present(scene, EFFECT_TEXTURES, "map \"map.exr\" (" + mtl + ":3)");
+    expect_present(scene, EFFECT_NORMAL_MAP, "map \"map.exr\" (" + mtl + ":4)");
+    EXPECT_EQ(find(scene.effects(), EFFECT_NORMAL_MAP).place.line, 4u);
+}
+
+TEST(Effects, InterreflectionTakesAThirdSegment) {
+    OneQuad scene;
+    expect_present_at_run_time(scene, EFFECT_INTERREFLECTION, "64 segments, material \"thing\"");
+    scene.options.max_depth = 2;
+    EXPECT_FALSE(find(scene.effects(), EFFECT_INTERREFLECTION).present);
+    scene.options.max_depth.reset();
+    scene.options.integrator = Integrator::RAYCAST;
+    EXPECT_FALSE(find(scene.effects(), EFFECT_INTERREFLECTION).present);
+    EXPECT_EQ(find(OneQuad("Kd 0 0 0").effects(), EFFECT_INTERREFLECTION).witness, "no material reflects");
+}
+
+TEST(Effects, AListIsCompiledAndWhatItLacksIsLeftOut) {
+    OneQuad scene("Ni 1.5\nillum 7\nPr 0.3");
+    scene.options.light.environment = glm::dvec3(1);
+    scene.options.effects_list = EFFECT_ROUGH_REFRACTION | EFFECT_MATTE;
+    const Effects list = scene.effects();
+    EXPECT_EQ(list.mask, u32(EFFECT_ROUGH_REFRACTION | EFFECT_REFRACTION | EFFECT_MATTE));
+    EXPECT_EQ(list.left_out, u32(EFFECT_ENVIRONMENT) | EFFECT_INTERREFLECTION);
+    EXPECT_NE(describe_left_out(list).at(0).find("environment: black"), std::string::npos);
+
+    scene.options.effects_list.reset();
+    scene.options.effects_off = EFFECT_REFRACTION | EFFECT_MIRROR;
+    const Effects without = scene.effects();
+    EXPECT_EQ(without.mask, u32(EFFECT_ENVIRONMENT));
+    EXPECT_EQ(without.left_out, u32(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION));
+
+    scene.options.all_effects = true;
+    EXPECT_EQ(scene.effects().mask, u32(EFFECT_ALL & ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR)));
+    scene.options.effects_off = 0;
+    EXPECT_EQ(scene.effects().left_out, 0u);
+    EXPECT_TRUE(describe_left_out(scene.effects()).empty());
+}
+
 TEST(Explain, TheTableNamesEffectsMaterialsAndFallbacks) {
     OneQuad scene("Kd 0.5 0.5 0.5\nmap_Kd none.png");
     scene.options.scene_path = "quad.obj";
     const std::string text = explain(scene.load(), scene.effects(), scene.options);
     for (const char* expected :
-         {"quad.obj", "2 triangles", "present matte reflection", "absent  refraction", "thing",
+         {"quad.obj", "2 triangles", "present  matte ", "absent   refraction", "thing",
           "illum 1: matte Kd", "CLRT_EFFECTS=0x10", "none.png", "camera: --eye"})
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
 }
@@ -178,10 +239,16 @@ TEST(Explain, TheJsonHoldsTheSame) {
     EXPECT_EQ(json["triangles"], 2);
     ASSERT_EQ(json["effects"].size(), scene.effects().list.size());
     for (const auto& effect : json["effects"]) {
+        const bool interreflection = effect["name"] == "interreflection";
+        EXPECT_EQ(effect["present"], effect["name"] == "refraction" || interreflection);
         EXPECT_EQ(effect["present"], effect["compiled"]);
-        EXPECT_EQ(effect["present"], effect["name"] == "refraction");
+        EXPECT_EQ(effect["left_out"], false);
         EXPECT_FALSE(effect["witness"].get<std::string>().empty());
+        EXPECT_EQ(effect["line"].is_null(), effect["present"] == false) << effect;
     }
+    EXPECT_EQ(json["materials"][0]["name"], "thing");
+    EXPECT_EQ(json["materials"][0]["line"], 1);
+    EXPECT_EQ(json["effects_mask"], u32(EFFECT_REFRACTION));
     EXPECT_TRUE(json["notices"].is_array());
 }
 

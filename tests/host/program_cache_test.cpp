@@ -4,6 +4,7 @@
 #include "support/kernel_probe.h"
 #include "support/scratch_folder.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -152,6 +153,69 @@ TEST_F(ProgramCacheTest, ReadersNeverSeeHalfAnEntryWhileProcessesWrite) {
         EXPECT_EQ(status, 0);
     }
     EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(ProgramCacheTest, TheLeastRecentlyUsedEntriesMakeRoom) {
+    constexpr std::uint64_t LIMIT = 4500; // three entries of about 1300 bytes
+    const auto key = [](int i) { return std::string(31, '0') + char('a' + i); };
+    const auto now = fs::file_time_type::clock::now();
+    for (int i = 0; i < 3; ++i) {
+        write_cached_program(folder_, key(i), example(7), LIMIT);
+        for (const fs::path& file : files())
+            if (file.stem() == key(i))
+                fs::last_write_time(file, now - std::chrono::minutes(10 - i));
+    }
+    EXPECT_EQ(files().size(), 3u);
+    EXPECT_TRUE(read_cached_program(folder_, key(0))); // the oldest is used again
+    write_cached_program(folder_, key(3), example(7), LIMIT);
+    EXPECT_EQ(files().size(), 3u);
+    EXPECT_TRUE(read_cached_program(folder_, key(0)));
+    EXPECT_FALSE(read_cached_program(folder_, key(1)));
+    EXPECT_TRUE(read_cached_program(folder_, key(2)));
+    // One that is larger than the whole cache stays as long as it is the newest.
+    write_cached_program(folder_, key(4), example(7, 10000), LIMIT);
+    EXPECT_EQ(files().size(), 1u);
+    EXPECT_TRUE(read_cached_program(folder_, key(4)));
+}
+
+TEST_F(ProgramCacheTest, OnlyAbandonedFilesOfTheCacheAreRemoved) {
+    for (const char* name : {"new-abcdef", "new-uvwxyz", "notes.txt"})
+        write_bytes(fs::path(folder_) / name, "x");
+    const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(2);
+    for (const char* name : {"new-abcdef", "notes.txt"})
+        fs::last_write_time(fs::path(folder_) / name, long_ago);
+    write_cached_program(folder_, KEY, example(7), 1);
+    EXPECT_FALSE(fs::exists(fs::path(folder_) / "new-abcdef"));
+    EXPECT_TRUE(fs::exists(fs::path(folder_) / "new-uvwxyz"));
+    EXPECT_TRUE(fs::exists(fs::path(folder_) / "notes.txt"));
+}
+
+TEST_F(ProgramCacheTest, ProcessesThatMakeRoomAtOnceDoNoHarm) {
+    constexpr std::uint64_t LIMIT = 4500;
+    constexpr int WRITES = 200;
+    const auto key = [](int i) { return std::string(31, '0') + char('a' + i % 8); };
+    std::vector<pid_t> writers;
+    for (int first : {0, 4}) {
+        const pid_t writer = fork();
+        ASSERT_GE(writer, 0);
+        if (writer == 0) {
+            for (int i = 0; i < WRITES; ++i)
+                write_cached_program(folder_, key(first + i), example(static_cast<unsigned char>(i % 250 + 1)), LIMIT);
+            _exit(0);
+        }
+        writers.push_back(writer);
+    }
+    for (int i = 0; i < WRITES; ++i) {
+        const auto entry = read_cached_program(folder_, key(i));
+        EXPECT_TRUE(!entry || entry->binary == example(entry->binary[0]).binary);
+    }
+    for (const pid_t writer : writers) {
+        int status = 0;
+        EXPECT_EQ(waitpid(writer, &status, 0), writer);
+        EXPECT_EQ(status, 0);
+    }
+    write_cached_program(folder_, KEY, example(7), LIMIT);
+    EXPECT_EQ(files().size(), 3u);
 }
 
 TEST_F(ProgramCacheTest, TheKeyChangesWithAllThatDecidesAboutTheBinary) {

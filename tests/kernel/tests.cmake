@@ -3,6 +3,7 @@ clrt_test(kernel bsdf_sampling_test)
 clrt_test(kernel bsdf_test)
 clrt_test(kernel camera_test)
 clrt_test(kernel delta_light_test)
+clrt_test(kernel effect_syntax_test)
 clrt_test(kernel emitter_test)
 clrt_test(kernel environment_map_test)
 clrt_test(kernel film_tile_test)
@@ -23,3 +24,8 @@ clrt_test(kernel triangle_test)
 clrt_test(kernel vector_frame_test)
 clrt_test(kernel visibility_test)
 clrt_test(kernel warp_test)
+
+# PoCL is built on this compiler, so it is always there with it.
+find_program(CLRT_CLANG NAMES clang-15 clang REQUIRED)
+target_compile_definitions(effect_syntax_test PRIVATE CLRT_CLANG="${CLRT_CLANG}"
+                                                      CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels")

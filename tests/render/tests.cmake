@@ -2,6 +2,8 @@
 clrt_test(render cut_out_test)
 clrt_test(render direct_light_test)
 clrt_test(render error_bar_test)
+clrt_test(render effect_masks_test)
+target_compile_definitions(effect_masks_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
 clrt_test(render furnace_test)
 clrt_test(render glass_test)
 clrt_test(render interreflection_test)

@@ -4,6 +4,7 @@
 
 #include "app/progress.h"
 #include "bvh/bvh.h"
+#include "effects/take_out.h"
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
 #include "scene/load_scene.h"
@@ -33,6 +34,12 @@ void write_texture(const std::string& path, int width, int height, int channels,
         throw std::runtime_error("cannot write the texture " + path);
 }
 
+RenderPrograms build_programs(Options options, const Effects& effects, BvhLayout layout) {
+    const char* folder = std::getenv("CLRT_TEST_KERNELS");
+    options.kernels_folder = folder ? folder : "";
+    return build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
+}
+
 const RenderPrograms& programs_for(const Options& options, const Effects& effects, BvhLayout layout) {
     using Key = std::tuple<Integrator, Precision, u32, BvhLayout, std::vector<std::string>>;
     // Never freed: at exit some drivers are gone before our statics.
@@ -41,12 +48,20 @@ const RenderPrograms& programs_for(const Options& options, const Effects& effect
     const auto found = programs->find(key);
     if (found != programs->end())
         return found->second;
-    Options with_kernels = options;
-    const char* folder = std::getenv("CLRT_TEST_KERNELS");
-    with_kernels.kernels_folder = folder ? folder : "";
-    return programs
-        ->emplace(key, build_render_programs(test_device(), with_kernels, effects.mask, layout, effects.paths))
-        .first->second;
+    return programs->emplace(key, build_programs(options, effects, layout)).first->second;
+}
+
+/// Takes out what the options leave out and renders; `programs(effects, layout)` gives the programs.
+template <typename Programs>
+Render render_by(Scene& scene, Options& options, const Programs& programs) {
+    const Device& device = test_device();
+    const Effects effects = find_effects(scene, options);
+    take_out_effects(effects.left_out, scene, options);
+    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const SceneBuffers buffers = upload_scene(device, scene, bvh);
+    Progress progress(Toggle::OFF, true);
+    return render(device, programs(effects, layout), buffers, scene, options, progress);
 }
 
 } // namespace
@@ -93,14 +108,18 @@ Render TestScene::render() const {
     return render_loaded(load(), options);
 }
 
-Render render_loaded(const Scene& scene, const Options& options) {
-    const Device& device = test_device();
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
-    const RenderPrograms& programs = programs_for(options, find_effects(scene, options), layout);
-    const SceneBuffers buffers = upload_scene(device, scene, bvh);
-    Progress progress(Toggle::OFF, true);
-    return render(device, programs, buffers, scene, options, progress);
+Render render_loaded(Scene scene, Options options) {
+    return render_by(scene, options, [&](const Effects& effects, BvhLayout layout) -> const RenderPrograms& {
+        return programs_for(options, effects, layout);
+    });
+}
+
+Render render_afresh(Scene scene, Options options, bool* from_cache) {
+    return render_by(scene, options, [&](const Effects& effects, BvhLayout layout) {
+        RenderPrograms programs = build_programs(options, effects, layout);
+        *from_cache = programs.picture.from_cache;
+        return programs;
+    });
 }
 
 } // namespace clrt

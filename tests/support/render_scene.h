@@ -46,9 +46,12 @@ public:
     double scale = 1; ///< of positions in the OBJ file
 };
 
-/// Renders a loaded scene. Programs are compiled once a process for each integrator, mask, layout and
+/// Renders a loaded scene as the options' effects want it. Programs are compiled once a process for each integrator, mask, layout and
 /// precision. The variable CLRT_TEST_KERNELS names a folder of kernels to take instead of those inside the
 /// test.
-Render render_loaded(const Scene& scene, const Options& options);
+Render render_loaded(Scene scene, Options options);
+
+/// The same by a program that is built for this call, with the options' program cache; says whether it came from there.
+Render render_afresh(Scene scene, Options options, bool* from_cache);
 
 } // namespace clrt

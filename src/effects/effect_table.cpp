@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effects/effect_table.h"
+
+#include <algorithm>
+
+namespace clrt {
+
+namespace {
+
+constexpr u32 LOBES = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_REFRACTION;
+/// What a map can be of; all others are not loaded.
+constexpr u32 MAPPED = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION | EFFECT_AREA_LIGHT |
+                       EFFECT_CUT_OUT | EFFECT_NORMAL_MAP;
+
+std::string with_hyphens(std::string name) {
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return name;
+}
+
+} // namespace
+
+const std::vector<EffectSpec>& effect_table() {
+    static const std::vector<EffectSpec> table = {
+        {EFFECT_AREA_LIGHT, "area lights", 0, 0, "emissive triangles are dark"},
+        {EFFECT_DELTA_LIGHT, "point lights and suns", 0, 0, "--point and --sun are not there"},
+        {EFFECT_ENVIRONMENT, "environment", 0, 0, "black outside the scene"},
+        {EFFECT_ENVIRONMENT_MAP, "environment map", EFFECT_ENVIRONMENT, 0, "a constant sky of the map's mean radiance"},
+        {EFFECT_MATTE, "matte", 0, 0, "no material has a matte lobe"},
+        {EFFECT_GLOSSY, "glossy", 0, 0, "no material has a rough reflection"},
+        {EFFECT_MIRROR, "mirror", 0, 0, "no material has a mirror reflection"},
+        {EFFECT_REFRACTION, "refraction", 0, 0, "dielectrics are black and opaque"},
+        {EFFECT_ROUGH_REFRACTION, "rough refraction", EFFECT_REFRACTION, 0, "dielectrics are smooth"},
+        {EFFECT_TEXTURES, "textures", 0, MAPPED, "materials keep their constants, every map is 1"},
+        {EFFECT_NORMAL_MAP, "normal and bump maps", EFFECT_TEXTURES, 0, "normals as the geometry gives them"},
+        {EFFECT_SMOOTH_NORMALS, "smooth normals", 0, 0, "triangles are flat"},
+        {EFFECT_CUT_OUT, "cut-outs", 0, 0, "surfaces are opaque"},
+        {EFFECT_FILTER, "pixel filter", 0, 0, "a box of one pixel"},
+        {EFFECT_PATH_FILTER, "path filter", 0, 0, "all paths, and no layers of paths"},
+        {EFFECT_INTERREFLECTION, "interreflection", 0, LOBES, "direct light only: paths of two segments"},
+    };
+    return table;
+}
+
+u32 with_implied(u32 effects) {
+    for (u32 before = 0; before != effects;) {
+        before = effects;
+        for (const EffectSpec& effect : effect_table())
+            if (effects & effect.bit)
+                effects |= effect.implies;
+    }
+    return effects;
+}
+
+u32 without_effects(u32 effects, u32 taken) {
+    u32 left = 0;
+    for (const EffectSpec& effect : effect_table())
+        if ((effects & effect.bit) && !(with_implied(effect.bit) & taken))
+            left |= effect.bit;
+    return left;
+}
+
+bool is_permitted(u32 effects) {
+    for (const EffectSpec& effect : effect_table())
+        if ((effects & effect.bit) && effect.one_of && !(effects & effect.one_of))
+            return false;
+    return with_implied(effects) == effects;
+}
+
+std::optional<u32> effect_by_name(const std::string& name) {
+    for (const EffectSpec& effect : effect_table())
+        if (with_hyphens(name) == with_hyphens(effect.name))
+            return effect.bit;
+    return std::nullopt;
+}
+
+std::vector<std::string> effect_names(u32 effects) {
+    std::vector<std::string> names;
+    for (const EffectSpec& effect : effect_table())
+        if (effects & effect.bit)
+            names.push_back(with_hyphens(effect.name));
+    return names;
+}
+
+} // namespace clrt

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effects/take_out.h"
+
+#include "effects/effect_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace clrt {
+
+namespace {
+
+constexpr double PI = 3.14159265358979323846;
+
+glm::dvec3 to_dvec3(const vec4& v) {
+    return {v.x, v.y, v.z};
+}
+
+void take_out_area_lights(Scene& scene) {
+    scene.emitters.clear();
+    for (Triangle& triangle : scene.triangles)
+        triangle.emitter = NO_INDEX;
+}
+
+/// The mean of the map's texels over the sphere, factor included.
+glm::dvec3 mean_of_map(const Environment& sky) {
+    glm::dvec3 sum(0);
+    double weights = 0;
+    for (int y = 0; y < sky.height; ++y) {
+        const double weight = std::sin(PI * (y + 0.5) / sky.height);
+        for (int x = 0; x < sky.width; ++x)
+            sum += weight * to_dvec3(sky.texels[size_t(y) * size_t(sky.width) + size_t(x)].radiance);
+        weights += weight * sky.width;
+    }
+    return sky.radiance * sum / weights;
+}
+
+/// Makes the sky constant.
+void set_sky(Environment& sky, const glm::dvec3& radiance) {
+    sky.radiance = radiance;
+    sky.texels.clear();
+    sky.width = sky.height = 0;
+}
+
+void take_out_lobe(u32 lobe, Scene& scene) {
+    for (Material& material : scene.materials) {
+        material.lobes &= ~lobe;
+        if (lobe == LOBE_GLOSSY)
+            material.specular.w = 0; // Phong's highlight
+        if (!(material.lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
+            material.flags &= ~MATERIAL_WHITTED_MIRROR;
+    }
+}
+
+void take_out_rough_refraction(Scene& scene) {
+    for (Material& material : scene.materials)
+        if (material.lobes & LOBE_DIELECTRIC) {
+            material.alpha_x = material.alpha_y = 0;
+            material.roughness_sqrt_x = material.roughness_sqrt_y = 0;
+            material.map_roughness = NO_INDEX;
+        }
+}
+
+void set_cut_out_flag(Material& material) {
+    if (material.matte.w >= 1 && material.map_coverage == NO_INDEX)
+        material.flags &= ~MATERIAL_CUT_OUT;
+}
+
+void take_out_textures(Scene& scene) {
+    for (Material& material : scene.materials) {
+        for (u32* map : {&material.map_matte, &material.map_specular, &material.map_emission, &material.map_coverage,
+                         &material.map_roughness, &material.map_metallic})
+            *map = NO_INDEX;
+        set_cut_out_flag(material);
+    }
+}
+
+void take_out_normal_maps(Scene& scene) {
+    for (Material& material : scene.materials)
+        material.map_normal = material.map_bump = NO_INDEX;
+}
+
+void take_out_cut_outs(Scene& scene) {
+    for (Material& material : scene.materials) {
+        material.matte.w = 1;
+        material.map_coverage = NO_INDEX;
+        set_cut_out_flag(material);
+    }
+}
+
+/// The front stays where vn put it: a triangle wound the other way is turned round.
+void take_out_smooth_normals(Scene& scene) {
+    for (Triangle& t : scene.triangles) {
+        if (t.n0 == NO_INDEX)
+            continue;
+        const glm::dvec3 p0 = to_dvec3(scene.positions[t.v0]), p1 = to_dvec3(scene.positions[t.v1]),
+                         p2 = to_dvec3(scene.positions[t.v2]);
+        const glm::dvec3 sum =
+            to_dvec3(scene.normals[t.n0]) + to_dvec3(scene.normals[t.n1]) + to_dvec3(scene.normals[t.n2]);
+        if (glm::dot(sum, glm::cross(p1 - p0, p2 - p0)) < 0) {
+            std::swap(t.v1, t.v2);
+            std::swap(t.t1, t.t2);
+        }
+        t.n0 = t.n1 = t.n2 = NO_INDEX;
+    }
+}
+
+void take_out_lights(u32 effects, Scene& scene) {
+    if (effects & EFFECT_AREA_LIGHT)
+        take_out_area_lights(scene);
+    if (effects & EFFECT_DELTA_LIGHT)
+        scene.lights.clear();
+    if (effects & EFFECT_ENVIRONMENT)
+        set_sky(scene.environment, glm::dvec3(0));
+    else if ((effects & EFFECT_ENVIRONMENT_MAP) && !scene.environment.texels.empty())
+        set_sky(scene.environment, mean_of_map(scene.environment));
+}
+
+void take_out_lobes(u32 effects, Scene& scene) {
+    const std::pair<u32, u32> lobes[] = {{EFFECT_MATTE, LOBE_MATTE},
+                                         {EFFECT_GLOSSY, LOBE_GLOSSY},
+                                         {EFFECT_MIRROR, LOBE_MIRROR},
+                                         {EFFECT_REFRACTION, LOBE_DIELECTRIC}};
+    for (const auto& [effect, lobe] : lobes)
+        if (effects & effect)
+            take_out_lobe(lobe, scene);
+    if (effects & EFFECT_ROUGH_REFRACTION)
+        take_out_rough_refraction(scene);
+}
+
+} // namespace
+
+void take_out_effects(u32 effects, Scene& scene, Options& options) {
+    effects = EVERY_EFFECT & ~without_effects(EVERY_EFFECT, effects);
+    take_out_lights(effects, scene);
+    take_out_lobes(effects, scene);
+    if (effects & EFFECT_TEXTURES)
+        take_out_textures(scene);
+    if (effects & EFFECT_NORMAL_MAP)
+        take_out_normal_maps(scene);
+    if (effects & EFFECT_SMOOTH_NORMALS)
+        take_out_smooth_normals(scene);
+    if (effects & EFFECT_CUT_OUT)
+        take_out_cut_outs(scene);
+    if (effects & EFFECT_FILTER) {
+        options.filter = Filter::BOX;
+        options.filter_radius.reset();
+    }
+    if (effects & EFFECT_PATH_FILTER) {
+        options.paths.clear();
+        options.path_layers.clear();
+    }
+    if (effects & EFFECT_INTERREFLECTION)
+        options.max_depth = std::min(effective_max_depth(options), 2);
+}
+
+} // namespace clrt

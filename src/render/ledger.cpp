@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/ledger.h"
+
+#include "app/signals.h"
+#include "bvh/bvh.h"
+#include "effects/take_out.h"
+#include "error.h"
+#include "render/render.h"
+#include "render/scene_buffers.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <ctime>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+/// For all rounds together, unless --time says otherwise.
+constexpr double DEFAULT_SECONDS = 60;
+/// More samples a round make no interval narrower than the machine's own unrest.
+constexpr double MOST_SAMPLES = 64;
+
+/// Seconds that all threads of this process were at work.
+double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+double mean_luminance(const Film& film) {
+    const std::vector<float> mean = film_mean(film);
+    double sum = 0;
+    for (size_t i = 0; i + 2 < mean.size(); i += 3)
+        sum += 0.2126 * double(mean[i]) + 0.7152 * double(mean[i + 1]) + 0.0722 * double(mean[i + 2]);
+    return mean.empty() ? 0 : 3 * sum / double(mean.size());
+}
+
+/// One way to render the scene, and what each round of it gave.
+struct Variant {
+    std::string effect; ///< that is left out; empty: none
+    Options options;
+    u32 mask = 0, left_out = 0;
+    RenderPrograms programs;
+    double compile_seconds = 0;
+    std::vector<double> seconds, light; ///< a round; seconds of one sample a pixel
+};
+
+/// Renders variants.
+class Bench {
+public:
+    Bench(const Device& device, const Scene& scene, BvhLayout layout)
+        : device_(device), scene_(scene), layout_(layout), bvh_(build_bvh(scene.positions, scene.triangles, layout)) {}
+
+    bool is_processor_time() const { return device_.info.type == "CPU"; }
+
+    /// Threads that a processor second is shared by; 1 where seconds are those of the wall clock.
+    double threads() const { return is_processor_time() ? double(std::max(device_.info.compute_units, 1u)) : 1; }
+
+    /// Compiles a variant's programs and lets the driver finish them. Compilers work on one thread.
+    void compile(Variant& variant) const {
+        const Effects effects = find_effects(scene_, variant.options);
+        variant.mask = effects.mask;
+        variant.left_out = effects.left_out;
+        const double start = processor_seconds();
+        variant.programs = build_render_programs(device_, variant.options, variant.mask, layout_, effects.paths);
+        const double built = processor_seconds() - start;
+        variant.options.spp = 1;
+        const double launched = run(variant, nullptr).first_launch_seconds;
+        variant.compile_seconds = (is_processor_time() ? built : variant.programs.seconds) + launched;
+    }
+
+    /// Renders a variant; adds the seconds of one sample a pixel and the light to it.
+    void measure(Variant& variant, int round, std::uint32_t samples) const {
+        variant.options.seed += u32(round);
+        variant.options.spp = samples;
+        double seconds = 0;
+        const Render render = run(variant, &seconds);
+        variant.options.seed -= u32(round);
+        variant.seconds.push_back(seconds / double(samples));
+        variant.light.push_back(mean_luminance(render.film));
+    }
+
+private:
+    /// The scene is reduced and uploaded for every run, so that only one of them is in memory at a time.
+    Render run(const Variant& variant, double* seconds) const {
+        Scene scene = scene_;
+        Options options = variant.options;
+        take_out_effects(variant.left_out, scene, options);
+        const bool same_triangles = !(variant.left_out & EFFECT_SMOOTH_NORMALS);
+        const SceneBuffers buffers =
+            upload_scene(device_, scene, same_triangles ? bvh_ : build_bvh(scene.positions, scene.triangles, layout_));
+        Progress silent(Toggle::OFF, true);
+        const double start = processor_seconds();
+        Render result = render(device_, variant.programs, buffers, scene, options, silent);
+        if (seconds)
+            *seconds = is_processor_time() ? processor_seconds() - start : result.seconds;
+        if (stop_signal())
+            throw UsageError("the ledger was stopped by a signal; it needs all its rounds");
+        return result;
+    }
+
+    const Device& device_;
+    const Scene& scene_;
+    const BvhLayout layout_;
+    const Bvh bvh_;
+};
+
+/// The picture as asked for, the full program, and the picture without each effect that it shows.
+std::vector<Variant> make_variants(const Scene& scene, Options options) {
+    options.outputs.clear();
+    options.time_seconds.reset();
+    const Effects effects = find_effects(scene, options);
+    Variant as_asked;
+    as_asked.options = options;
+    std::vector<Variant> variants(2, as_asked);
+    variants[1].options.effects_list.reset();
+    variants[1].options.all_effects = true;
+    variants[1].options.effects_off = effects.left_out;
+    for (const Effect& effect : effects.list) {
+        if (!effect.present || (effects.left_out & effect.bit))
+            continue;
+        variants.push_back(as_asked);
+        variants.back().effect = effect.name;
+        variants.back().options.effects_off |= effect.bit;
+    }
+    return variants;
+}
+
+/// f(a, b) of every round.
+template <typename F>
+LedgerValue compare(const std::vector<double>& a, const std::vector<double>& b, const F& f) {
+    std::vector<double> values;
+    for (size_t i = 0; i < a.size(); ++i)
+        values.push_back(f(a[i], b[i]));
+    return ledger_value(std::move(values));
+}
+
+double difference(double with, double without) {
+    return with - without;
+}
+
+double share(double with, double without) {
+    return with > 0 ? 1 - without / with : 0;
+}
+
+LedgerRow make_row(const Variant& picture, const Variant& without) {
+    LedgerRow row;
+    row.effect = without.effect;
+    row.without = {without.compile_seconds, ledger_value(without.seconds)};
+    row.seconds = compare(picture.seconds, without.seconds, difference);
+    row.time_share = compare(picture.seconds, without.seconds, share);
+    row.light_share = compare(picture.light, without.light, share);
+    return row;
+}
+
+void set_break_even(const Variant& specialised, const Variant& full, double threads, Ledger& ledger) {
+    const LedgerValue extra = compare(full.seconds, specialised.seconds, difference);
+    const auto samples = [&](double gain) {
+        return gain > 0 ? std::optional<double>(specialised.compile_seconds * threads / gain) : std::nullopt;
+    };
+    ledger.break_even = samples(extra.median);
+    ledger.break_even_low = samples(extra.high);
+    ledger.break_even_high = samples(extra.low);
+}
+
+} // namespace
+
+LedgerValue ledger_value(std::vector<double> values) {
+    assert(values.size() == size_t(LEDGER_ROUNDS));
+    std::sort(values.begin(), values.end());
+    return {values[LEDGER_ROUNDS / 2], values[1], values[LEDGER_ROUNDS - 2]};
+}
+
+Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress) {
+    const Bench bench(device, scene, choose_layout(options.bvh, device.info));
+    std::vector<Variant> variants = make_variants(scene, options);
+
+    // Compile everything, the first program twice: what the compiler does once is no program's. One sample more of the
+    // picture tells how many fit the time.
+    bench.compile(variants[0]);
+    for (size_t i = 0; i < variants.size(); ++i) {
+        progress.update({"compile", double(i) / double(variants.size()), 0, -1});
+        bench.compile(variants[i]);
+    }
+    bench.measure(variants[0], 0, 1);
+    const double pass = std::max(variants[0].seconds[0], 1e-6) / bench.threads();
+    const double once = pass * double(LEDGER_ROUNDS) * double(variants.size());
+    const double fitting = options.time_seconds.value_or(DEFAULT_SECONDS) / once;
+    const auto samples = std::uint32_t(options.spp ? *options.spp : std::clamp(std::floor(fitting), 1.0, MOST_SAMPLES));
+    variants[0].seconds.clear();
+    variants[0].light.clear();
+
+    // Take turns.
+    for (int round = 0; round < LEDGER_ROUNDS; ++round)
+        for (size_t i = 0; i < variants.size(); ++i) {
+            const double done = double(size_t(round) * variants.size() + i);
+            progress.update({"ledger", done / double(size_t(LEDGER_ROUNDS) * variants.size()), 0, -1});
+            bench.measure(variants[(i + size_t(round)) % variants.size()], round, samples);
+        }
+
+    // Draw up the bill.
+    const Variant &picture = variants[0], &full = variants[1];
+    Ledger ledger;
+    ledger.width = options.crop ? options.crop->x1 - options.crop->x0 : options.size.x;
+    ledger.height = options.crop ? options.crop->y1 - options.crop->y0 : options.size.y;
+    ledger.samples = samples;
+    ledger.is_processor_time = bench.is_processor_time();
+    ledger.specialised = {picture.compile_seconds, ledger_value(picture.seconds)};
+    ledger.full = {full.compile_seconds, ledger_value(full.seconds)};
+    ledger.full_extra_share =
+        compare(full.seconds, picture.seconds, [](double all, double needed) { return all / needed - 1; });
+    set_break_even(picture, full, bench.threads(), ledger);
+    for (size_t i = 2; i < variants.size(); ++i)
+        ledger.rows.push_back(make_row(picture, variants[i]));
+    return ledger;
+}
+
+} // namespace clrt

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cache of compiled programs as a user meets it.
+#include "clrt_command.h"
+
+#include <cstdlib>
+
+namespace clrt {
+
+namespace {
+
+class ProgramCacheCommand : public ClrtCommand {
+protected:
+    /// The words of a command that renders scene.obj into a picture with the cache on.
+    static std::vector<std::string> cached(const std::string& picture) {
+        std::vector<std::string> words = quick({"scene.obj", "--cache", "on", "--cache-dir", "cache", "-v"});
+        words.insert(words.end(), {"-o", picture});
+        return words;
+    }
+    size_t entries() const {
+        size_t count = 0;
+        for (const auto& file : std::filesystem::directory_iterator(folder.file("cache")))
+            count += file.path().extension() == ".clrtprogram";
+        return count;
+    }
+};
+
+} // namespace
+
+TEST_F(ProgramCacheCommand, TwoRunsAtOnceShareOneEntryAndTheNextOneUsesIt) {
+    write_square("scene");
+    std::string words;
+    for (const std::string& word : cached(""))
+        words += word.empty() ? "" : " " + word;
+    const char* device = std::getenv("CLRT_TEST_DEVICE");
+    CommandSettings settings;
+    settings.folder = path();
+    settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+    const std::string clrt_command = std::string(CLRT_EXECUTABLE) + words;
+    const CommandResult both = run_command(
+        {"/bin/sh", "-c", clrt_command + " a.ppm & first=$!; " + clrt_command + " b.ppm; second=$?; wait $first && exit $second"},
+        settings);
+    EXPECT_EQ(both.exit_code, 0) << both.err;
+    EXPECT_EQ(folder.read("a.ppm"), folder.read("b.ppm"));
+    EXPECT_EQ(entries(), 1u);
+    const auto third = clrt(cached("c.ppm"));
+    EXPECT_EQ(third.exit_code, 0);
+    EXPECT_EQ(folder.read("c.ppm"), folder.read("a.ppm"));
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(ProgramCacheCommand, ADamagedEntryIsAMissAndNoErrorAndOffKeepsNothing) {
+    write_square("scene");
+    EXPECT_EQ(clrt(cached("a.ppm")).exit_code, 0);
+    for (const auto& file : std::filesystem::directory_iterator(folder.file("cache")))
+        std::filesystem::resize_file(file.path(), 1000);
+    const auto again = clrt(cached("b.ppm"));
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_TRUE(holds(again.err, {"is damaged or not ours; it will be replaced"}));
+    EXPECT_EQ(folder.read("a.ppm"), folder.read("b.ppm"));
+    EXPECT_FALSE(holds(clrt(cached("c.ppm")).err, {"is damaged"}));
+    EXPECT_EQ(clrt(quick({"scene.obj", "--no-cache", "--cache-dir", "none"})).exit_code, 0);
+    EXPECT_FALSE(exists("none"));
+}
+
+} // namespace clrt

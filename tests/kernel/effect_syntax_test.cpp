@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// All kernels compile without a warning for every set of effects under test, as OpenCL C 1.2 and 3.0; no device is needed.
+#include "support/effect_masks.h"
+#include "support/run_command.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// One file that includes all entry points: one run of the compiler checks them all.
+std::string all_entry_points() {
+    std::string text;
+    for (const char* name : {"path", "whitted", "raycast", "aov"})
+        text += fmt::format("#include \"integrators/{}.cl\"\n", name);
+    return text;
+}
+
+/// What clang says about the kernels built with a mask; empty if nothing.
+std::string complaints(const std::string& file, const std::string& standard, u32 mask) {
+    const std::string kernels = CLRT_KERNELS_FOLDER;
+    const CommandResult result = run_command(
+        {CLRT_CLANG, "-x", "cl", "-cl-std=" + standard, "--target=spir64-unknown-unknown", "-Xclang",
+         "-finclude-default-header", "-Xclang", "-fdeclare-opencl-builtins", "-fsyntax-only", "-Wall", "-Wextra", "-Werror",
+         "-Wno-unused-parameter", "-Wno-unused-function", "-Wno-constant-logical-operand", "-I" + kernels,
+         "-I" + kernels + "/integrators", fmt::format("-DCLRT_EFFECTS={:#x}u", mask), file});
+    return result.exit_code == 0 && result.err.empty() ? "" : result.err + result.out + "(no success)";
+}
+
+/// The sets of compiled effects, each once.
+std::vector<u32> masks() {
+    std::vector<u32> result;
+    for (const u32 effects : all_effect_sets())
+        result.push_back(effects & EFFECT_ALL);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
+} // namespace
+
+TEST(EffectSyntax, EverySetOfEffectsCompilesInOpenCl12And30) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("all.cl", all_entry_points());
+    const std::vector<u32> all = masks();
+    ASSERT_GT(all.size(), 30u);
+    for (const u32 mask : all)
+        for (const char* standard : {"CL1.2", "CL3.0"})
+            EXPECT_EQ(complaints(file, standard, mask), "") << standard << ", " << describe_effects(mask);
+}
+
+TEST(EffectSyntax, TheCheckSeesAnError) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("all.cl", all_entry_points() + "int broken(void) { return HAS(EFFECT_NONE); }\n");
+    EXPECT_NE(complaints(file, "CL1.2", EFFECT_ALL).find("EFFECT_NONE"), std::string::npos);
+}
+
+} // namespace clrt

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene rendered by a program that has just the effects it calls for has the bits of the full program's picture: for every
+// effect alone and for a covering array of their combinations. With the variable CLRT_TEST_LONG set, also for all effects but
+// one, by every integrator.
+#include "app/command_line.h"
+#include "app/progress.h"
+#include "effects/effects.h"
+#include "effects/take_out.h"
+#include "render/kernels.h"
+#include "scene/load_scene.h"
+#include "support/effect_masks.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+
+namespace fs = std::filesystem;
+
+namespace clrt {
+
+namespace {
+
+bool is_long_run() {
+    return std::getenv("CLRT_TEST_LONG") != nullptr;
+}
+
+std::vector<Integrator> integrators() {
+    return is_long_run() ? std::vector{Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}
+                         : std::vector{Integrator::PATH};
+}
+
+/// How many sums differ, so that a failure prints a number and no film.
+size_t count_differences(const Film& a, const Film& b) {
+    EXPECT_EQ(a.sums.size(), b.sums.size());
+    size_t count = 0;
+    for (size_t i = 0; i < std::min(a.sums.size(), b.sums.size()); ++i)
+        count += a.sums[i] != b.sums[i];
+    return count;
+}
+
+/// Renders a loaded scene by a program with its own effects and by the full one, and expects one film.
+void expect_same_bits(const Scene& scene, Options options, const std::string& what) {
+    options.all_effects = false;
+    const Render needed = render_loaded(scene, options);
+    options.all_effects = true;
+    const Render all = render_loaded(scene, options);
+    EXPECT_EQ(count_differences(needed.film, all.film), 0u) << what;
+    EXPECT_EQ(needed.counts.rays(), all.counts.rays()) << what;
+    EXPECT_EQ(needed.counts.bad() + all.counts.bad(), 0u) << what;
+}
+
+void expect_same_bits(u32 effects) {
+    for (const Integrator integrator : integrators()) {
+        SceneOfEffects small(effects);
+        small.options.integrator = integrator;
+        if (integrator != Integrator::PATH)
+            small.options.paths.clear();
+        const Scene scene = small.load();
+        const u32 needed = find_effects(scene, small.options).needed;
+        const u32 expected = effects & ~(integrator == Integrator::RAYCAST ? EFFECT_INTERREFLECTION : 0u) &
+                             ~(integrator != Integrator::PATH ? EFFECT_PATH_FILTER : 0u);
+        EXPECT_EQ(needed, expected) << describe_effects(needed) << "\ninstead of " << describe_effects(expected);
+        expect_same_bits(scene, small.options,
+                         std::string(integrator_name(integrator)) + ", " + describe_effects(effects));
+    }
+}
+
+/// A shipped scene at 16 x 16 pixels with the options beside it.
+Options shipped_options(const fs::path& obj) {
+    const std::string path = obj.string();
+    const char* const command[] = {"clrt", path.c_str()};
+    Options options = parse_command_line(2, command).options;
+    options.size = {16, 16};
+    options.spp = 16;
+    options.outputs.clear();
+    return options;
+}
+
+std::vector<fs::path> shipped_scenes() {
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::directory_iterator(CLRT_SCENES_FOLDER))
+        for (const auto& file : fs::directory_iterator(entry.path()))
+            if (file.path().extension() == ".obj")
+                paths.push_back(file.path());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+} // namespace
+
+TEST(EffectMasks, EveryEffectAloneHasTheBitsOfTheFullProgram) {
+    for (const u32 effects : single_effects())
+        expect_same_bits(effects);
+}
+
+TEST(EffectMasks, EveryPairOfEffectsHasTheBitsOfTheFullProgram) {
+    for (const u32 effects : pairwise_effects())
+        expect_same_bits(effects);
+}
+
+TEST(EffectMasks, AllEffectsButOneHaveTheBitsOfTheFullProgram) {
+    const std::vector<u32> sets = all_but_one_effect();
+    for (size_t i = 0; i < (is_long_run() ? sets.size() : 1); ++i)
+        expect_same_bits(sets[i]);
+}
+
+TEST(EffectMasks, EveryShippedSceneHasTheBitsOfTheFullProgram) {
+    ASSERT_GE(shipped_scenes().size(), 8u);
+    for (const fs::path& path : shipped_scenes())
+        for (const Integrator integrator : integrators()) {
+            Options options = shipped_options(path);
+            options.integrator = integrator;
+            if (integrator == Integrator::WHITTED)
+                options.max_depth = std::min(options.max_depth.value_or(10), 10);
+            Progress progress(Toggle::OFF, true);
+            expect_same_bits(load_scene(options, progress), options,
+                             path.string() + ", " + integrator_name(integrator));
+        }
+}
+
+TEST(EffectMasks, ShippedScenesNameTheirEffects) {
+    for (const fs::path& path : shipped_scenes()) {
+        const Options options = shipped_options(path);
+        Progress progress(Toggle::OFF, true);
+        std::string names;
+        for (const Effect& effect : find_effects(load_scene(options, progress), options).list)
+            if (effect.present)
+                names += (names.empty() ? "" : ", ") + effect.name;
+        std::ifstream file(path.parent_path() / "README.md");
+        std::string text{std::istreambuf_iterator<char>(file), {}};
+        std::replace(text.begin(), text.end(), '\n', ' ');
+        EXPECT_NE(text.find("Effects: " + names), std::string::npos) << path << ": Effects: " << names;
+    }
+}
+
+TEST(EffectMasks, ALeftOutEffectIsASceneWithoutIt) {
+    // Whatever is left out, the program without its code and the full program render the same scene.
+    const Scene scene = SceneOfEffects(EVERY_EFFECT).load();
+    const std::vector<EffectSpec>& table = effect_table();
+    for (size_t i = 0; i < table.size(); i += is_long_run() ? 1 : 5) {
+        Options options = SceneOfEffects(EVERY_EFFECT).options;
+        options.effects_off = table[i].bit;
+        const Effects effects = find_effects(scene, options);
+        EXPECT_EQ(effects.left_out, EVERY_EFFECT & ~without_effects(EVERY_EFFECT, table[i].bit));
+        const Render without = render_loaded(scene, options);
+        Scene reduced = scene;
+        take_out_effects(effects.left_out, reduced, options);
+        options.effects_off = 0;
+        options.all_effects = true;
+        EXPECT_EQ(count_differences(without.film, render_loaded(reduced, options).film), 0u) << table[i].name;
+        EXPECT_EQ(without.counts.bad(), 0u) << table[i].name;
+    }
+}
+
+TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
+    const ScratchFolder cache;
+    const u32 sets[] = {with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT),
+                        with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT | EFFECT_REFRACTION | EFFECT_DELTA_LIGHT)};
+    for (int round = 0; round < 2; ++round)
+        for (const u32 effects : sets) {
+            SceneOfEffects small(effects);
+            const Film plain = small.render().film;
+            small.options.cache = Toggle::ON;
+            small.options.cache_folder = fs::path(cache.file("any")).parent_path().string();
+            bool from_cache = false;
+            const Film cached = render_afresh(small.load(), small.options, &from_cache).film;
+            EXPECT_EQ(from_cache, round == 1) << describe_effects(effects);
+            EXPECT_EQ(count_differences(plain, cached), 0u) << describe_effects(effects);
+        }
+}
+
+} // namespace clrt

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/effect_masks.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <random>
+#include <set>
+#include <utility>
+
+namespace clrt {
+
+namespace {
+
+/// The set with what it cannot be without; matte where any lobe would do.
+u32 completed(u32 effects) {
+    effects = with_implied(effects);
+    return is_permitted(effects) ? effects : with_implied(effects | EFFECT_MATTE);
+}
+
+/// Every two bits with their values in a set, as numbers.
+std::set<u32> pairs_of(u32 effects) {
+    std::set<u32> pairs;
+    const u32 count = u32(effect_table().size());
+    const auto bit = [&](u32 i) { return (effects & effect_table()[i].bit) != 0; };
+    for (u32 i = 0; i < count; ++i)
+        for (u32 j = i + 1; j < count; ++j)
+            pairs.insert((i * count + j) * 4 + 2 * bit(i) + bit(j));
+    return pairs;
+}
+
+/// A set in which every effect is as likely as not, as far as a scene can call for it.
+u32 random_effects(std::mt19937& random) {
+    for (;;) {
+        u32 effects = 0;
+        for (const EffectSpec& effect : effect_table())
+            if (random() & 1)
+                effects |= effect.bit;
+        // Half of the draws add what is implied, the others take away what implies it.
+        effects = random() & 1 ? with_implied(effects) : without_effects(effects, EVERY_EFFECT & ~effects);
+        if (is_permitted(effects))
+            return effects;
+    }
+}
+
+const char* const COLOUR = "colour.png";
+
+} // namespace
+
+std::vector<u32> single_effects() {
+    std::vector<u32> sets;
+    for (const EffectSpec& effect : effect_table())
+        sets.push_back(completed(effect.bit));
+    return sets;
+}
+
+std::vector<u32> all_but_one_effect() {
+    std::vector<u32> sets;
+    for (const EffectSpec& effect : effect_table())
+        sets.push_back(without_effects(EVERY_EFFECT, effect.bit));
+    return sets;
+}
+
+std::vector<u32> pairwise_effects() {
+    constexpr int CANDIDATES = 400, PROBES = 4000;
+    std::mt19937 random(1);
+    std::set<u32> missing;
+    for (int i = 0; i < PROBES; ++i)
+        for (const u32 pair : pairs_of(random_effects(random)))
+            missing.insert(pair);
+    std::vector<u32> sets;
+    while (!missing.empty()) {
+        u32 best = 0;
+        size_t most = 0;
+        for (int i = 0; i < CANDIDATES || most == 0; ++i) {
+            const u32 candidate = random_effects(random);
+            const std::set<u32> pairs = pairs_of(candidate);
+            const size_t covered = size_t(std::count_if(pairs.begin(), pairs.end(),
+                                                        [&](u32 pair) { return missing.count(pair) != 0; }));
+            if (covered > most)
+                most = covered, best = candidate;
+        }
+        for (const u32 pair : pairs_of(best))
+            missing.erase(pair);
+        sets.push_back(best);
+    }
+    return sets;
+}
+
+std::vector<u32> all_effect_sets() {
+    std::set<u32> sets{0u, EVERY_EFFECT};
+    for (const auto& family : {single_effects(), all_but_one_effect(), pairwise_effects()})
+        sets.insert(family.begin(), family.end());
+    return {sets.begin(), sets.end()};
+}
+
+std::string describe_effects(u32 effects) {
+    return fmt::format("{:#x}: {}", effects, fmt::join(effect_names(effects), ","));
+}
+
+SceneOfEffects::SceneOfEffects(u32 effects) : effects_(effects) {
+    options.size = {16, 16};
+    options.spp = 16;
+    options.replicates = 8;
+    options.all_effects = false;
+    if (!has(EFFECT_INTERREFLECTION))
+        options.max_depth = 2;
+    if (has(EFFECT_FILTER))
+        options.filter = Filter::GAUSSIAN;
+    if (has(EFFECT_PATH_FILTER))
+        options.paths = "L(D|S)?E";
+    add_materials();
+    add_bodies();
+    add_lights();
+    look({0.2, 1.6, 3}, {0, 0.5, 0}, 50);
+}
+
+void SceneOfEffects::add_materials() {
+    std::vector<unsigned char> colour;
+    std::vector<float> normal;
+    for (int i = 0; i < 64; ++i) {
+        colour.insert(colour.end(), {(unsigned char)(i * 97), (unsigned char)(i * 31), (unsigned char)(200 - i)});
+        normal.insert(normal.end(), {0.5f + 0.1f * float(i % 3), 0.5f - 0.1f * float(i % 2), 0.95f});
+    }
+    texture8(COLOUR, 8, 8, 3, colour);
+    texture("normal.exr", 8, 8, 3, normal);
+
+    const auto map = [&](const char* key) {
+        return has(EFFECT_TEXTURES) ? std::string("\n") + key + " " + COLOUR : std::string();
+    };
+    const std::string black = "Kd 0 0 0";
+    const std::string base = has(EFFECT_MATTE) ? "Kd 0.7 0.6 0.5" + map("map_Kd") : black;
+    const std::string tint = has(EFFECT_MATTE) ? "Kd 0.2 0.3 0.2\n" : "Kd 0 0 0\n";
+    build.material("floor", base + (has(EFFECT_NORMAL_MAP) ? "\nnorm normal.exr" : ""));
+    build.material("bumpy", base + (has(EFFECT_NORMAL_MAP) ? std::string("\nbump -bm 0.05 ") + COLOUR : ""));
+    build.material("plain", has(EFFECT_MATTE) ? "Kd 0.5 0.5 0.8" : black);
+    build.material("gloss", tint + "Ks 0.6 0.6 0.5\nNs 30\nillum 2" + map("map_Ks"));
+    build.material("brushed", tint + "Pm 0.8\nPr 0.4\naniso 0.7" + (has(EFFECT_MATTE) ? map("map_Pr") : ""));
+    build.material("mirror", tint + "Ks 0.7 0.7 0.6\nillum 3" + map("map_Ks"));
+    build.material("glass", "Ni 1.5\nTf 0.9 1 0.9\nillum 7");
+    build.material("frosted", "Ni 1.4\nillum 7\nPr 0.5" + map("map_Pr"));
+    build.material("screen", base + "\nd 0.6" + map("map_d"));
+    build.material("lamp", "Kd 0 0 0\nKe 8 7 5" + map("map_Ke"));
+}
+
+void SceneOfEffects::add_bodies() {
+    build.use("floor").textured_quad({{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}});
+    build.use("bumpy").textured_quad({{-2, 0, -1.5}, {2, 0, -1.5}, {2, 2, -1.6}, {-2, 2, -1.6}});
+    build.use("plain").box({-0.2, 0.01, -1.2}, {0.2, 0.5, -0.9});
+    if (has(EFFECT_GLOSSY)) {
+        build.use("gloss").icosphere({0.6, 0.35, -0.3}, 0.3, 1);
+        build.use("brushed").textured_quad({{-1.6, 0.1, -0.8}, {-0.9, 0.1, -1}, {-0.9, 1, -1.1}, {-1.6, 1, -0.9}});
+    }
+    if (has(EFFECT_MIRROR))
+        build.use("mirror").box({0.9, 0.01, -0.9}, {1.5, 0.9, -0.4});
+    if (has(EFFECT_REFRACTION))
+        build.use("glass").icosphere({-0.4, 0.4, 0.3}, 0.3, 1);
+    if (has(EFFECT_ROUGH_REFRACTION))
+        build.use("frosted").textured_quad({{0.3, 0.1, 0.6}, {0.9, 0.1, 0.6}, {0.9, 0.7, 0.5}, {0.3, 0.7, 0.5}});
+    if (has(EFFECT_SMOOTH_NORMALS))
+        build.use(has(EFFECT_REFRACTION) ? "glass" : "plain")
+            .icosphere({0.1, 0.9, -0.4}, 0.25, 1, Facing::OUTWARD, Shading::SMOOTH);
+    if (has(EFFECT_CUT_OUT))
+        build.use("screen").textured_quad({{-1, 0.1, 0.8}, {0, 0.1, 0.8}, {0, 1.2, 0.6}, {-1, 1.2, 0.6}});
+}
+
+void SceneOfEffects::add_lights() {
+    options.light.environment = glm::dvec3(0);
+    if (has(EFFECT_AREA_LIGHT))
+        build.use("lamp").textured_quad({{-0.6, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.6, 2, 0.4}});
+    if (has(EFFECT_DELTA_LIGHT)) {
+        options.light.suns.push_back({{1, 2, 1}, {3, 3, 2}, 3});
+        options.light.points.push_back({{-1, 2, 1}, {2, 2, 4}});
+    }
+    if (has(EFFECT_ENVIRONMENT))
+        options.light.environment = glm::dvec3(0.4, 0.5, 0.6);
+    if (has(EFFECT_ENVIRONMENT_MAP)) {
+        std::vector<float> sky;
+        for (int i = 0; i < 32; ++i)
+            sky.insert(sky.end(), {0.1f + float(i % 7), 0.3f, float(i % 5)});
+        texture("sky.exr", 8, 4, 3, sky);
+        options.light.environment.reset();
+        options.light.environment_file = folder.file("sky.exr");
+    }
+}
+
+} // namespace clrt
