@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/bench_options.h"
+
+#include "app/command_line.h"
+#include "app/nearest_name.h"
+#include "app/option_values.h"
+#include "error.h"
+#include "kernels/shared/render_types.h"
+#include "output/image.h"
+
+#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr std::int64_t LARGEST_ROUNDS = 10000;
+/// Rays of a kind: 32 bytes each, three arrays of them at a time.
+constexpr std::int64_t LARGEST_RAYS = std::int64_t(1) << 26;
+constexpr int LARGEST_THREADS = 4096;
+
+/// One option; a flag has no value name.
+struct BenchOption {
+    const char* name;
+    const char* value_name;
+    const char* help;
+    void (*apply)(BenchOptions&, const OptionValue&);
+};
+
+void no_effect(BenchOptions&, const OptionValue&) {}
+
+/// Every option once, in the order of --help.
+const std::vector<BenchOption>& table() {
+    static const std::vector<BenchOption> options = {
+        {"--device", "NAME",
+         "OpenCL device, as for clrt (default: CLRT_DEVICE, else the first GPU, else the CPU)",
+         [](BenchOptions& o, const OptionValue& v) {
+             if (v.text.empty())
+                 reject_value(v, "a name");
+             o.device = v.text;
+         }},
+        {"--bvh", "NAME", "layout of clrt's tree: auto, bvh8 or bvh2 (default auto)",
+         [](BenchOptions& o, const OptionValue& v) {
+             o.bvh = parse_choice<BvhChoice>(
+                 v, {{"auto", BvhChoice::AUTO}, {"bvh8", BvhChoice::BVH8}, {"bvh2", BvhChoice::BVH2}});
+         }},
+        {"--rounds", "N", "measurements of each side, taken in turns (default 9)",
+         [](BenchOptions& o, const OptionValue& v) {
+             o.rounds = std::uint32_t(parse_whole(v, 1, LARGEST_ROUNDS));
+         }},
+        {"--rays", "N", "rays of each kind (default 1048576)",
+         [](BenchOptions& o, const OptionValue& v) {
+             o.rays = std::uint32_t(parse_whole(v, 1, LARGEST_RAYS));
+         }},
+        {"--threads", "N", "CPU threads of both sides, 0 for all (default 0)",
+         [](BenchOptions& o, const OptionValue& v) { o.threads = int(parse_whole(v, 0, LARGEST_THREADS)); }},
+        {"--cpu-time", "",
+         "take ratios of CPU seconds, not of wall seconds: for a machine that does other work too",
+         [](BenchOptions& o, const OptionValue&) { o.cpu_time = true; }},
+        {"--kernels", "DIR", "take clrt's kernels from here (default: those inside clrt-bench)",
+         [](BenchOptions& o, const OptionValue& v) { o.kernels_folder = parse_path(v); }},
+        {"--stats", "FILE", "write all figures as JSON, in SI units",
+         [](BenchOptions& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
+        {"--no-sidecar", "", "leave the options file SCENE.clrt unread",
+         [](BenchOptions& o, const OptionValue&) { o.no_sidecar = true; }},
+        {"--help", "", "print this page and exit", no_effect},
+        {"--version", "", "print the version and exit", no_effect},
+    };
+    return options;
+}
+
+bool is_flag(const BenchOption& option) {
+    return option.value_name[0] == '\0';
+}
+
+std::string help_page() {
+    std::string page = "Usage: clrt-bench [options] scene.obj...\n\n"
+                       "Traces the same rays through the same triangles by clrt's kernels and by Embree, in "
+                       "turns, and prints how\n"
+                       "fast each was: rays from the camera (primary), from there to lights (shadow), to "
+                       "random sides (diffuse) and\n"
+                       "by reflection (mirror). 1 means as fast as Embree.\n\nOptions:\n";
+    for (const BenchOption& option : table())
+        page += fmt::format("  {:<18} {}\n",
+                            std::string(option.name) + (is_flag(option) ? "" : " ") + option.value_name,
+                            option.help);
+    page += "\nExit codes:\n"
+            "  0    done\n"
+            "  1    scene, input or output file, or host memory\n"
+            "  2    wrong command line or options file\n"
+            "  3    no such device, its compiler failed, or it lacks memory\n"
+            "  4    a check failed: a hit of clrt was wrong\n";
+    return page;
+}
+
+[[noreturn]] void reject_unknown(const std::string& given) {
+    std::vector<std::string> names;
+    for (const BenchOption& option : table())
+        names.emplace_back(option.name);
+    throw UsageError(fmt::format("unknown option {}; the nearest is {}, and `clrt-bench --help` lists all",
+                                 given, nearest_name(given.substr(0, given.find('=')), names)));
+}
+
+/// Collects the texts of every option by CLI11; gives what is no option.
+std::vector<std::string> split(int argc, const char* const* argv,
+                               std::vector<std::vector<std::string>>& texts) {
+    CLI::App app;
+    app.set_help_flag();
+    app.allow_extras();
+    std::vector<std::string> scenes;
+    for (size_t i = 0; i < table().size(); ++i)
+        if (is_flag(table()[i]))
+            app.add_flag(table()[i].name, texts[i]);
+        else
+            app.add_option(table()[i].name, texts[i])
+                ->expected(1)
+                ->allow_extra_args(false)
+                ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("scene", scenes);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError&) { // the only one left: the last option lacks its value
+        throw UsageError(
+            fmt::format("option {}: expected a value, found the end of the command line", argv[argc - 1]));
+    }
+    for (const std::string& rest : app.remaining())
+        if (rest != "--")
+            reject_unknown(rest);
+    return scenes;
+}
+
+/// Sides of a picture with about so many pixels and whole tiles.
+glm::ivec2 size_for_rays(std::uint32_t rays, double aspect) {
+    const double height = std::sqrt(double(rays) / aspect);
+    const auto whole_tiles = [](double side) {
+        return std::max(1, int(std::lround(side / TILE_SIZE))) * TILE_SIZE;
+    };
+    const int tiles_high = whole_tiles(height);
+    return {whole_tiles(double(rays) / tiles_high), tiles_high};
+}
+
+} // namespace
+
+BenchOptions parse_bench_options(int argc, const char* const* argv) {
+    std::vector<std::vector<std::string>> texts(table().size());
+    BenchOptions options;
+    options.command.assign(argv, argv + argc);
+    options.scenes = split(argc, argv, texts);
+    for (size_t i = 0; i < table().size(); ++i) {
+        const std::string name = table()[i].name;
+        if (!texts[i].empty() && name == "--help")
+            options.print = help_page();
+        if (!texts[i].empty() && name == "--version")
+            options.print = "clrt-bench " CLRT_VERSION "\n";
+    }
+    if (options.print)
+        return options;
+    for (size_t i = 0; i < table().size(); ++i)
+        for (const std::string& text : texts[i])
+            table()[i].apply(options, {table()[i].name, is_flag(table()[i]) ? "" : text, "", ""});
+    if (options.scenes.empty())
+        throw UsageError(
+            "expected a scene: clrt-bench [options] scene.obj...; `clrt-bench --help` lists the options");
+    if (!options.stats_path.empty())
+        check_output_folder(options.stats_path);
+    return options;
+}
+
+Options scene_options(const BenchOptions& bench, const std::string& scene) {
+    // --explain: nothing will be written, so no output folder is needed.
+    std::vector<const char*> arguments{"clrt-bench", "--explain"};
+    if (bench.no_sidecar)
+        arguments.push_back("--no-sidecar");
+    arguments.insert(arguments.end(), {"--", scene.c_str()});
+    Options options = parse_command_line(int(arguments.size()), arguments.data()).options;
+    options.device = bench.device;
+    options.bvh = bench.bvh;
+    options.threads = bench.threads;
+    options.kernels_folder = bench.kernels_folder;
+    options.precision = Precision::SINGLE;
+    options.crop.reset();
+    options.size = size_for_rays(bench.rays, double(options.size.x) / double(options.size.y));
+    return options;
+}
+
+} // namespace clrt

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/clrt_side.h"
+
+#include "device/opencl_error.h"
+#include "effects/effects.h"
+#include "render/film.h"
+#include "render/kernels.h"
+#include "render/render_params.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+/// Work-groups a row of the launch grid, as in the renderer.
+constexpr u32 GRID_COLUMNS = 2048;
+
+KernelFiles kernel_files(const Options& options) {
+    KernelFiles files =
+        options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
+    files.insert(bench_kernel_files().begin(), bench_kernel_files().end());
+    return files;
+}
+
+Program build(const Device& device, const Options& options, const Scene& scene, BvhLayout layout,
+              const std::string& name) {
+    ProgramRequest request;
+    request.name = name;
+    request.source = expand_kernel_source(kernel_files(options), "bench/" + name + ".cl");
+    request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", find_effects(scene, options).mask),
+                       fmt::format("BVH_LAYOUT={}", int(layout))};
+    request.dump_folder = options.dump_folder;
+    request.cache = {options.cache, options.cache_folder};
+    return build_program(device, request);
+}
+
+template <class T>
+std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t count) {
+    std::vector<T> values(count);
+    check_opencl("reading rays back", [&] {
+        if (count)
+            device.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
+    });
+    return values;
+}
+
+} // namespace
+
+const char* ray_kind_name(RayKind kind) {
+    switch (kind) {
+    case RayKind::PRIMARY:
+        return "primary";
+    case RayKind::SHADOW:
+        return "shadow";
+    case RayKind::DIFFUSE:
+        return "diffuse";
+    case RayKind::MIRROR:
+        break;
+    }
+    return "mirror";
+}
+
+ClrtSide::ClrtSide(const Device& device, const Options& options, const Scene& scene)
+    : device_(device), scene_(scene),
+      bvh_(build_bvh(scene.positions, scene.triangles, choose_layout(options.bvh, device.info))),
+      buffers_(upload_scene(device, scene, bvh_)),
+      params_(make_render_params(scene, options, film_scale(scene))),
+      make_(build(device, options, scene, bvh_.layout, "make_rays")),
+      trace_(build(device, options, scene, bvh_.layout, "trace")), primary_(make_, "make_primary"),
+      secondary_(make_, "make_secondary"), closest_(trace_, "trace_closest"), any_(trace_, "trace_any") {
+    params_.end_tile = params_.tile_count;
+    params_.sample_count = 1;
+    for (Kernel* kernel : {&secondary_, &closest_, &any_})
+        bind_scene(buffers_, *kernel);
+    for (Kernel* kernel : {&primary_, &secondary_, &closest_, &any_})
+        kernel->set("params", params_);
+}
+
+void ClrtSide::launch(Kernel& kernel, u32 count) {
+    const u32 groups = std::max((count + RAYS_PER_BLOCK - 1) / RAYS_PER_BLOCK, 1u);
+    const u32 columns = std::min(groups, GRID_COLUMNS);
+    const u32 rows = (groups + columns - 1) / columns;
+    check_opencl("running the kernel " + kernel.name(), [&] {
+        device_.queue.enqueueNDRangeKernel(kernel.handle(), cl::NullRange,
+                                           cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
+                                           cl::NDRange(TILE_SIZE, TILE_SIZE));
+        device_.queue.finish();
+    });
+}
+
+std::vector<BenchRay> ClrtSide::primary_rays(u32 sample) {
+    const size_t slots = size_t(params_.tile_count) * TILE_PIXELS;
+    const cl::Buffer rays = create_buffer(device_, "rays", slots * sizeof(BenchRay));
+    params_.first_sample = sample;
+    primary_.set("params", params_);
+    primary_.set("rays", rays);
+    launch(primary_, u32(slots));
+    std::vector<BenchRay> made = read_buffer<BenchRay>(device_, rays, slots);
+    made.erase(
+        std::remove_if(made.begin(), made.end(), [](const BenchRay& ray) { return !(ray.origin.w > 0); }),
+        made.end());
+    return made;
+}
+
+std::vector<BenchRay> ClrtSide::secondary_rays(RayKind kind, const std::vector<BenchRay>& rays,
+                                               const std::vector<BenchHit>& hits, u32 sample, u32 bounce) {
+    const cl::Buffer made = create_buffer(device_, "rays", rays.size() * sizeof(BenchRay));
+    params_.first_sample = sample;
+    secondary_.set("params", params_);
+    secondary_.set("rays", upload_buffer(device_, "rays", rays));
+    secondary_.set("hits", upload_buffer(device_, "hits", hits));
+    secondary_.set("count", u32(rays.size()));
+    secondary_.set("kind", u32(kind));
+    secondary_.set("bounce", bounce);
+    secondary_.set("made", made);
+    launch(secondary_, u32(rays.size()));
+    std::vector<BenchRay> result = read_buffer<BenchRay>(device_, made, rays.size());
+    result.erase(
+        std::remove_if(result.begin(), result.end(), [](const BenchRay& ray) { return !(ray.origin.w > 0); }),
+        result.end());
+    return result;
+}
+
+DeviceRays ClrtSide::upload(const std::vector<BenchRay>& rays) const {
+    return {upload_buffer(device_, "rays", rays),
+            create_buffer(device_, "hits", rays.size() * sizeof(BenchHit)), u32(rays.size())};
+}
+
+void ClrtSide::trace(bool any_hit, const DeviceRays& rays) {
+    Kernel& kernel = any_hit ? any_ : closest_;
+    kernel.set("rays", rays.rays);
+    kernel.set("count", rays.count);
+    kernel.set("hits", rays.hits);
+    launch(kernel, rays.count);
+}
+
+std::vector<BenchHit> ClrtSide::read(const DeviceRays& rays) const {
+    return read_buffer<BenchHit>(device_, rays.hits, rays.count);
+}
+
+} // namespace clrt

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// clrt's side of a comparison: a scene on a device, rays made and traced there by the renderer's own
+// functions.
+#pragma once
+
+#include "app/options.h"
+#include "bench/bench_rays.h"
+#include "bvh/bvh.h"
+#include "device/device.h"
+#include "device/kernel_source.h"
+#include "device/program.h"
+#include "kernels/shared/render_types.h"
+#include "render/scene_buffers.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace clrt {
+
+/// The files below tools/bench/kernels, inside the program.
+const KernelFiles& bench_kernel_files();
+
+/// Rays on the device, with a place for their hits.
+struct DeviceRays {
+    cl::Buffer rays, hits;
+    u32 count = 0;
+};
+
+class ClrtSide {
+public:
+    /// Builds the tree, compiles the kernels (options.kernels_folder replaces the renderer's own) and
+    /// uploads. The device and the scene must outlive this object.
+    ClrtSide(const Device& device, const Options& options, const Scene& scene);
+
+    /// A ray for each pixel, in the order of the renderer's tiles; `sample` chooses the place within the
+    /// pixel.
+    std::vector<BenchRay> primary_rays(u32 sample);
+
+    /// The rays of a kind that leave where `rays` hit, without those that hit nothing or find no light.
+    /// `bounce` counts the surfaces met so far, from 1.
+    std::vector<BenchRay> secondary_rays(RayKind kind, const std::vector<BenchRay>& rays,
+                                         const std::vector<BenchHit>& hits, u32 sample, u32 bounce);
+
+    DeviceRays upload(const std::vector<BenchRay>& rays) const;
+
+    /// Traces all rays in one launch of the renderer's shape and waits.
+    void trace(bool any_hit, const DeviceRays& rays);
+
+    /// Reads the hits of the last trace.
+    std::vector<BenchHit> read(const DeviceRays& rays) const;
+
+    const Bvh& bvh() const { return bvh_; }
+    const Scene& scene() const { return scene_; }
+
+private:
+    void launch(Kernel& kernel, u32 count);
+
+    const Device& device_;
+    const Scene& scene_;
+    Bvh bvh_;
+    SceneBuffers buffers_;
+    RenderParams params_;
+    Program make_, trace_;
+    Kernel primary_, secondary_, closest_, any_;
+};
+
+} // namespace clrt

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/report.h"
+
+#include "bench/embree_side.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace clrt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The median, and the quartiles of the rounds.
+std::string ratio_text(const Spread& ratio) {
+    return fmt::format("{:.3f} [{:.3f} {:.3f}]", ratio.median, ratio.low, ratio.high);
+}
+
+double per_triangle(double value, const SceneSpeed& scene) {
+    return scene.triangles ? value / double(scene.triangles) : 0;
+}
+
+double triangles_per_second(const TreeFigures& tree, const SceneSpeed& scene) {
+    return tree.seconds > 0 ? double(scene.triangles) / tree.seconds : 0;
+}
+
+Json spread_json(const Spread& spread) {
+    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+}
+
+Json tree_json(const TreeFigures& tree, const SceneSpeed& scene) {
+    return {{"build_seconds", tree.seconds},
+            {"triangles_per_second", triangles_per_second(tree, scene)},
+            {"bytes", tree.bytes},
+            {"bytes_per_triangle", per_triangle(double(tree.bytes), scene)}};
+}
+
+Json scene_json(const SceneSpeed& scene) {
+    Json json;
+    json["scene"] = scene.path;
+    json["triangles"] = scene.triangles;
+    json["layout"] = scene.layout;
+    for (const KindSpeed& kind : scene.kinds)
+        json["ratio"][ray_kind_name(kind.kind)] = kind.ratio.median;
+    for (const KindSpeed& kind : scene.kinds)
+        json["kinds"][ray_kind_name(kind.kind)] = {
+            {"rays", kind.rays},
+            {"hits", kind.hits},
+            {"ratio", spread_json(kind.ratio)},
+            {"ratio_robust", spread_json(kind.ratio_robust)},
+            {"clrt_rays_per_second", spread_json(kind.clrt)},
+            {"embree_rays_per_second", spread_json(kind.embree)},
+            {"embree_robust_rays_per_second", spread_json(kind.embree_robust)}};
+    json["tree"]["clrt"] = tree_json(scene.clrt, scene);
+    json["tree"]["clrt"]["sah_cost"] = scene.sah_cost;
+    json["tree"]["embree"] = tree_json(scene.embree, scene);
+    return json;
+}
+
+/// The geometric mean over the scenes, by kind.
+Json mean_ratios(const std::vector<SceneSpeed>& scenes) {
+    Json json = Json::object();
+    for (const RayKind kind : RAY_KINDS) {
+        double logs = 0;
+        int count = 0;
+        for (const SceneSpeed& scene : scenes)
+            for (const KindSpeed& speed : scene.kinds)
+                if (speed.kind == kind)
+                    logs += std::log(speed.ratio.median), ++count;
+        json[ray_kind_name(kind)] = count ? Json(std::exp(logs / count)) : Json();
+    }
+    return json;
+}
+
+} // namespace
+
+std::string format_speed(const SceneSpeed& scene, bool cpu_time) {
+    std::string text = fmt::format("{}: {} triangles, {}\n", scene.path, scene.triangles, scene.layout);
+    text += fmt::format("{:<8}{:>10}{:>9}{:>9}   {:<22}{:>9}   {}\n", "rays", "number", "clrt", "Embree",
+                        "clrt / Embree", "robust", "clrt / robust");
+    for (const KindSpeed& kind : scene.kinds)
+        text +=
+            fmt::format("{:<8}{:>10}{:>9.3f}{:>9.3f}   {:<22}{:>9.3f}   {}\n", ray_kind_name(kind.kind),
+                        kind.rays, 1e-6 * kind.clrt.median, 1e-6 * kind.embree.median, ratio_text(kind.ratio),
+                        1e-6 * kind.embree_robust.median, ratio_text(kind.ratio_robust));
+    text += fmt::format("million rays a second of {} time; ratios: median [quartiles] of the rounds\n",
+                        cpu_time ? "CPU" : "wall");
+    text += fmt::format("tree    clrt {:.3f} s, {:.2f} Mtris/s, {:.1f} bytes a triangle, SAH cost {:.2f}; "
+                        "Embree {:.3f} s, {:.2f} Mtris/s, {:.1f} bytes a triangle\n",
+                        scene.clrt.seconds, 1e-6 * triangles_per_second(scene.clrt, scene),
+                        per_triangle(double(scene.clrt.bytes), scene), scene.sah_cost, scene.embree.seconds,
+                        1e-6 * triangles_per_second(scene.embree, scene),
+                        per_triangle(double(scene.embree.bytes), scene));
+    return text;
+}
+
+std::string speed_json(const BenchOptions& bench, const DeviceInfo& device,
+                       const std::vector<SceneSpeed>& scenes) {
+    Json json;
+    json["version"] = CLRT_VERSION;
+    json["command"] = fmt::format("{}", fmt::join(bench.command, " "));
+    json["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
+    json["embree"] = embree_version();
+    json["rounds"] = bench.rounds;
+    json["time"] = bench.cpu_time ? "cpu" : "wall";
+    json["ratio"] = mean_ratios(scenes);
+    for (const SceneSpeed& scene : scenes)
+        json["scenes"].push_back(scene_json(scene));
+    return json.dump(2) + "\n";
+}
+
+} // namespace clrt

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/speed.h"
+
+#include "bench/clrt_side.h"
+#include "bench/embree_side.h"
+#include "scene/load_scene.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+/// Where few primary rays hit, more samples a pixel fill the other kinds up; so many at most.
+constexpr u32 MOST_SAMPLES = 16;
+
+/// All rays of a kind.
+struct RaySet {
+    RayKind kind;
+    std::vector<BenchRay> rays;
+};
+
+std::vector<BenchHit> trace_closest(ClrtSide& clrt, const std::vector<BenchRay>& rays) {
+    const DeviceRays device_rays = clrt.upload(rays);
+    clrt.trace(/*any_hit=*/false, device_rays);
+    return clrt.read(device_rays);
+}
+
+/// Makes primary rays, and from their hits the other kinds: up to `most` of each.
+std::vector<RaySet> make_rays(ClrtSide& clrt, size_t most) {
+    std::vector<RaySet> sets;
+    for (const RayKind kind : RAY_KINDS)
+        sets.push_back({kind, {}});
+    bool complete = false;
+    for (u32 sample = 0; sample < MOST_SAMPLES && !complete; ++sample) {
+        const std::vector<BenchRay> primary = clrt.primary_rays(sample);
+        const std::vector<BenchHit> hits = trace_closest(clrt, primary);
+        complete = true;
+        for (RaySet& set : sets) {
+            if (set.rays.size() >= most)
+                continue;
+            const std::vector<BenchRay> made = set.kind == RayKind::PRIMARY
+                                                   ? primary
+                                                   : clrt.secondary_rays(set.kind, primary, hits, sample, 1);
+            set.rays.insert(set.rays.end(), made.begin(), made.end());
+            set.rays.resize(std::min(set.rays.size(), most));
+            complete = complete && (set.rays.size() >= most || made.empty());
+        }
+    }
+    return sets;
+}
+
+/// Seconds of every round of one side.
+using Rounds = std::vector<double>;
+
+double seconds(const Cost& cost, bool cpu_time) {
+    return cpu_time ? cost.cpu : cost.wall;
+}
+
+Spread rates(const Rounds& rounds, size_t rays) {
+    std::vector<double> values;
+    for (const double time : rounds)
+        values.push_back(double(rays) / time);
+    return spread_of(values);
+}
+
+Spread ratios(const Rounds& clrt, const Rounds& other) {
+    std::vector<double> values;
+    for (size_t i = 0; i < clrt.size(); ++i)
+        values.push_back(other[i] / clrt[i]);
+    return spread_of(values);
+}
+
+/// A kind of rays on its way through the rounds.
+struct Contest {
+    const RaySet& set;
+    DeviceRays device_rays;
+    std::vector<BenchHit> embree_hits, robust_hits;
+    Rounds clrt, embree, robust;
+
+    Contest(const RaySet& rays, const ClrtSide& side) : set(rays), device_rays(side.upload(rays.rays)) {}
+
+    /// Traces once on every side, the order turning from round to round.
+    void play(ClrtSide& clrt_side, const EmbreeSide& embree_side, const EmbreeSide& robust_side, u32 round,
+              bool cpu_time) {
+        const bool any = wants_any_hit(set.kind);
+        for (u32 turn = 0; turn < 3; ++turn)
+            switch ((round + turn) % 3) {
+            case 0:
+                clrt.push_back(seconds(measure([&] { clrt_side.trace(any, device_rays); }), cpu_time));
+                break;
+            case 1:
+                embree.push_back(
+                    seconds(measure([&] { embree_side.trace(any, set.rays, embree_hits); }), cpu_time));
+                break;
+            default:
+                robust.push_back(
+                    seconds(measure([&] { robust_side.trace(any, set.rays, robust_hits); }), cpu_time));
+            }
+    }
+
+    /// Forgets the rounds so far, which were for warming up.
+    void forget() {
+        for (Rounds* rounds : {&clrt, &embree, &robust})
+            rounds->clear();
+    }
+
+    KindSpeed result(const ClrtSide& side) const {
+        KindSpeed speed;
+        speed.kind = set.kind;
+        speed.rays = set.rays.size();
+        for (const BenchHit& hit : side.read(device_rays))
+            speed.hits += hit.triangle != NO_INDEX;
+        speed.ratio = ratios(clrt, embree);
+        speed.ratio_robust = ratios(clrt, robust);
+        speed.clrt = rates(clrt, speed.rays);
+        speed.embree = rates(embree, speed.rays);
+        speed.embree_robust = rates(robust, speed.rays);
+        return speed;
+    }
+};
+
+} // namespace
+
+SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const std::string& path,
+                         Progress& progress) {
+    const Options options = scene_options(bench, path);
+    const Scene scene = load_scene(options, progress);
+    progress.update({"trees and rays"});
+    ClrtSide clrt(device, options, scene);
+    const EmbreeSide embree(scene, /*robust=*/false, bench.threads),
+        robust(scene, /*robust=*/true, bench.threads);
+    const std::vector<RaySet> sets = make_rays(clrt, bench.rays);
+
+    // Round 0 warms up: the driver finishes compiling, pages are touched.
+    std::vector<Contest> contests;
+    for (const RaySet& set : sets)
+        if (!set.rays.empty())
+            contests.emplace_back(set, clrt);
+    for (u32 round = 0; round <= bench.rounds; ++round) {
+        progress.update({"rounds", double(round) / (bench.rounds + 1)});
+        for (Contest& contest : contests) {
+            contest.play(clrt, embree, robust, round, bench.cpu_time);
+            if (round == 0)
+                contest.forget();
+        }
+    }
+    progress.finish();
+
+    SceneSpeed result;
+    result.path = path;
+    result.triangles = clrt.bvh().triangle_count;
+    result.layout = fmt::format("bvh{}", int(clrt.bvh().layout));
+    result.sah_cost = clrt.bvh().sah_cost;
+    result.clrt = {clrt.bvh().seconds, 4 * (clrt.bvh().nodes.size() + clrt.bvh().leaves.size())};
+    result.embree = {embree.build_seconds(), embree.bytes()};
+    for (const Contest& contest : contests)
+        result.kinds.push_back(contest.result(clrt));
+    return result;
+}
+
+} // namespace clrt
