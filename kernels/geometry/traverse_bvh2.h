@@ -62,6 +62,7 @@ static CLRT_NOINLINE void bvh2_closest_hit(const Scene* scene, const RenderParam
     for (;;) {
         global const uint* words = scene->bvh_nodes + BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
+        SCENE_COUNT_NODE(scene);
         const real limit = hit->t * BOX_EXIT_FACTOR;
         real entry[2] = {bvh2_enter(vload4(0, planes), vload2(4, planes), &box, limit),
                          bvh2_enter(vload4(1, planes), vload2(5, planes), &box, limit)};
@@ -71,6 +72,7 @@ static CLRT_NOINLINE void bvh2_closest_hit(const Scene* scene, const RenderParam
             if (entry[side] < REAL(0.0) || !(child & BVH_LEAF_BIT))
                 continue;
             global const uint* leaf = scene->bvh_leaves + BVH2_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
+            SCENE_COUNT_LEAF(scene, words[BVH2_COUNT_WORD + side]);
             for (uint i = 0; i < words[BVH2_COUNT_WORD + side]; ++i) {
                 Hit found;
                 if (!bvh2_triangle(leaf + BVH2_TRIANGLE_WORDS * i, &shear, hit->t, &found) ||
@@ -112,6 +114,7 @@ static CLRT_NOINLINE bool bvh2_any_hit(const Scene* scene, const RenderParams* p
     for (;;) {
         global const uint* words = scene->bvh_nodes + BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
+        SCENE_COUNT_NODE(scene);
         for (uint side = 0; side < 2u; ++side) {
             if (bvh2_enter(vload4(side, planes), vload2(4 + side, planes), &box, limit) < REAL(0.0))
                 continue;
@@ -121,6 +124,7 @@ static CLRT_NOINLINE bool bvh2_any_hit(const Scene* scene, const RenderParams* p
                 continue;
             }
             global const uint* leaf = scene->bvh_leaves + BVH2_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
+            SCENE_COUNT_LEAF(scene, words[BVH2_COUNT_WORD + side]);
             Hit found;
             for (uint i = 0; i < words[BVH2_COUNT_WORD + side]; ++i)
                 if (bvh2_triangle(leaf + BVH2_TRIANGLE_WORDS * i, &shear, ray->t_max, &found))

@@ -11,3 +11,10 @@ clrt_command_test(exit_code_test)
 clrt_command_test(information_test)
 clrt_command_test(odd_input_test)
 clrt_command_test(picture_file_test)
+if(TARGET clrt-bench)
+  clrt_test(cli bench_command_test)
+  target_compile_definitions(bench_command_test PRIVATE
+    CLRT_EXECUTABLE="$<TARGET_FILE:clrt-bench>" CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels"
+    CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
+  add_dependencies(bench_command_test clrt-bench)
+endif()

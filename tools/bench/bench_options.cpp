@@ -132,6 +132,13 @@ std::vector<std::string> split(int argc, const char* const* argv,
     return scenes;
 }
 
+/// CLI11 hands a flag "true" when it stands alone and its text after '=' otherwise.
+void apply_option(BenchOptions& options, const BenchOption& option, const std::string& text) {
+    if (is_flag(option) && text != "true")
+        throw UsageError(fmt::format("option {} takes no value, found '{}'", option.name, text));
+    option.apply(options, {option.name, is_flag(option) ? "" : text, "", ""});
+}
+
 /// Sides of a picture with about so many pixels and whole tiles.
 glm::ivec2 size_for_rays(std::uint32_t rays, double aspect) {
     const double height = std::sqrt(double(rays) / aspect);
@@ -160,7 +167,7 @@ BenchOptions parse_bench_options(int argc, const char* const* argv) {
         return options;
     for (size_t i = 0; i < table().size(); ++i)
         for (const std::string& text : texts[i])
-            table()[i].apply(options, {table()[i].name, is_flag(table()[i]) ? "" : text, "", ""});
+            apply_option(options, table()[i], text);
     if (options.scenes.empty())
         throw UsageError(
             "expected a scene: clrt-bench [options] scene.obj...; `clrt-bench --help` lists the options");

@@ -17,6 +17,12 @@ namespace {
 /// Work-groups a row of the launch grid, as in the renderer.
 constexpr u32 GRID_COLUMNS = 2048;
 
+Bvh build_tree(const Scene& scene, BvhLayout layout, Cost& cost) {
+    Bvh bvh;
+    cost = measure([&] { bvh = build_bvh(scene.positions, scene.triangles, layout); });
+    return bvh;
+}
+
 KernelFiles kernel_files(const Options& options) {
     KernelFiles files =
         options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
@@ -25,12 +31,13 @@ KernelFiles kernel_files(const Options& options) {
 }
 
 Program build(const Device& device, const Options& options, const Scene& scene, BvhLayout layout,
-              const std::string& name) {
+              const std::string& name, const std::vector<std::string>& defines = {}) {
     ProgramRequest request;
     request.name = name;
     request.source = expand_kernel_source(kernel_files(options), "bench/" + name + ".cl");
     request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", find_effects(scene, options).mask),
                        fmt::format("BVH_LAYOUT={}", int(layout))};
+    request.defines.insert(request.defines.end(), defines.begin(), defines.end());
     request.dump_folder = options.dump_folder;
     request.cache = {options.cache, options.cache_folder};
     return build_program(device, request);
@@ -63,8 +70,8 @@ const char* ray_kind_name(RayKind kind) {
 }
 
 ClrtSide::ClrtSide(const Device& device, const Options& options, const Scene& scene)
-    : device_(device), scene_(scene),
-      bvh_(build_bvh(scene.positions, scene.triangles, choose_layout(options.bvh, device.info))),
+    : device_(device), options_(options), scene_(scene),
+      bvh_(build_tree(scene, choose_layout(options.bvh, device.info), build_cost_)),
       buffers_(upload_scene(device, scene, bvh_)),
       params_(make_render_params(scene, options, film_scale(scene))),
       make_(build(device, options, scene, bvh_.layout, "make_rays")),
@@ -128,12 +135,34 @@ DeviceRays ClrtSide::upload(const std::vector<BenchRay>& rays) const {
             create_buffer(device_, "hits", rays.size() * sizeof(BenchHit)), u32(rays.size())};
 }
 
-void ClrtSide::trace(bool any_hit, const DeviceRays& rays) {
-    Kernel& kernel = any_hit ? any_ : closest_;
+void ClrtSide::launch_over(Kernel& kernel, const DeviceRays& rays) {
     kernel.set("rays", rays.rays);
     kernel.set("count", rays.count);
     kernel.set("hits", rays.hits);
     launch(kernel, rays.count);
+}
+
+void ClrtSide::trace(bool any_hit, const DeviceRays& rays) {
+    launch_over(any_hit ? any_ : closest_, rays);
+}
+
+Visits ClrtSide::count_visits(bool any_hit, const DeviceRays& rays) {
+    if (!visits_)
+        visits_ = build(device_, options_, scene_, bvh_.layout, "visits", {"CLRT_COUNT_VISITS=1"});
+    Kernel kernel(*visits_, any_hit ? "visits_any" : "visits_closest");
+    bind_scene(buffers_, kernel);
+    kernel.set("params", params_);
+    launch_over(kernel, rays);
+    struct Counts {
+        u32 nodes, leaves, triangles, unused;
+    };
+    Visits mean;
+    for (const Counts& counts : read_buffer<Counts>(device_, rays.hits, rays.count)) {
+        mean.nodes += double(counts.nodes) / rays.count;
+        mean.leaves += double(counts.leaves) / rays.count;
+        mean.triangles += double(counts.triangles) / rays.count;
+    }
+    return mean;
 }
 
 std::vector<BenchHit> ClrtSide::read(const DeviceRays& rays) const {

@@ -5,6 +5,7 @@
 
 #include "app/options.h"
 #include "bench/bench_rays.h"
+#include "bench/measure.h"
 #include "bvh/bvh.h"
 #include "device/device.h"
 #include "device/kernel_source.h"
@@ -13,6 +14,7 @@
 #include "render/scene_buffers.h"
 #include "scene/scene.h"
 
+#include <optional>
 #include <vector>
 
 namespace clrt {
@@ -24,6 +26,11 @@ const KernelFiles& bench_kernel_files();
 struct DeviceRays {
     cl::Buffer rays, hits;
     u32 count = 0;
+};
+
+/// What rays visit on average.
+struct Visits {
+    double nodes = 0, leaves = 0, triangles = 0;
 };
 
 class ClrtSide {
@@ -49,18 +56,27 @@ public:
     /// Reads the hits of the last trace.
     std::vector<BenchHit> read(const DeviceRays& rays) const;
 
+    /// Traces once more with kernels that count; overwrites the hits.
+    Visits count_visits(bool any_hit, const DeviceRays& rays);
+
+    /// Of building the tree.
+    Cost build_cost() const { return build_cost_; }
     const Bvh& bvh() const { return bvh_; }
     const Scene& scene() const { return scene_; }
 
 private:
     void launch(Kernel& kernel, u32 count);
+    void launch_over(Kernel& kernel, const DeviceRays& rays);
 
     const Device& device_;
+    const Options& options_;
     const Scene& scene_;
+    Cost build_cost_;
     Bvh bvh_;
     SceneBuffers buffers_;
     RenderParams params_;
     Program make_, trace_;
+    std::optional<Program> visits_; ///< built when first asked for
     Kernel primary_, secondary_, closest_, any_;
 };
 

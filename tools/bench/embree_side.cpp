@@ -44,11 +44,11 @@ EmbreeSide::EmbreeSide(const Scene& scene, bool robust, int threads) {
                                0, sizeof(vec4), scene.positions.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, scene.triangles.data(),
                                0, sizeof(Triangle), scene.triangles.size());
-    build_seconds_ = measure([&] {
-                         rtcCommitGeometry(geometry);
-                         rtcAttachGeometry(scene_, geometry);
-                         rtcCommitScene(scene_);
-                     }).wall;
+    build_cost_ = measure([&] {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcCommitScene(scene_);
+    });
     rtcReleaseGeometry(geometry);
     const RTCError error = rtcGetDeviceError(device_);
     if (error != RTC_ERROR_NONE)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/bench_rays.h"
+#include "bench/measure.h"
 #include "scene/scene.h"
 
 #include <atomic>
@@ -25,7 +26,8 @@ public:
     /// Traces all rays: rtcIntersect1 for the closest hits, rtcOccluded1 for any.
     void trace(bool any_hit, const std::vector<BenchRay>& rays, std::vector<BenchHit>& hits) const;
 
-    double build_seconds() const { return build_seconds_; }
+    /// Of building the tree.
+    Cost build_cost() const { return build_cost_; }
     /// Memory of the finished tree, in bytes, without the triangles' corners that it shares with the scene.
     size_t bytes() const { return size_t(bytes_.load()); }
 
@@ -34,7 +36,7 @@ private:
     BenchHit any(const BenchRay& ray) const;
 
     std::atomic<long long> bytes_{0};
-    double build_seconds_ = 0;
+    Cost build_cost_;
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
 };

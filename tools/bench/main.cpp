@@ -7,6 +7,7 @@
 #include "exit_code.h"
 #include "output/image.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -41,7 +42,7 @@ int run_speed(const BenchOptions& bench) {
     }
     if (!bench.stats_path.empty())
         write_text_file(bench.stats_path, speed_json(bench, device.info, scenes));
-    return EXIT_DONE;
+    return std::any_of(scenes.begin(), scenes.end(), is_wrong) ? EXIT_CHECK : EXIT_DONE;
 }
 
 int run(int argc, const char* const* argv) {

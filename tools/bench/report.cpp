@@ -24,8 +24,8 @@ double per_triangle(double value, const SceneSpeed& scene) {
     return scene.triangles ? value / double(scene.triangles) : 0;
 }
 
-double triangles_per_second(const TreeFigures& tree, const SceneSpeed& scene) {
-    return tree.seconds > 0 ? double(scene.triangles) / tree.seconds : 0;
+double triangles_per_second(double seconds, const SceneSpeed& scene) {
+    return seconds > 0 ? double(scene.triangles) / seconds : 0;
 }
 
 Json spread_json(const Spread& spread) {
@@ -33,10 +33,37 @@ Json spread_json(const Spread& spread) {
 }
 
 Json tree_json(const TreeFigures& tree, const SceneSpeed& scene) {
-    return {{"build_seconds", tree.seconds},
-            {"triangles_per_second", triangles_per_second(tree, scene)},
+    return {{"build_seconds", tree.cost.wall},
+            {"build_cpu_seconds", tree.cost.cpu},
+            {"triangles_per_second", triangles_per_second(tree.cost.wall, scene)},
             {"bytes", tree.bytes},
             {"bytes_per_triangle", per_triangle(double(tree.bytes), scene)}};
+}
+
+Json verdict_json(const Verdict& verdict) {
+    Json json = {{"twins", verdict.twins},
+                 {"differences", verdict.differences},
+                 {"judged", verdict.judged},
+                 {"clrt_wrong", verdict.clrt_wrong},
+                 {"embree_wrong", verdict.rival_wrong}};
+    if (!verdict.first_wrong.empty())
+        json["first_wrong"] = verdict.first_wrong;
+    return json;
+}
+
+Json kind_json(const KindSpeed& kind) {
+    Json json = {{"rays", kind.rays},
+                 {"hits", kind.hits},
+                 {"ratio", spread_json(kind.ratio)},
+                 {"ratio_robust", spread_json(kind.ratio_robust)},
+                 {"clrt_rays_per_second", spread_json(kind.clrt)},
+                 {"embree_rays_per_second", spread_json(kind.embree)},
+                 {"embree_robust_rays_per_second", spread_json(kind.embree_robust)}};
+    json["visits_per_ray"] = {
+        {"nodes", kind.visits.nodes}, {"leaves", kind.visits.leaves}, {"triangles", kind.visits.triangles}};
+    json["hits_compared"] = {{"embree", verdict_json(kind.verdict)},
+                             {"embree_robust", verdict_json(kind.verdict_robust)}};
+    return json;
 }
 
 Json scene_json(const SceneSpeed& scene) {
@@ -47,14 +74,7 @@ Json scene_json(const SceneSpeed& scene) {
     for (const KindSpeed& kind : scene.kinds)
         json["ratio"][ray_kind_name(kind.kind)] = kind.ratio.median;
     for (const KindSpeed& kind : scene.kinds)
-        json["kinds"][ray_kind_name(kind.kind)] = {
-            {"rays", kind.rays},
-            {"hits", kind.hits},
-            {"ratio", spread_json(kind.ratio)},
-            {"ratio_robust", spread_json(kind.ratio_robust)},
-            {"clrt_rays_per_second", spread_json(kind.clrt)},
-            {"embree_rays_per_second", spread_json(kind.embree)},
-            {"embree_robust_rays_per_second", spread_json(kind.embree_robust)}};
+        json["kinds"][ray_kind_name(kind.kind)] = kind_json(kind);
     json["tree"]["clrt"] = tree_json(scene.clrt, scene);
     json["tree"]["clrt"]["sah_cost"] = scene.sah_cost;
     json["tree"]["embree"] = tree_json(scene.embree, scene);
@@ -76,6 +96,37 @@ Json mean_ratios(const std::vector<SceneSpeed>& scenes) {
     return json;
 }
 
+std::string tree_text(const char* name, const TreeFigures& tree, const SceneSpeed& scene, bool cpu_time) {
+    const double seconds = cpu_time ? tree.cost.cpu : tree.cost.wall;
+    return fmt::format("{} {:.3f} s, {:.2f} Mtris/s, {:.1f} bytes a triangle", name, seconds,
+                       1e-6 * triangles_per_second(seconds, scene), per_triangle(double(tree.bytes), scene));
+}
+
+/// One line on the hits that differ from a rival's; nothing where none does.
+std::string verdict_text(const KindSpeed& kind, const Verdict& verdict, const char* rival) {
+    if (verdict.differences == 0)
+        return "";
+    std::string text =
+        fmt::format("hits    {}: {} of {} rays differ from {} beyond rounding; wrong: clrt {}, {} {}",
+                    ray_kind_name(kind.kind), verdict.differences, verdict.rays, rival, verdict.clrt_wrong,
+                    rival, verdict.rival_wrong);
+    if (verdict.judged < verdict.differences)
+        text += fmt::format(" (of the first {})", verdict.judged);
+    if (!verdict.first_wrong.empty())
+        text += "\n        clrt is WRONG " + verdict.first_wrong;
+    return text + "\n";
+}
+
+/// Averages over the rays of each kind.
+std::string visits_text(const SceneSpeed& scene) {
+    std::string text = "a ray visits";
+    for (const KindSpeed& kind : scene.kinds)
+        text += fmt::format("{} {} {:.1f} nodes, {:.1f} leaves, {:.1f} triangles",
+                            &kind == &scene.kinds[0] ? "" : ";", ray_kind_name(kind.kind), kind.visits.nodes,
+                            kind.visits.leaves, kind.visits.triangles);
+    return text + "\n";
+}
+
 } // namespace
 
 std::string format_speed(const SceneSpeed& scene, bool cpu_time) {
@@ -89,12 +140,13 @@ std::string format_speed(const SceneSpeed& scene, bool cpu_time) {
                         1e-6 * kind.embree_robust.median, ratio_text(kind.ratio_robust));
     text += fmt::format("million rays a second of {} time; ratios: median [quartiles] of the rounds\n",
                         cpu_time ? "CPU" : "wall");
-    text += fmt::format("tree    clrt {:.3f} s, {:.2f} Mtris/s, {:.1f} bytes a triangle, SAH cost {:.2f}; "
-                        "Embree {:.3f} s, {:.2f} Mtris/s, {:.1f} bytes a triangle\n",
-                        scene.clrt.seconds, 1e-6 * triangles_per_second(scene.clrt, scene),
-                        per_triangle(double(scene.clrt.bytes), scene), scene.sah_cost, scene.embree.seconds,
-                        1e-6 * triangles_per_second(scene.embree, scene),
-                        per_triangle(double(scene.embree.bytes), scene));
+    text += "trees " + tree_text("clrt", scene.clrt, scene, cpu_time) +
+            fmt::format(", SAH cost {:.2f}; ", scene.sah_cost) +
+            tree_text("Embree", scene.embree, scene, cpu_time) + "\n";
+    text += visits_text(scene);
+    for (const KindSpeed& kind : scene.kinds)
+        text += verdict_text(kind, kind.verdict, "Embree") +
+                verdict_text(kind, kind.verdict_robust, "robust Embree");
     return text;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/speed.h"
 
-#include "bench/clrt_side.h"
 #include "bench/embree_side.h"
 #include "scene/load_scene.h"
 
@@ -106,12 +105,18 @@ struct Contest {
             rounds->clear();
     }
 
-    KindSpeed result(const ClrtSide& side) const {
+    /// Sums the rounds up, judges the hits of the last one and counts visits.
+    KindSpeed result(ClrtSide& side, const RoundingBound& bound) const {
+        const bool any = wants_any_hit(set.kind);
         KindSpeed speed;
         speed.kind = set.kind;
         speed.rays = set.rays.size();
-        for (const BenchHit& hit : side.read(device_rays))
+        const std::vector<BenchHit> clrt_hits = side.read(device_rays);
+        for (const BenchHit& hit : clrt_hits)
             speed.hits += hit.triangle != NO_INDEX;
+        speed.verdict = arbitrate(side.scene(), bound, any, set.rays, clrt_hits, embree_hits);
+        speed.verdict_robust = arbitrate(side.scene(), bound, any, set.rays, clrt_hits, robust_hits);
+        speed.visits = side.count_visits(any, device_rays);
         speed.ratio = ratios(clrt, embree);
         speed.ratio_robust = ratios(clrt, robust);
         speed.clrt = rates(clrt, speed.rays);
@@ -122,6 +127,12 @@ struct Contest {
 };
 
 } // namespace
+
+bool is_wrong(const SceneSpeed& scene) {
+    return std::any_of(scene.kinds.begin(), scene.kinds.end(), [](const KindSpeed& kind) {
+        return kind.verdict.clrt_wrong > 0 || kind.verdict_robust.clrt_wrong > 0;
+    });
+}
 
 SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const std::string& path,
                          Progress& progress) {
@@ -146,17 +157,19 @@ SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const 
                 contest.forget();
         }
     }
-    progress.finish();
+    progress.update({"hits"});
 
     SceneSpeed result;
     result.path = path;
     result.triangles = clrt.bvh().triangle_count;
     result.layout = fmt::format("bvh{}", int(clrt.bvh().layout));
     result.sah_cost = clrt.bvh().sah_cost;
-    result.clrt = {clrt.bvh().seconds, 4 * (clrt.bvh().nodes.size() + clrt.bvh().leaves.size())};
-    result.embree = {embree.build_seconds(), embree.bytes()};
+    result.clrt = {clrt.build_cost(), 4 * (clrt.bvh().nodes.size() + clrt.bvh().leaves.size())};
+    result.embree = {embree.build_cost(), embree.bytes()};
+    const RoundingBound bound = rounding_bound(device.info.correctly_rounded_division);
     for (const Contest& contest : contests)
-        result.kinds.push_back(contest.result(clrt));
+        result.kinds.push_back(contest.result(clrt, bound));
+    progress.finish();
     return result;
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "app/progress.h"
+#include "bench/arbitrate.h"
 #include "bench/bench_options.h"
 #include "bench/bench_rays.h"
+#include "bench/clrt_side.h"
 #include "bench/measure.h"
 #include "device/device.h"
 
@@ -21,11 +23,13 @@ struct KindSpeed {
     Spread ratio_robust; ///< clrt over Embree's robust mode
     /// Rays a second, by the time that the ratio is taken of.
     Spread clrt, embree, embree_robust;
+    Verdict verdict, verdict_robust; ///< on the hits of clrt and Embree, and of its robust mode
+    Visits visits;                   ///< of clrt's tree
 };
 
 /// What building a tree took and gave.
 struct TreeFigures {
-    double seconds = 0;
+    Cost cost;
     size_t bytes = 0;
 };
 
@@ -38,6 +42,9 @@ struct SceneSpeed {
     TreeFigures clrt, embree;
     std::vector<KindSpeed> kinds;
 };
+
+/// True if clrt got some ray wrong.
+bool is_wrong(const SceneSpeed& scene);
 
 /// Loads a scene, makes the rays, and measures. Throws as loading and OpenCL do.
 SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const std::string& scene,
