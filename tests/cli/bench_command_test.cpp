@@ -81,6 +81,44 @@ TEST_F(BenchCommand, FourForAWrongTraversal) {
     EXPECT_TRUE(holds(result.out, {"clrt is WRONG"}));
 }
 
+TEST_F(BenchCommand, CountsAimedRaysThatGetOut) {
+    const CommandResult result = bench({"--watertight=100000", "--stats", "aimed.json"});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_TRUE(holds(result.out, {"sphere", "needle fans", "noise torus", "1e6 away", "lost rays: 0"}));
+    const auto json = nlohmann::json::parse(folder.read("aimed.json"));
+    EXPECT_GE(json.at("rays"), 100000);
+    EXPECT_EQ(json.at("lost"), 0);
+    EXPECT_EQ(json.at("cases").size(), 24u);
+}
+
+TEST_F(BenchCommand, FourForRaysThatGetOut) {
+    std::filesystem::copy(CLRT_KERNELS_FOLDER, folder.file("kernels"),
+                          std::filesystem::copy_options::recursive);
+    std::filesystem::copy_file(CLRT_BENCH_FOLDER "/kernels/naive/triangle.h",
+                               folder.file("kernels/geometry/triangle.h"),
+                               std::filesystem::copy_options::overwrite_existing);
+    const CommandResult result = bench({"--watertight=100000", "--kernels", "kernels"});
+    EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+    EXPECT_TRUE(holds(result.out, {"LOST from ("}));
+}
+
+TEST_F(BenchCommand, TellsWhatRobustnessCosts) {
+    for (const char* layout : {"bvh2", "bvh8"}) {
+        const CommandResult result =
+            bench(quick({cornell_box, "--robustness=50000", "--stats", "robustness.json", "--bvh", layout}));
+        EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+        EXPECT_TRUE(holds(result.out,
+                          {layout, "watertight triangles, padded boxes", "Moeller-Trumbore, plain boxes"}));
+        const auto json = nlohmann::json::parse(folder.read("robustness.json"));
+        const auto& variants = json.at("scenes")[0].at("variants");
+        ASSERT_EQ(variants.size(), 4u);
+        EXPECT_EQ(variants[0].at("lost"), 0);
+        for (size_t plain = 1; plain < 4; ++plain)
+            EXPECT_GT(variants[plain].at("lost"), 1000) << plain;
+        EXPECT_GT(variants[0].at("kinds").at("diffuse").at("seconds_per_ray").at("median"), 0);
+    }
+}
+
 TEST_F(BenchCommand, TwoForWrongUsage) {
     expect_usage_error({}, {"expected a scene"});
     expect_usage_error({"scene.obj", "--round", "3"}, {"--round", "--rounds"});
@@ -89,6 +127,9 @@ TEST_F(BenchCommand, TwoForWrongUsage) {
     expect_usage_error({"scene.obj", "--rays", "many"}, {"--rays", "'many'"});
     expect_usage_error({"scene.obj", "--bvh", "bvh3"}, {"--bvh", "'bvh3'"});
     expect_usage_error({"scene.obj", "--cpu-time=yes"}, {"--cpu-time", "takes no value"});
+    expect_usage_error({"scene.obj", "--watertight"}, {"--watertight", "scene.obj"});
+    expect_usage_error({"--watertight=0"}, {"--watertight", "'0'"});
+    expect_usage_error({"--watertight", "--robustness"}, {"--watertight", "--robustness"});
 }
 
 TEST_F(BenchCommand, OneAndThreeAsClrt) {

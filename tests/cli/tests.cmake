@@ -15,6 +15,6 @@ if(TARGET clrt-bench)
   clrt_test(cli bench_command_test)
   target_compile_definitions(bench_command_test PRIVATE
     CLRT_EXECUTABLE="$<TARGET_FILE:clrt-bench>" CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels"
-    CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
+    CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes" CLRT_BENCH_FOLDER="${PROJECT_SOURCE_DIR}/tools/bench")
   add_dependencies(bench_command_test clrt-bench)
 endif()

@@ -20,6 +20,8 @@ namespace {
 constexpr std::int64_t LARGEST_ROUNDS = 10000;
 /// Rays of a kind: 32 bytes each, three arrays of them at a time.
 constexpr std::int64_t LARGEST_RAYS = std::int64_t(1) << 26;
+/// Aimed rays; a year on a fast machine.
+constexpr std::int64_t LARGEST_AIMED_RAYS = std::int64_t(1) << 50;
 constexpr int LARGEST_THREADS = 4096;
 
 /// One option; a flag has no value name.
@@ -31,6 +33,17 @@ struct BenchOption {
 };
 
 void no_effect(BenchOptions&, const OptionValue&) {}
+
+void choose_mode(BenchOptions& options, BenchMode mode) {
+    if (options.mode != BenchMode::SPEED && options.mode != mode)
+        throw UsageError("options --watertight and --robustness: expected one of them, found both");
+    options.mode = mode;
+}
+
+void parse_aimed_rays(BenchOptions& options, const OptionValue& value) {
+    if (!value.text.empty())
+        options.aimed_rays = std::uint64_t(parse_whole(value, 1, LARGEST_AIMED_RAYS));
+}
 
 /// Every option once, in the order of --help.
 const std::vector<BenchOption>& table() {
@@ -66,18 +79,36 @@ const std::vector<BenchOption>& table() {
          [](BenchOptions& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
         {"--no-sidecar", "", "leave the options file SCENE.clrt unread",
          [](BenchOptions& o, const OptionValue&) { o.no_sidecar = true; }},
+        {"--watertight", "[=N]",
+         "no speed: aim N rays at vertices and edges of closed meshes and count those that get out (default "
+         "100000000)",
+         [](BenchOptions& o, const OptionValue& v) {
+             choose_mode(o, BenchMode::WATERTIGHT);
+             parse_aimed_rays(o, v);
+         }},
+        {"--robustness", "[=N]",
+         "compare clrt's watertight triangles and padded boxes with plain ones: time of a ray, wrong rays, "
+         "and lost "
+         "ones of N that are aimed (default 4000000)",
+         [](BenchOptions& o, const OptionValue& v) {
+             choose_mode(o, BenchMode::ROBUSTNESS);
+             parse_aimed_rays(o, v);
+         }},
         {"--help", "", "print this page and exit", no_effect},
         {"--version", "", "print the version and exit", no_effect},
     };
     return options;
 }
 
+/// Whether the option takes no value, or one only after '='.
 bool is_flag(const BenchOption& option) {
-    return option.value_name[0] == '\0';
+    return option.value_name[0] == '\0' || option.value_name[0] == '[';
 }
 
 std::string help_page() {
-    std::string page = "Usage: clrt-bench [options] scene.obj...\n\n"
+    std::string page = "Usage: clrt-bench [options] scene.obj...\n"
+                       "       clrt-bench [options] --watertight[=N]\n"
+                       "       clrt-bench [options] --robustness[=N] [scene.obj...]\n\n"
                        "Traces the same rays through the same triangles by clrt's kernels and by Embree, in "
                        "turns, and prints how\n"
                        "fast each was: rays from the camera (primary), from there to lights (shadow), to "
@@ -92,7 +123,7 @@ std::string help_page() {
             "  1    scene, input or output file, or host memory\n"
             "  2    wrong command line or options file\n"
             "  3    no such device, its compiler failed, or it lacks memory\n"
-            "  4    a check failed: a hit of clrt was wrong\n";
+            "  4    a check failed: a ray of clrt was wrong or lost\n";
     return page;
 }
 
@@ -134,9 +165,10 @@ std::vector<std::string> split(int argc, const char* const* argv,
 
 /// CLI11 hands a flag "true" when it stands alone and its text after '=' otherwise.
 void apply_option(BenchOptions& options, const BenchOption& option, const std::string& text) {
-    if (is_flag(option) && text != "true")
+    const bool stands_alone = is_flag(option) && text == "true";
+    if (option.value_name[0] == '\0' && !stands_alone)
         throw UsageError(fmt::format("option {} takes no value, found '{}'", option.name, text));
-    option.apply(options, {option.name, is_flag(option) ? "" : text, "", ""});
+    option.apply(options, {option.name, stands_alone ? "" : text, "", ""});
 }
 
 /// Sides of a picture with about so many pixels and whole tiles.
@@ -168,7 +200,10 @@ BenchOptions parse_bench_options(int argc, const char* const* argv) {
     for (size_t i = 0; i < table().size(); ++i)
         for (const std::string& text : texts[i])
             apply_option(options, table()[i], text);
-    if (options.scenes.empty())
+    if (options.mode == BenchMode::WATERTIGHT && !options.scenes.empty())
+        throw UsageError("--watertight makes its own meshes: expected no scene, found '" + options.scenes[0] +
+                         "'");
+    if (options.mode == BenchMode::SPEED && options.scenes.empty())
         throw UsageError(
             "expected a scene: clrt-bench [options] scene.obj...; `clrt-bench --help` lists the options");
     if (!options.stats_path.empty())
@@ -177,12 +212,15 @@ BenchOptions parse_bench_options(int argc, const char* const* argv) {
 }
 
 Options scene_options(const BenchOptions& bench, const std::string& scene) {
-    // --explain: nothing will be written, so no output folder is needed.
-    std::vector<const char*> arguments{"clrt-bench", "--explain"};
-    if (bench.no_sidecar)
-        arguments.push_back("--no-sidecar");
-    arguments.insert(arguments.end(), {"--", scene.c_str()});
-    Options options = parse_command_line(int(arguments.size()), arguments.data()).options;
+    Options options;
+    if (!scene.empty()) {
+        // --explain: nothing will be written, so no output folder is needed.
+        std::vector<const char*> arguments{"clrt-bench", "--explain"};
+        if (bench.no_sidecar)
+            arguments.push_back("--no-sidecar");
+        arguments.insert(arguments.end(), {"--", scene.c_str()});
+        options = parse_command_line(int(arguments.size()), arguments.data()).options;
+    }
     options.device = bench.device;
     options.bvh = bench.bvh;
     options.threads = bench.threads;

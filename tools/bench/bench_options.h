@@ -11,7 +11,11 @@
 
 namespace clrt {
 
+enum class BenchMode { SPEED, WATERTIGHT, ROBUSTNESS };
+
 struct BenchOptions {
+    BenchMode mode = BenchMode::SPEED;
+    std::uint64_t aimed_rays = 0; ///< of --watertight and --robustness; 0: their defaults
     std::vector<std::string> scenes;
     std::string device; ///< as for clrt
     BvhChoice bvh = BvhChoice::AUTO;
@@ -29,8 +33,8 @@ struct BenchOptions {
 /// Parses argv. Throws UsageError.
 BenchOptions parse_bench_options(int argc, const char* const* argv);
 
-/// clrt's own options for a scene: its options file, with what the bench was told on top, and a picture of so
-/// many pixels that each gives a primary ray. Throws UsageError and SceneError.
+/// clrt's own options for a scene (empty: one without a file): its options file, with what the bench was told
+/// on top, and a picture of so many pixels that each gives a primary ray. Throws UsageError and SceneError.
 Options scene_options(const BenchOptions& bench, const std::string& scene);
 
 } // namespace clrt

@@ -23,18 +23,11 @@ Bvh build_tree(const Scene& scene, BvhLayout layout, Cost& cost) {
     return bvh;
 }
 
-KernelFiles kernel_files(const Options& options) {
-    KernelFiles files =
-        options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
-    files.insert(bench_kernel_files().begin(), bench_kernel_files().end());
-    return files;
-}
-
-Program build(const Device& device, const Options& options, const Scene& scene, BvhLayout layout,
-              const std::string& name, const std::vector<std::string>& defines = {}) {
+Program build(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene,
+              BvhLayout layout, const std::string& name, const std::vector<std::string>& defines = {}) {
     ProgramRequest request;
     request.name = name;
-    request.source = expand_kernel_source(kernel_files(options), "bench/" + name + ".cl");
+    request.source = expand_kernel_source(files, "bench/" + name + ".cl");
     request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", find_effects(scene, options).mask),
                        fmt::format("BVH_LAYOUT={}", int(layout))};
     request.defines.insert(request.defines.end(), defines.begin(), defines.end());
@@ -53,6 +46,14 @@ std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_
     return values;
 }
 
+/// The rays of a buffer, without those that are none.
+std::vector<BenchRay> read_rays(const Device& device, const cl::Buffer& buffer, size_t count) {
+    std::vector<BenchRay> rays = read_buffer<BenchRay>(device, buffer, count);
+    const auto is_none = [](const BenchRay& ray) { return !(ray.origin.w > 0); };
+    rays.erase(std::remove_if(rays.begin(), rays.end(), is_none), rays.end());
+    return rays;
+}
+
 } // namespace
 
 const char* ray_kind_name(RayKind kind) {
@@ -69,20 +70,29 @@ const char* ray_kind_name(RayKind kind) {
     return "mirror";
 }
 
-ClrtSide::ClrtSide(const Device& device, const Options& options, const Scene& scene)
-    : device_(device), options_(options), scene_(scene),
+ClrtSide::ClrtSide(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene)
+    : device_(device), files_(files), options_(options), scene_(scene),
       bvh_(build_tree(scene, choose_layout(options.bvh, device.info), build_cost_)),
       buffers_(upload_scene(device, scene, bvh_)),
       params_(make_render_params(scene, options, film_scale(scene))),
-      make_(build(device, options, scene, bvh_.layout, "make_rays")),
-      trace_(build(device, options, scene, bvh_.layout, "trace")), primary_(make_, "make_primary"),
-      secondary_(make_, "make_secondary"), closest_(trace_, "trace_closest"), any_(trace_, "trace_any") {
+      trace_(build(device, files, options, scene, bvh_.layout, "trace")),
+      closest_(make_kernel(trace_, "trace_closest")), any_(make_kernel(trace_, "trace_any")) {
     params_.end_tile = params_.tile_count;
     params_.sample_count = 1;
-    for (Kernel* kernel : {&secondary_, &closest_, &any_})
-        bind_scene(buffers_, *kernel);
-    for (Kernel* kernel : {&primary_, &secondary_, &closest_, &any_})
-        kernel->set("params", params_);
+}
+
+Kernel ClrtSide::make_kernel(const Program& program, const std::string& name) const {
+    Kernel kernel(program, name);
+    if (kernel.has("bvh_nodes"))
+        bind_scene(buffers_, kernel);
+    kernel.set("params", params_);
+    return kernel;
+}
+
+const Program& ClrtSide::ray_maker() {
+    if (!ray_maker_)
+        ray_maker_ = build(device_, files_, options_, scene_, bvh_.layout, "make_rays");
+    return *ray_maker_;
 }
 
 void ClrtSide::launch(Kernel& kernel, u32 count) {
@@ -99,35 +109,27 @@ void ClrtSide::launch(Kernel& kernel, u32 count) {
 
 std::vector<BenchRay> ClrtSide::primary_rays(u32 sample) {
     const size_t slots = size_t(params_.tile_count) * TILE_PIXELS;
-    const cl::Buffer rays = create_buffer(device_, "rays", slots * sizeof(BenchRay));
+    const cl::Buffer made = create_buffer(device_, "rays", slots * sizeof(BenchRay));
     params_.first_sample = sample;
-    primary_.set("params", params_);
-    primary_.set("rays", rays);
-    launch(primary_, u32(slots));
-    std::vector<BenchRay> made = read_buffer<BenchRay>(device_, rays, slots);
-    made.erase(
-        std::remove_if(made.begin(), made.end(), [](const BenchRay& ray) { return !(ray.origin.w > 0); }),
-        made.end());
-    return made;
+    Kernel kernel = make_kernel(ray_maker(), "make_primary");
+    kernel.set("rays", made);
+    launch(kernel, u32(slots));
+    return read_rays(device_, made, slots);
 }
 
 std::vector<BenchRay> ClrtSide::secondary_rays(RayKind kind, const std::vector<BenchRay>& rays,
                                                const std::vector<BenchHit>& hits, u32 sample, u32 bounce) {
     const cl::Buffer made = create_buffer(device_, "rays", rays.size() * sizeof(BenchRay));
     params_.first_sample = sample;
-    secondary_.set("params", params_);
-    secondary_.set("rays", upload_buffer(device_, "rays", rays));
-    secondary_.set("hits", upload_buffer(device_, "hits", hits));
-    secondary_.set("count", u32(rays.size()));
-    secondary_.set("kind", u32(kind));
-    secondary_.set("bounce", bounce);
-    secondary_.set("made", made);
-    launch(secondary_, u32(rays.size()));
-    std::vector<BenchRay> result = read_buffer<BenchRay>(device_, made, rays.size());
-    result.erase(
-        std::remove_if(result.begin(), result.end(), [](const BenchRay& ray) { return !(ray.origin.w > 0); }),
-        result.end());
-    return result;
+    Kernel kernel = make_kernel(ray_maker(), "make_secondary");
+    kernel.set("rays", upload_buffer(device_, "rays", rays));
+    kernel.set("hits", upload_buffer(device_, "hits", hits));
+    kernel.set("count", u32(rays.size()));
+    kernel.set("kind", u32(kind));
+    kernel.set("bounce", bounce);
+    kernel.set("made", made);
+    launch(kernel, u32(rays.size()));
+    return read_rays(device_, made, rays.size());
 }
 
 DeviceRays ClrtSide::upload(const std::vector<BenchRay>& rays) const {
@@ -148,10 +150,8 @@ void ClrtSide::trace(bool any_hit, const DeviceRays& rays) {
 
 Visits ClrtSide::count_visits(bool any_hit, const DeviceRays& rays) {
     if (!visits_)
-        visits_ = build(device_, options_, scene_, bvh_.layout, "visits", {"CLRT_COUNT_VISITS=1"});
-    Kernel kernel(*visits_, any_hit ? "visits_any" : "visits_closest");
-    bind_scene(buffers_, kernel);
-    kernel.set("params", params_);
+        visits_ = build(device_, files_, options_, scene_, bvh_.layout, "visits", {"CLRT_COUNT_VISITS=1"});
+    Kernel kernel = make_kernel(*visits_, any_hit ? "visits_any" : "visits_closest");
     launch_over(kernel, rays);
     struct Counts {
         u32 nodes, leaves, triangles, unused;

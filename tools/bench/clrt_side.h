@@ -4,11 +4,11 @@
 #pragma once
 
 #include "app/options.h"
+#include "bench/bench_kernels.h"
 #include "bench/bench_rays.h"
 #include "bench/measure.h"
 #include "bvh/bvh.h"
 #include "device/device.h"
-#include "device/kernel_source.h"
 #include "device/program.h"
 #include "kernels/shared/render_types.h"
 #include "render/scene_buffers.h"
@@ -18,9 +18,6 @@
 #include <vector>
 
 namespace clrt {
-
-/// The files below tools/bench/kernels, inside the program.
-const KernelFiles& bench_kernel_files();
 
 /// Rays on the device, with a place for their hits.
 struct DeviceRays {
@@ -35,9 +32,9 @@ struct Visits {
 
 class ClrtSide {
 public:
-    /// Builds the tree, compiles the kernels (options.kernels_folder replaces the renderer's own) and
-    /// uploads. The device and the scene must outlive this object.
-    ClrtSide(const Device& device, const Options& options, const Scene& scene);
+    /// Builds the tree, compiles what traces from `files`, and uploads. The device and the scene must outlive
+    /// this object.
+    ClrtSide(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene);
 
     /// A ray for each pixel, in the order of the renderer's tiles; `sample` chooses the place within the
     /// pixel.
@@ -65,19 +62,22 @@ public:
     const Scene& scene() const { return scene_; }
 
 private:
+    Kernel make_kernel(const Program& program, const std::string& name) const;
+    const Program& ray_maker();
     void launch(Kernel& kernel, u32 count);
     void launch_over(Kernel& kernel, const DeviceRays& rays);
 
     const Device& device_;
-    const Options& options_;
+    const KernelFiles files_;
+    const Options options_;
     const Scene& scene_;
     Cost build_cost_;
     Bvh bvh_;
     SceneBuffers buffers_;
     RenderParams params_;
-    Program make_, trace_;
-    std::optional<Program> visits_; ///< built when first asked for
-    Kernel primary_, secondary_, closest_, any_;
+    Program trace_;
+    std::optional<Program> ray_maker_, visits_; ///< built when first asked for
+    Kernel closest_, any_;
 };
 
 } // namespace clrt

@@ -6,6 +6,7 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "render/kernels.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -42,7 +43,59 @@ int run_speed(const BenchOptions& bench) {
     }
     if (!bench.stats_path.empty())
         write_text_file(bench.stats_path, speed_json(bench, device.info, scenes));
-    return std::any_of(scenes.begin(), scenes.end(), is_wrong) ? EXIT_CHECK : EXIT_DONE;
+    return std::any_of(scenes.begin(), scenes.end(), [](const SceneSpeed& scene) { return is_wrong(scene); })
+               ? EXIT_CHECK
+               : EXIT_DONE;
+}
+
+int run_watertight_check(const BenchOptions& bench) {
+    const Device device = open_bench_device(bench);
+    Progress progress(Toggle::AUTO, /*quiet=*/false);
+    WatertightRequest request;
+    if (bench.aimed_rays > 0)
+        request.rays = bench.aimed_rays;
+    request.layout = choose_layout(bench.bvh, device.info);
+    request.files = all_kernel_files(bench.kernels_folder);
+    std::vector<WatertightCase> cases;
+    const Cost cost = measure([&] {
+        cases = run_watertight(device, request, [&](double share) {
+            progress.update({"aimed rays", share});
+        });
+    });
+    progress.finish();
+    fmt::print("{}", format_watertight(cases));
+    fmt::print("{:.1f} s; lost rays: {}\n", cost.wall, count_lost(cases));
+    if (!bench.stats_path.empty())
+        write_text_file(bench.stats_path, watertight_json(bench, device.info, cases, cost.wall));
+    return count_lost(cases) > 0 ? EXIT_CHECK : EXIT_DONE;
+}
+
+int run_robustness(const BenchOptions& bench) {
+    const Device device = open_bench_device(bench);
+    Progress progress(Toggle::AUTO, /*quiet=*/false);
+    std::vector<Robustness> scenes;
+    for (const std::string& path : bench.scenes.empty() ? std::vector<std::string>{""} : bench.scenes) {
+        scenes.push_back(compare_robustness(device, bench, path, progress));
+        fmt::print("{}{}", scenes.size() > 1 ? "\n" : "", format_robustness(scenes.back(), bench.cpu_time));
+        std::fflush(stdout);
+    }
+    if (!bench.stats_path.empty())
+        write_text_file(bench.stats_path, robustness_json(bench, device.info, scenes));
+    return std::any_of(scenes.begin(), scenes.end(), [](const Robustness& scene) { return is_wrong(scene); })
+               ? EXIT_CHECK
+               : EXIT_DONE;
+}
+
+int run_mode(const BenchOptions& bench) {
+    switch (bench.mode) {
+    case BenchMode::WATERTIGHT:
+        return run_watertight_check(bench);
+    case BenchMode::ROBUSTNESS:
+        return run_robustness(bench);
+    case BenchMode::SPEED:
+        break;
+    }
+    return run_speed(bench);
 }
 
 int run(int argc, const char* const* argv) {
@@ -56,7 +109,7 @@ int run(int argc, const char* const* argv) {
     if (bench.threads > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       size_t(bench.threads));
-    return run_speed(bench);
+    return run_mode(bench);
 }
 
 int report_error(int code, const char* what) {

@@ -28,6 +28,15 @@ double triangles_per_second(double seconds, const SceneSpeed& scene) {
     return seconds > 0 ? double(scene.triangles) / seconds : 0;
 }
 
+/// What every JSON starts with.
+Json run_json(const BenchOptions& bench, const DeviceInfo& device) {
+    Json json;
+    json["version"] = CLRT_VERSION;
+    json["command"] = fmt::format("{}", fmt::join(bench.command, " "));
+    json["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
+    return json;
+}
+
 Json spread_json(const Spread& spread) {
     return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
 }
@@ -152,16 +161,93 @@ std::string format_speed(const SceneSpeed& scene, bool cpu_time) {
 
 std::string speed_json(const BenchOptions& bench, const DeviceInfo& device,
                        const std::vector<SceneSpeed>& scenes) {
-    Json json;
-    json["version"] = CLRT_VERSION;
-    json["command"] = fmt::format("{}", fmt::join(bench.command, " "));
-    json["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
+    Json json = run_json(bench, device);
     json["embree"] = embree_version();
     json["rounds"] = bench.rounds;
     json["time"] = bench.cpu_time ? "cpu" : "wall";
     json["ratio"] = mean_ratios(scenes);
     for (const SceneSpeed& scene : scenes)
         json["scenes"].push_back(scene_json(scene));
+    return json.dump(2) + "\n";
+}
+
+std::string format_watertight(const std::vector<WatertightCase>& cases) {
+    std::string text = fmt::format("{:<12} {:<33} {:>9} {:>12} {:>6} {:>8}\n", "mesh", "place", "triangles",
+                                   "rays", "lost", "lost any");
+    for (const WatertightCase& result : cases) {
+        text += fmt::format("{:<12} {:<33} {:>9} {:>12} {:>6} {:>8}\n", result.mesh, result.place,
+                            result.triangles, result.rays, result.lost, result.lost_any);
+        if (const auto& ray = result.lost_ray)
+            text += fmt::format(
+                "             LOST from ({:.9g}, {:.9g}, {:.9g}) along ({:.9g}, {:.9g}, {:.9g})\n",
+                ray->origin.x, ray->origin.y, ray->origin.z, ray->direction.x, ray->direction.y,
+                ray->direction.z);
+    }
+    return text;
+}
+
+std::string watertight_json(const BenchOptions& bench, const DeviceInfo& device,
+                            const std::vector<WatertightCase>& cases, double seconds) {
+    Json json = run_json(bench, device);
+    std::uint64_t rays = 0;
+    for (const WatertightCase& result : cases)
+        rays += result.rays;
+    json["rays"] = rays;
+    json["lost"] = count_lost(cases);
+    json["seconds"] = seconds;
+    for (const WatertightCase& result : cases)
+        json["cases"].push_back({{"mesh", result.mesh},
+                                 {"place", result.place},
+                                 {"triangles", result.triangles},
+                                 {"rays", result.rays},
+                                 {"lost", result.lost},
+                                 {"lost_any", result.lost_any}});
+    return json.dump(2) + "\n";
+}
+
+std::string format_robustness(const Robustness& robustness, bool cpu_time) {
+    std::string text = fmt::format("{}: {} triangles, {}\n{:<36}", robustness.scene, robustness.triangles,
+                                   robustness.layout, "variant");
+    for (const VariantKind& kind : robustness.variants.front().kinds)
+        text += fmt::format("{:<21}", ray_kind_name(kind.kind));
+    text += fmt::format("{:<20}{}\n", "wrong", "lost of those aimed");
+    for (const Variant& variant : robustness.variants) {
+        size_t rays = 0, wrong = 0;
+        text += fmt::format("{:<36}", variant.name);
+        for (const VariantKind& kind : variant.kinds) {
+            text += fmt::format(
+                "{:<21}", fmt::format("{:.1f} ns ({:.3f})", 1e9 * kind.seconds.median, kind.ratio.median));
+            rays += kind.rays;
+            wrong += kind.wrong;
+        }
+        text += fmt::format("{:<20}{} of {}\n", fmt::format("{} of {}", wrong, rays), variant.lost,
+                            variant.aimed);
+    }
+    return text + fmt::format("ns of {} time a ray (ratio to the first row), medians of the rounds\n",
+                              cpu_time ? "CPU" : "wall");
+}
+
+std::string robustness_json(const BenchOptions& bench, const DeviceInfo& device,
+                            const std::vector<Robustness>& scenes) {
+    Json json = run_json(bench, device);
+    json["rounds"] = bench.rounds;
+    json["time"] = bench.cpu_time ? "cpu" : "wall";
+    for (const Robustness& scene : scenes) {
+        Json variants = Json::array();
+        for (const Variant& variant : scene.variants) {
+            Json entry = {{"name", variant.name}, {"aimed", variant.aimed}, {"lost", variant.lost}};
+            for (const VariantKind& kind : variant.kinds)
+                entry["kinds"][ray_kind_name(kind.kind)] = {{"seconds_per_ray", spread_json(kind.seconds)},
+                                                            {"ratio", spread_json(kind.ratio)},
+                                                            {"rays", kind.rays},
+                                                            {"wrong", kind.wrong}};
+            variants.push_back(entry);
+        }
+        json["scenes"].push_back({{"scene", scene.scene},
+                                  {"triangles", scene.triangles},
+                                  {"layout", scene.layout},
+                                  {"variants", variants}});
+    }
     return json.dump(2) + "\n";
 }
 

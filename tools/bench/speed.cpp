@@ -2,6 +2,7 @@
 #include "bench/speed.h"
 
 #include "bench/embree_side.h"
+#include "bench/ray_sets.h"
 #include "scene/load_scene.h"
 
 #include <algorithm>
@@ -10,45 +11,6 @@
 namespace clrt {
 
 namespace {
-
-/// Where few primary rays hit, more samples a pixel fill the other kinds up; so many at most.
-constexpr u32 MOST_SAMPLES = 16;
-
-/// All rays of a kind.
-struct RaySet {
-    RayKind kind;
-    std::vector<BenchRay> rays;
-};
-
-std::vector<BenchHit> trace_closest(ClrtSide& clrt, const std::vector<BenchRay>& rays) {
-    const DeviceRays device_rays = clrt.upload(rays);
-    clrt.trace(/*any_hit=*/false, device_rays);
-    return clrt.read(device_rays);
-}
-
-/// Makes primary rays, and from their hits the other kinds: up to `most` of each.
-std::vector<RaySet> make_rays(ClrtSide& clrt, size_t most) {
-    std::vector<RaySet> sets;
-    for (const RayKind kind : RAY_KINDS)
-        sets.push_back({kind, {}});
-    bool complete = false;
-    for (u32 sample = 0; sample < MOST_SAMPLES && !complete; ++sample) {
-        const std::vector<BenchRay> primary = clrt.primary_rays(sample);
-        const std::vector<BenchHit> hits = trace_closest(clrt, primary);
-        complete = true;
-        for (RaySet& set : sets) {
-            if (set.rays.size() >= most)
-                continue;
-            const std::vector<BenchRay> made = set.kind == RayKind::PRIMARY
-                                                   ? primary
-                                                   : clrt.secondary_rays(set.kind, primary, hits, sample, 1);
-            set.rays.insert(set.rays.end(), made.begin(), made.end());
-            set.rays.resize(std::min(set.rays.size(), most));
-            complete = complete && (set.rays.size() >= most || made.empty());
-        }
-    }
-    return sets;
-}
 
 /// Seconds of every round of one side.
 using Rounds = std::vector<double>;
@@ -139,10 +101,10 @@ SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const 
     const Options options = scene_options(bench, path);
     const Scene scene = load_scene(options, progress);
     progress.update({"trees and rays"});
-    ClrtSide clrt(device, options, scene);
+    ClrtSide clrt(device, all_kernel_files(bench.kernels_folder), options, scene);
     const EmbreeSide embree(scene, /*robust=*/false, bench.threads),
         robust(scene, /*robust=*/true, bench.threads);
-    const std::vector<RaySet> sets = make_rays(clrt, bench.rays);
+    const std::vector<RaySet> sets = make_ray_sets(clrt, bench.rays);
 
     // Round 0 warms up: the driver finishes compiling, pages are touched.
     std::vector<Contest> contests;

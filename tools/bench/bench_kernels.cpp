@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/bench_kernels.h"
+
+namespace clrt {
+
+KernelFiles all_kernel_files(const std::string& folder) {
+    KernelFiles files = folder.empty() ? embedded_kernel_files() : read_kernel_files(folder);
+    files.insert(bench_kernel_files().begin(), bench_kernel_files().end());
+    return files;
+}
+
+KernelFiles with_naive(KernelFiles files, bool triangle, bool box) {
+    if (triangle)
+        files["geometry/triangle.h"] = bench_kernel_files().at("naive/triangle.h");
+    if (box)
+        files["geometry/box.h"] = bench_kernel_files().at("naive/box.h");
+    return files;
+}
+
+} // namespace clrt
