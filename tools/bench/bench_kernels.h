@@ -16,7 +16,8 @@ const KernelFiles& bench_kernel_files();
 /// SceneError for a folder without kernels.
 KernelFiles all_kernel_files(const std::string& folder);
 
-/// Replaces the watertight triangle test by Moeller and Trumbore's, the conservative box test by plain slabs.
+/// Replaces the watertight triangle test by Moeller and Trumbore's; takes pad and exit factor off the
+/// conservative box test, which makes plain slabs of it. Throws SceneError for kernels that define neither.
 KernelFiles with_naive(KernelFiles files, bool triangle, bool box);
 
 } // namespace clrt

@@ -3,7 +3,7 @@
 
 #include "app/command_line.h"
 #include "app/nearest_name.h"
-#include "app/option_values.h"
+#include "app/option_table.h"
 #include "error.h"
 #include "kernels/shared/render_types.h"
 #include "output/image.h"
@@ -22,7 +22,6 @@ constexpr std::int64_t LARGEST_ROUNDS = 10000;
 constexpr std::int64_t LARGEST_RAYS = std::int64_t(1) << 26;
 /// Aimed rays; a year on a fast machine.
 constexpr std::int64_t LARGEST_AIMED_RAYS = std::int64_t(1) << 50;
-constexpr int LARGEST_THREADS = 4096;
 
 /// One option; a flag has no value name.
 struct BenchOption {
@@ -31,6 +30,11 @@ struct BenchOption {
     const char* help;
     void (*apply)(BenchOptions&, const OptionValue&);
 };
+
+/// For options that mean what they mean to clrt.
+void apply_as_clrt(BenchOptions& options, const OptionValue& value) {
+    find_option(value.option)->apply(options.clrt, value);
+}
 
 void no_effect(BenchOptions&, const OptionValue&) {}
 
@@ -50,16 +54,8 @@ const std::vector<BenchOption>& table() {
     static const std::vector<BenchOption> options = {
         {"--device", "NAME",
          "OpenCL device, as for clrt (default: CLRT_DEVICE, else the first GPU, else the CPU)",
-         [](BenchOptions& o, const OptionValue& v) {
-             if (v.text.empty())
-                 reject_value(v, "a name");
-             o.device = v.text;
-         }},
-        {"--bvh", "NAME", "layout of clrt's tree: auto, bvh8 or bvh2 (default auto)",
-         [](BenchOptions& o, const OptionValue& v) {
-             o.bvh = parse_choice<BvhChoice>(
-                 v, {{"auto", BvhChoice::AUTO}, {"bvh8", BvhChoice::BVH8}, {"bvh2", BvhChoice::BVH2}});
-         }},
+         apply_as_clrt},
+        {"--bvh", "NAME", "layout of clrt's tree, as for clrt (default auto)", apply_as_clrt},
         {"--rounds", "N", "measurements of each side, taken in turns (default 9)",
          [](BenchOptions& o, const OptionValue& v) {
              o.rounds = std::uint32_t(parse_whole(v, 1, LARGEST_ROUNDS));
@@ -68,13 +64,12 @@ const std::vector<BenchOption>& table() {
          [](BenchOptions& o, const OptionValue& v) {
              o.rays = std::uint32_t(parse_whole(v, 1, LARGEST_RAYS));
          }},
-        {"--threads", "N", "CPU threads of both sides, 0 for all (default 0)",
-         [](BenchOptions& o, const OptionValue& v) { o.threads = int(parse_whole(v, 0, LARGEST_THREADS)); }},
+        {"--threads", "N", "CPU threads of both sides, 0 for all (default 0)", apply_as_clrt},
         {"--cpu-time", "",
          "take ratios of CPU seconds, not of wall seconds: for a machine that does other work too",
          [](BenchOptions& o, const OptionValue&) { o.cpu_time = true; }},
         {"--kernels", "DIR", "take clrt's kernels from here (default: those inside clrt-bench)",
-         [](BenchOptions& o, const OptionValue& v) { o.kernels_folder = parse_path(v); }},
+         apply_as_clrt},
         {"--stats", "FILE", "write all figures as JSON, in SI units",
          [](BenchOptions& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
         {"--no-sidecar", "", "leave the options file SCENE.clrt unread",
@@ -221,10 +216,10 @@ Options scene_options(const BenchOptions& bench, const std::string& scene) {
         arguments.insert(arguments.end(), {"--", scene.c_str()});
         options = parse_command_line(int(arguments.size()), arguments.data()).options;
     }
-    options.device = bench.device;
-    options.bvh = bench.bvh;
-    options.threads = bench.threads;
-    options.kernels_folder = bench.kernels_folder;
+    options.device = bench.clrt.device;
+    options.bvh = bench.clrt.bvh;
+    options.threads = bench.clrt.threads;
+    options.kernels_folder = bench.clrt.kernels_folder;
     options.precision = Precision::SINGLE;
     options.crop.reset();
     options.size = size_for_rays(bench.rays, double(options.size.x) / double(options.size.y));

@@ -17,13 +17,10 @@ struct BenchOptions {
     BenchMode mode = BenchMode::SPEED;
     std::uint64_t aimed_rays = 0; ///< of --watertight and --robustness; 0: their defaults
     std::vector<std::string> scenes;
-    std::string device; ///< as for clrt
-    BvhChoice bvh = BvhChoice::AUTO;
+    Options clrt;                     ///< what means the same to clrt: device, bvh, threads, kernels_folder
     std::uint32_t rounds = 9;         ///< measurements of each side
     std::uint32_t rays = 1 << 20;     ///< of each kind
-    int threads = 0;                  ///< 0: all
     bool cpu_time = false;            ///< ratios of CPU seconds instead of wall seconds
-    std::string kernels_folder;       ///< replaces clrt's kernels
     std::string stats_path;           ///< JSON; empty: none
     bool no_sidecar = false;          ///< leaves SCENE.clrt unread
     std::vector<std::string> command; ///< argv as given

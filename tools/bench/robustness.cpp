@@ -119,7 +119,7 @@ Robustness compare_robustness(const Device& device, const BenchOptions& bench, c
     result.layout = fmt::format("bvh{}", int(layout));
     result.triangles = scene.triangles.size();
 
-    const KernelFiles files = all_kernel_files(bench.kernels_folder);
+    const KernelFiles files = all_kernel_files(bench.clrt.kernels_folder);
     time_variants(device, bench, files, scene, options, progress, result.variants);
     for (size_t i = 0; i < result.variants.size(); ++i) {
         Variant& variant = result.variants[i];
