@@ -75,16 +75,13 @@ const std::vector<BenchOption>& table() {
         {"--no-sidecar", "", "leave the options file SCENE.clrt unread",
          [](BenchOptions& o, const OptionValue&) { o.no_sidecar = true; }},
         {"--watertight", "[=N]",
-         "no speed: aim N rays at vertices and edges of closed meshes and count those that get out (default "
-         "100000000)",
+         "count the rays that leave closed meshes, of N aimed at edges (default 100000000)",
          [](BenchOptions& o, const OptionValue& v) {
              choose_mode(o, BenchMode::WATERTIGHT);
              parse_aimed_rays(o, v);
          }},
         {"--robustness", "[=N]",
-         "compare clrt's watertight triangles and padded boxes with plain ones: time of a ray, wrong rays, "
-         "and lost "
-         "ones of N that are aimed (default 4000000)",
+         "compare the watertight kernels with plain ones, with N aimed rays (default 4000000)",
          [](BenchOptions& o, const OptionValue& v) {
              choose_mode(o, BenchMode::ROBUSTNESS);
              parse_aimed_rays(o, v);
@@ -106,9 +103,15 @@ std::string help_page() {
                        "       clrt-bench [options] --robustness[=N] [scene.obj...]\n\n"
                        "Traces the same rays through the same triangles by clrt's kernels and by Embree, in "
                        "turns, and prints how\n"
-                       "fast each was: rays from the camera (primary), from there to lights (shadow), to "
-                       "random sides (diffuse) and\n"
-                       "by reflection (mirror). 1 means as fast as Embree.\n\nOptions:\n";
+                       "fast each was: rays from the camera (primary), and from where they hit to lights "
+                       "(shadow), in directions\n"
+                       "of the first diffuse bounce (diffuse) and of reflection (mirror). A ratio above 1: "
+                       "clrt is faster. Hits that\n"
+                       "differ are judged by all triangles in double precision.\n\n"
+                       "--watertight and --robustness aim rays exactly at vertices and edges of closed "
+                       "meshes. The latter tells what\n"
+                       "clrt's watertight triangle test and padded boxes cost against plain ones, and what "
+                       "those lose.\n\nOptions:\n";
     for (const BenchOption& option : table())
         page += fmt::format("  {:<18} {}\n",
                             std::string(option.name) + (is_flag(option) ? "" : " ") + option.value_name,
