@@ -61,7 +61,7 @@ static CLRT_NOINLINE Ray aimed_ray(const Scene* scene, uint triangle_count, glob
 }
 
 /* Every work-item traces its rays; lost ones are counted, and the last one of the launch is kept. */
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void aimed_trace(
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void aimed_trace(
     const RenderParams params, SCENE_PARAMS, global const float4* restrict cores, const uint core_count,
     const uint triangle_count, const uint seed, global volatile uint* counters, global float4* restrict lost)
 {

@@ -12,7 +12,7 @@
 #define BENCH_MIRROR 3u
 
 /* Primary rays in the order in which the renderer's work-groups take tiles. */
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void make_primary(
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void make_primary(
     const RenderParams params, global float4* restrict rays)
 {
     TilePixel place;
@@ -77,7 +77,7 @@ static Ray make_mirror(const Surface* surface, real3 d)
 }
 
 /* The ray of a kind from where each ray hit; nothing where it did not. */
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void make_secondary(
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void make_secondary(
     const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, global const float4* restrict hits,
     const uint count, const uint kind, const uint bounce, global float4* restrict made)
 {

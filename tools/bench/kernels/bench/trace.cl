@@ -12,7 +12,7 @@ static CLRT_NOINLINE void trace_closest_ray(const Scene* scene, const RenderPara
     bench_hit_store(hits, index, &hit);
 }
 
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void trace_closest(
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void trace_closest(
     const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const uint count,
     global float4* restrict hits)
 {
@@ -33,7 +33,7 @@ static CLRT_NOINLINE void trace_any_ray(const Scene* scene, const RenderParams* 
     bench_hit_store(hits, index, &hit);
 }
 
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void trace_any(
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void trace_any(
     const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const uint count,
     global float4* restrict hits)
 {

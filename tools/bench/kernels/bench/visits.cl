@@ -8,7 +8,7 @@ static void visits_store(global uint4* visits, uint index, const uint* counts)
     visits[index] = (uint4)(counts[0], counts[1], counts[2], 0u);
 }
 
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void visits_closest(
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void visits_closest(
     const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const uint count,
     global uint4* restrict hits)
 {
@@ -24,7 +24,7 @@ kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void visit
     visits_store(hits, index, counts);
 }
 
-kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void visits_any(
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void visits_any(
     const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const uint count,
     global uint4* restrict hits)
 {
