@@ -27,7 +27,21 @@ typedef struct {
     global const Emitter* restrict emitters;
     global const Light* restrict lights;
     global const EnvironmentTexel* restrict environment;
+#ifdef CLRT_COUNT_VISITS
+    uint* visits; /* of the rays so far: nodes, leaves, triangles; to be set by whoever counts */
+#endif
 } Scene;
+
+/* Count what a traversal visits, in builds that are made to (clrt-bench); else they are nothing. */
+#ifdef CLRT_COUNT_VISITS
+#define SCENE_COUNT_NODE(scene) (++(scene)->visits[0])
+#define SCENE_COUNT_LEAF(scene, triangle_count) (++(scene)->visits[1], (scene)->visits[2] += (triangle_count))
+#define SCENE_NO_VISITS , 0
+#else
+#define SCENE_COUNT_NODE(scene)
+#define SCENE_COUNT_LEAF(scene, triangle_count)
+#define SCENE_NO_VISITS
+#endif
 
 #define SCENE_PARAMS                                                                                          \
     global const uint* restrict bvh_nodes, global const uint* restrict bvh_leaves,                            \
@@ -39,6 +53,6 @@ typedef struct {
 
 #define SCENE_MAKE                                                                                            \
     {bvh_nodes, bvh_leaves,  triangles, positions, normals, uvs,                                              \
-     materials, textures, texel_words, emitters, lights, environment}
+     materials, textures, texel_words, emitters, lights, environment SCENE_NO_VISITS}
 
 #endif

@@ -134,6 +134,7 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
         global const uint* words = scene->bvh_nodes + BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
         const real limit = hit->t * BOX_EXIT_FACTOR;
+        SCENE_COUNT_NODE(scene);
         real entry[2] = {bvh2_enter(vload4(0, planes), vload2(4, planes), &box, limit),
                          bvh2_enter(vload4(1, planes), vload2(5, planes), &box, limit)};
         /* Test the triangles of children that are leaves, unless this is the way down of a restart. */
@@ -146,6 +147,7 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
                 continue;
             global const uint* leaf = scene->bvh_leaves + LEAF_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
             const uint count = words[BVH2_COUNT_WORD + side];
+            SCENE_COUNT_LEAF(scene, count);
             for (uint i = 0; i < count; ++i, leaf += LEAF_TRIANGLE_WORDS) {
                 Hit found;
                 if (!any)

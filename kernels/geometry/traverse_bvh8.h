@@ -79,6 +79,15 @@ static inline uint8 bvh8_planes(real3 reciprocal)
     return (uint8)(x, y, z, 8u - x, 40u - y, 72u - z, 0u, 0u);
 }
 
+/* How many triangles a block holds. */
+static inline uint bvh8_block_size(global const uint* block)
+{
+    uint size = 0u;
+    for (uint lane = 0; lane < BVH8_WIDTH; ++lane)
+        size += block[BVH8_BLOCK_ID_WORD + lane] != NO_INDEX ? 1u : 0u;
+    return size;
+}
+
 /* What a block's eight triangles give; v and w are still to be divided by det. */
 typedef struct {
     real8 v, w, det;
@@ -189,6 +198,7 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
         /* Go down to a leaf, leaving the farther children on the stack. */
         while (!(child & BVH_LEAF_BIT)) {
             global const uint* node = bvh8_node(scene, child);
+            SCENE_COUNT_NODE(scene);
             global const uint* children = node + BVH8_CHILD_WORD;
             real8 entry;
             const uint lanes = bvh8_enter(node, &box, planes, limit, &entry);
@@ -217,6 +227,7 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
             child = stack[top];
         }
         if (child & BVH_LEAF_BIT) {
+            SCENE_COUNT_LEAF(scene, bvh8_block_size(bvh8_leaf(scene, child)));
             bvh8_block_closest(bvh8_leaf(scene, child), &shear, after, hit);
             limit = hit->t * BOX_EXIT_FACTOR;
         }
@@ -243,6 +254,7 @@ static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* p
     for (;;) {
         while (!(child & BVH_LEAF_BIT)) {
             global const uint* node = bvh8_node(scene, child);
+            SCENE_COUNT_NODE(scene);
             real8 entry;
             const uint lanes = bvh8_enter(node, &box, planes, limit, &entry);
             if (lanes == 0u)
@@ -253,9 +265,11 @@ static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* p
                     stack[top++] = node[BVH8_CHILD_WORD + lane];
             child = stack[--top];
         }
-        if (child & BVH_LEAF_BIT)
+        if (child & BVH_LEAF_BIT) {
+            SCENE_COUNT_LEAF(scene, bvh8_block_size(bvh8_leaf(scene, child)));
             if (bvh8_block(bvh8_leaf(scene, child), &shear, ray->t_max).lanes != 0u)
                 return true;
+        }
         if (top == 0)
             return false;
         child = stack[--top];

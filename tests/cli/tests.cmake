@@ -19,3 +19,10 @@ clrt_command_test(odd_input_test)
 clrt_command_test(paths_command_test)
 clrt_command_test(picture_file_test)
 clrt_command_test(program_cache_cli_test)
+if(TARGET clrt-bench)
+  clrt_test(cli bench_command_test)
+  target_compile_definitions(bench_command_test PRIVATE
+    CLRT_EXECUTABLE="$<TARGET_FILE:clrt-bench>" CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels"
+    CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes" CLRT_BENCH_FOLDER="${PROJECT_SOURCE_DIR}/tools/bench")
+  add_dependencies(bench_command_test clrt-bench)
+endif()
