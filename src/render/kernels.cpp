@@ -37,6 +37,10 @@ const char* integrator_name(Integrator integrator) {
     return "path";
 }
 
+const char* sampler_name(SamplerChoice sampler) {
+    return sampler == SamplerChoice::INDEPENDENT ? "independent" : "sobol";
+}
+
 BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
     if (choice == BvhChoice::AUTO)
         return device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2;
@@ -63,6 +67,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
         request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
         request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
                            fmt::format("SAMPLES_AT_ONCE={}", samples_at_once(device.info))};
+        if (options.sampler == SamplerChoice::INDEPENDENT)
+            request.defines.push_back("CLRT_SAMPLER=SAMPLER_INDEPENDENT");
         request.precision = options.precision;
         request.dump_folder = options.dump_folder;
         request.cache = {options.cache, options.cache_folder};

@@ -20,6 +20,9 @@ struct RenderPrograms {
 /// Name of an integrator as on the command line; its kernel is "render_" + name in integrators/NAME.cl.
 const char* integrator_name(Integrator integrator);
 
+/// The name of a sampler, as in --sampler.
+const char* sampler_name(SamplerChoice sampler);
+
 /// The tree's layout: as chosen, else eight-wide on CPUs and binary elsewhere.
 BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device);
 

@@ -104,6 +104,7 @@ std::string report_json(const Report& report) {
     json["height"] = render.film.height;
     json["spp"] = render.film.samples;
     json["passes"] = render.passes;
+    json["sampler"] = sampler_name(report.options.sampler);
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = report.scene.triangles.size();
@@ -149,7 +150,9 @@ Metadata report_metadata(const Report& report) {
                       {"integrator", integrator_name(report.options.integrator)},
                       {"device", report.device.platform + ": " + report.device.name},
                       {"driver", report.device.driver},
+                      {"sampler", sampler_name(report.options.sampler)},
                       {"seed", std::to_string(report.options.seed)},
+                      {"replicates", std::to_string(render.film.replicates)},
                       {"first_sample", std::to_string(report.options.first_sample)},
                       {"spp", std::to_string(render.passes)},
                       {"seconds.load", seconds(report.load_seconds)},

@@ -34,10 +34,10 @@ void write_texture(const std::string& path, int width, int height, int channels,
 }
 
 const RenderPrograms& programs_for(const Options& options, u32 mask, BvhLayout layout) {
-    using Key = std::tuple<Integrator, Precision, u32, BvhLayout>;
+    using Key = std::tuple<Integrator, Precision, SamplerChoice, u32, BvhLayout>;
     // Never freed: at exit some drivers are gone before our statics.
     static auto* const programs = new std::map<Key, RenderPrograms>;
-    const Key key{options.integrator, options.precision, mask, layout};
+    const Key key{options.integrator, options.precision, options.sampler, mask, layout};
     const auto found = programs->find(key);
     if (found != programs->end())
         return found->second;
