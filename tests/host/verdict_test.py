@@ -131,6 +131,15 @@ class CorrelatedPixels(unittest.TestCase):
         self.assertGreater(wrong[False], 50)
 
 
+class SmallestMargin(unittest.TestCase):
+    def test_is_where_the_verdict_becomes_equivalent(self):
+        a, b = pair(7, 0.05)
+        within = verdict.judge(a, b, 16, ALPHA).within
+        self.assertEqual(verdict.judge(a, b, 16, ALPHA, within * 1.001).name, verdict.EQUIVALENT)
+        self.assertNotEqual(verdict.judge(a, b, 16, ALPHA, within * 0.999).name, verdict.EQUIVALENT)
+        self.assertNotEqual(verdict.judge(a, b, 16, ALPHA, 0.0).name, verdict.EQUIVALENT)
+
+
 class UnknownNoise(unittest.TestCase):
     def pictures(self, factor):
         a, b = pair(3, 0.001, factor)

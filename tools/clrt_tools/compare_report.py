@@ -16,6 +16,11 @@ def _number(value):
     return f"{value:.4g}" if abs(value) >= 1e-3 or value == 0 else f"{value:.3e}"
 
 
+def _two_digits(value):
+    """An estimate without digits it does not have, and without an exponent."""
+    return f"{float(f'{value:.2g}'):,.0f}" if 10 <= value < 1e9 else f"{value:.2g}"
+
+
 def picture_line(label, picture):
     """What a file holds."""
     facts = [str(picture.window)]
@@ -44,12 +49,12 @@ def metric_lines(metrics, noise, half_error):
 
 
 def worst_tile(family, values, tile_size, window):
-    """The tile and channel where `values` is largest, in words, and its index."""
+    """The tile and channel where `values` is largest, in words."""
     row, column, channel = index = numpy.unravel_index(int(numpy.nanargmax(values)), values.shape)
     x, y = window.x + column * tile_size, window.y + row * tile_size
     x1, y1 = (min(x + tile_size, window.x + window.width) - 1, min(y + tile_size, window.y + window.height) - 1)
-    mean = family.difference[index]
-    return f"x {x}-{x1}, y {y}-{y1}, {CHANNELS[channel]} ({mean:+.3g} +- {NORMAL_95 * family.error[index]:.2g})", index
+    return (f"x {x}-{x1}, y {y}-{y1}, {CHANNELS[channel]} ({family.difference[index]:+.3g} +- "
+            f"{NORMAL_95 * family.error[index]:.2g})")
 
 
 def test_lines(verdict, window):
@@ -65,10 +70,10 @@ def test_lines(verdict, window):
         lines.append(f"  whole {CHANNELS[channel]}   a - b = {whole.difference[0, 0, channel]:+.4g} +- "
                      f"{NORMAL_95 * whole.error[0, 0, channel]:.2g} (95 %), margin {whole.margin[0, 0, channel]:.2g}")
     if verdict.noise_known:
-        where, _ = worst_tile(tiles, 1 - tiles.adjusted_p, size, window)
+        where = worst_tile(tiles, 1 - tiles.adjusted_p, size, window)
         lines.append(f"  smallest p, corrected  {verdict.smallest_p:.3g}; of the tiles at {where}")
-    where, index = worst_tile(tiles, tiles.reach, size, window)
-    lines.append(f"  largest bound          {tiles.reach[index]:.3g} times the margin at {where}")
+    where = worst_tile(tiles, tiles.within, size, window)
+    lines.append(f"  equivalent within      {100 * verdict.within:.3g} % (the smallest margin that all pass); worst tile {where}")
     return lines
 
 
@@ -77,7 +82,7 @@ def verdict_line(verdict):
     name = f"{verdict.name} within {100 * verdict.margin:g} %" if verdict.name == verdicts.EQUIVALENT else verdict.name
     line = f"verdict   {name}: {verdict.reason}"
     if verdict.needs is not None:
-        line += (f"; 'equivalent' needs about {verdict.needs:.2g} times the samples of both pictures where the error "
+        line += (f"; 'equivalent' needs about {_two_digits(verdict.needs)} times the samples of both pictures where the error "
                  "falls with their square root, fewer where it falls faster")
     return line
 
@@ -101,10 +106,10 @@ def as_json(pictures, metrics, noise, half_error, verdict):
         "noise_rmse": _optional(noise), "mse_without_reference_noise": _optional(half_error),
         "verdict": verdict.name, "reason": verdict.reason, "needs_times_samples": _optional(verdict.needs),
         "alpha": verdict.alpha, "margin": verdict.margin, "smallest_p": _optional(verdict.smallest_p if verdict.noise_known else None),
-        "largest_reach": _optional(float(tiles.reach.max())), "tile_size": verdict.tile_size,
+        "equivalent_within": _optional(verdict.within), "tile_size": verdict.tile_size,
         "tiles": list(tiles.difference.shape[:2]),
         "rejected_tiles": int(verdict.rejected_tiles.sum()) if verdict.noise_known else None,
-        "outside_margin_tiles": int((tiles.reach.max(axis=-1) > 1).sum()),
+        "outside_margin_tiles": int((tiles.within.max(axis=-1) > verdict.margin).sum()),
         "whole": {"difference": [_optional(v) for v in verdict.whole.difference.ravel()],
                   "standard_error": [_optional(v) for v in verdict.whole.error.ravel()]},
     }

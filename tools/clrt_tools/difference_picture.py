@@ -67,7 +67,8 @@ def draw_difference(a, b, verdict, path, kind=SIGNED, scale=None):
     for axes in (left, right):
         axes.set_xlabel("x, pixels")
         axes.set_ylabel("y, pixels")
-    figure.suptitle(f"a = {os.path.basename(a.path)}    b = {os.path.basename(b.path)}    verdict: {verdict.name}")
+    a_name, b_name = (" + ".join(os.path.basename(part) for part in p.path.split(" + ")) for p in (a, b))
+    figure.suptitle(f"a = {a_name}    b = {b_name}    verdict: {verdict.name}")
     _save(figure, path)
     pyplot.close(figure)
 
@@ -97,5 +98,5 @@ def _draw_tiles(figure, axes, window, verdict, extent):
         axes.add_patch(Rectangle((x, y), min(size, extent[1] - x), min(size, extent[2] - y), fill=False, edgecolor="black",
                                  linewidth=1.5))
     tested = f" (frame: rejected, {int(rejected.sum())} of {rejected.size})" if verdict.noise_known else ""
-    axes.set_title("a - b, tile means, channel that differs most" + tested)
+    axes.set_title("tile means, channel that differs most" + tested, fontsize=11)
     figure.colorbar(image, ax=axes, extend="both", shrink=0.8, label=unit)

@@ -41,7 +41,7 @@ class Comparison:
     error: numpy.ndarray       # standard error of the difference
     adjusted_p: numpy.ndarray  # Holm within this family
     margin: numpy.ndarray
-    reach: numpy.ndarray       # |difference| + one-sided bound, over the margin: at most 1 is equivalent
+    within: numpy.ndarray      # the smallest margin that would show equivalence
     factor: numpy.ndarray      # samples needed, over those taken
 
 
@@ -54,6 +54,7 @@ class Verdict:
     tile_size: int
     alpha: float
     margin: float
+    within: float = float("inf")   # the smallest margin that would show equivalence
     needs: Optional[float] = None  # times the samples, where undecided
     noise_known: bool = True       # of both pictures; else p-values say nothing
 
@@ -124,14 +125,15 @@ def compare_tiles(a, b, picture_mean, alpha, margin):
         degrees = numpy.where(variance > 0, degrees, 1.0)
         p = numpy.where(error > 0, two_sided_p(difference / error, degrees), 0.0)
     p = numpy.where(numpy.abs(difference) <= rounding, 1.0, p)
-    bound = margin * (numpy.abs(b.mean) + PICTURE_PART * numpy.abs(picture_mean)) + rounding
+    scale = numpy.abs(b.mean) + PICTURE_PART * numpy.abs(picture_mean)
+    bound = margin * scale
     quantile = stdtrit(degrees, 1 - alpha)
     power = ndtri(1 - 0.5 * (1 - POWER) / error.size)
     with numpy.errstate(invalid="ignore", divide="ignore"):
-        reach = numpy.where(bound > 0, (numpy.abs(difference) + quantile * error) / bound,
-                            numpy.where((difference == 0) & (error == 0), 0.0, numpy.inf))
+        largest = numpy.maximum(numpy.abs(difference) + quantile * error - rounding, 0)
+        within = numpy.where(largest > 0, largest / scale, 0.0)
         factor = numpy.where(error > 0, ((ndtri(1 - alpha) + power) * error / bound) ** 2, 0.0)
-    return Comparison(difference, error, holm(p), bound, reach, factor)
+    return Comparison(difference, error, holm(p), bound, within, factor)
 
 
 def judge(a, b, tile_size=32, alpha=0.01, margin=0.005, exact=False):
@@ -145,14 +147,14 @@ def judge(a, b, tile_size=32, alpha=0.01, margin=0.005, exact=False):
         verdict.name, verdict.reason = DIFFERENT, f"{bad} pixels are not finite"
         return verdict
     unknown = [p.path for p in (a, b) if p.variance is None]
-    reach = max(family.reach.max() for family in families)
+    verdict.within = float(max(family.within.max() for family in families))
     rejected = verdict.smallest_p <= alpha
     if numpy.all(numpy.abs(a.mean - b.mean) <= FLOAT_ROUNDING * (numpy.abs(a.mean) + numpy.abs(b.mean))):
         verdict.name, verdict.reason = EQUIVALENT, "all pixels are the same"
     elif unknown and not exact:
         verdict.noise_known = False
-        _judge_without_noise(verdict, unknown, reach)
-    elif reach <= 1:
+        _judge_without_noise(verdict, unknown)
+    elif verdict.within <= margin:
         verdict.name = EQUIVALENT
         verdict.reason = "every tile's difference lies within the margin" + (
             "; a difference is certain, but smaller" if rejected else "")
@@ -164,10 +166,10 @@ def judge(a, b, tile_size=32, alpha=0.01, margin=0.005, exact=False):
     return verdict
 
 
-def _judge_without_noise(verdict, unknown, reach):
+def _judge_without_noise(verdict, unknown):
     """'Different' is out of reach where a picture's own noise could be the difference."""
     names = " and ".join(unknown)
-    if len(unknown) == 1 and reach <= 1:
+    if len(unknown) == 1 and verdict.within <= verdict.margin:
         verdict.name = EQUIVALENT
         verdict.reason = f"every tile lies within the margin of {names} as it stands, whose own noise is not known"
     else:
