@@ -31,9 +31,9 @@ class Sweep(unittest.TestCase):
         now = [0.0]
         budget = study_runs.Budget(100, lambda: now[0])
         self.assertTrue(budget.fits(Point(SOBOL, 4096, 1)))  # nothing is known yet
-        budget.note(Point(SOBOL, 16, 1), 5.0)
-        self.assertTrue(budget.fits(Point(SOBOL, 256, 1)))   # 80 s
-        self.assertFalse(budget.fits(Point(SOBOL, 512, 1)))  # 160 s
+        budget.note(Point(SOBOL, 16, 1), 9.0, 5.0)
+        self.assertTrue(budget.fits(Point(SOBOL, 256, 1)))   # 4 + 80 s
+        self.assertFalse(budget.fits(Point(SOBOL, 320, 1)))  # 4 + 100 s
         now[0] = 30
         self.assertFalse(budget.fits(Point(SOBOL, 256, 2)))
         self.assertTrue(study_runs.Budget(None).fits(Point(SOBOL, 4096, 1)))

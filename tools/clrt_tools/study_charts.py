@@ -82,8 +82,8 @@ def _draw_guides(axes, points):
     y0, y1 = axes.get_ylim()
     x = numpy.array([x0, x1])
     centre = numpy.exp(numpy.mean(numpy.log(points), axis=0))
-    for step in range(-6, 7):
-        axes.plot(x, centre[1] * 4.0 ** step * numpy.sqrt(centre[0] / x), color="#888888", linewidth=0.8, linestyle=":", zorder=0,
+    for step in range(-12, 13):
+        axes.plot(x, centre[1] * 2.0 ** step * numpy.sqrt(centre[0] / x), color="#777777", linewidth=0.9, linestyle=":", zorder=0,
                   label="slope -1/2" if step == 0 else None)
     axes.set_xlim(x0, x1)
     axes.set_ylim(y0, y1)

@@ -72,9 +72,10 @@ class Runner:
         path = os.path.join(self.folder, name)
         return words + list(self.extra) + ["-o", path + ".exr", "--stats", path + ".json"], path
 
-    def run(self, name, point):
-        """Renders; raises RunError with clrt's own words."""
+    def run(self, name, point, more=()):
+        """Renders, with `more` options; raises RunError with clrt's own words."""
         words, path = self.command(name, point.spp, point.seed, point.method, point.cold)
+        words += more
         with subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                               text=True, errors="replace") as process:
             try:
@@ -104,20 +105,19 @@ class Budget:
 
     def __init__(self, seconds, clock=time.monotonic):
         self.clock, self.start, self.seconds = clock, clock(), seconds
-        self.known = {}  # method: (spp, seconds) of its longest run
+        self.known = {}  # method: (spp, seconds of rendering, all other seconds) of its longest run
 
     def elapsed(self):
         return self.clock() - self.start
 
-    def note(self, point, seconds):
-        spp, longest = self.known.get(point.method, (0, 0.0))
-        if point.spp >= spp:
-            self.known[point.method] = (point.spp, seconds if point.spp > spp else max(seconds, longest))
+    def note(self, point, seconds, render_seconds):
+        if point.spp >= self.known.get(point.method, (0,))[0]:
+            self.known[point.method] = (point.spp, render_seconds, seconds - render_seconds)
 
     def estimate(self, point):
         """Seconds that a run will take; 0 where nothing is known."""
-        spp, seconds = self.known.get(point.method, (0, 0.0))
-        return seconds * max(1.0, point.spp / spp) if spp else 0.0
+        spp, rendering, others = self.known.get(point.method, (point.spp, 0.0, 0.0))
+        return others + rendering * point.spp / spp
 
     def fits(self, point):
         return self.seconds is None or self.elapsed() + self.estimate(point) <= self.seconds
