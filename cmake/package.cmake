@@ -38,4 +38,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # An OpenCL device: PoCL brings the CPU and the compiler it needs; any vendor's driver does as well.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "pocl-opencl-icd | opencl-icd")
+# What clrt-compare and clrt-study need.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
+  "python3, python3-numpy, python3-scipy, python3-openimageio, python3-xxhash, python3-matplotlib, \
+python3-jinja2")
 include(CPack)

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random numbers by address: every number is a pure function of (seed, pixel, replicate, sample, bounce, purpose).
 // Pairs come from Owen-scrambled Sobol points (Owen 1995; hashed scrambling: Laine and Karras 2011; padding with
-// shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash.
+// shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash. -DCLRT_SAMPLER=SAMPLER_INDEPENDENT takes pairs from
+// a hash too: white noise, to measure what the order of Sobol points is worth.
 #ifndef CLRT_NUMERICS_SAMPLER_H
 #define CLRT_NUMERICS_SAMPLER_H
 
 #include "real.h"
+
+#define SAMPLER_SOBOL 0
+#define SAMPLER_INDEPENDENT 1
+#ifndef CLRT_SAMPLER
+#define CLRT_SAMPLER SAMPLER_SOBOL
+#endif
 
 /* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number. */
 #define SAMPLE_FILM 0u
@@ -102,8 +109,16 @@ static inline real sampler_number(const Sampler* sampler, uint bounce, uint purp
     return sampler_unit(sampler_word(sampler, bounce, purpose));
 }
 
+/* A pair of words that is independent of all others. The second mixes pixel and sample in once more: a function of the first
+   alone would put all pairs on one curve. */
+static inline uint2 sampler_independent_words(const Sampler* sampler, uint bounce, uint purpose)
+{
+    const uint x = sampler_hash(sampler_word(sampler, bounce, purpose) ^ 0xa511e9b3u);
+    return (uint2)(x, sampler_hash(x ^ sampler_hash(sampler->key + sampler->index_reversed)));
+}
+
 /* A pair of words: over a replicate's first 2^m samples, a scrambled (0, m, 2)-net. */
-static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
+static inline uint2 sampler_sobol_words(const Sampler* sampler, uint bounce, uint purpose)
 {
     const uint key = sampler_hash(sampler->key + sampler_address(bounce, purpose) * 0x9e3779b9u);
     /* Shuffle the index, so that different addresses are independent of each other. */
@@ -112,6 +127,14 @@ static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint
     const uint x = sampler_scramble_reversed(index, key * 0x9e3779b9u);
     const uint y = sampler_scramble_reversed(sampler_pascal_reversed(index), key * 0x85ebca6bu);
     return (uint2)(sampler_reverse_bits(x), sampler_reverse_bits(y));
+}
+
+/* A pair of words of the chosen kind. */
+static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
+{
+    if (CLRT_SAMPLER == SAMPLER_INDEPENDENT)
+        return sampler_independent_words(sampler, bounce, purpose);
+    return sampler_sobol_words(sampler, bounce, purpose);
 }
 
 static inline real2 sampler_pair(const Sampler* sampler, uint bounce, uint purpose)

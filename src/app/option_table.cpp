@@ -238,6 +238,13 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.replicates = static_cast<int>(parse_whole(v, 1, LARGEST_REPLICATES));
          }},
+        {group, "", "--sampler", "NAME",
+         "sobol (scrambled points, even over the samples of a pixel) or independent (white noise, to compare "
+         "with) (default sobol)",
+         [](Options& o, const OptionValue& v) {
+             o.sampler = parse_choice<SamplerChoice>(
+                 v, {{"sobol", SamplerChoice::SOBOL}, {"independent", SamplerChoice::INDEPENDENT}});
+         }},
         {group, "", "--precision", "NAME",
          "single, double (needs fp64) or fast (relaxed maths) (default single)",
          [](Options& o, const OptionValue& v) {

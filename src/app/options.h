@@ -15,6 +15,7 @@ namespace clrt {
 
 enum class Integrator { RAYCAST, WHITTED, PATH };
 enum class Precision { SINGLE, DOUBLE, FAST };
+enum class SamplerChoice { SOBOL, INDEPENDENT };
 enum class Toggle { AUTO, ON, OFF };
 enum class BvhChoice { AUTO, BVH8, BVH2, CWBVH };
 enum class Filter { BOX, TENT, GAUSSIAN };
@@ -86,6 +87,7 @@ struct Options {
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;
     int replicates = 8;
+    SamplerChoice sampler = SamplerChoice::SOBOL;
     Precision precision = Precision::SINGLE;
     int threads = 0; ///< 0: all
     BvhChoice bvh = BvhChoice::AUTO;

@@ -118,6 +118,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Fil
     identity["kernels"] = kernels_hash(options);
     identity["scene"] = scene_hash(scene);
     identity["precision"] = precision_name(options.precision);
+    identity["sampler"] = sampler_name(options.sampler);
     identity["seed"] = params.seed;
     identity["replicates"] = params.replicates;
     identity["size"] = {params.width, params.height};

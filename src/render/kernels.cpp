@@ -37,6 +37,10 @@ const char* integrator_name(Integrator integrator) {
     return "path";
 }
 
+const char* sampler_name(SamplerChoice sampler) {
+    return sampler == SamplerChoice::INDEPENDENT ? "independent" : "sobol";
+}
+
 BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
     switch (choice) {
     case BvhChoice::BVH8:
@@ -71,6 +75,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
         request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
                            fmt::format("SAMPLES_AT_ONCE={}", samples_at_once(device.info))};
         request.defines.insert(request.defines.end(), defines.begin(), defines.end());
+        if (options.sampler == SamplerChoice::INDEPENDENT)
+            request.defines.push_back("CLRT_SAMPLER=SAMPLER_INDEPENDENT");
         request.precision = options.precision;
         request.dump_folder = options.dump_folder;
         request.cache = {options.cache, options.cache_folder};

@@ -22,6 +22,9 @@ struct RenderPrograms {
 /// Name of an integrator as on the command line; its kernel is "render_" + name in integrators/NAME.cl.
 const char* integrator_name(Integrator integrator);
 
+/// The name of a sampler, as in --sampler.
+const char* sampler_name(SamplerChoice sampler);
+
 /// The tree's layout: as chosen, else bvh8 on CPUs, where it is the fastest that was measured, and bvh2 elsewhere: the
 /// simpler of the two layouts for GPUs, until bvh2 and cwbvh have been measured on one.
 BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device);

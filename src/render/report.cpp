@@ -114,6 +114,7 @@ std::string report_json(const Report& report) {
     json["spp"] = film_samples(render.film);
     json["passes"] = render.passes;
     json["first_sample"] = report.options.first_sample;
+    json["sampler"] = sampler_name(report.options.sampler);
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = report.scene.triangles.size();
@@ -162,7 +163,9 @@ Metadata report_metadata(const Report& report) {
                       {"integrator", integrator_name(report.options.integrator)},
                       {"device", report.device.platform + ": " + report.device.name},
                       {"driver", report.device.driver},
+                      {"sampler", sampler_name(report.options.sampler)},
                       {"seed", std::to_string(report.options.seed)},
+                      {"replicates", std::to_string(render.film.replicates)},
                       {"first_sample", std::to_string(report.options.first_sample)},
                       {"spp", std::to_string(film_samples(render.film))},
                       {"stop", render.stop_text},

@@ -55,6 +55,7 @@ const std::map<std::string, std::string>& samples() {
         {"--seed", "4294967295"},
         {"--first-sample", "32"},
         {"--replicates", "4"},
+        {"--sampler", "independent"},
         {"--precision", "double"},
         {"--threads", "2"},
         {"--bvh", "bvh2"},
@@ -123,6 +124,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     EXPECT_EQ(o.roulette_depth, 5);
     EXPECT_EQ(o.min_contribution, 0.002);
     EXPECT_EQ(o.replicates, 8);
+    EXPECT_EQ(o.sampler, SamplerChoice::SOBOL);
     EXPECT_EQ(o.size, glm::ivec2(800, 600));
     EXPECT_EQ(o.outputs, std::vector<std::string>{"scene.png"});
     EXPECT_EQ(o.filter, Filter::BOX);
@@ -425,6 +427,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--seed", "0x10"},
         {"--replicates", "0"},
         {"--replicates", "65"},
+        {"--sampler", "halton"},
         {"--precision", "half"},
         {"--threads", "-1"},
         {"--bvh", "bvh4"},

@@ -30,6 +30,8 @@ KernelProbe& probe() {
         made.add<u32(u32, u32, u32, u32, u32, u32)>("word", make + "sampler_word(&s, e, f);");
         made.add<u32(u32, u32, u32, u32, u32, u32)>("pair_x", make + "sampler_pair_words(&s, e, f).x;");
         made.add<u32(u32, u32, u32, u32, u32, u32)>("pair_y", make + "sampler_pair_words(&s, e, f).y;");
+        made.add<u32(u32, u32, u32, u32, u32, u32)>("white_x", make + "sampler_independent_words(&s, e, f).x;");
+        made.add<u32(u32, u32, u32, u32, u32, u32)>("white_y", make + "sampler_independent_words(&s, e, f).y;");
         made.add<float(u32, u32, u32, u32, u32, u32)>("number", make + "sampler_number(&s, e, f);");
         made.add<float(u32, u32, u32, u32, u32, u32)>("unit_x", make + "sampler_pair(&s, e, f).x;");
         made.add<float(u32, u32, u32, u32, u32, u32)>("unit_y", make + "sampler_pair(&s, e, f).y;");
@@ -293,6 +295,7 @@ TEST(Sampler, DifferentAddressesHaveDifferentWords) {
         const std::vector<u32> word = set.run<u32>("word");
         EXPECT_EQ(repeats(word, set.run<u32>("pair_x")), 0u);
         EXPECT_EQ(repeats(set.run<u32>("pair_x"), set.run<u32>("pair_y")), 0u);
+        EXPECT_EQ(repeats(set.run<u32>("white_x"), set.run<u32>("white_y")), 0u);
         std::vector<double> counts(4096);
         for (const u32 w : word)
             ++counts[w >> 20];
@@ -312,12 +315,31 @@ TEST(Sampler, NumbersOfTwoAddressesAreIndependent) {
         for (size_t side = 0; side < 2; ++side)
             for (u32 i = 0; i < SAMPLES * PIXELS; ++i)
                 sets[side].add(0, i / SAMPLES, 0, i % SAMPLES, couple[side].bounce, couple[side].purpose);
-        for (const char* first : {"pair_x", "word"})
-            for (const char* second : {"pair_x", "pair_y", "word"}) {
+        for (const char* first : {"pair_x", "word", "white_x", "white_y"})
+            for (const char* second : {"pair_x", "pair_y", "word", "white_x", "white_y"}) {
                 const std::vector<u32> a = sets[0].run<u32>(first), b = sets[1].run<u32>(second);
                 EXPECT_GT(normal_p_value(correlation_z(a, b)), SMALLEST_P) << first << " " << second;
                 EXPECT_GT(independence_p_value(a, b), SMALLEST_P) << first << " " << second;
             }
+    }
+}
+
+TEST(Sampler, IndependentPairsAreWhiteNoise) {
+    // One pixel's samples, one sample's pixels, one sample's addresses: each fills the square as chance does.
+    constexpr u32 COUNT = 1u << 16;
+    std::array<Addresses, 3> sets;
+    for (u32 i = 0; i < COUNT; ++i) {
+        sets[0].add(0, 7, 0, i, 1, 1);
+        sets[1].add(0, i, 0, 3, 1, 1);
+        sets[2].add(0, 7, 0, 3, i / PURPOSES, i % PURPOSES);
+    }
+    for (const Addresses& set : sets) {
+        const std::vector<u32> x = set.run<u32>("white_x"), y = set.run<u32>("white_y"), word = set.run<u32>("word");
+        EXPECT_GT(independence_p_value(x, y), SMALLEST_P);
+        EXPECT_GT(normal_p_value(correlation_z(x, y)), SMALLEST_P);
+        EXPECT_GT(independence_p_value(x, word), SMALLEST_P);
+        EXPECT_GT(independence_p_value(y, word), SMALLEST_P);
+        EXPECT_FALSE(is_net(x, y, 10));
     }
 }
 
@@ -332,11 +354,11 @@ TEST(Sampler, NumbersOfTwoPixelsReplicatesAndSamplesAreIndependent) {
         sets[3].add(0, pixel, 0, sample + 1, 1, 1);
     }
     for (size_t other = 1; other < sets.size(); ++other)
-        for (const char* name : {"pair_x", "pair_y", "word"}) {
-            // Neighbouring samples of one sequence are dependent by design; single words are not.
-            if (other == 3 && std::string(name) != "word")
+        for (const std::string name : {"pair_x", "pair_y", "word", "white_x", "white_y"}) {
+            // Neighbouring samples of one Sobol sequence are dependent by design.
+            if (other == 3 && name.rfind("pair", 0) == 0)
                 continue;
-            const std::vector<u32> a = sets[0].run<u32>(name), b = sets[other].run<u32>(name);
+            const std::vector<u32> a = sets[0].run<u32>(name.c_str()), b = sets[other].run<u32>(name.c_str());
             EXPECT_GT(normal_p_value(correlation_z(a, b)), SMALLEST_P) << name << other;
             EXPECT_GT(independence_p_value(a, b), SMALLEST_P) << name << other;
         }

@@ -41,10 +41,11 @@ RenderPrograms build_programs(Options options, const Effects& effects, BvhLayout
 }
 
 const RenderPrograms& programs_for(const Options& options, const Effects& effects, BvhLayout layout) {
-    using Key = std::tuple<Integrator, Precision, u32, BvhLayout, std::vector<std::string>>;
+    using Key = std::tuple<Integrator, Precision, SamplerChoice, u32, BvhLayout, std::vector<std::string>>;
     // Never freed: at exit some drivers are gone before our statics.
     static auto* const programs = new std::map<Key, RenderPrograms>;
-    const Key key{options.integrator, options.precision, effects.mask, layout, path_defines(effects.paths)};
+    const Key key{options.integrator, options.precision, options.sampler,
+                  effects.mask,       layout,            path_defines(effects.paths)};
     const auto found = programs->find(key);
     if (found != programs->end())
         return found->second;

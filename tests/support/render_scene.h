@@ -46,8 +46,8 @@ public:
     double scale = 1; ///< of positions in the OBJ file
 };
 
-/// Renders a loaded scene as the options' effects want it. Programs are compiled once a process for each integrator, mask, layout and
-/// precision. The variable CLRT_TEST_KERNELS names a folder of kernels to take instead of those inside the
+/// Renders a loaded scene as the options' effects want it. Programs are compiled once a process for each integrator,
+/// mask, layout, precision and sampler. The variable CLRT_TEST_KERNELS names a folder of kernels to take instead of those inside the
 /// test.
 Render render_loaded(Scene scene, Options options);
 

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""clrt_tools/study_*.py without clrt: order of the runs, the budget, errors and their sums."""
+import os
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
+from noisy_pictures import write_exr  # noqa: E402
+from clrt_tools import study_results, study_runs  # noqa: E402
+from clrt_tools.study_runs import Method, Point, Run  # noqa: E402
+
+SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "independent")
+
+
+def stats(render):
+    return {"seconds": {"load": 0.1, "bvh": 0.2, "compile": 0.3, "first_launch": 0.4, "render": render, "total": 2.0}}
+
+
+class Sweep(unittest.TestCase):
+    def test_every_combination_runs_once_a_repeat_and_compiles_anew_once(self):
+        points = study_runs.sweep([SOBOL, WHITE], [16, 4], 3)
+        self.assertEqual(len(set((p.method, p.spp, p.seed) for p in points)), 2 * 2 * 3)
+        self.assertEqual([(p.spp, p.seed) for p in points[:4]], [(4, 1), (4, 1), (16, 1), (16, 1)])
+        self.assertEqual([p.method for p in points if p.cold], [SOBOL, WHITE])
+        self.assertFalse({p.seed for p in points} & set(study_runs.REFERENCE_SEEDS))
+
+    def test_runs_beyond_the_budget_do_not_start(self):
+        now = [0.0]
+        budget = study_runs.Budget(100, lambda: now[0])
+        self.assertTrue(budget.fits(Point(SOBOL, 4096, 1)))  # nothing is known yet
+        budget.note(Point(SOBOL, 16, 1), 9.0, 5.0)
+        self.assertTrue(budget.fits(Point(SOBOL, 256, 1)))   # 4 + 80 s
+        self.assertFalse(budget.fits(Point(SOBOL, 320, 1)))  # 4 + 100 s
+        now[0] = 30
+        self.assertFalse(budget.fits(Point(SOBOL, 256, 2)))
+        self.assertTrue(study_runs.Budget(None).fits(Point(SOBOL, 4096, 1)))
+
+
+class Errors(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.random = numpy.random.default_rng(1)
+        self.truth = numpy.full((60, 80, 3), 0.5)
+
+    def noisy(self, name, deviation):
+        path = os.path.join(self.folder, name)
+        mean = self.truth + self.random.normal(0, deviation, self.truth.shape)
+        write_exr(path, mean, numpy.full(mean.shape, deviation ** 2))
+        return path
+
+    def run_of(self, name, deviation, seed=1, spp=16, render=2.0):
+        return Run(Point(SOBOL, spp, seed), "clrt", self.noisy(name, deviation), stats(render), 1.0)
+
+    def test_are_free_of_the_references_noise(self):
+        # Of relMSE only in the numerator: there the reference is the better picture, as it should be.
+        run = self.run_of("x.exr", 0.05)
+        for files in (["a.exr", "b.exr"], ["a.exr"]):
+            for noise, metric, expected in ((0.1, "rel_rmse", 0.05 / 0.5), (0.02, "relmse", 0.05 ** 2 / 0.26)):
+                reference = study_results.reference_of_files([self.noisy(name, noise) for name in files])
+                study_results.measure(run, reference)
+                self.assertAlmostEqual(getattr(run, metric) / expected, 1, delta=0.06, msg=f"{files} {metric}")
+
+    def test_of_another_size_are_refused(self):
+        reference = study_results.Reference(numpy.ones((4, 5, 3)))
+        with self.assertRaises(ValueError):
+            study_results.measure(self.run_of("x.exr", 0.05), reference)
+
+    def test_of_repeats_are_averaged_as_squares(self):
+        reference = study_results.Reference(self.truth)
+        runs = [self.run_of(f"{i}.exr", deviation, i, render=render) for i, deviation, render in
+                ((1, 0.03, 1.0), (2, 0.05, 2.0), (3, 0.04, 9.0))]
+        for run in runs:
+            study_results.measure(run, reference)
+        summary, = study_results.summarise(runs, reference)[SOBOL]
+        expected = ((0.03 ** 2 + 0.05 ** 2 + 0.04 ** 2) / 3) ** 0.5 / 0.5
+        self.assertAlmostEqual(summary.error, expected, delta=0.002)
+        self.assertAlmostEqual(summary.low, 0.06, delta=0.002)
+        self.assertAlmostEqual(summary.high, 0.1, delta=0.002)
+        self.assertEqual((summary.seconds, summary.repeats), (2.0, 3))
+        self.assertAlmostEqual(summary.efficiency, 1 / (summary.error ** 2 * 2.0))
+
+    def test_below_the_references_noise_have_no_number(self):
+        self.assertIsNone(study_results.relative_root(-1e-9, study_results.Reference(self.truth)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Errors of the runs of a study against its reference, summed up method by method, and as CSV."""
+import csv
+import dataclasses
+import io
+import statistics
+from typing import Optional
+
+import numpy
+
+from clrt_tools.atomic_text import write_text
+from clrt_tools.metrics import SMALL_SQUARE, squared_error_without_noise
+from clrt_tools.picture_file import read_picture
+
+
+@dataclasses.dataclass
+class Reference:
+    """The picture that errors are measured against, and how its own noise is taken out."""
+    mean: numpy.ndarray
+    halves: Optional[tuple] = None          # two independent pictures
+    variance: Optional[numpy.ndarray] = None
+    text: str = ""                          # where it comes from
+    seconds: float = 0
+
+    @property
+    def treatment(self):
+        if self.halves:
+            return "its own noise is taken out: mean (x - a)(x - b) with its halves a and b"
+        if self.variance is not None:
+            return "its own noise is taken out by its variance layer"
+        return "its own noise is not known and is part of every error"
+
+
+def reference_of_files(paths):
+    """One file, or two halves."""
+    pictures = [read_picture(path) for path in paths]
+    mean = sum(picture.mean for picture in pictures) / len(pictures)
+    halves = tuple(picture.mean for picture in pictures) if len(pictures) == 2 else None
+    return Reference(mean, halves, None if halves else pictures[0].variance, " + ".join(paths))
+
+
+def measure(run, reference):
+    """Fills in the errors of a run."""
+    x = read_picture(run.picture).mean
+    if x.shape != reference.mean.shape:
+        raise ValueError(f"expected a reference of {x.shape[1]}x{x.shape[0]} pixels like the renders, found "
+                         f"{reference.mean.shape[1]}x{reference.mean.shape[0]}")
+    weight = 1 / (reference.mean ** 2 + SMALL_SQUARE)
+    if reference.halves:
+        a, b = reference.halves
+        run.mse = squared_error_without_noise(x, a, b)
+        run.relmse = float(numpy.mean((x - a) * (x - b) * weight))
+    else:
+        square = (x - reference.mean) ** 2 - (0 if reference.variance is None else reference.variance)
+        run.mse, run.relmse = float(square.mean()), float((square * weight).mean())
+    run.rel_rmse = relative_root(run.mse, reference)
+
+
+def relative_root(mse, reference):
+    """sqrt(MSE) over the reference's mean; None where the error is lost in the noise."""
+    mean = float(reference.mean.mean())
+    return float(numpy.sqrt(mse)) / mean if mse > 0 and mean > 0 else None
+
+
+@dataclasses.dataclass
+class Summary:
+    """The repeats of a method at one number of samples."""
+    spp: int
+    repeats: int
+    error: Optional[float]      # relative RMSE from the mean of their MSE
+    low: Optional[float]        # range of the repeats
+    high: Optional[float]
+    relmse: float
+    seconds: float              # median of the render stage
+    seconds_low: float
+    seconds_high: float
+    cpu_seconds: float          # median, of the whole process
+    efficiency: Optional[float]  # 1 / (error^2 x seconds)
+
+
+def summarise(runs, reference):
+    """{method: [Summary, ...]}, by rising samples."""
+    groups = {}
+    for run in runs:
+        groups.setdefault(run.point.method, {}).setdefault(run.point.spp, []).append(run)
+    return {method: [_summary(spp, group, reference) for spp, group in sorted(by_spp.items())]
+            for method, by_spp in groups.items()}
+
+
+def _summary(spp, group, reference):
+    error = relative_root(statistics.fmean(run.mse for run in group), reference)
+    each = [run.rel_rmse for run in group if run.rel_rmse is not None]
+    seconds = [run.render_seconds for run in group]
+    median = statistics.median(seconds)
+    return Summary(spp, len(group), error, min(each, default=None), max(each, default=None),
+                   statistics.fmean(run.relmse for run in group), median, min(seconds), max(seconds),
+                   statistics.median(run.cpu_seconds for run in group),
+                   1 / (error ** 2 * median) if error and median > 0 else None)
+
+
+COLUMNS = ["scene", "device", "integrator", "precision", "sampler", "seed", "spp", "width", "height", "cold", "load_s", "bvh_s",
+           "compile_s", "first_launch_s", "render_s", "total_s", "process_cpu_s", "mse", "rel_rmse", "relmse", "own_rel_rmse",
+           "nonfinite", "command"]
+
+
+def _row(run, scene):
+    stats, point = run.stats, run.point
+    seconds = stats["seconds"]
+    return [scene, stats["device"]["name"], point.method.integrator, point.method.precision, point.method.sampler, point.seed,
+            point.spp, stats["width"], stats["height"], int(point.cold), *(f"{seconds[name]:.6f}" for name in (
+                "load", "bvh", "compile", "first_launch", "render", "total")), f"{run.cpu_seconds:.6f}",
+            repr(run.mse), "" if run.rel_rmse is None else repr(run.rel_rmse), repr(run.relmse),
+            stats.get("error", {}).get("rel_rmse") or "", sum(stats.get("nonfinite", {}).values()), run.command]
+
+
+def write_csv(path, runs, scene):
+    """One row a run; an error below the reference's noise leaves rel_rmse empty."""
+    table = io.StringIO()
+    writer = csv.writer(table, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    writer.writerows(_row(run, scene) for run in runs)
+    write_text(path, table.getvalue())
