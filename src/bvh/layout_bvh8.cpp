@@ -120,7 +120,9 @@ void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>&
     tbb::parallel_for(size_t(0), leaves.size(), [&](size_t i) {
         u32* indices = &tree.order[leaves[i].first];
         std::sort(indices, indices + leaves[i].count);
-        write_block(positions, triangles, indices, leaves[i].count, &bvh.leaves[i * BVH8_BLOCK_WORDS]);
+        // Parts of one triangle can meet in a block.
+        const u32 count = u32(std::unique(indices, indices + leaves[i].count) - indices);
+        write_block(positions, triangles, indices, count, &bvh.leaves[i * BVH8_BLOCK_WORDS]);
     });
 }
 

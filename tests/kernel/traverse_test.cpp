@@ -122,6 +122,41 @@ TEST(Traverse, LayoutsGiveTheSameBits) {
     EXPECT_GT(count_hits(wide), rays.size() / 2);
 }
 
+/// Long thin triangles in all directions, which spatial splits cut often.
+Scene make_needles(int count, u32 seed) {
+    Scene scene = make_empty_scene();
+    Random random(seed);
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 p = random.in_cube(1);
+        add_triangle(scene, p, p + random.direction() * 0.003, p + random.direction() * 0.5);
+    }
+    return scene;
+}
+
+TEST(Traverse, SpatialSplitsChangeNoBit) {
+    const Scene scenes[] = {make_soup(20000, 0.05, 9), make_star(100, 50, 9), make_needles(10000, 9)};
+    for (const Scene& scene : scenes) {
+        const std::vector<TestRay> rays = mixed_rays(scene, 40000, 9);
+        for (const BvhLayout layout : BOTH_LAYOUTS) {
+            const RayDevice fast(scene, layout);
+            const RayDevice high(scene, layout, Precision::SINGLE, 0, BvhQuality::HIGH);
+            EXPECT_GT(high.bvh().reference_count, fast.bvh().reference_count);
+            const std::vector<TestHit> hits = fast.closest(rays);
+            EXPECT_EQ(count_differences(hits, high.closest(rays)), 0u) << layout_name(layout);
+            EXPECT_EQ(fast.any(rays), high.any(rays)) << layout_name(layout);
+            EXPECT_GT(count_hits(hits), rays.size() / 3);
+        }
+    }
+}
+
+TEST(Traverse, PartsOfNeedlesAreHitLikeTheWhole) {
+    const Scene scene = make_needles(3000, 10);
+    const std::vector<TestRay> rays = mixed_rays(scene, 20000, 10);
+    const RayDevice high(scene, BvhLayout::BVH8, Precision::SINGLE, 0, BvhQuality::HIGH);
+    EXPECT_GT(high.bvh().reference_count, high.bvh().triangle_count * 21 / 20);
+    EXPECT_EQ(count_differences(high.closest(rays), high.closest_of_all(rays)), 0u);
+}
+
 TEST(Traverse, ARayEndsAtItsLengthAndTheEndBelongsToIt) {
     const Scene soup = make_soup(20000, 0.05, 8);
     const std::vector<TestRay> rays = mixed_rays(soup, 100000, 8);

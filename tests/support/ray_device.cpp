@@ -227,12 +227,13 @@ const char* layout_name(BvhLayout layout) {
     return layout == BvhLayout::BVH8 ? "bvh8" : "bvh2";
 }
 
-RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects)
-    : RayDevice(scene, layout, precision, effects, extent_of(scene)) {}
+RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, BvhQuality quality)
+    : RayDevice(scene, layout, precision, effects, extent_of(scene), quality) {}
 
-RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, float extent)
+RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, float extent,
+                     BvhQuality quality)
     : probe_(ray_probe(layout, precision, effects)), precision_(precision),
-      bvh_(build_bvh(scene.positions, scene.triangles, layout)),
+      bvh_(build_bvh(scene.positions, scene.triangles, layout, quality)),
       buffers_(upload_scene(test_device(), scene, bvh_)) {
     params_.scene_extent = extent;
     params_.width = static_cast<u32>(scene.triangles.size()); // how many trace_all tests

@@ -55,10 +55,12 @@ KernelFiles kernels_under_test();
 /// A scene on the test device. Its programs are built once a process for each layout, precision and mask.
 class RayDevice {
 public:
-    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0);
+    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0,
+              BvhQuality quality = BvhQuality::FAST);
 
     /// The same where `extent_of` would meet coordinates that are not finite.
-    RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, float extent);
+    RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects, float extent,
+              BvhQuality quality = BvhQuality::FAST);
 
     /// scene_closest_hit for every ray.
     std::vector<TestHit> closest(const std::vector<TestRay>& rays) const;
