@@ -3,6 +3,7 @@
 #include "bvh/binary_tree.h"
 
 #include "bvh/clip.h"
+#include "bvh/reinsertion.h"
 #include "bvh/spatial_split.h"
 #include "bvh/tree_order.h"
 
@@ -256,8 +257,12 @@ BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vect
         std::unique_ptr<u32[]> leaf_begins(new u32[2 * capacity]);
         Builder builder(items.get(), tree.nodes.get(), leaf_cost, &mesh, leaf_begins.get());
         builder.build_root({0, count, u32(capacity) - count}, prepared.bounds);
+        tree.node_count = builder.node_count();
         const auto triangle_at = [&](u32 item) { return items[item].triangle(); };
         put_in_order(tree, leaf_begins.get(), triangle_at);
+        items.reset();
+        leaf_begins.reset();
+        reinsert_subtrees(tree);
         return tree;
     }
     Builder builder(items.get(), tree.nodes.get(), leaf_cost);

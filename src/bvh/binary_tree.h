@@ -37,9 +37,9 @@ constexpr float MOST_REFERENCES = 1.5f; ///< entries in leaves per triangle; spa
 /// layout has at most one of either an entry, and counts are rounded up to whole blocks in 32 signed bits.
 constexpr size_t MOST_TRIANGLES = BVH_LEAF_BIT - BVH8_WIDTH;
 
-/// Builds the tree by binned SAH, with HIGH also by spatial splits, and by object medians where centres
-/// coincide or the depth that is left demands it. Leaves hold at most `leaf_cost.max_leaf` triangles. Time is
-/// at most BVH_MAX_DEPTH passes.
+/// Builds the tree by binned SAH, with HIGH also by spatial splits and reinsertion, and by object medians
+/// where centres coincide or the depth that is left demands it. Leaves hold at most `leaf_cost.max_leaf`
+/// triangles. Time is at most BVH_MAX_DEPTH passes.
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
                              const LeafCost& leaf_cost, BvhQuality quality);
 

@@ -12,7 +12,8 @@ namespace clrt {
 
 enum class BvhLayout { BVH8 = BVH_LAYOUT_BVH8, BVH2 = BVH_LAYOUT_BVH2 };
 
-/// How much work goes into the tree. HIGH builds several times as long for fewer tests a ray: spatial splits.
+/// How much work goes into the tree. HIGH builds several times as long for fewer tests a ray: spatial splits
+/// and reinsertion.
 enum class BvhQuality { FAST, HIGH };
 
 /// A tree in a device layout (kernels/shared/bvh_types.h) with the figures of its construction.
