@@ -123,6 +123,22 @@ Toggle parse_toggle(const OptionValue& v) {
     return parse_choice<Toggle>(v, {{"auto", Toggle::AUTO}, {"on", Toggle::ON}, {"off", Toggle::OFF}});
 }
 
+// A layout, a quality or one of each; what is not named is chosen.
+void apply_bvh(Options& o, const OptionValue& v) {
+    o.bvh = BvhChoice::AUTO;
+    o.bvh_quality = QualityChoice::AUTO;
+    if (v.text == "auto")
+        return;
+    for (const std::string& name : split_list(v.text)) {
+        if (o.bvh == BvhChoice::AUTO && (name == "bvh8" || name == "bvh2"))
+            o.bvh = name == "bvh8" ? BvhChoice::BVH8 : BvhChoice::BVH2;
+        else if (o.bvh_quality == QualityChoice::AUTO && (name == "fast" || name == "high"))
+            o.bvh_quality = name == "high" ? QualityChoice::HIGH : QualityChoice::FAST;
+        else
+            reject_value(v, "auto, bvh8, bvh2, fast, high, or a layout and a quality as in bvh8,high");
+    }
+}
+
 std::vector<OptionSpec> work_options() {
     const char* const group = "Work";
     return {
@@ -184,11 +200,10 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.threads = static_cast<int>(parse_whole(v, 0, LARGEST_THREADS));
          }},
-        {group, "", "--bvh", "NAME", "layout of the tree of boxes: auto, bvh8 or bvh2 (default auto)",
-         [](Options& o, const OptionValue& v) {
-             o.bvh = parse_choice<BvhChoice>(
-                 v, {{"auto", BvhChoice::AUTO}, {"bvh8", BvhChoice::BVH8}, {"bvh2", BvhChoice::BVH2}});
-         }},
+        {group, "", "--bvh", "NAME",
+         "tree of boxes: layout bvh8 or bvh2, quality fast or high, or both as in bvh8,high; auto chooses the "
+         "layout by device and high where a long render pays for it (default auto)",
+         apply_bvh},
     };
 }
 

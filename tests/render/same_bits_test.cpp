@@ -185,6 +185,11 @@ TEST(SameBits, BothTreesFindTheSameHits) {
         const Render binary = scene.render();
         EXPECT_EQ(count_differences(wide.film, binary.film), 0u) << name;
         EXPECT_EQ(wide.counts.rays(), binary.counts.rays()) << name;
+        scene.options.bvh = BvhChoice::AUTO;
+        for (const QualityChoice quality : {QualityChoice::FAST, QualityChoice::HIGH}) {
+            scene.options.bvh_quality = quality;
+            EXPECT_EQ(count_differences(wide.film, scene.render().film), 0u) << name;
+        }
     }
 }
 
