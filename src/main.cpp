@@ -11,6 +11,7 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "render/bvh_quality.h"
 #include "render/kernels.h"
 #include "render/picture.h"
 #include "render/render.h"
@@ -95,14 +96,17 @@ int run_render(const Options& options) {
     progress.update({"compile", -1, 0, -1});
     std::future<RenderPrograms> compiling = std::async(
         std::launch::async, [&] { return build_render_programs(device, options, effects.mask, layout); });
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const BvhQualityChoice quality = choose_bvh_quality(options, scene.triangles.size());
+    spdlog::debug("tree: {} ({})", quality.quality == BvhQuality::HIGH ? "high" : "fast", quality.reason);
+    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout, quality.quality);
     const RenderPrograms programs = compiling.get();
     const SceneBuffers buffers = upload_scene(device, scene, bvh);
 
     const Render rendered = render(device, programs, buffers, scene, options, progress);
     progress.finish();
 
-    Report report{options, scene, effects, device.info, bvh, rendered, film_error(rendered.film), load_seconds,
+    Report report{options, scene, effects, device.info, bvh, rendered, film_error(rendered.film),
+                  quality.reason, load_seconds,
                   programs.seconds, seconds_since(start)};
     write_outputs(report);
     if (options.verbosity >= 0)

@@ -5,6 +5,7 @@
 #include "bvh/binary_tree.h"
 #include "bvh/bvh.h"
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -19,6 +20,14 @@ inline u32 float_bits(float x) {
     u32 bits;
     std::memcpy(&bits, &x, sizeof bits);
     return bits;
+}
+
+/// Sorts a leaf's triangles and returns how many are different: where a leaf is made from several of the tree,
+/// parts of one triangle can meet in it. The different ones come first.
+inline u32 sort_leaf(BinaryTree& tree, const LeafRange& leaf) {
+    u32* const indices = &tree.order[leaf.first];
+    std::sort(indices, indices + leaf.count);
+    return u32(std::unique(indices, indices + leaf.count) - indices);
 }
 
 /// Leaf costs that suit the layouts. bvh8: one block of triangles costs as much as an eight-wide node, and

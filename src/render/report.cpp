@@ -73,6 +73,14 @@ std::uint64_t peak_memory_bytes() {
     return std::uint64_t(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
+namespace {
+
+const char* quality_name(BvhQuality quality) {
+    return quality == BvhQuality::HIGH ? "high" : "fast";
+}
+
+} // namespace
+
 std::string format_report(const Report& report) {
     const Render& render = report.render;
     const RenderCounts& counts = render.counts;
@@ -86,6 +94,8 @@ std::string format_report(const Report& report) {
     text += fmt::format("rays     {:.2f} a sample, {:.2f} Mrays/s, {:.2f} Msamples/s\n",
                         samples > 0 ? double(counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,
                         render.seconds > 0 ? samples / render.seconds * 1e-6 : 0);
+    text += fmt::format("tree     {} ({}), SAH cost {:.1f}\n", quality_name(report.bvh.quality), report.bvh_reason,
+                        report.bvh.sah_cost);
     text += fmt::format("error    {}\n", format_error(report.error));
     text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
                         counts.negative, counts.overflow);
@@ -130,7 +140,10 @@ std::string report_json(const Report& report) {
                       {"name", report.device.name},
                       {"driver", report.device.driver}};
     json["bvh"] = {{"layout", layout_name(report.bvh.layout)},
+                   {"quality", quality_name(report.bvh.quality)},
+                   {"reason", report.bvh_reason},
                    {"depth", report.bvh.depth},
+                   {"references", report.bvh.reference_count},
                    {"sah_cost", report.bvh.sah_cost},
                    {"bytes", 4 * (report.bvh.nodes.size() + report.bvh.leaves.size())}};
     json["load"] = {{"obj_bytes", report.scene.statistics.obj_bytes},

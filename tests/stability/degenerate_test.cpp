@@ -89,7 +89,10 @@ TEST(Degenerate, TrianglesThatAreNotFiniteChangeNoHit) {
     const std::vector<TestRay> rays = rays_at(soup, 20000, 2);
     const float extent = extent_of(soup);
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(with_bad, layout, Precision::SINGLE, 0, {}, extent);
+        RayDeviceOptions options;
+        options.layout = layout;
+        options.extent = extent;
+        const RayDevice device(with_bad, options);
         EXPECT_EQ(device.bvh().triangle_count, soup.triangles.size());
         EXPECT_EQ(count_differences(device.closest(rays), RayDevice(soup, layout).closest(rays)), 0u)
             << layout_name(layout);

@@ -4,6 +4,7 @@
 
 #include "app/progress.h"
 #include "bvh/bvh.h"
+#include "render/bvh_quality.h"
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
 #include "scene/load_scene.h"
@@ -95,7 +96,8 @@ Render TestScene::render() const {
 Render render_loaded(const Scene& scene, const Options& options) {
     const Device& device = test_device();
     const BvhLayout layout = choose_layout(options.bvh, device.info);
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout,
+                              choose_bvh_quality(options, scene.triangles.size()).quality);
     const RenderPrograms& programs = programs_for(options, find_effects(scene, options).mask, layout);
     const SceneBuffers buffers = upload_scene(device, scene, bvh);
     Progress progress(Toggle::OFF, true);
