@@ -48,7 +48,7 @@
 #if __has_builtin(__builtin_prefetch) && defined(CLRT_HAS_MOVMSKPS)
 #define CLRT_PREFETCH(pointer) __builtin_prefetch((const void*)(ulong)(pointer))
 #else
-#define CLRT_PREFETCH(pointer)
+#define CLRT_PREFETCH(pointer) ((void)(pointer))
 #endif
 
 #endif
