@@ -131,7 +131,7 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
     Bvh2Stack stack;
     uint node = 0;
     for (;;) {
-        global const uint* words = scene->bvh_nodes + BVH2_NODE_WORDS * node;
+        global const uint* words = scene->bvh_nodes + (size_t)BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
         const real limit = hit->t * BOX_EXIT_FACTOR;
         real entry[2] = {bvh2_enter(vload4(0, planes), vload2(4, planes), &box, limit),
@@ -144,7 +144,7 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
             entry[side] = REAL(-1.0);
             if (walk.level >= walk.resume)
                 continue;
-            global const uint* leaf = scene->bvh_leaves + LEAF_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
+            global const uint* leaf = scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
             const uint count = words[BVH2_COUNT_WORD + side];
             for (uint i = 0; i < count; ++i, leaf += LEAF_TRIANGLE_WORDS) {
                 Hit found;
