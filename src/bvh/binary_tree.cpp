@@ -32,10 +32,15 @@ bool in_range(const vec4& p) {
     return std::abs(p.x) <= BVH_EMPTY && std::abs(p.y) <= BVH_EMPTY && std::abs(p.z) <= BVH_EMPTY;
 }
 
-bool has_area(const vec4& a, const vec4& b, const vec4& c) {
-    const double ux = double(b.x) - a.x, uy = double(b.y) - a.y, uz = double(b.z) - a.z;
-    const double vx = double(c.x) - a.x, vy = double(c.y) - a.y, vz = double(c.z) - a.z;
-    return uy * vz != uz * vy || uz * vx != ux * vz || ux * vy != uy * vx;
+bool differ(const vec4& a, const vec4& b) {
+    return a.x != b.x || a.y != b.y || a.z != b.z;
+}
+
+// Where two corners agree no ray hits: two edges are one and the same, which the neighbours share. Corners in
+// line may close a seam: for a ray, which rounds each corner on its own, they are no longer in line, and only
+// this triangle fills the gap between an edge on one side and its two parts on the other.
+bool can_be_hit(const vec4& a, const vec4& b, const vec4& c) {
+    return in_range(a) && in_range(b) && in_range(c) && differ(a, b) && differ(b, c) && differ(c, a);
 }
 
 // Adding +0 turns -0 into +0, so that the bits of a box do not depend on the order of its corners.
@@ -56,7 +61,7 @@ Preparation prepare_items(const std::vector<vec4>& positions, const std::vector<
             const Triangle& t = triangles[i];
             assert(t.v0 < positions.size() && t.v1 < positions.size() && t.v2 < positions.size());
             const vec4 &a = positions[t.v0], &b = positions[t.v1], &c = positions[t.v2];
-            const bool usable = in_range(a) && in_range(b) && in_range(c) && has_area(a, b, c);
+            const bool usable = can_be_hit(a, b, c);
             Box box;
             for (const vec4* p : {&a, &b, &c})
                 box.extend(corner(*p));

@@ -28,15 +28,15 @@ struct Bvh {
     std::vector<u32> nodes;     ///< node 0 is the root; floats are stored by their bits
     std::vector<u32> leaves;    ///< triangle blocks or leaf triangles; floats are stored by their bits
     int depth = 0;              ///< levels of the binary tree, at most BVH_MAX_DEPTH
-    size_t triangle_count = 0;  ///< in the tree; degenerate and non-finite ones are left out
+    size_t triangle_count = 0;  ///< in the tree; those with equal or non-finite corners are left out
     size_t reference_count = 0; ///< entries in leaves: more than triangles where spatial splits cut some
     double sah_cost = 0; ///< expected node and triangle tests of a random ray (MacDonald and Booth 1990)
     double seconds = 0;  ///< that the construction took
 };
 
-/// Builds a tree over all triangles that have finite corners and are not of zero area. Coordinates beyond
-/// BVH_EMPTY count as not finite: a traversal's products with them would overflow. Zero area: two corners
-/// agree, or the cross product of two edges, computed in double, is zero. Corner indices must be valid.
+/// Builds a tree over all triangles that have three different finite corners. Coordinates beyond BVH_EMPTY
+/// count as not finite: a traversal's products with them would overflow. Three corners in line are kept: they
+/// close seams. Corner indices must be valid.
 ///
 /// Deterministic: the same input gives the same bits for any number of threads. Never deeper than
 /// BVH_MAX_DEPTH and never quadratic, whatever the input (coincident triangles included). With FAST boxes are

@@ -86,7 +86,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
         }
         std::reverse(stack.begin() + std::ptrdiff_t(first_pending), stack.end());
     }
-    bvh.sah_cost = area_tested / half_area(binary[0]);
+    bvh.sah_cost = sah_cost(area_tested, tree);
     return leaves;
 }
 

@@ -87,7 +87,7 @@ public:
             stack_.pop_back();
             write_node(parent);
         }
-        bvh.sah_cost = area_tested_ / half_area(binary_[0]);
+        bvh.sah_cost = sah_cost(area_tested_, tree);
     }
 
     /// Each with its different triangles only.

@@ -154,7 +154,7 @@ KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
     // Never freed, like the test device that they refer to.
     using Key = std::tuple<BvhLayout, Precision, u32, std::vector<std::string>>;
     static auto* const probes = new std::map<Key, std::unique_ptr<KernelProbe>>;
-    std::unique_ptr<KernelProbe>& probe = 
+    std::unique_ptr<KernelProbe>& probe =
         (*probes)[{chosen.layout, chosen.precision, chosen.effects, chosen.defines}];
     if (!probe) {
         ProbeOptions options;

@@ -55,7 +55,8 @@ struct RayDeviceOptions {
     Precision precision = Precision::SINGLE;
     u32 effects = 0;
     std::vector<std::string> defines = {};
-    std::optional<float> extent = {}; ///< the scene's, where `extent_of` would meet coordinates that are not finite
+    std::optional<float> extent =
+        {}; ///< the scene's, where `extent_of` would meet coordinates that are not finite
 };
 
 /// A scene on the test device. Its programs are built once a process for each layout, precision, mask and set
