@@ -13,6 +13,7 @@
 #include "exit_code.h"
 #include "output/image.h"
 #include "paths/path_report.h"
+#include "render/bvh_quality.h"
 #include "render/checkpoint.h"
 #include "render/kernels.h"
 #include "render/ledger.h"
@@ -128,6 +129,7 @@ int finish(const Report& report) {
 /// What tree, program and passes give.
 struct Simulation {
     Bvh bvh;
+    std::string bvh_reason; ///< why the tree has its quality
     Render render;
     double compile_seconds = 0;
 };
@@ -141,7 +143,10 @@ Simulation simulate(const Device& device, const Scene& scene, const Effects& eff
         return build_render_programs(device, options, effects.mask, layout, effects.paths);
     });
     Simulation done;
-    done.bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const BvhQualityChoice quality = choose_bvh_quality(options, scene.triangles.size());
+    spdlog::debug("tree: {} ({})", quality_name(quality.quality), quality.reason);
+    done.bvh = build_bvh(scene.positions, scene.triangles, layout, quality.quality);
+    done.bvh_reason = quality.reason;
     const RenderPrograms programs = compiling.get();
     const SceneBuffers buffers = upload_scene(device, scene, done.bvh);
     done.render = render(device, programs, buffers, scene, options, progress, hooks);
@@ -207,7 +212,7 @@ int run_render(Options options) {
 
     const Crop window = render_window(options);
     Report report{options, scene, effects, device.info, done.bvh, done.render,
-                  make_error_report(done.render, window.x0, window.y0), load_seconds, done.compile_seconds,
+                  make_error_report(done.render, window.x0, window.y0), done.bvh_reason, load_seconds, done.compile_seconds,
                   seconds_since(start)};
     write_outputs(report);
     if (options.verbosity >= 0)

@@ -131,7 +131,7 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
     Bvh2Stack stack;
     uint node = 0;
     for (;;) {
-        global const uint* words = scene->bvh_nodes + BVH2_NODE_WORDS * node;
+        global const uint* words = scene->bvh_nodes + (size_t)BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
         const real limit = hit->t * BOX_EXIT_FACTOR;
         SCENE_COUNT_NODE(scene);
@@ -145,7 +145,7 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
             entry[side] = REAL(-1.0);
             if (walk.level >= walk.resume)
                 continue;
-            global const uint* leaf = scene->bvh_leaves + LEAF_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
+            global const uint* leaf = scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
             const uint count = words[BVH2_COUNT_WORD + side];
             SCENE_COUNT_LEAF(scene, count);
             for (uint i = 0; i < count; ++i, leaf += LEAF_TRIANGLE_WORDS) {

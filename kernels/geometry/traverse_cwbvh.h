@@ -111,12 +111,12 @@ CLRT_INLINE bool cwbvh_traverse(const Scene* scene, const RenderParams* params, 
         const uint index = cwbvh_take_nearest(&group, flip);
         if (group.y & CWBVH_INNER_BITS)
             stack[top++] = group;
-        global const uint4* node = (global const uint4*)(scene->bvh_nodes + CWBVH_NODE_WORDS * index);
+        global const uint4* node = (global const uint4*)(scene->bvh_nodes + (size_t)CWBVH_NODE_WORDS * index);
         SCENE_COUNT_NODE(scene);
         const CwbvhGroups groups = cwbvh_enter(node, &box, flip, hit->t);
         for (uint rest = groups.triangles.y; rest != 0u; rest &= rest - 1u) {
             const uint place = 31u - clz(rest & -rest);
-            global const uint* leaf = scene->bvh_leaves + LEAF_TRIANGLE_WORDS * (groups.triangles.x + place);
+            global const uint* leaf = scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (groups.triangles.x + place);
             SCENE_COUNT_LEAF(scene, 1u);
             Hit found;
             if (!any)

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <map>
 
 namespace clrt {
 
@@ -183,6 +184,28 @@ Toggle parse_toggle(const OptionValue& v) {
     return parse_choice<Toggle>(v, {{"auto", Toggle::AUTO}, {"on", Toggle::ON}, {"off", Toggle::OFF}});
 }
 
+// A layout, a quality or one of each; what is not named is chosen.
+void apply_bvh(Options& o, const OptionValue& v) {
+    o.bvh = BvhChoice::AUTO;
+    o.bvh_quality = QualityChoice::AUTO;
+    if (v.text == "auto")
+        return;
+    const std::map<std::string, BvhChoice> layouts = {
+        {"bvh8", BvhChoice::BVH8}, {"bvh2", BvhChoice::BVH2}, {"cwbvh", BvhChoice::CWBVH}};
+    const std::map<std::string, QualityChoice> qualities = {{"fast", QualityChoice::FAST},
+                                                            {"high", QualityChoice::HIGH}};
+    for (const std::string& name : split_list(v.text)) {
+        const auto layout = layouts.find(name);
+        const auto quality = qualities.find(name);
+        if (o.bvh == BvhChoice::AUTO && layout != layouts.end())
+            o.bvh = layout->second;
+        else if (o.bvh_quality == QualityChoice::AUTO && quality != qualities.end())
+            o.bvh_quality = quality->second;
+        else
+            reject_value(v, "auto, bvh8, bvh2, cwbvh, fast, high, or a layout and a quality as in bvh8,high");
+    }
+}
+
 std::vector<OptionSpec> work_options() {
     const char* const group = "Work";
     return {
@@ -256,14 +279,10 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.threads = static_cast<int>(parse_whole(v, 0, LARGEST_THREADS));
          }},
-        {group, "", "--bvh", "NAME", "layout of the tree of boxes: auto, bvh8, bvh2 or cwbvh (default auto)",
-         [](Options& o, const OptionValue& v) {
-             o.bvh = parse_choice<BvhChoice>(
-                 v, {{"auto", BvhChoice::AUTO},
-                     {"bvh8", BvhChoice::BVH8},
-                     {"bvh2", BvhChoice::BVH2},
-                     {"cwbvh", BvhChoice::CWBVH}});
-         }},
+        {group, "", "--bvh", "NAME",
+         "tree of boxes: layout bvh8, bvh2 or cwbvh, quality fast or high, or both as in bvh8,high; auto chooses "
+         "the layout by device and high where a long render pays for it (default auto)",
+         apply_bvh},
     };
 }
 

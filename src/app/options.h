@@ -18,6 +18,7 @@ enum class Precision { SINGLE, DOUBLE, FAST };
 enum class SamplerChoice { SOBOL, INDEPENDENT };
 enum class Toggle { AUTO, ON, OFF };
 enum class BvhChoice { AUTO, BVH8, BVH2, CWBVH };
+enum class QualityChoice { AUTO, FAST, HIGH };
 enum class Filter { BOX, TENT, GAUSSIAN };
 enum class Tonemap { NONE, REINHARD, ACES };
 enum class Check { OFF, COUNT, STRICT };
@@ -91,6 +92,7 @@ struct Options {
     Precision precision = Precision::SINGLE;
     int threads = 0; ///< 0: all
     BvhChoice bvh = BvhChoice::AUTO;
+    QualityChoice bvh_quality = QualityChoice::AUTO; ///< work put into the tree
 
     // Picture
     glm::ivec2 size{800, 600};

@@ -2,29 +2,45 @@
 // Top-down construction of the binary tree, subtrees in parallel.
 #include "bvh/binary_tree.h"
 
+#include "bvh/clip.h"
+#include "bvh/reinsertion.h"
+#include "bvh/spatial_split.h"
+#include "bvh/tree_order.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
+#include <utility>
 
 namespace clrt {
 namespace {
 
 constexpr u32 PARALLEL_SUBTREE = 1024; // items below which a subtree is not worth a task
 constexpr u32 GRAIN = 4096;            // triangles prepared at a time
+// Overlap of a binned split's sides, as a share of the root's surface, below which no spatial split is
+// sought.
+constexpr float LEAST_OVERLAP = 1e-5f;
+constexpr float LEAST_NODE_OVERLAP = 0.06f; // the same as a share of the node's surface
 
 bool in_range(const vec4& p) {
     return std::abs(p.x) <= BVH_EMPTY && std::abs(p.y) <= BVH_EMPTY && std::abs(p.z) <= BVH_EMPTY;
 }
 
-bool has_area(const vec4& a, const vec4& b, const vec4& c) {
-    const double ux = double(b.x) - a.x, uy = double(b.y) - a.y, uz = double(b.z) - a.z;
-    const double vx = double(c.x) - a.x, vy = double(c.y) - a.y, vz = double(c.z) - a.z;
-    return uy * vz != uz * vy || uz * vx != ux * vz || ux * vy != uy * vx;
+bool differ(const vec4& a, const vec4& b) {
+    return a.x != b.x || a.y != b.y || a.z != b.z;
+}
+
+// Where two corners agree no ray hits: two edges are one and the same, which the neighbours share. Corners in
+// line may close a seam: for a ray, which rounds each corner on its own, they are no longer in line, and only
+// this triangle fills the gap between an edge on one side and its two parts on the other.
+bool can_be_hit(const vec4& a, const vec4& b, const vec4& c) {
+    return in_range(a) && in_range(b) && in_range(c) && differ(a, b) && differ(b, c) && differ(c, a);
 }
 
 // Adding +0 turns -0 into +0, so that the bits of a box do not depend on the order of its corners.
@@ -45,7 +61,7 @@ Preparation prepare_items(const std::vector<vec4>& positions, const std::vector<
             const Triangle& t = triangles[i];
             assert(t.v0 < positions.size() && t.v1 < positions.size() && t.v2 < positions.size());
             const vec4 &a = positions[t.v0], &b = positions[t.v1], &c = positions[t.v2];
-            const bool usable = in_range(a) && in_range(b) && in_range(c) && has_area(a, b, c);
+            const bool usable = can_be_hit(a, b, c);
             Box box;
             for (const vec4* p : {&a, &b, &c})
                 box.extend(corner(*p));
@@ -74,35 +90,54 @@ int levels_needed(u32 count, u32 max_leaf) {
     return levels;
 }
 
+// The items of a node, and the room behind them that spatial splits may fill with more.
+struct ItemRange {
+    u32 begin, count, spare;
+};
+
 class Builder {
 public:
-    Builder(BuildItem* items, BinaryNode* nodes, const LeafCost& leaf_cost)
-        : items_(items), nodes_(nodes), leaf_cost_(leaf_cost) {}
+    // Without a mesh there are no spatial splits; `leaf_begins` gets where each leaf's items begin, if given.
+    Builder(BuildItem* items, BinaryNode* nodes, const LeafCost& leaf_cost,
+            const TriangleCorners* mesh = nullptr, u32* leaf_begins = nullptr)
+        : items_(items), nodes_(nodes), leaf_cost_(leaf_cost), mesh_(mesh), leaf_begins_(leaf_begins) {}
 
-    // Builds the subtree over `count` items from `begin` on and returns the number of its deepest level.
-    int build(u32 node_index, u32 begin, u32 count, const ItemBounds& bounds, int level) {
+    int build_root(const ItemRange& range, const ItemBounds& bounds) {
+        const Float4 edge = bounds.box.upper - bounds.box.lower;
+        root_scale_ =
+            std::min(1.0f / std::max({edge[0], edge[1], edge[2]}), std::numeric_limits<float>::max());
+        least_overlap_ = LEAST_OVERLAP * half_area(bounds.box, root_scale_);
+        return build(0, range, bounds, 1);
+    }
+
+    u32 node_count() const { return node_count_; }
+
+private:
+    // Builds the subtree over the items and returns the number of its deepest level.
+    int build(u32 node_index, ItemRange range, const ItemBounds& bounds, int level) {
         BinaryNode& node = nodes_[node_index];
         for (int axis = 0; axis < 3; ++axis) {
             node.lower[axis] = bounds.box.lower[axis];
             node.upper[axis] = bounds.box.upper[axis];
         }
-        node.count = count;
         node.child = 0;
         SplitSides sides;
-        if (!split(items_ + begin, count, bounds, level, sides))
+        const bool is_leaf = !split(range, bounds, level, sides);
+        node.count = range.count;
+        if (is_leaf) {
+            if (leaf_begins_)
+                leaf_begins_[node_index] = range.begin;
             return level;
-
+        }
         const u32 child = node_count_.fetch_add(2, std::memory_order_relaxed);
         node.child = child;
+        const auto [left, right] = divide(range, sides.left_count);
         int left_depth = 0, right_depth = 0;
-        const auto build_left = [&] {
-            left_depth = build(child, begin, sides.left_count, sides.left, level + 1);
+        const auto build_left = [&, left = left] { left_depth = build(child, left, sides.left, level + 1); };
+        const auto build_right = [&, right = right] {
+            right_depth = build(child + 1, right, sides.right, level + 1);
         };
-        const auto build_right = [&] {
-            right_depth =
-                build(child + 1, begin + sides.left_count, count - sides.left_count, sides.right, level + 1);
-        };
-        if (count < PARALLEL_SUBTREE) {
+        if (range.count < PARALLEL_SUBTREE) {
             build_left();
             build_right();
         } else {
@@ -111,19 +146,19 @@ public:
         return std::max(left_depth, right_depth);
     }
 
-    u32 node_count() const { return node_count_; }
-
-private:
-    // Splits the items, or returns false where a leaf is cheaper.
-    bool split(BuildItem* items, u32 count, const ItemBounds& bounds, int level, SplitSides& sides) {
+    // Splits the items, or returns false where a leaf is cheaper. A spatial split makes them more.
+    bool split(ItemRange& range, const ItemBounds& bounds, int level, SplitSides& sides) {
+        BuildItem* const items = items_ + range.begin;
+        const u32 count = range.count;
         if (count <= leaf_cost_.min_leaf)
             return false;
         const BinMap map(bounds.centres, count);
         const BinnedSplit best = find_split(items, count, bounds, map, leaf_cost_);
+        if (try_spatial_split(range, bounds.box, best, level, sides))
+            return true;
         // Both sides must be able to finish within the levels that are left.
-        const u32 larger = std::max(best.left_count, count - best.left_count);
         const bool allowed =
-            best.axis >= 0 && levels_needed(larger, leaf_cost_.max_leaf) <= BVH_MAX_DEPTH - level;
+            best.axis >= 0 && fits(std::max(best.left_count, count - best.left_count), level);
         if (count <= leaf_cost_.max_leaf && (!allowed || best.leaf_cost <= best.cost))
             return false;
         sides =
@@ -131,9 +166,64 @@ private:
         return true;
     }
 
+    // A spatial split where the sides of the best binned split overlap so much that one may pay (section 4.5
+    // of Stich et al. 2009), and only as long as there is room for the parts.
+    bool try_spatial_split(ItemRange& range, const Box& box, const BinnedSplit& best, int level,
+                           SplitSides& sides) {
+        if (!mesh_ || range.spare == 0 || (best.axis >= 0 && !overlap(best, box)))
+            return false;
+        BuildItem* const items = items_ + range.begin;
+        const SpatialSplit spatial =
+            find_spatial_split(*mesh_, items, range.count, range.spare, box, leaf_cost_);
+        const float least =
+            range.count <= leaf_cost_.max_leaf ? std::min(best.cost, best.leaf_cost) : best.cost;
+        if (spatial.axis < 0 || !(spatial.cost < least) ||
+            !fits(std::max(spatial.left_count, spatial.right_count), level))
+            return false;
+        const SpatialSides applied =
+            apply_spatial_split(*mesh_, items, range.count, box, spatial, leaf_cost_);
+        // No item was cut where one side holds all.
+        if (applied.sides.left_count == 0 || applied.right_count == 0)
+            return false;
+        const u32 count = applied.sides.left_count + applied.right_count;
+        range.spare -= count - range.count;
+        range.count = count;
+        sides = applied.sides;
+        return true;
+    }
+
+    bool overlap(const BinnedSplit& split, const Box& box) const {
+        Box common;
+        common.lower = lane_max(split.left.lower, split.right.lower);
+        common.upper = lane_min(split.left.upper, split.right.upper);
+        if (is_empty(common))
+            return false;
+        const float area = half_area(common, root_scale_);
+        return area > least_overlap_ && area > LEAST_NODE_OVERLAP * half_area(box, root_scale_);
+    }
+
+    // Whether a side of so many items can be finished by medians within the levels below this one.
+    bool fits(u32 count, int level) const {
+        return levels_needed(count, leaf_cost_.max_leaf) <= BVH_MAX_DEPTH - level;
+    }
+
+    // Shares the room behind the items by their number and moves the right ones behind the left ones' share.
+    std::pair<ItemRange, ItemRange> divide(const ItemRange& range, u32 left_count) {
+        const u32 right_count = range.count - left_count;
+        const u32 left_spare = u32(size_t(range.spare) * left_count / range.count);
+        BuildItem* const right = items_ + range.begin + left_count;
+        if (left_spare > 0)
+            std::memmove(static_cast<void*>(right + left_spare), right, right_count * sizeof *right);
+        return {{range.begin, left_count, left_spare},
+                {range.begin + left_count + left_spare, right_count, range.spare - left_spare}};
+    }
+
     BuildItem* items_;
     BinaryNode* nodes_;
     LeafCost leaf_cost_;
+    const TriangleCorners* mesh_;
+    u32* leaf_begins_;
+    float root_scale_ = 1, least_overlap_ = 0;
     std::atomic<u32> node_count_{1};
 };
 
@@ -147,9 +237,13 @@ double half_area(const BinaryNode& node) {
 }
 
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                             const LeafCost& leaf_cost) {
+                             const LeafCost& leaf_cost, BvhQuality quality) {
+    const bool high = quality == BvhQuality::HIGH;
+    const size_t capacity = high
+                                ? std::min(size_t(double(triangles.size()) * MOST_REFERENCES), MOST_TRIANGLES)
+                                : triangles.size();
     // Uninitialised: each page is first touched by the thread that fills it.
-    std::unique_ptr<BuildItem[]> items(new BuildItem[triangles.size()]);
+    std::unique_ptr<BuildItem[]> items(new BuildItem[capacity]);
     const Preparation prepared = prepare_items(positions, triangles, items.get());
     BuildItem* items_end = items.get() + triangles.size();
     if (prepared.left_out > 0)
@@ -158,14 +252,27 @@ BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vect
     const u32 count = u32(items_end - items.get());
 
     BinaryTree tree;
+    tree.triangle_count = count;
     if (count == 0)
         return tree;
-    // At most two nodes a triangle; the part that is not used is never touched and takes no memory.
-    tree.nodes.reset(new BinaryNode[2 * size_t(count)]);
+    // At most two nodes an item; the part that is not used is never touched and takes no memory.
+    tree.nodes.reset(new BinaryNode[2 * capacity]);
+    if (high) {
+        const TriangleCorners mesh{positions, triangles};
+        std::unique_ptr<u32[]> leaf_begins(new u32[2 * capacity]);
+        Builder builder(items.get(), tree.nodes.get(), leaf_cost, &mesh, leaf_begins.get());
+        builder.build_root({0, count, u32(capacity) - count}, prepared.bounds);
+        tree.node_count = builder.node_count();
+        const auto triangle_at = [&](u32 item) { return items[item].triangle(); };
+        put_in_order(tree, leaf_begins.get(), triangle_at);
+        items.reset();
+        leaf_begins.reset();
+        reinsert_subtrees(tree);
+        return tree;
+    }
     Builder builder(items.get(), tree.nodes.get(), leaf_cost);
-    tree.depth = builder.build(0, 0, count, prepared.bounds, 1);
+    tree.depth = builder.build_root({0, count, 0}, prepared.bounds);
     tree.node_count = builder.node_count();
-
     tree.order.resize(count);
     tbb::parallel_for(tbb::blocked_range<u32>(0, count, GRAIN), [&](const tbb::blocked_range<u32>& part) {
         for (u32 i = part.begin(); i != part.end(); ++i)

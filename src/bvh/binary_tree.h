@@ -26,14 +26,22 @@ struct BinaryNode {
 struct BinaryTree {
     std::unique_ptr<BinaryNode[]> nodes; ///< no root when `order` is empty
     u32 node_count = 0;
-    std::vector<u32> order; ///< triangle indices, leaf by leaf
+    std::vector<u32> order; ///< triangle indices, leaf by leaf; with spatial splits some more than once
+    u32 triangle_count = 0; ///< different triangles in `order`
     int depth = 0;          ///< levels: 0 for an empty tree, 1 for a root that is a leaf
 };
 
-/// Builds the tree by binned SAH, and by object medians where centres coincide or the depth that is left
-/// demands it. Leaves hold at most `leaf_cost.max_leaf` triangles. Time is at most BVH_MAX_DEPTH passes.
+constexpr float MOST_REFERENCES = 1.5f; ///< entries in leaves per triangle; spatial splits stop there
+
+/// So many triangles or parts of them can be told apart: indices of nodes and leaves have 31 bits, each
+/// layout has at most one of either an entry, and counts are rounded up to whole blocks in 32 signed bits.
+constexpr size_t MOST_TRIANGLES = BVH_LEAF_BIT - BVH8_WIDTH;
+
+/// Builds the tree by binned SAH, with HIGH also by spatial splits and reinsertion, and by object medians
+/// where centres coincide or the depth that is left demands it. Leaves hold at most `leaf_cost.max_leaf`
+/// triangles. Time is at most BVH_MAX_DEPTH passes.
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                             const LeafCost& leaf_cost);
+                             const LeafCost& leaf_cost, BvhQuality quality);
 
 /// Half the surface of a node's box.
 double half_area(const BinaryNode& node);

@@ -2,19 +2,18 @@
 // Binning, sweeping and partitioning: the inner loops of the tree builder.
 #include "bvh/binned_split.h"
 
+#include "bvh/partition.h"
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <vector>
 
 namespace clrt {
 namespace {
 
-constexpr u32 PARALLEL_RANGE = 1u << 16; // items that repay the use of several threads
-constexpr u32 CHUNK = 1u << 14;          // items of a thread at a time: 512 KiB, about a second-level cache
-constexpr u32 HALVED_RANGE = 128;        // items that repay a second set of bins
+constexpr u32 HALVED_RANGE = 128; // items that repay a second set of bins
 constexpr u32 FEW_ITEMS = 16;
 constexpr int FEW_BINS = 4;
 
@@ -62,17 +61,18 @@ struct Bins {
 // Minima, maxima and integer sums do not depend on the order of merging: the bins are the same for any
 // threads.
 void fill_bins(Bins& bins, const BuildItem* items, u32 count, const BinMap& map) {
-    if (count < PARALLEL_RANGE) {
+    if (count < PARALLEL_ITEMS) {
         bins.add(items, count, map);
         return;
     }
     std::mutex mutex;
-    tbb::parallel_for(tbb::blocked_range<u32>(0, count, CHUNK), [&](const tbb::blocked_range<u32>& part) {
-        Bins own(bins.size);
-        own.add(items + part.begin(), u32(part.size()), map);
-        const std::lock_guard<std::mutex> lock(mutex);
-        bins.merge(own);
-    });
+    tbb::parallel_for(tbb::blocked_range<u32>(0, count, ITEM_CHUNK),
+                      [&](const tbb::blocked_range<u32>& part) {
+                          Bins own(bins.size);
+                          own.add(items + part.begin(), u32(part.size()), map);
+                          const std::lock_guard<std::mutex> lock(mutex);
+                          bins.merge(own);
+                      });
 }
 
 // Bins on one side of a boundary, for the boundaries of all axes at once.
@@ -126,80 +126,26 @@ BinnedSplit sweep(const Bins& bins, float scale, const LeafCost& leaf_cost) {
     return best;
 }
 
-SplitSides apply_split_serial(BuildItem* items, u32 count, const BinMap& map, const BinnedSplit& split) {
-    const int axis = split.axis;
-    const float origin = map.origin[axis], scale = map.scale[axis], last = float(map.bins - 1);
-    SplitSides sides;
-    BuildItem* front = items;
-    for (BuildItem* item = items; item != items + count; ++item) {
-        const BuildItem moved = *item;
-        const Float4 centre = doubled_centre(moved.box());
+// Tells the sides of a binned split apart, and gathers the centres of both.
+struct BinnedSorter {
+    int axis, bin;
+    float origin, scale, last;
+
+    BinnedSorter(const BinMap& map, const BinnedSplit& split)
+        : axis(split.axis), bin(split.bin), origin(map.origin[axis]), scale(map.scale[axis]),
+          last(float(map.bins - 1)) {}
+
+    bool operator()(const BuildItem& item, SplitSides& sides) const {
+        const Float4 centre = doubled_centre(item.box());
         const float position = (centre[axis] - origin) * scale;
-        const bool is_left = int(position < last ? position : last) < split.bin;
-        // Swap without a branch: which side an item takes cannot be predicted.
-        *item = *front;
-        *front = moved;
-        front += is_left;
+        const bool is_left = int(position < last ? position : last) < bin;
         // An all-ones lane is NaN: the centre extends one side only.
         const Int4 left_mask = Int4{} - i32(is_left);
         sides.left.centres.extend(Float4(Int4(centre) | ~left_mask));
         sides.right.centres.extend(Float4(Int4(centre) | left_mask));
+        return is_left;
     }
-    sides.left_count = u32(front - items);
-    return sides;
-}
-
-struct Exchange {
-    u32 left_item, right_item, count;
 };
-
-// Pairs the left items that chunks left behind `left_count` with the right items before it.
-std::vector<Exchange> misplaced_items(const std::vector<SplitSides>& chunks, u32 count, u32 left_count) {
-    std::vector<Exchange> exchanges;
-    size_t source = 0;
-    u32 used = 0; // items of chunk `source` already paired
-    for (size_t i = 0; i < chunks.size(); ++i) {
-        // The right items of chunk i that lie in the left part of the range.
-        u32 begin = u32(i) * CHUNK + chunks[i].left_count;
-        const u32 end = std::min({(u32(i) + 1) * CHUNK, count, left_count});
-        while (begin < end) {
-            // The left items of chunk `source` that lie in the right part.
-            const u32 source_begin = std::max(u32(source) * CHUNK, left_count) + used;
-            const u32 source_end = u32(source) * CHUNK + chunks[source].left_count;
-            if (source_begin >= source_end) {
-                ++source;
-                used = 0;
-                continue;
-            }
-            const u32 moved = std::min(end - begin, source_end - source_begin);
-            exchanges.push_back({source_begin, begin, moved});
-            begin += moved;
-            used += moved;
-        }
-    }
-    return exchanges;
-}
-
-// Partitions fixed chunks side by side, then exchanges what lies on the wrong side of the whole.
-SplitSides apply_split_parallel(BuildItem* items, u32 count, const BinMap& map, const BinnedSplit& split) {
-    std::vector<SplitSides> chunks((count + CHUNK - 1) / CHUNK);
-    tbb::parallel_for(size_t(0), chunks.size(), [&](size_t i) {
-        const u32 begin = u32(i) * CHUNK;
-        chunks[i] = apply_split_serial(items + begin, std::min(CHUNK, count - begin), map, split);
-    });
-    SplitSides sides;
-    for (const SplitSides& chunk : chunks) {
-        sides.left_count += chunk.left_count;
-        sides.left.centres.extend(chunk.left.centres);
-        sides.right.centres.extend(chunk.right.centres);
-    }
-    const std::vector<Exchange> exchanges = misplaced_items(chunks, count, sides.left_count);
-    tbb::parallel_for(size_t(0), exchanges.size(), [&](size_t i) {
-        const Exchange& e = exchanges[i];
-        std::swap_ranges(items + e.left_item, items + e.left_item + e.count, items + e.right_item);
-    });
-    return sides;
-}
 
 } // namespace
 
@@ -237,8 +183,7 @@ BinnedSplit find_split(const BuildItem* items, u32 count, const ItemBounds& boun
 }
 
 SplitSides apply_split(BuildItem* items, u32 count, const BinMap& map, const BinnedSplit& split) {
-    SplitSides sides = count < PARALLEL_RANGE ? apply_split_serial(items, count, map, split)
-                                              : apply_split_parallel(items, count, map, split);
+    SplitSides sides = partition_items(items, count, BinnedSorter(map, split));
     sides.left.box = split.left;
     sides.right.box = split.right;
     return sides;

@@ -45,12 +45,6 @@ struct BinnedSplit {
     float leaf_cost = 0;         ///< all items as one leaf
 };
 
-/// The two sides of a range after it was split.
-struct SplitSides {
-    u32 left_count = 0;
-    ItemBounds left, right;
-};
-
 /// Finds the cheapest split of items over all axes. The result depends on the set of items, not on their
 /// order.
 BinnedSplit find_split(const BuildItem* items, u32 count, const ItemBounds& bounds, const BinMap& map,

@@ -4,6 +4,7 @@
 
 #include "kernels/shared/types.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace clrt {
@@ -48,10 +49,11 @@ inline float half_area(const Box& box, float scale) {
     return face[0] + face[1] + face[2];
 }
 
-/// A triangle on its way into the tree: its box, and its index as bits in the fourth lane of `lower`.
+/// A triangle or a part of one on its way into the tree: its box, and the triangle's index as bits in the
+/// fourth lane of `lower`.
 struct BuildItem {
     Float4 lower;
-    Float4 upper; ///< fourth lane 0
+    Float4 upper; ///< fourth lane: a side's mark while a spatial split is applied
 
     BuildItem() = default; // uninitialised
     BuildItem(const Box& box, u32 triangle) : lower(box.lower), upper(box.upper) {
@@ -81,6 +83,12 @@ struct ItemBounds {
         box.extend(other.box);
         centres.extend(other.centres);
     }
+};
+
+/// The two sides of a range after it was split.
+struct SplitSides {
+    u32 left_count = 0;
+    ItemBounds left, right;
 };
 
 } // namespace clrt

@@ -36,20 +36,26 @@ const char* layout_name(BvhLayout layout) {
     return "bvh8";
 }
 
-Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
+const char* quality_name(BvhQuality quality) {
+    return quality == BvhQuality::HIGH ? "high" : "fast";
+}
+
+Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
+              BvhQuality quality) {
     const auto start = std::chrono::steady_clock::now();
     // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
     // builder rounds counts up to whole blocks in 32 signed bits.
-    constexpr size_t MOST_TRIANGLES = BVH_LEAF_BIT - BVH8_WIDTH;
     if (triangles.size() > MOST_TRIANGLES)
         throw SceneError("scene", 0,
                          "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
                              std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
-    BinaryTree tree = build_binary_tree(positions, triangles, leaf_cost(layout));
+    BinaryTree tree = build_binary_tree(positions, triangles, leaf_cost(layout), quality);
     Bvh bvh;
     bvh.layout = layout;
     bvh.depth = tree.depth;
-    bvh.triangle_count = tree.order.size();
+    bvh.quality = quality;
+    bvh.triangle_count = tree.triangle_count;
+    bvh.reference_count = tree.order.size();
     switch (layout) {
     case BvhLayout::BVH8:
         write_bvh8(positions, triangles, tree, bvh);

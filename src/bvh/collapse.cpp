@@ -11,7 +11,8 @@ namespace {
 constexpr u32 PARALLEL_SUBTREE = 1u << 14; // triangles below which a subtree is not worth a task
 
 float relative_area(const BinaryNode& node, double root_area) {
-    return float(half_area(node) / root_area);
+    // A root without surface: all triangles are one axis-parallel line, and every tree costs nothing.
+    return root_area > 0 ? float(half_area(node) / root_area) : 0.0f;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "bvh/binary_tree.h"
 #include "bvh/bvh.h"
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -15,14 +16,30 @@ struct LeafRange {
     u32 first, count;
 };
 
+/// The SAH cost of a tree by the sum of half areas that it tests; 0 where all triangles are one axis-parallel
+/// line, whose box has no surface.
+inline double sah_cost(double area_tested, const BinaryTree& tree) {
+    const double root_area = half_area(tree.nodes[0]);
+    return root_area > 0 ? area_tested / root_area : 0;
+}
+
 inline u32 float_bits(float x) {
     u32 bits;
     std::memcpy(&bits, &x, sizeof bits);
     return bits;
 }
 
+/// Sorts a leaf's triangles and returns how many are different: where a leaf is made from several of the
+/// tree, parts of one triangle can meet in it. The different ones come first.
+inline u32 sort_leaf(BinaryTree& tree, const LeafRange& leaf) {
+    u32* const indices = &tree.order[leaf.first];
+    std::sort(indices, indices + leaf.count);
+    return u32(std::unique(indices, indices + leaf.count) - indices);
+}
+
 /// Leaf costs that suit the layouts. bvh8: one block of triangles costs as much as an eight-wide node, and
-/// the collapse decides about small subtrees; bvh2: triangles are tested one by one; cwbvh: the collapse decides again.
+/// the collapse decides about small subtrees; bvh2: triangles are tested one by one; cwbvh: the collapse
+/// decides again.
 constexpr LeafCost BVH8_LEAF_COST{3, BVH8_WIDTH / 2, BVH8_WIDTH, 0.0f};
 constexpr LeafCost BVH2_LEAF_COST{0, 1, BVH2_LEAF_TRIANGLES, 1.0f};
 constexpr LeafCost CWBVH_LEAF_COST{0, 1, CWBVH_LEAF_TRIANGLES, 0.0f};

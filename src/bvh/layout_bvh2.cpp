@@ -67,7 +67,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
             push_children(p.subtree, p.first, reference);
         }
     }
-    bvh.sah_cost = area_tested / half_area(binary[0]);
+    bvh.sah_cost = sah_cost(area_tested, tree);
     return leaves;
 }
 

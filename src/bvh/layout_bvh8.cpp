@@ -86,7 +86,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
         }
         std::reverse(stack.begin() + std::ptrdiff_t(first_pending), stack.end());
     }
-    bvh.sah_cost = area_tested / half_area(binary[0]);
+    bvh.sah_cost = sah_cost(area_tested, tree);
     return leaves;
 }
 
@@ -118,9 +118,9 @@ void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>&
     const std::vector<LeafRange> leaves = write_nodes(tree, bvh);
     bvh.leaves.resize(leaves.size() * BVH8_BLOCK_WORDS, 0u);
     tbb::parallel_for(size_t(0), leaves.size(), [&](size_t i) {
-        u32* indices = &tree.order[leaves[i].first];
-        std::sort(indices, indices + leaves[i].count);
-        write_block(positions, triangles, indices, leaves[i].count, &bvh.leaves[i * BVH8_BLOCK_WORDS]);
+        const u32 count = sort_leaf(tree, leaves[i]);
+        write_block(positions, triangles, &tree.order[leaves[i].first], count,
+                    &bvh.leaves[i * BVH8_BLOCK_WORDS]);
     });
 }
 

@@ -74,12 +74,12 @@ void write_boxes(const BinaryNode* binary, const WideChildren& children, u32* no
     }
 }
 
-/// Writes nodes, siblings side by side and otherwise depth first; collects the leaves in the order of their
-/// triangles in Bvh::leaves.
+/// Writes nodes, siblings side by side and otherwise depth first; sorts the ranges of BinaryTree::order that
+/// become leaves and collects them in the order of their triangles in Bvh::leaves.
 class NodeWriter {
 public:
-    NodeWriter(const BinaryTree& tree, Bvh& bvh)
-        : binary_(tree.nodes.get()), collapse_(tree, CWBVH_RULES), bvh_(bvh) {
+    NodeWriter(BinaryTree& tree, Bvh& bvh)
+        : tree_(tree), binary_(tree.nodes.get()), collapse_(tree, CWBVH_RULES), bvh_(bvh) {
         append_nodes(1);
         stack_.push_back({{0, 0}, 0, CWBVH_RULES.max_levels});
         while (!stack_.empty()) {
@@ -87,12 +87,15 @@ public:
             stack_.pop_back();
             write_node(parent);
         }
-        bvh.sah_cost = area_tested_ / half_area(binary_[0]);
+        bvh.sah_cost = sah_cost(area_tested_, tree);
     }
 
+    /// Each with its different triangles only.
     const std::vector<LeafRange>& leaves() const { return leaves_; }
     /// Where each leaf's triangles begin in Bvh::leaves.
     const std::vector<u32>& places() const { return places_; }
+    /// Entries in all leaves.
+    u32 entry_count() const { return entry_count_; }
 
 private:
     struct Pending {
@@ -116,7 +119,7 @@ private:
                 inner_mask |= 1u << slot;
                 ++inner_count;
             }
-        const u32 first_node = append_nodes(inner_count), first_triangle = triangle_count_;
+        const u32 first_node = append_nodes(inner_count), first_triangle = entry_count_;
         u32* node = &bvh_.nodes[size_t(parent.node) * CWBVH_NODE_WORDS];
         write_boxes(binary_, children, node);
         set_byte(node, CWBVH_EXPONENT_WORD, 3, inner_mask);
@@ -133,24 +136,26 @@ private:
                 stack_.push_back({child, next_node++, parent.levels - 1});
                 continue;
             }
-            const u32 count = binary_[child.node].count, unary = (1u << count) - 1;
+            const u32 count = sort_leaf(tree_, {child.first, binary_[child.node].count});
+            const u32 unary = (1u << count) - 1;
             set_byte(node, CWBVH_META_WORD, slot,
-                     unary << CWBVH_COUNT_SHIFT | (triangle_count_ - first_triangle));
+                     unary << CWBVH_COUNT_SHIFT | (entry_count_ - first_triangle));
             leaves_.push_back({child.first, count});
-            places_.push_back(triangle_count_);
-            triangle_count_ += count;
+            places_.push_back(entry_count_);
+            entry_count_ += count;
             area_tested_ += half_area(binary_[child.node]) * count;
         }
         std::reverse(stack_.begin() + std::ptrdiff_t(first_pending), stack_.end());
     }
 
+    BinaryTree& tree_;
     const BinaryNode* binary_;
     WideCollapse collapse_;
     Bvh& bvh_;
     std::vector<Pending> stack_;
     std::vector<LeafRange> leaves_;
     std::vector<u32> places_;
-    u32 triangle_count_ = 0;
+    u32 entry_count_ = 0;
     double area_tested_ = 0;
 };
 
@@ -163,11 +168,10 @@ void write_cwbvh(const std::vector<vec4>& positions, const std::vector<Triangle>
         return;
     }
     const NodeWriter writer(tree, bvh);
-    bvh.leaves.resize(tree.order.size() * LEAF_TRIANGLE_WORDS, 0u);
+    bvh.leaves.resize(size_t(writer.entry_count()) * LEAF_TRIANGLE_WORDS, 0u);
     tbb::parallel_for(size_t(0), writer.leaves().size(), [&](size_t i) {
         const LeafRange& leaf = writer.leaves()[i];
-        u32* indices = &tree.order[leaf.first];
-        std::sort(indices, indices + leaf.count);
+        const u32* indices = &tree.order[leaf.first];
         for (u32 k = 0; k < leaf.count; ++k)
             write_leaf_triangle(positions, triangles[indices[k]], indices[k],
                                 &bvh.leaves[size_t(writer.places()[i] + k) * LEAF_TRIANGLE_WORDS]);

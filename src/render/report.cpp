@@ -93,6 +93,9 @@ std::string format_report(const Report& report) {
     text += fmt::format("rays     {:.2f} a sample, {:.2f} Mrays/s, {:.2f} Msamples/s\n",
                         samples > 0 ? double(counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,
                         render.seconds > 0 ? samples / render.seconds * 1e-6 : 0);
+    text += fmt::format("tree     {} {} ({}), SAH cost {:.1f}\n", layout_name(report.bvh.layout),
+                        quality_name(report.bvh.quality), report.bvh_reason,
+                        report.bvh.sah_cost);
     text += format_error_report(report.error);
     text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
                         counts.negative, counts.overflow);
@@ -143,7 +146,10 @@ std::string report_json(const Report& report) {
                       {"name", report.device.name},
                       {"driver", report.device.driver}};
     json["bvh"] = {{"layout", layout_name(report.bvh.layout)},
+                   {"quality", quality_name(report.bvh.quality)},
+                   {"reason", report.bvh_reason},
                    {"depth", report.bvh.depth},
+                   {"references", report.bvh.reference_count},
                    {"sah_cost", report.bvh.sah_cost},
                    {"bytes", 4 * (report.bvh.nodes.size() + report.bvh.leaves.size())}};
     json["load"] = {{"obj_bytes", report.scene.statistics.obj_bytes},

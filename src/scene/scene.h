@@ -43,7 +43,7 @@ struct LoadStatistics {
     size_t obj_bytes = 0;
     double obj_seconds = 0;     ///< reading and triangulating the OBJ text
     double texture_seconds = 0;
-    size_t degenerate_triangles = 0; ///< of zero area: kept out of the tree and of the lights
+    size_t degenerate_triangles = 0; ///< of zero area: kept out of the lights
     size_t dropped_faces = 0;        ///< with a non-finite vertex or fewer than three corners
 };
 

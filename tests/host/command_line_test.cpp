@@ -203,6 +203,20 @@ TEST(CommandLine, PictureOptionsArrive) {
     EXPECT_TRUE(parse({"--aov", "none"}).aovs->empty());
 }
 
+TEST(CommandLine, TreeTakesLayoutAndQuality) {
+    EXPECT_EQ(parse({}).bvh_quality, QualityChoice::AUTO);
+    const Options both = parse({"--bvh", "high,bvh2"});
+    EXPECT_EQ(both.bvh, BvhChoice::BVH2);
+    EXPECT_EQ(both.bvh_quality, QualityChoice::HIGH);
+    const Options compressed = parse({"--bvh", "cwbvh,high"});
+    EXPECT_EQ(compressed.bvh, BvhChoice::CWBVH);
+    EXPECT_EQ(compressed.bvh_quality, QualityChoice::HIGH);
+    const Options quality = parse({"--bvh", "fast"});
+    EXPECT_EQ(quality.bvh, BvhChoice::AUTO);
+    EXPECT_EQ(quality.bvh_quality, QualityChoice::FAST);
+    EXPECT_EQ(parse({"--bvh", "high", "--bvh", "auto"}).bvh_quality, QualityChoice::AUTO);
+}
+
 TEST(CommandLine, CameraOptionsArrive) {
     const Options o = parse({"--eye", "-1,-2,-3", "--at=-.5,+1,1e2", "--up", "-0,1,-0", "--focal-length",
                              "35", "--film-width", "24"});
@@ -431,6 +445,11 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--precision", "half"},
         {"--threads", "-1"},
         {"--bvh", "bvh4"},
+        {"--bvh", "bvh8,bvh2"},
+        {"--bvh", "cwbvh,bvh8"},
+        {"--bvh", "high,fast"},
+        {"--bvh", "auto,high"},
+        {"--bvh", ""},
         {"--size", "800"},
         {"--size", "0x600"},
         {"--size", "800x65536"},

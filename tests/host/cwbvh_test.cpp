@@ -16,8 +16,8 @@ int compare_difference(double a, double b, double limit) {
     return error < 0 ? -1 : error > 0 ? 1 : 0;
 }
 
-Bvh build(const Mesh& mesh) {
-    return build_bvh(mesh.positions, mesh.triangles, BvhLayout::CWBVH);
+Bvh build(const Mesh& mesh, BvhQuality quality = BvhQuality::FAST) {
+    return build_bvh(mesh.positions, mesh.triangles, BvhLayout::CWBVH, quality);
 }
 
 struct Bounds {
@@ -140,11 +140,9 @@ TEST(Cwbvh, LatticesEncloseExactlyWhereDifferencesRound) {
     expect_tight_lattices(mesh);
 }
 
-TEST(Cwbvh, SiblingsAndTrianglesFollowEachOtherBySlot) {
-    const Mesh mesh = random_soup(5000, 0.1f, 3);
-    const Bvh bvh = build(mesh);
+void expect_children_by_slot(const Bvh& bvh) {
     std::vector<int> children_seen(bvh.nodes.size() / CWBVH_NODE_WORDS),
-        triangles_seen(mesh.triangles.size());
+        triangles_seen(bvh.leaves.size() / LEAF_TRIANGLE_WORDS);
     for (u32 index = 0; index < children_seen.size(); ++index) {
         const u32* node = &bvh.nodes[size_t(index) * CWBVH_NODE_WORDS];
         u32 next_place = 0, child = node[CWBVH_CHILD_WORD];
@@ -173,6 +171,12 @@ TEST(Cwbvh, SiblingsAndTrianglesFollowEachOtherBySlot) {
               std::ptrdiff_t(triangles_seen.size()));
 }
 
+TEST(Cwbvh, SiblingsAndTrianglesFollowEachOtherBySlot) {
+    const Mesh mesh = random_soup(5000, 0.1f, 3);
+    for (const BvhQuality quality : {BvhQuality::FAST, BvhQuality::HIGH})
+        expect_children_by_slot(build(mesh, quality));
+}
+
 TEST(Cwbvh, LevelsStayWithinTheStackWhereTheCheapestTreeWouldNot) {
     const Mesh mesh = long_path();
     const Bvh bvh = build(mesh);
@@ -182,6 +186,7 @@ TEST(Cwbvh, LevelsStayWithinTheStackWhereTheCheapestTreeWouldNot) {
     EXPECT_GT(levels(build_bvh(mesh.positions, mesh.triangles, BvhLayout::BVH8), 0), CWBVH_MAX_LEVELS);
     EXPECT_LE(levels(bvh, 0), CWBVH_MAX_LEVELS);
     EXPECT_GE(levels(bvh, 0), CWBVH_MAX_LEVELS - 2);
+    EXPECT_LE(levels(build(mesh, BvhQuality::HIGH), 0), CWBVH_MAX_LEVELS);
 }
 
 TEST(Cwbvh, AnOrdinaryTreeIsTheCheapest) {

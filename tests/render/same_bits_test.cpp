@@ -182,12 +182,16 @@ TEST(SameBits, AllTreesFindTheSameHits) {
         SmallScene scene(make);
         scene.options.bvh = BvhChoice::BVH8;
         const Render wide = scene.render();
-        for (const BvhChoice choice : {BvhChoice::BVH2, BvhChoice::CWBVH}) {
-            scene.options.bvh = choice;
-            const Render other = scene.render();
-            EXPECT_EQ(count_differences(wide.film, other.film), 0u) << name << ", " << int(choice);
-            EXPECT_EQ(wide.counts.rays(), other.counts.rays()) << name << ", " << int(choice);
-        }
+        for (const BvhChoice choice : {BvhChoice::BVH8, BvhChoice::BVH2, BvhChoice::CWBVH})
+            for (const QualityChoice quality : {QualityChoice::FAST, QualityChoice::HIGH}) {
+                scene.options.bvh = choice;
+                scene.options.bvh_quality = quality;
+                const Render other = scene.render();
+                EXPECT_EQ(count_differences(wide.film, other.film), 0u)
+                    << name << ", " << int(choice) << ", " << int(quality);
+                EXPECT_EQ(wide.counts.rays(), other.counts.rays())
+                    << name << ", " << int(choice) << ", " << int(quality);
+            }
     }
 }
 

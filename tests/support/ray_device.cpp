@@ -150,18 +150,18 @@ struct DoubleHit {
     u32 triangle, padding;
 };
 
-KernelProbe& ray_probe(BvhLayout layout, Precision precision, u32 effects,
-                       const std::vector<std::string>& defines) {
+KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
     // Never freed, like the test device that they refer to.
     using Key = std::tuple<BvhLayout, Precision, u32, std::vector<std::string>>;
     static auto* const probes = new std::map<Key, std::unique_ptr<KernelProbe>>;
-    std::unique_ptr<KernelProbe>& probe = (*probes)[{layout, precision, effects, defines}];
+    std::unique_ptr<KernelProbe>& probe =
+        (*probes)[{chosen.layout, chosen.precision, chosen.effects, chosen.defines}];
     if (!probe) {
         ProbeOptions options;
-        options.precision = precision;
-        options.defines = defines;
-        options.defines.push_back(fmt::format("BVH_LAYOUT={}", int(layout)));
-        options.defines.push_back(fmt::format("CLRT_EFFECTS={:#x}u", effects));
+        options.precision = chosen.precision;
+        options.defines = chosen.defines;
+        options.defines.push_back(fmt::format("BVH_LAYOUT={}", int(chosen.layout)));
+        options.defines.push_back(fmt::format("CLRT_EFFECTS={:#x}u", chosen.effects));
         options.defines.push_back(fmt::format("MOST_LAYERS={}u", MOST_LAYERS));
         probe = std::make_unique<KernelProbe>(
             test_device(), std::vector<std::string>{"geometry/visibility.h", "geometry/surface.h"}, options,
@@ -193,16 +193,14 @@ bool operator==(const TestHit& a, const TestHit& b) {
            std::memcmp(&a.b2, &b.b2, sizeof a.b2) == 0 && a.triangle == b.triangle;
 }
 
-RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects,
-                     const std::vector<std::string>& defines)
-    : RayDevice(scene, layout, precision, effects, defines, extent_of(scene)) {}
+RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects)
+    : RayDevice(scene, RayDeviceOptions{layout, BvhQuality::FAST, precision, effects, {}, {}}) {}
 
-RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects,
-                     const std::vector<std::string>& defines, float extent)
-    : probe_(ray_probe(layout, precision, effects, defines)), precision_(precision),
-      bvh_(build_bvh(scene.positions, scene.triangles, layout)),
+RayDevice::RayDevice(const Scene& scene, const RayDeviceOptions& options)
+    : probe_(ray_probe(options)), precision_(options.precision),
+      bvh_(build_bvh(scene.positions, scene.triangles, options.layout, options.quality)),
       buffers_(upload_scene(test_device(), scene, bvh_)) {
-    params_.scene_extent = extent;
+    params_.scene_extent = options.extent ? *options.extent : extent_of(scene);
     params_.width = static_cast<u32>(scene.triangles.size()); // how many trace_all tests
 }
 

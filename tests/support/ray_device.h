@@ -11,6 +11,7 @@
 #include "support/kernel_probe.h"
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,16 +48,23 @@ inline bool operator!=(const TestHit& a, const TestHit& b) {
 /// can be planted without a build.
 KernelFiles kernels_under_test();
 
+/// What a test may choose about the tree and the programs.
+struct RayDeviceOptions {
+    BvhLayout layout = BvhLayout::BVH8;
+    BvhQuality quality = BvhQuality::FAST;
+    Precision precision = Precision::SINGLE;
+    u32 effects = 0;
+    std::vector<std::string> defines = {};
+    std::optional<float> extent =
+        {}; ///< the scene's, where `extent_of` would meet coordinates that are not finite
+};
+
 /// A scene on the test device. Its programs are built once a process for each layout, precision, mask and set
 /// of defines ("NAME=value").
 class RayDevice {
 public:
-    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0,
-              const std::vector<std::string>& defines = {});
-
-    /// The same where `extent_of` would meet coordinates that are not finite.
-    RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects,
-              const std::vector<std::string>& defines, float extent);
+    RayDevice(const Scene& scene, const RayDeviceOptions& options);
+    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0);
 
     /// scene_closest_hit for every ray.
     std::vector<TestHit> closest(const std::vector<TestRay>& rays) const;

@@ -5,6 +5,7 @@
 #include "app/progress.h"
 #include "bvh/bvh.h"
 #include "effects/take_out.h"
+#include "render/bvh_quality.h"
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
 #include "scene/load_scene.h"
@@ -59,7 +60,8 @@ Render render_by(Scene& scene, Options& options, const Programs& programs) {
     const Effects effects = find_effects(scene, options);
     take_out_effects(effects.left_out, scene, options);
     const BvhLayout layout = choose_layout(options.bvh, device.info);
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout);
+    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout,
+                              choose_bvh_quality(options, scene.triangles.size()).quality);
     const SceneBuffers buffers = upload_scene(device, scene, bvh);
     Progress progress(Toggle::OFF, true);
     return render(device, programs(effects, layout), buffers, scene, options, progress);

@@ -55,7 +55,7 @@ const std::vector<BenchOption>& table() {
         {"--device", "NAME",
          "OpenCL device, as for clrt (default: CLRT_DEVICE, else the first GPU, else the CPU)",
          apply_as_clrt},
-        {"--bvh", "NAME", "layout of clrt's tree, as for clrt (default auto)", apply_as_clrt},
+        {"--bvh", "NAME", "clrt's tree, as for clrt; high where no quality is named (default auto)", apply_as_clrt},
         {"--rounds", "N", "measurements of each side, taken in turns (default 9)",
          [](BenchOptions& o, const OptionValue& v) {
              o.rounds = std::uint32_t(parse_whole(v, 1, LARGEST_ROUNDS));
@@ -221,6 +221,7 @@ Options scene_options(const BenchOptions& bench, const std::string& scene) {
     }
     options.device = bench.clrt.device;
     options.bvh = bench.clrt.bvh;
+    options.bvh_quality = bench.clrt.bvh_quality;
     options.threads = bench.clrt.threads;
     options.kernels_folder = bench.clrt.kernels_folder;
     options.precision = Precision::SINGLE;

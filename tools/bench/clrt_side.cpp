@@ -17,9 +17,11 @@ namespace {
 /// Work-groups a row of the launch grid, as in the renderer.
 constexpr u32 GRID_COLUMNS = 2048;
 
-Bvh build_tree(const Scene& scene, BvhLayout layout, Cost& cost) {
+/// The rival's tree is one of high quality, and so is ours unless the options want the fast one.
+Bvh build_tree(const Scene& scene, const Options& options, BvhLayout layout, Cost& cost) {
+    const BvhQuality quality = options.bvh_quality == QualityChoice::FAST ? BvhQuality::FAST : BvhQuality::HIGH;
     Bvh bvh;
-    cost = measure([&] { bvh = build_bvh(scene.positions, scene.triangles, layout); });
+    cost = measure([&] { bvh = build_bvh(scene.positions, scene.triangles, layout, quality); });
     return bvh;
 }
 
@@ -72,7 +74,7 @@ const char* ray_kind_name(RayKind kind) {
 
 ClrtSide::ClrtSide(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene)
     : device_(device), files_(files), options_(options), scene_(scene),
-      bvh_(build_tree(scene, choose_layout(options.bvh, device.info), build_cost_)),
+      bvh_(build_tree(scene, options, choose_layout(options.bvh, device.info), build_cost_)),
       buffers_(upload_scene(device, scene, bvh_)),
       params_(make_render_params(scene, options, film_scale(scene))),
       trace_(build(device, files, options, scene, bvh_.layout, "trace")),

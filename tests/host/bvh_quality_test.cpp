@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Long renders get the better tree, short ones do not, and nothing but options and triangles decides.
+#include "render/bvh_quality.h"
+
+#include <gtest/gtest.h>
+
+namespace clrt {
+namespace {
+
+BvhQuality choose(const Options& options, size_t triangles) {
+    return choose_bvh_quality(options, triangles).quality;
+}
+
+TEST(BvhQuality, ChoiceOfTheUserStands) {
+    Options options;
+    options.bvh_quality = QualityChoice::HIGH;
+    options.spp = 1;
+    EXPECT_EQ(choose(options, 10000000), BvhQuality::HIGH);
+    EXPECT_EQ(choose_bvh_quality(options, 10000000).reason, "as chosen");
+    options.bvh_quality = QualityChoice::FAST;
+    options.spp = 100000;
+    EXPECT_EQ(choose(options, 100), BvhQuality::FAST);
+}
+
+TEST(BvhQuality, MoreSamplesPixelsOrDepthCanOnlyRaiseIt) {
+    Options options;
+    options.spp = 1;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+    options.spp = 4096;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
+    options.size = {80, 60};
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+    options.size = {8000, 6000};
+    options.crop = Crop{0, 0, 80, 60};
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+    options.crop.reset();
+    options.size = {800, 600};
+    options.spp = 64;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
+    options.max_depth = 1;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+}
+
+TEST(BvhQuality, SmallMeshesGetTheBetterTreeAtOnce) {
+    Options options;
+    EXPECT_EQ(choose(options, 1000), BvhQuality::HIGH);
+    EXPECT_EQ(choose(options, 100000000), BvhQuality::FAST);
+    EXPECT_EQ(choose(options, 0), BvhQuality::HIGH);
+}
+
+TEST(BvhQuality, TimeBoundsThePrediction) {
+    Options options;
+    options.time_seconds = 1;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+    options.time_seconds = 600;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
+    options.spp = 1; // ends long before
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+    options.spp = 100000;
+    options.time_seconds = 1;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+}
+
+// How long a target takes is unknown; it counts as longer than the default, unless --spp or --time says otherwise.
+TEST(BvhQuality, AnErrorTargetCountsAsALongRender) {
+    Options options;
+    options.size = {512, 512};
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+    options.error = 0.02;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
+    options.spp = 16;
+    EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+}
+
+} // namespace
+} // namespace clrt
