@@ -22,6 +22,11 @@ LeafCost leaf_cost(BvhLayout layout) {
     return BVH8_LEAF_COST;
 }
 
+/// A tree of high quality is kept if its cost is below this share of the fast one's. Measured against Embree on PoCL: at
+/// 0.98 to 1.01 (a bunny, a sphere) rays take up to 10 % longer in it, for the memory that cut triangles take; at
+/// 0.88 to 0.91 (three rooms) diffuse rays take up to 10 % less.
+constexpr double LARGEST_COST_SHARE = 0.95;
+
 } // namespace
 
 const char* layout_name(BvhLayout layout) {
@@ -69,6 +74,15 @@ Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& t
     }
     bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;
+}
+
+Bvh build_better_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
+    Bvh fast = build_bvh(positions, triangles, layout, BvhQuality::FAST);
+    Bvh high = build_bvh(positions, triangles, layout, BvhQuality::HIGH);
+    const double seconds = fast.seconds + high.seconds;
+    Bvh better = high.sah_cost <= LARGEST_COST_SHARE * fast.sah_cost ? std::move(high) : std::move(fast);
+    better.seconds = seconds;
+    return better;
 }
 
 } // namespace clrt

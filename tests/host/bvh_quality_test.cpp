@@ -2,6 +2,8 @@
 // Long renders get the better tree, short ones do not, and nothing but options and triangles decides.
 #include "render/bvh_quality.h"
 
+#include "host/bvh_support.h"
+
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -70,6 +72,22 @@ TEST(BvhQuality, AnErrorTargetCountsAsALongRender) {
     EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
     options.spp = 16;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
+}
+
+// Long thin triangles are worth cutting, those of an even mesh are not.
+TEST(BvhQuality, TheBetterTreeIsTheHighOneOnlyWhereItPays) {
+    const Mesh even = bumpy_ball(60);
+    Mesh needles;
+    for (int i = 0; i < 4000; ++i) {
+        const float x = float(i % 63) / 63, y = float(i / 63) / 63;
+        needles.add({x, y, 0, 0}, {y, 1 - x, 1, 0}, {x + 1e-3f, y, 0, 0});
+    }
+    for (BvhLayout layout : ALL_LAYOUTS) {
+        EXPECT_EQ(build_better_bvh(even.positions, even.triangles, layout).quality, BvhQuality::FAST);
+        const Bvh better = build_better_bvh(needles.positions, needles.triangles, layout);
+        EXPECT_EQ(better.quality, BvhQuality::HIGH);
+        EXPECT_LT(better.sah_cost, build_bvh(needles.positions, needles.triangles, layout).sah_cost);
+    }
 }
 
 } // namespace
