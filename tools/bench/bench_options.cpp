@@ -55,7 +55,7 @@ const std::vector<BenchOption>& table() {
         {"--device", "NAME",
          "OpenCL device, as for clrt (default: CLRT_DEVICE, else the first GPU, else the CPU)",
          apply_as_clrt},
-        {"--bvh", "NAME", "clrt's tree, as for clrt; auto builds both and takes the better (default auto)", apply_as_clrt},
+        {"--bvh", "NAME", "clrt's tree, as for clrt; auto is the fast one (default auto)", apply_as_clrt},
         {"--rounds", "N", "measurements of each side, taken in turns (default 9)",
          [](BenchOptions& o, const OptionValue& v) {
              o.rounds = std::uint32_t(parse_whole(v, 1, LARGEST_ROUNDS));
