@@ -3,6 +3,7 @@
 #include "app/command_line.h"
 #include "app/log.h"
 #include "app/progress.h"
+#include "app/run_program.h"
 #include "app/signals.h"
 #include "bvh/bvh.h"
 #include "device/device.h"
@@ -245,28 +246,11 @@ int run(int argc, const char* const* argv) {
     return options.ledger ? run_ledger(options) : run_render(options);
 }
 
-int report_error(int code, const char* what) {
-    std::fprintf(stderr, "clrt: error: %s\n", what);
-    return code;
-}
-
 } // namespace
 
 } // namespace clrt
 
 int main(int argc, char** argv) {
     using namespace clrt;
-    try {
-        return run(argc, argv);
-    } catch (const UsageError& error) {
-        return report_error(EXIT_USAGE, error.what());
-    } catch (const SceneError& error) {
-        return report_error(EXIT_SCENE, error.what());
-    } catch (const DeviceError& error) {
-        return report_error(EXIT_DEVICE, error.what());
-    } catch (const std::bad_alloc&) {
-        return report_error(EXIT_SCENE, "not enough memory");
-    } catch (const std::exception& error) {
-        return report_error(EXIT_SCENE, error.what());
-    }
+    return run_program("clrt", [&] { return run(argc, argv); });
 }

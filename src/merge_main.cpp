@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-merge: film files of disjoint sample ranges -> one picture or film, with the bits of a single run.
 #include "app/log.h"
+#include "app/run_program.h"
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
@@ -134,24 +135,11 @@ int run(int argc, const char* const* argv) {
     return EXIT_DONE;
 }
 
-int report_error(int code, const char* what) {
-    std::fprintf(stderr, "clrt-merge: error: %s\n", what);
-    return code;
-}
-
 } // namespace
 
 } // namespace clrt
 
 int main(int argc, char** argv) {
     using namespace clrt;
-    try {
-        return run(argc, argv);
-    } catch (const UsageError& error) {
-        return report_error(EXIT_USAGE, error.what());
-    } catch (const std::bad_alloc&) {
-        return report_error(EXIT_SCENE, "not enough memory");
-    } catch (const std::exception& error) {
-        return report_error(EXIT_SCENE, error.what());
-    }
+    return run_program("clrt-merge", [&] { return run(argc, argv); });
 }

@@ -12,8 +12,8 @@
 
 namespace clrt {
 
-/// Effects that every program simulates and a run-time value switches off, because leaving their code out saves nothing that
-/// can be measured. Their bits are apart from those of kernels/shared/effects.h.
+/// Effects that every program simulates and a run-time value switches off, because --max-depth decides it: a loop
+/// that ends costs no code. Their bits are apart from those of kernels/shared/effects.h.
 constexpr u32 EFFECT_INTERREFLECTION = 0x01000000u;
 /// All effects: those that decide about the program, and the others.
 constexpr u32 EVERY_EFFECT = EFFECT_ALL | EFFECT_INTERREFLECTION;

@@ -2,6 +2,7 @@
 #include "effects/effects.h"
 
 #include "paths/path_report.h"
+#include "scene/material_rules.h"
 
 #include <algorithm>
 #include <cassert>
@@ -22,10 +23,6 @@ std::vector<bool> used_materials(const Scene& scene) {
 
 std::string quoted_place(const SourcePlace& place) {
     return place.line ? fmt::format(" ({}:{})", place.file, place.line) : "";
-}
-
-std::string describe_material(const Scene& scene, size_t index) {
-    return fmt::format("material \"{}\"{}", scene.material_names[index], quoted_place(scene.material_places[index]));
 }
 
 /// Where an option was given: a line of the options file, or the command line.

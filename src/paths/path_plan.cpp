@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paths/path_plan.h"
 
+#include "scene/material_rules.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
@@ -15,12 +17,6 @@ const char* const EVERY_PATH = "L(D|G|S)*E";
 /// Longer distances are written as this: the deepest --max-depth lies above, so only a few rays more are
 /// traced.
 constexpr int LARGEST_DISTANCE = 0xffff;
-
-std::string describe_material(const Scene& scene, size_t index) {
-    const SourcePlace& place = scene.material_places[index];
-    const std::string where = place.line ? fmt::format(" ({}:{})", place.file, place.line) : "";
-    return fmt::format("material \"{}\"{}", scene.material_names[index], where);
-}
 
 /// The first material on a triangle that has a property; empty if there is none.
 std::string find_material(const Scene& scene, const std::function<bool(const Material&)>& has) {

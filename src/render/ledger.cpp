@@ -157,6 +157,8 @@ LedgerRow make_row(const Variant& picture, const Variant& without) {
 }
 
 void set_break_even(const Variant& specialised, const Variant& full, double threads, Ledger& ledger) {
+    if (specialised.mask == full.mask)
+        return; // the same program: what differs is noise
     const LedgerValue extra = compare(full.seconds, specialised.seconds, difference);
     const auto samples = [&](double gain) {
         return gain > 0 ? std::optional<double>(specialised.compile_seconds * threads / gain) : std::nullopt;

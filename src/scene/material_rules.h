@@ -53,6 +53,9 @@ RuledMaterial rule_material(const MtlMaterial& mtl, const MaterialContext& conte
 /// The material of faces without one: matte, Kd 0.8.
 RuledMaterial default_material();
 
+/// A material as a witness: its name and, where it has one, its place: `material "glass" (room.mtl:12)`.
+std::string describe_material(const Scene& scene, size_t index);
+
 /// What a material of a scene became, such as "matte 0.5 0.5 0.5, Kd map "wood.png"".
 std::string material_summary(const Scene& scene, size_t index);
 

@@ -63,6 +63,12 @@ std::string maps_of(const Material& m, const Scene& scene) {
 
 } // namespace
 
+std::string describe_material(const Scene& scene, size_t index) {
+    const SourcePlace& place = scene.material_places[index];
+    const std::string where = place.line ? fmt::format(" ({}:{})", place.file, place.line) : "";
+    return fmt::format("material \"{}\"{}", scene.material_names[index], where);
+}
+
 std::string material_summary(const Scene& scene, size_t index) {
     const Material& material = scene.materials[index];
     return fmt::format("{}{}", fmt::join(parts_of(material), ", "), maps_of(material, scene));

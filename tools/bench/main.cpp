@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-bench: clrt's rays against Embree's.
 #include "app/log.h"
+#include "app/run_program.h"
 #include "bench/report.h"
 #include "bench/speed.h"
 #include "error.h"
@@ -110,28 +111,11 @@ int run(int argc, const char* const* argv) {
     return run_mode(bench);
 }
 
-int report_error(int code, const char* what) {
-    std::fprintf(stderr, "clrt-bench: error: %s\n", what);
-    return code;
-}
-
 } // namespace
 
 } // namespace clrt
 
 int main(int argc, char** argv) {
     using namespace clrt;
-    try {
-        return run(argc, argv);
-    } catch (const UsageError& error) {
-        return report_error(EXIT_USAGE, error.what());
-    } catch (const SceneError& error) {
-        return report_error(EXIT_SCENE, error.what());
-    } catch (const DeviceError& error) {
-        return report_error(EXIT_DEVICE, error.what());
-    } catch (const std::bad_alloc&) {
-        return report_error(EXIT_SCENE, "not enough memory");
-    } catch (const std::exception& error) {
-        return report_error(EXIT_SCENE, error.what());
-    }
+    return run_program("clrt-bench", [&] { return run(argc, argv); });
 }

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the command line refuses, and in which words.
+#include "app/option_table.h"
+#include "host/command_line_support.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+TEST(CommandLine, OneSceneIsExpected) {
+    EXPECT_NE(refusal({}).find("expected a scene"), std::string::npos);
+    EXPECT_NE(refusal({"a.obj", "b.obj"}).find("expected one scene, found 2: 'a.obj' and 'b.obj'"),
+              std::string::npos);
+    EXPECT_NE(refusal({"a.clrt"}).find("expected a scene such as STEM.obj"), std::string::npos);
+    EXPECT_EQ(parse_all({"--", "-odd.obj"}).options.scene_path, "-odd.obj");
+}
+
+TEST(CommandLine, UnknownOptionsNameTheNearest) {
+    EXPECT_EQ(refusal({"--szie", "3", "s.obj"}),
+              "unknown option --szie; the nearest is --size, and `clrt --help` lists all");
+    EXPECT_NE(refusal({"--integratr=path", "s.obj"})
+                  .find("unknown option --integratr; the nearest is --integrator"),
+              std::string::npos);
+    EXPECT_NE(refusal({"--dev", "pocl", "s.obj"}).find("the nearest is --device"), std::string::npos);
+    EXPECT_EQ(refusal({"-x", "s.obj"}), "unknown option -x; `clrt --help` lists all");
+}
+
+TEST(CommandLine, MissingValuesAreNamed) {
+    EXPECT_EQ(refusal({"s.obj", "--spp"}),
+              "option --spp: expected a value, found the end of the command line");
+    EXPECT_EQ(refusal({"--spp", "--time", "5", "s.obj"}),
+              "option --spp: expected a value N, found the option --time");
+    EXPECT_EQ(refusal({"--device=", "s.obj"}), "option --device: expected a value after '=', found none");
+    EXPECT_EQ(refusal({"--device", "", "s.obj"}), "option --device: expected a name, found ''");
+    EXPECT_EQ(refusal({"--no-sidecar=3", "s.obj"}), "option --no-sidecar takes no value, found '3'");
+}
+
+TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
+    const std::vector<std::pair<std::string, std::string>> bad = {
+        {"--integrator", "pth"},
+        {"--spp", "0"},
+        {"--spp", "4.5"},
+        {"--spp", "4294967296"},
+        {"--spp", "-1"},
+        {"--spp", "99999999999999999999"},
+        {"--error", "-1"},
+        {"--error", "101%"},
+        {"--error", "small"},
+        {"--time", "0"},
+        {"--time", "5d"},
+        {"--time", "-5s"},
+        {"--time", "s"},
+        {"--time", "inf"},
+        {"--max-depth", "0"},
+        {"--max-depth", "65536"},
+        {"--roulette-depth", "0"},
+        {"--min-contribution", "1.1"},
+        {"--min-contribution", "-1%"},
+        {"--seed", "-1"},
+        {"--seed", "0x10"},
+        {"--replicates", "0"},
+        {"--replicates", "65"},
+        {"--sampler", "halton"},
+        {"--precision", "half"},
+        {"--threads", "-1"},
+        {"--bvh", "bvh4"},
+        {"--bvh", "bvh8,bvh2"},
+        {"--bvh", "cwbvh,bvh8"},
+        {"--bvh", "high,fast"},
+        {"--bvh", "auto,high"},
+        {"--bvh", ""},
+        {"--size", "800"},
+        {"--size", "0x600"},
+        {"--size", "800x65536"},
+        {"--size", "800x600x3"},
+        {"--size", "-800x600"},
+        {"--crop", "0,0,10"},
+        {"--crop", "5,0,5,10"},
+        {"--crop", "-1,0,5,10"},
+        {"--crop", "0,0,1.5,10"},
+        {"--filter", "sinc"},
+        {"--filter", "box:0"},
+        {"--filter", "tent:"},
+        {"--filter", "tent:nan"},
+        {"--exposure", "1e9"},
+        {"--exposure", "bright"},
+        {"--tonemap", "filmic"},
+        {"--aov", "albedo,depth"},
+        {"--aov", "N,N"},
+        {"--aov", "N,none"},
+        {"--aov", ""},
+        {"--aov", "N=LDE"},
+        {"--eye", "1,2"},
+        {"--eye", "1,2,x"},
+        {"--eye", "1,2,nan"},
+        {"--at", "1,2,1e39"},
+        {"--eye", "1,2,3,4"},
+        {"--up", "0,0,-0"},
+        {"--fov", "0"},
+        {"--fov", "180"},
+        {"--fov", "inf"},
+        {"--focal-length", "0"},
+        {"--film-width", "-1"},
+        {"--env-scale", "-1"},
+        {"--env-rotate", "north"},
+        {"--sun", "0,0,0,1,1,1"},
+        {"--sun", "0,1,0,1,1"},
+        {"--sun", "0,1,0,1,1,-1"},
+        {"--sun", "0,1,0,1,1,1,-1"},
+        {"--sun", "0,1,0,1,1,1,91"},
+        {"--point", "0,1,0,1,1"},
+        {"--point", "0,1,0,1,1,-1"},
+        {"--effects", "most"},
+        {"--check", "yes"},
+        {"--cache", "maybe"},
+        {"--progress", "1"},
+        {"--output", "a.gif"},
+        {"--output", "picture"},
+        {"--kernels", ""},
+        {"--stats", ""},
+    };
+    for (const auto& [option, value] : bad) {
+        const std::string message = refusal({option, value, "s.obj"});
+        EXPECT_EQ(message.find("option " + option + ": expected "), 0u)
+            << option << " " << value << ": " << message;
+        EXPECT_NE(message.find(", found '"), std::string::npos) << message;
+    }
+    EXPECT_EQ(refusal({"--integrator", "pth", "s.obj"}),
+              "option --integrator: expected raycast, whitted or path, found 'pth'");
+}
+
+TEST(CommandLine, ContradictionsAreNamed) {
+    const auto expect = [](const std::vector<std::string>& arguments, const std::string& part) {
+        std::vector<std::string> all = arguments;
+        all.emplace_back("s.obj");
+        const std::string message = refusal(all);
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+    };
+    expect({"-q", "-v"}, "options --quiet and --verbose: expected one of them");
+    expect({"--cache", "on", "--no-cache"}, "options --cache and --no-cache");
+    expect({"--fov", "40", "--focal-length", "35", "--film-width", "24"}, "options --fov and --focal-length");
+    expect({"--focal-length", "35"}, "option --focal-length: expected together with --film-width");
+    expect({"--film-width", "35"}, "option --film-width: expected together with --focal-length");
+    expect({"--crop", "0,0,801,10"}, "option --crop: expected a window inside the picture of 800x600 pixels");
+    expect({"-r", "65501x2", "-o", "a.JPG"},
+           "option --output: expected at most 65500 pixels a side for 'a.JPG'");
+    expect({"-i", "whitted", "--max-depth", "65"}, "option --max-depth: expected at most 64");
+    expect({"--first-sample", "4294967232"}, "expected a sum below 4294967296, found 4294967296");
+    expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
+    expect({"--first-sample", "4294901760", "--error", "1%"}, "expected a sum below 4294967296");
+    expect({"--error", "1%", "--replicates", "3"}, "option --error: expected --replicates 4 or more");
+    expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
+    EXPECT_EQ(parse({"--first-sample", "4294967231"}).first_sample, 4294967231u);
+    EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).max_depth, 64);
+}
+
+TEST(CommandLine, MissingOutputFolderStopsBeforeAnyWork) {
+    ScratchFolder folder;
+    EXPECT_THROW(parse({"-o", folder.file("absent/a.png")}), SceneError);
+    EXPECT_THROW(parse({"--stats", folder.file("absent/s.json")}), SceneError);
+    EXPECT_NO_THROW(parse({"-o", folder.file("a.png"), "--stats", folder.file("s.json")}));
+    EXPECT_NO_THROW(parse({"-o", folder.file("absent/a.png"), "--explain"}));
+}
+
+} // namespace clrt
