@@ -8,7 +8,7 @@ from clrt_tools import study_charts
 from clrt_tools.metrics import SMALL_SQUARE
 from clrt_tools.picture_file import read_picture
 
-TEMPLATE = os.path.join(os.path.dirname(os.path.realpath(__file__)), "study_page.html.jinja")
+FOLDER = os.path.dirname(os.path.realpath(__file__))
 
 
 def _pictures(runs, reference):
@@ -30,9 +30,9 @@ def _pictures(runs, reference):
 def page(title, runs, summaries, reference, notes):
     """The page's text. `notes`: what was skipped or failed."""
     pictures, exposure = _pictures(runs, reference)
-    with open(TEMPLATE, encoding="utf-8") as file:
-        environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-        template = environment.from_string(file.read())
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(FOLDER), autoescape=True, undefined=jinja2.StrictUndefined,
+                                     trim_blocks=True, lstrip_blocks=True)
+    template = environment.get_template("study_page.html.jinja")
     first = runs[0].stats
     return template.render(
         title=title, device=first["device"], version=first["version"], width=first["width"], height=first["height"],

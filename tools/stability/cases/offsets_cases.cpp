@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/catalogue.h"
+
+namespace clrt {
+
+const std::vector<StabilityCase>& offsets_cases() {
+    static const std::vector<StabilityCase> cases = {};
+    return cases;
+}
+
+} // namespace clrt

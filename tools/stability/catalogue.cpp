@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/catalogue.h"
+
+#include "stability/choices.h"
+
+#include <algorithm>
+
+namespace clrt {
+
+const std::vector<CaseGroup>& catalogue() {
+    static const std::vector<CaseGroup> groups = {
+        {"Intersection", intersection_cases()},
+        {"Leaving surfaces", offsets_cases()},
+        {"Scale and position", scale_cases()},
+        {"Degenerate geometry", degenerate_cases()},
+        {"Grazing incidence", grazing_cases()},
+        {"Dielectrics", dielectric_cases()},
+        {"Roughness", roughness_cases()},
+        {"Furnaces", furnace_cases()},
+        {"Reciprocity and probability", distribution_cases()},
+        {"Lights", light_cases()},
+        {"Environment", environment_cases()},
+        {"Cameras", camera_cases()},
+        {"Film", film_cases()},
+        {"Bidirectional", bidirectional_cases()},
+        {"Metropolis", metropolis_cases()},
+        {"Bad samples", sample_cases()},
+        {"Devices", device_cases()},
+    };
+    return groups;
+}
+
+std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>& ids) {
+    std::vector<const StabilityCase*> chosen;
+    for (const CaseGroup& group : catalogue())
+        for (const StabilityCase& subject : group.cases) {
+            const auto is_asked_for = [&](const std::string& id) { return std::string(subject.id).rfind(id, 0) == 0; };
+            if (subject.run && (ids.empty() || std::any_of(ids.begin(), ids.end(), is_asked_for)))
+                chosen.push_back(&subject);
+        }
+    return chosen;
+}
+
+const std::vector<RobustChoice>& robust_choices() {
+    static const std::vector<RobustChoice> choices = {
+        {"Fresnel reflectance", "1 - eta^2 (1 - cos^2)", "two-product form", "T01", 0, time_fresnel},
+    };
+    return choices;
+}
+
+} // namespace clrt

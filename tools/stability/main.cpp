@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// clrt-stability: the catalogue of hard cases on a device.
+#include "app/log.h"
+#include "app/run_program.h"
+#include "exit_code.h"
+#include "output/image.h"
+#include "stability/report.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+/// Opens the device and lets everything that runs kernels take it and the kernels that were asked for.
+const Device& open_chosen_device(const StabilityOptions& options) {
+    std::string notice;
+    const DeviceInfo info = choose_device(list_platforms(), options.device, notice);
+    setenv("CLRT_TEST_DEVICE", fmt::format("{}:{}", info.platform_index, info.device_index).c_str(), 1);
+    if (!options.kernels_folder.empty())
+        setenv("CLRT_TEST_KERNELS", options.kernels_folder.c_str(), 1);
+    return test_device();
+}
+
+StabilityReport run_catalogue(const StabilityOptions& options, const Device& device) {
+    const auto start = std::chrono::steady_clock::now();
+    StabilityReport report;
+    report.device = device.info;
+    report.tier = options.tier;
+    report.command = options.command;
+    fmt::print("{}", format_case_head());
+    for (const StabilityCase* subject : runnable_cases(options.cases)) {
+        report.cases.push_back(run_case(*subject, device, options.tier));
+        fmt::print("{}", format_case(report.cases.back()));
+        std::fflush(stdout);
+    }
+    if (options.costs)
+        for (const RobustChoice& choice : robust_choices())
+            if (options.cases.empty() || figure_of(report, choice))
+                report.costs.push_back({&choice, choice.time(device)});
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+int run(int argc, const char* const* argv) {
+    const StabilityOptions options = parse_stability_options(argc, argv);
+    if (options.print || options.list) {
+        fmt::print("{}", options.print ? *options.print : format_catalogue());
+        return EXIT_DONE;
+    }
+    start_log(0);
+    const StabilityReport report = run_catalogue(options, open_chosen_device(options));
+    fmt::print("{}", format_costs(report));
+    if (!options.page_path.empty())
+        write_text_file(options.page_path, report_page(report));
+    if (!options.stats_path.empty())
+        write_text_file(options.stats_path, report_json(report));
+    fmt::print("{}", format_summary(report));
+    return count_broken(report) == 0 ? EXIT_DONE : EXIT_CHECK;
+}
+
+} // namespace
+
+} // namespace clrt
+
+int main(int argc, char** argv) {
+    using namespace clrt;
+    return run_program("clrt-stability", [&] { return run(argc, argv); });
+}

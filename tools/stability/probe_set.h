@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same kernel expressions in every build, over arrays of float inputs: what a case compares and what a robust choice costs.
+#pragma once
+
+#include "stability/stability_case.h"
+#include "support/kernel_probe.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// Statements that read the inputs a, b, c, ... and the index i, and assign out[0], out[1], ... (all `real`).
+struct ProbedExpression {
+    std::string name;
+    int inputs = 1, outputs = 1;
+    std::string code;
+    std::string naive; ///< the textbook's way to the same outputs; empty: there is none to show
+};
+
+/// Arrays of equal length, one for each input.
+using Columns = std::vector<std::vector<float>>;
+
+/// Seconds of an expression for one element.
+struct ProbeTime {
+    double naive = 0, single = 0; ///< medians
+    double ratio = 0;             ///< median over the rounds of single over naive
+    double ratio_low = 0, ratio_high = 0; ///< its quartiles
+};
+
+class ProbeSet {
+public:
+    /// `headers` by their path below kernels/; `text`: functions that the expressions need. One program a build, made when it is
+    /// first needed.
+    ProbeSet(const Device& device, std::vector<std::string> headers, std::vector<ProbedExpression> expressions,
+             std::string text = "", std::vector<std::string> defines = {});
+
+    /// The outputs, one array each, widened to double. Inputs stay float in every build.
+    std::vector<std::vector<double>> run(Build build, const std::string& expression, const Columns& inputs);
+
+    /// Whether the expression has such a build on this device.
+    bool has(Build build, const std::string& expression) const;
+
+    /// Times naive against single in turns. The expression needs a naive form; at least 2^16 inputs say something.
+    ProbeTime time(const std::string& expression, const Columns& inputs, int rounds = 15);
+
+private:
+    const ProbedExpression& find(const std::string& name) const;
+    KernelProbe& probe(Build build);
+    Kernel prepare(Build build, const std::string& kernel, const Columns& inputs, cl::Buffer& out, size_t out_values);
+
+    const Device& device_;
+    std::vector<std::string> headers_;
+    std::vector<ProbedExpression> expressions_;
+    std::string text_;
+    std::vector<std::string> defines_;
+    std::map<Build, std::unique_ptr<KernelProbe>> probes_;
+};
+
+} // namespace clrt

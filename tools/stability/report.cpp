@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace clrt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string format_worst(const Worst& worst) {
+    return worst.tried == 0 ? "-" : fmt::format("{:.3g}", worst.value);
+}
+
+/// JSON knows no infinity: null.
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json figure_json(const Figure& figure) {
+    Json json{{"quantity", figure.quantity}, {"limit", figure.limit}, {"holds", figure.holds()}};
+    for (const Build build : ALL_BUILDS)
+        if (const Worst& worst = figure[build]; worst.tried > 0)
+            json[build_name(build)] = {
+                {"worst", number(worst.value)}, {"tried", worst.tried}, {"input", worst.input}};
+    return json;
+}
+
+Json case_json(const CaseResult& result) {
+    Json json{{"id", result.subject->id},         {"name", result.subject->name}, {"set_up", result.subject->set_up},
+              {"oracle", result.subject->oracle}, {"why", result.subject->why},   {"holds", result.holds()},
+              {"seconds", result.seconds}};
+    if (!result.error.empty())
+        json["error"] = result.error;
+    for (const Figure& figure : result.figures)
+        json["figures"].push_back(figure_json(figure));
+    return json;
+}
+
+} // namespace
+
+const Figure* figure_of(const StabilityReport& report, const RobustChoice& choice) {
+    for (const CaseResult& result : report.cases)
+        if (result.subject->id == std::string(choice.case_id) && size_t(choice.figure) < result.figures.size())
+            return &result.figures[size_t(choice.figure)];
+    return nullptr;
+}
+
+size_t count_broken(const StabilityReport& report) {
+    return size_t(std::count_if(report.cases.begin(), report.cases.end(),
+                                [](const CaseResult& result) { return !result.holds(); }));
+}
+
+std::string format_case_head() {
+    return fmt::format("{:<4} {:<44} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  verdict\n", "case", "figure", "inputs", "naive",
+                       "single", "fast", "double", "limit");
+}
+
+std::string format_case(const CaseResult& result) {
+    std::string lines;
+    const char* id = result.subject->id;
+    for (const Figure& figure : result.figures) {
+        lines += fmt::format("{:<4} {:<44} {:>9.3g} {:>9} {:>9} {:>9} {:>9} {:>9.3g}  {}\n", id, figure.quantity,
+                             double(figure[Build::SINGLE].tried), format_worst(figure[Build::NAIVE]),
+                             format_worst(figure[Build::SINGLE]), format_worst(figure[Build::FAST]),
+                             format_worst(figure[Build::DOUBLE]), figure.limit, figure.holds() ? "holds" : "FAILS");
+        if (!figure.holds())
+            lines += fmt::format("     worst in single: {}; in double: {}\n", figure[Build::SINGLE].input,
+                                 figure[Build::DOUBLE].input);
+        id = "";
+    }
+    if (!result.error.empty())
+        lines += fmt::format("{:<4} {}  FAILS: {}\n", id, result.subject->name, result.error);
+    return lines;
+}
+
+std::string format_costs(const StabilityReport& report) {
+    if (report.costs.empty())
+        return "";
+    std::string lines = fmt::format("\n{:<30} {:>9} {:>9} {:>18} {:>11} {:>11}  of\n", "what robustness costs", "naive ns",
+                                    "ns", "ratio (quartiles)", "naive error", "error");
+    for (const ChoiceCost& cost : report.costs) {
+        const Figure* figure = figure_of(report, *cost.choice);
+        lines += fmt::format("{:<30} {:>9.2f} {:>9.2f} {:>5.2f} ({:.2f}..{:.2f}) {:>11} {:>11}  {}\n", cost.choice->choice,
+                             cost.time.naive * 1e9, cost.time.single * 1e9, cost.time.ratio, cost.time.ratio_low,
+                             cost.time.ratio_high, figure ? format_worst((*figure)[Build::NAIVE]) : "-",
+                             figure ? format_worst((*figure)[Build::SINGLE]) : "-",
+                             figure ? fmt::format("{} {}", cost.choice->case_id, figure->quantity) : cost.choice->case_id);
+    }
+    return lines;
+}
+
+std::string format_summary(const StabilityReport& report) {
+    const size_t broken = count_broken(report);
+    return fmt::format("{} of {} cases hold{}, {} tier, {:.1f} s\n", report.cases.size() - broken, report.cases.size(),
+                       broken ? fmt::format(", {} FAIL", broken) : "", tier_name(report.tier), report.seconds);
+}
+
+std::string format_catalogue() {
+    std::string lines;
+    for (const CaseGroup& group : catalogue()) {
+        lines += fmt::format("{}\n", group.title);
+        for (const StabilityCase& subject : group.cases)
+            lines += fmt::format("  {} {}: {}; {}\n", subject.id, subject.name, subject.set_up,
+                                 subject.waits_for ? fmt::format("waits for {}", subject.waits_for)
+                                                   : fmt::format("against {}", subject.oracle));
+    }
+    return lines;
+}
+
+std::string report_json(const StabilityReport& report) {
+    Json json{{"version", CLRT_VERSION},
+              {"command", report.command},
+              {"device",
+               {{"platform", report.device.platform}, {"name", report.device.name}, {"driver", report.device.driver}}},
+              {"tier", tier_name(report.tier)},
+              {"seconds", report.seconds},
+              {"holds", count_broken(report) == 0}};
+    for (const CaseResult& result : report.cases)
+        json["cases"].push_back(case_json(result));
+    for (const ChoiceCost& cost : report.costs)
+        json["costs"].push_back({{"choice", cost.choice->choice},
+                                 {"naive", cost.choice->naive},
+                                 {"robust", cost.choice->robust},
+                                 {"case", cost.choice->case_id},
+                                 {"naive_seconds", cost.time.naive},
+                                 {"seconds", cost.time.single},
+                                 {"ratio", cost.time.ratio},
+                                 {"ratio_quartiles", {cost.time.ratio_low, cost.time.ratio_high}}});
+    for (const CaseGroup& group : catalogue())
+        for (const StabilityCase& subject : group.cases)
+            if (subject.waits_for)
+                json["waiting"].push_back({{"id", subject.id}, {"name", subject.name}, {"for", subject.waits_for}});
+    return json.dump(2) + "\n";
+}
+
+} // namespace clrt

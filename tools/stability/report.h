@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What clrt-stability found: lines, JSON and a page.
+#pragma once
+
+#include "stability/catalogue.h"
+#include "stability/stability_options.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// A robust choice with its measured time.
+struct ChoiceCost {
+    const RobustChoice* choice = nullptr;
+    ProbeTime time;
+};
+
+struct StabilityReport {
+    DeviceInfo device;
+    Tier tier = Tier::QUICK;
+    std::vector<std::string> command;
+    std::vector<CaseResult> cases;
+    std::vector<ChoiceCost> costs;
+    double seconds = 0;
+};
+
+/// The figure that a choice's case shows, or null where the case did not run.
+const Figure* figure_of(const StabilityReport& report, const RobustChoice& choice);
+
+/// Number of cases that do not hold.
+size_t count_broken(const StabilityReport& report);
+
+/// The head line over the lines of format_case.
+std::string format_case_head();
+
+/// A line for each figure of a case.
+std::string format_case(const CaseResult& result);
+
+/// The table of costs; empty without costs.
+std::string format_costs(const StabilityReport& report);
+
+/// "38 of 38 cases hold, quick tier, 52.1 s".
+std::string format_summary(const StabilityReport& report);
+
+/// The catalogue with set-ups, oracles and what waits.
+std::string format_catalogue();
+
+/// All figures, SI units.
+std::string report_json(const StabilityReport& report);
+
+/// One HTML page that needs nothing else.
+std::string report_page(const StabilityReport& report);
+
+} // namespace clrt
