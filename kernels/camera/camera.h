@@ -39,10 +39,11 @@ static inline real2 camera_filter_sample(const RenderParams* params, real2 u)
 static inline Ray camera_ray(const RenderParams* params, const Sampler* sampler, uint x, uint y)
 {
     const real2 offset = camera_filter_sample(params, sampler_pair(sampler, 0u, SAMPLE_FILM));
-    const real film_x = (real)x + REAL(0.5) + offset.x;
-    const real film_y = (real)y + REAL(0.5) + offset.y;
+    /* From the picture's centre, exact for pixel centres: from a corner, the terms of a wide angle would cancel. */
+    const real film_x = (real)(2 * (int)x + 1 - (int)params->width) * REAL(0.5) + offset.x;
+    const real film_y = (real)(2 * (int)y + 1 - (int)params->height) * REAL(0.5) + offset.y;
     const real3 direction = fma((real3)(film_x), vector_from(params->film_dx),
-                                fma((real3)(film_y), vector_from(params->film_dy), vector_from(params->film_corner)));
+                                fma((real3)(film_y), vector_from(params->film_dy), vector_from(params->look)));
     return ray_make(vector_from(params->eye), vector_normalize(direction));
 }
 

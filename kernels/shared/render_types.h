@@ -12,10 +12,9 @@ SHARED_BEGIN
 #define FILTER_GAUSSIAN 2u
 
 typedef struct {
-    /* Camera in the normalised frame: the ray through film position (x, y), in pixels from the top left, has
-       the direction film_corner + x film_dx + y film_dy, not of unit length. */
+    /* Camera in the normalised frame: the ray through film position (x, y), in pixels right of and below the
+       picture's centre, has the direction look + x film_dx + y film_dy, not of unit length. */
     vec4 eye;
-    vec4 film_corner;
     vec4 film_dx;
     vec4 film_dy;
     vec4 look; /* unit */
@@ -52,7 +51,7 @@ typedef struct {
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
     u32 unused0, unused1;
 } RenderParams;
-ASSERT_SIZE(RenderParams, 240);
+ASSERT_SIZE(RenderParams, 224);
 
 /* The picture is rendered and summed in tiles of 8 x 8 pixels; sums of a tile lie together. */
 #define TILE_SIZE 8

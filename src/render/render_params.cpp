@@ -21,10 +21,8 @@ void set_camera(const Scene& scene, const Options& options, RenderParams& params
     const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
     const glm::dvec3 right = glm::normalize(glm::cross(look, camera.up));
     const glm::dvec3 up = glm::cross(right, look);
-    const double width = options.size.x, height = options.size.y;
-    const double pixel = 2 * std::tan(0.5 * camera.fov_degrees * RADIANS) / height;
+    const double pixel = 2 * std::tan(0.5 * camera.fov_degrees * RADIANS) / options.size.y;
     params.eye = to_vec4((camera.eye - scene.normalisation.centre) * scene.normalisation.scale);
-    params.film_corner = to_vec4(look - right * (0.5 * width * pixel) + up * (0.5 * height * pixel));
     params.film_dx = to_vec4(right * pixel);
     params.film_dy = to_vec4(up * -pixel);
     params.look = to_vec4(look);

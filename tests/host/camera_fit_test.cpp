@@ -153,6 +153,19 @@ TEST(CameraFit, AnUpVectorAlongTheViewIsReplacedWithANotice) {
     EXPECT_EQ(fit(options).camera.up, glm::dvec3(0, 1, 0));
 }
 
+TEST(CameraFit, AViewTooNarrowForItsPixelsIsNoticed) {
+    CameraOptions options;
+    options.eye = glm::dvec3(0, 0, 5);
+    options.at = glm::dvec3(0);
+    options.fov_degrees = 0.01; // 2.9e-7 radians a pixel
+    EXPECT_TRUE(fit(options).notices.empty());
+    options.fov_degrees = 0.001;
+    const auto notices = fit(options).notices;
+    ASSERT_EQ(notices.size(), 1u);
+    EXPECT_EQ(notices[0], "camera: --fov 0.001 puts pixels 2.9e-08 radians apart, rays of single precision differ from "
+                          "2.4e-07 on: neighbours show the same");
+}
+
 TEST(CameraFit, TheNoticeHoldsFlagsThatGiveTheSameCamera) {
     const Fitted first = fit({});
     ASSERT_EQ(first.notices.size(), 1u);

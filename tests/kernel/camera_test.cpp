@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // camera/camera.h: pixel filters by their distributions, rays against double precision.
+#include "render/render_params.h"
+#include "scene/camera_fit.h"
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
 
 #include <gtest/gtest.h>
+#include <set>
+#include <tuple>
 
 using namespace clrt;
 using glm::dvec3;
@@ -14,6 +18,8 @@ namespace {
 
 constexpr size_t SAMPLES = 300000;
 constexpr double GAUSSIAN_SIGMAS = 3; // the radius of the Gaussian filter
+constexpr double LARGEST_RAY_ERROR = 1.5e-7; // radians, whatever the angle of view
+constexpr double RESOLVED_PITCH = 2.4e-7;    // radians between pixels whose rays of single precision differ
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
@@ -76,19 +82,20 @@ struct View {
     double fov_degrees;
 };
 
-/// Film vectors of a camera as the host makes them.
+/// What the host makes of a camera.
 RenderParams camera_params(const View& view, u32 width, u32 height) {
-    RenderParams params = filter_params(FILTER_BOX, 0.5);
-    const dvec3 right = glm::normalize(glm::cross(view.look, view.up)), up = glm::cross(right, view.look);
-    const double pixel = 2 * std::tan(view.fov_degrees * PI / 360) / height;
-    params.eye = to_vec4(view.eye);
-    params.film_corner = to_vec4(view.look - right * (0.5 * width * pixel) + up * (0.5 * height * pixel));
-    params.film_dx = to_vec4(right * pixel);
-    params.film_dy = to_vec4(up * -pixel);
-    params.look = to_vec4(view.look);
-    params.width = width;
-    params.height = height;
-    return params;
+    Scene scene;
+    scene.camera = {view.eye, view.eye + view.look, view.up, view.fov_degrees};
+    Options options;
+    options.size = {int(width), int(height)};
+    options.filter = Filter::BOX;
+    return make_render_params(scene, options, FilmScale{});
+}
+
+/// The axes of a view: right and up.
+std::pair<dvec3, dvec3> axes(const View& view) {
+    const dvec3 right = glm::normalize(glm::cross(view.look, view.up));
+    return {right, glm::cross(right, view.look)};
 }
 
 std::vector<vec4> random_pixels(u32 width, u32 height, size_t count) {
@@ -165,7 +172,7 @@ TEST(Camera, RaysAreThoseOfAPinhole) {
           View{{1, -2, 3}, tilted, {0.2, 1, 0.1}, 179.9}, View{{0, 5, 0}, tilted, {0, 1, 0}, 1e-3}}) {
         const RenderParams params = camera_params(view, WIDTH, HEIGHT);
         const SceneProbe::Outputs got = probe().run("ray", Scene{}, params, pixels);
-        const dvec3 right = glm::normalize(glm::cross(view.look, view.up)), up = glm::cross(right, view.look);
+        const auto [right, up] = axes(view);
         const double tangent = std::tan(view.fov_degrees * PI / 360);
         for (size_t i = 0; i < pixels.size(); ++i) {
             // From the definition: the sample's place in the picture, scaled by the tangent of half the
@@ -175,14 +182,47 @@ TEST(Camera, RaysAreThoseOfAPinhole) {
             const dvec3 exact = view.look + right * (tangent * (2 * x - WIDTH) / HEIGHT) +
                                 up * (tangent * (1 - 2 * y / HEIGHT));
             const dvec3 d = to_dvec3(got.first[i]);
-            // The corner and the steps to the film position are floats: a wide angle's cancel towards the
-            // centre.
-            const double corner = glm::length(to_dvec3(params.film_corner)) / glm::length(exact);
-            ASSERT_LE(glm::length(d - glm::normalize(exact)), 4 * FLOAT_U * (1 + corner)) << view.fov_degrees;
+            ASSERT_LE(glm::length(d - glm::normalize(exact)), LARGEST_RAY_ERROR) << view.fov_degrees;
             ASSERT_NEAR(glm::length(d), 1, 4 * FLOAT_U);
             ASSERT_EQ(got.first[i].w, 1e18f);
             ASSERT_EQ(to_dvec3(got.second[i]), view.eye);
         }
+    }
+}
+
+TEST(Camera, NeighbouringPixelsHaveRaysOfTheirOwn) {
+    // Pixel centres of a narrow view, just wide enough to be told apart.
+    constexpr u32 SIZE = 256;
+    View view{{0, 0, 0}, glm::normalize(dvec3(0.3, -0.5, -0.8)), {0, 1, 0}, RESOLVED_PITCH * SIZE * 180 / PI};
+    std::vector<vec4> pixels;
+    for (u32 y = 0; y < SIZE; ++y)
+        for (u32 x = 0; x < SIZE; ++x)
+            pixels.push_back({bits_to_float(x), bits_to_float(y), 0, 0});
+    RenderParams params = camera_params(view, SIZE, SIZE);
+    params.filter_radius = 0;
+    std::set<std::tuple<float, float, float>> distinct;
+    for (const vec4& d : probe().run("ray", Scene{}, params, pixels).first)
+        distinct.insert({d.x, d.y, d.z});
+    EXPECT_GE(double(distinct.size()), 0.99 * SIZE * SIZE);
+}
+
+TEST(Camera, AnUpVectorNearTheViewLeavesTheFilmSquare) {
+    const dvec3 tilted = glm::normalize(dvec3(0.3, -0.5, -0.8));
+    for (const double angle : {0.0, 1e-7, 1e-5}) {
+        CameraOptions given;
+        given.eye = dvec3(1, -2, 3);
+        given.at = *given.eye + tilted;
+        given.up = tilted + angle * dvec3(0.5, 0.3, 0);
+        NoticeList notices;
+        const Bounds box{dvec3(-1), dvec3(1)};
+        const Camera camera = fit_camera(given, {64, 64}, box, {}, notices);
+        const RenderParams params = camera_params({camera.eye, tilted, camera.up, 90}, 64, 64);
+        const dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0;
+        EXPECT_NEAR(glm::length(x), 1, 4 * FLOAT_U) << angle;
+        EXPECT_NEAR(glm::length(y), 1, 4 * FLOAT_U) << angle;
+        EXPECT_NEAR(glm::dot(x, y), 0, 4 * FLOAT_U) << angle;
+        EXPECT_NEAR(glm::dot(x, tilted), 0, 4 * FLOAT_U) << angle;
+        EXPECT_NEAR(glm::dot(y, tilted), 0, 4 * FLOAT_U) << angle;
     }
 }
 
@@ -202,15 +242,16 @@ TEST(Camera, TheFilterMovesTheSampleByItsOffset) {
     for (const u32 filter : {FILTER_BOX, FILTER_TENT, FILTER_GAUSSIAN}) {
         RenderParams params = filter_params(filter, 1.5);
         params.width = WIDTH;
-        params.film_corner = {0, 0, -1, 0};
+        params.height = HEIGHT;
+        params.look = {0, 0, -1, 0};
         params.film_dx = {1, 0, 0, 0};
         params.film_dy = {0, 1, 0, 0};
         const SceneProbe::Outputs got = probe().run("ray", Scene{}, params, pixels);
         const std::vector<vec4> offsets = filter_offsets(filter, 1.5, got.third);
         for (size_t i = 0; i < pixels.size(); ++i) {
             const dvec3 d = to_dvec3(got.first[i]) / -double(got.first[i].z);
-            ASSERT_NEAR(d.x, float_to_bits(pixels[i].x) + 0.5 + offsets[i].x, 64 * 8 * FLOAT_U);
-            ASSERT_NEAR(d.y, float_to_bits(pixels[i].y) + 0.5 + offsets[i].y, 64 * 8 * FLOAT_U);
+            ASSERT_NEAR(d.x + WIDTH / 2, float_to_bits(pixels[i].x) + 0.5 + offsets[i].x, 64 * 8 * FLOAT_U);
+            ASSERT_NEAR(d.y + HEIGHT / 2, float_to_bits(pixels[i].y) + 0.5 + offsets[i].y, 64 * 8 * FLOAT_U);
         }
     }
 }

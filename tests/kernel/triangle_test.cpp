@@ -69,7 +69,7 @@ static float4 edges_8(uint lane, float4 origin, float4 direction, float4 p0, flo
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
-        KernelProbe made(test_device(), {"geometry/triangle.h"}, {}, kernels_under_test());
+        KernelProbe made(test_device(), {"geometry/triangle.h"});
         made.add_text(TEXT);
         made.add<vec4(vec4, vec4, vec4, vec4, vec4)>("edges", "edges(a, b, c, d, e)");
         made.add<vec4(vec4, vec4, vec4, vec4, vec4)>("edges_8", "edges_8(i % 8u, a, b, c, d, e)");

@@ -48,6 +48,11 @@ const Device& test_device() {
     return *device;
 }
 
+KernelFiles kernels_under_test() {
+    const char* const folder = std::getenv("CLRT_TEST_KERNELS");
+    return folder ? read_kernel_files(folder) : embedded_kernel_files();
+}
+
 KernelProbe::KernelProbe(const Device& device, std::vector<std::string> headers, ProbeOptions options,
                          KernelFiles files)
     : device_(device), headers_(std::move(headers)), options_(std::move(options)), files_(std::move(files)) {}

@@ -28,6 +28,10 @@
 
 namespace clrt {
 
+/// The kernels inside the test, or those in the folder that the variable CLRT_TEST_KERNELS names: so faults
+/// can be planted without a build.
+KernelFiles kernels_under_test();
+
 /// The device that tests run on: CLRT_TEST_DEVICE (as --device takes it; default "pocl"), opened once a
 /// process.
 const Device& test_device();
@@ -67,7 +71,7 @@ public:
     /// `headers` are kernel files that the expressions need, by their path below kernels/; `files` are where
     /// they come from.
     KernelProbe(const Device& device, std::vector<std::string> headers, ProbeOptions options = {},
-                KernelFiles files = embedded_kernel_files());
+                KernelFiles files = kernels_under_test());
 
     /// Registers an expression under a name (an identifier). Signature says the types, such as float(float,
     /// u32). The expression reads the inputs as a, b, c, ... and the element's index as `i` (u32); its value

@@ -164,19 +164,13 @@ KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
         options.defines.push_back(fmt::format("CLRT_EFFECTS={:#x}u", chosen.effects));
         options.defines.push_back(fmt::format("MOST_LAYERS={}u", MOST_LAYERS));
         probe = std::make_unique<KernelProbe>(
-            test_device(), std::vector<std::string>{"geometry/visibility.h", "geometry/surface.h"}, options,
-            kernels_under_test());
+            test_device(), std::vector<std::string>{"geometry/visibility.h", "geometry/surface.h"}, options);
         probe->add_text(kernel_text());
     }
     return *probe;
 }
 
 } // namespace
-
-KernelFiles kernels_under_test() {
-    const char* const folder = std::getenv("CLRT_TEST_KERNELS");
-    return folder ? read_kernel_files(folder) : embedded_kernel_files();
-}
 
 TestRay make_ray(const glm::dvec3& origin, const glm::dvec3& direction, float t_max) {
     const glm::dvec3 d = glm::normalize(direction);

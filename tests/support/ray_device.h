@@ -44,10 +44,6 @@ inline bool operator!=(const TestHit& a, const TestHit& b) {
     return !(a == b);
 }
 
-/// The kernels inside the test, or those in the folder that the variable CLRT_TEST_KERNELS names: so faults
-/// can be planted without a build.
-KernelFiles kernels_under_test();
-
 /// What a test may choose about the tree and the programs.
 struct RayDeviceOptions {
     BvhLayout layout = BvhLayout::BVH8;
