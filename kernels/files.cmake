@@ -34,6 +34,7 @@ set(CLRT_KERNEL_FILES
   numerics/device.h
   numerics/frame.h
   numerics/real.h
+  numerics/real_functions.h
   numerics/sampler.h
   numerics/vector.h
   numerics/warp.h

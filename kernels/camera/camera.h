@@ -4,6 +4,7 @@
 #define CLRT_CAMERA_CAMERA_H
 
 #include "geometry/ray.h"
+#include "numerics/real_functions.h"
 #include "numerics/sampler.h"
 #include "shared/effects.h"
 #include "shared/render_types.h"
@@ -29,8 +30,8 @@ static inline real2 camera_filter_sample(const RenderParams* params, real2 u)
         return (real2)(camera_tent(u.x), camera_tent(u.y)) * radius;
     /* Box-Muller, cut at the radius by scaling the radial distribution. */
     const real sigma = CAMERA_GAUSSIAN_SHARE * radius;
-    const real cut = REAL(1.0) - exp(-radius * radius / (REAL(2.0) * sigma * sigma));
-    const real r = sigma * real_root(REAL(-2.0) * log(REAL(1.0) - u.x * cut));
+    const real cut = REAL(1.0) - real_exp(-radius * radius / (REAL(2.0) * sigma * sigma));
+    const real r = sigma * real_root(REAL(-2.0) * real_log(REAL(1.0) - u.x * cut));
     const real2 sc = real_sin_cos_turn(u.y);
     return (real2)(r * sc.y, r * sc.x);
 }

@@ -7,6 +7,7 @@
 #include "film/film.h"
 #include "geometry/visibility.h"
 #include "lights/lights.h"
+#include "numerics/real_functions.h"
 
 /* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. */
 static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight)

@@ -6,6 +6,7 @@
 
 #include "light_sample.h"
 #include "numerics/frame.h"
+#include "numerics/real_functions.h"
 
 /* Turns a world direction into the map's frame. */
 static inline real3 environment_to_map(const RenderParams* params, real3 d)
@@ -26,17 +27,23 @@ static inline real3 environment_to_world(const RenderParams* params, real3 d)
    cosine: next to the poles the cosine alone tells rows of a large map no longer apart. */
 static inline real2 environment_uv(real3 d)
 {
-    return (real2)(fma(atan2(d.z, d.x), REAL(0.5) * REAL_INVERSE_PI, REAL(0.5)),
-                   atan2(real_sqrt(fma(d.x, d.x, d.z * d.z)), d.y) * REAL_INVERSE_PI);
+    return (real2)(fma(real_atan2(d.z, d.x), REAL(0.5) * REAL_INVERSE_PI, REAL(0.5)),
+                   real_atan2(real_sqrt(fma(d.x, d.x, d.z * d.z)), d.y) * REAL_INVERSE_PI);
+}
+
+/* sin of half the angle that this many rows are high. */
+static inline real environment_half_sin(const RenderParams* params, real rows)
+{
+    return real_sin_cos_turn(rows / (REAL(4.0) * (real)params->environment_height)).x;
 }
 
 /* Solid angle of one texel of a row. */
 static inline real environment_texel_solid_angle(const RenderParams* params, uint row)
 {
-    const real step = REAL_PI / (real)params->environment_height;
     /* cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2), with the angles from the nearer pole. */
     const uint from_pole = min(row, params->environment_height - 1u - row);
-    const real band = REAL(2.0) * sin(step * ((real)from_pole + REAL(0.5))) * sin(REAL(0.5) * step);
+    const real band = REAL(2.0) * environment_half_sin(params, (real)(2u * from_pole + 1u)) *
+                      environment_half_sin(params, REAL(1.0));
     return REAL(2.0) * REAL_PI * band / (real)params->environment_width;
 }
 
@@ -83,11 +90,10 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
     const uint row = texel / width;
     const uint column = texel - row * width;
     /* 1 - cos is uniform between the row's edges, measured from the nearer pole: so no digits are lost next to it. */
-    const real step = REAL_PI / (real)params->environment_height;
     const bool upper = 2u * row < params->environment_height;
     const uint from_pole = upper ? row : params->environment_height - 1u - row;
-    const real inner = sin(REAL(0.5) * step * (real)from_pole);
-    const real outer = sin(REAL(0.5) * step * (real)(from_pole + 1u));
+    const real inner = environment_half_sin(params, (real)from_pole);
+    const real outer = environment_half_sin(params, (real)(from_pole + 1u));
     const real h = REAL(2.0) * fma(u.y, (outer - inner) * (outer + inner), inner * inner);
     const real r = real_root(h * (REAL(2.0) - h));
     const real y = upper ? REAL(1.0) - h : h - REAL(1.0);
@@ -99,7 +105,7 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
     sample.wi = environment_to_world(params, d);
     sample.pdf_w = (real)scene->environment[texel].radiance.w / environment_texel_solid_angle(params, row);
     sample.radiance = vector_from(params->environment) *
-                      environment_map_lookup(scene, params, (real2)(map_u, atan2(r, y) * REAL_INVERSE_PI));
+                      environment_map_lookup(scene, params, (real2)(map_u, real_atan2(r, y) * REAL_INVERSE_PI));
     sample.is_delta = false;
     return sample;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The number type of all kernels: float, or double for the oracle (--precision double). The only file that knows
-// about precision; native functions (--precision fast) appear nowhere else.
+// about precision, with real_functions.h; native functions (--precision fast) appear nowhere else.
 #ifndef CLRT_NUMERICS_REAL_H
 #define CLRT_NUMERICS_REAL_H
 
@@ -46,13 +46,11 @@ typedef int8 mask8;
 #define REAL_PI REAL(3.14159265358979323846)
 #define REAL_INVERSE_PI REAL(0.31830988618379067154)
 
-/* Square root, reciprocal square root, exponential and power; native ones under --precision fast. */
+/* Square root: correctly rounded, like division, where the device keeps its promises (device_facts.cl asks it). */
 #ifdef REAL_IS_FAST
 #define real_sqrt(x) native_sqrt(x)
-#define real_pow(x, y) native_powr(x, y)
 #else
 #define real_sqrt(x) sqrt(x)
-#define real_pow(x, y) pow(x, y)
 #endif
 
 /* NaN and infinity by their bits: relaxed maths may delete comparisons. */

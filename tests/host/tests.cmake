@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 clrt_test(host device_choose_test GTest::gmock)
 clrt_test(host driver_quirks_test)
+clrt_test(host kernel_builtins_test)
 clrt_test(host kernel_source_test GTest::gmock)
 target_compile_definitions(kernel_source_test PRIVATE CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels")
 clrt_test(host program_cache_test)
