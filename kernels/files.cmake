@@ -32,6 +32,7 @@ set(CLRT_KERNEL_FILES
   lights/light_sample.h
   lights/lights.h
   numerics/device.h
+  numerics/device_facts.cl
   numerics/frame.h
   numerics/real.h
   numerics/real_functions.h
@@ -52,6 +53,7 @@ set(CLRT_KERNEL_FILES
   scattering/microfacet.h
   shared/bvh_types.h
   shared/effects.h
+  shared/fact_types.h
   shared/path_types.h
   shared/render_types.h
   shared/scene_types.h

@@ -7,6 +7,7 @@
 #include "app/signals.h"
 #include "bvh/bvh.h"
 #include "device/device.h"
+#include "device/device_facts.h"
 #include "effects/effects.h"
 #include "effects/explain.h"
 #include "effects/take_out.h"
@@ -127,8 +128,24 @@ int finish(const Report& report) {
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
 }
 
+/// How the device computes, said where its pictures are its own. Not asked without a cache, where every start would pay.
+std::optional<DeviceFacts> ask_facts(const Device& device, const Options& options, Progress& progress) {
+    if (options.cache == Toggle::OFF)
+        return std::nullopt;
+    const DeviceFacts facts = device_facts(device, {options.cache, options.cache_folder});
+    const bool is_odd = options.precision == Precision::SINGLE && !promises_bits(facts);
+    if (is_odd || options.verbosity > 0)
+        progress.finish();
+    spdlog::debug("device: {}", describe_facts(facts));
+    if (is_odd)
+        spdlog::info("this device breaks rules ({}), so its pictures may differ from other devices' in their last bits",
+                     fmt::join(broken_rules(facts), ", "));
+    return facts;
+}
+
 /// What tree, program and passes give.
 struct Simulation {
+    std::optional<DeviceFacts> facts;
     Bvh bvh;
     std::string bvh_reason; ///< why the tree has its quality
     Render render;
@@ -153,6 +170,7 @@ Simulation simulate(const Device& device, const Scene& scene, const Effects& eff
     if (done.bvh.quality != quality.quality)
         done.bvh_reason += ", but cutting triangles gains too little here";
     const RenderPrograms programs = compiling.get();
+    done.facts = ask_facts(device, options, progress);
     const SceneBuffers buffers = upload_scene(device, scene, done.bvh);
     done.render = render(device, programs, buffers, scene, options, progress, hooks);
     done.compile_seconds = programs.seconds;
@@ -216,7 +234,7 @@ int run_render(Options options) {
     }
 
     const Crop window = render_window(options);
-    Report report{options, scene, effects, device.info, done.bvh, done.render,
+    Report report{options, scene, effects, device.info, done.facts, done.bvh, done.render,
                   make_error_report(done.render, window.x0, window.y0), done.bvh_reason, load_seconds, done.compile_seconds,
                   seconds_since(start)};
     write_outputs(report);
@@ -235,7 +253,10 @@ int run(int argc, const char* const* argv) {
     set_driver_environment(options);
     start_log(options.verbosity);
     if (options.list_devices) {
-        fmt::print("{}", format_device_table(list_platforms()));
+        const std::vector<PlatformInfo> platforms = list_platforms();
+        fmt::print("{}", format_device_table(platforms));
+        if (options.verbosity > 0)
+            fmt::print("{}", format_facts(platforms, {options.cache, options.cache_folder}));
         return EXIT_DONE;
     }
     if (!options.sidecar_path.empty())

@@ -46,6 +46,33 @@ Json stop_json(const Report& report) {
     return json;
 }
 
+/// Whether the picture has the same bits on every device that keeps the rules. Nothing is known of a device that was not
+/// asked, nor of --precision double, whose rules are not asked.
+std::optional<bool> has_same_bits(const Report& report) {
+    if (report.options.precision == Precision::FAST)
+        return false;
+    if (report.options.precision == Precision::DOUBLE || !report.facts)
+        return std::nullopt;
+    return promises_bits(*report.facts);
+}
+
+Json device_json(const Report& report) {
+    const std::optional<bool> same_bits = has_same_bits(report);
+    return {{"platform", report.device.platform},
+            {"name", report.device.name},
+            {"driver", report.device.driver},
+            {"same_bits", same_bits ? Json(*same_bits) : Json(nullptr)},
+            {"facts", report.facts ? facts_json(*report.facts) : Json(nullptr)}};
+}
+
+/// The same as metadata.
+void add_facts(const Report& report, Metadata& metadata) {
+    const std::optional<bool> same_bits = has_same_bits(report);
+    metadata.emplace_back("device.same_bits", !same_bits ? "unknown" : *same_bits ? "yes" : "no");
+    if (report.facts)
+        metadata.emplace_back("device.facts", describe_facts(*report.facts));
+}
+
 Json effects_json(const Effects& effects) {
     Json list = Json::array();
     for (const Effect& effect : effects.list)
@@ -142,9 +169,7 @@ std::string report_json(const Report& report) {
         json["bad_samples"].push_back({{"x", pixel % u32(report.options.size.x)},
                                        {"y", pixel / u32(report.options.size.x)},
                                        {"sample", sample}});
-    json["device"] = {{"platform", report.device.platform},
-                      {"name", report.device.name},
-                      {"driver", report.device.driver}};
+    json["device"] = device_json(report);
     json["bvh"] = {{"layout", layout_name(report.bvh.layout)},
                    {"quality", quality_name(report.bvh.quality)},
                    {"reason", report.bvh_reason},
@@ -186,6 +211,7 @@ Metadata report_metadata(const Report& report) {
                       {"infinite", std::to_string(render.counts.infinite)},
                       {"negative", std::to_string(render.counts.negative)},
                       {"overflow", std::to_string(render.counts.overflow)}};
+    add_facts(report, metadata);
     add_paths(report.effects.paths, metadata);
     add_error_metadata(report.error, metadata);
     return metadata;

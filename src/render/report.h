@@ -3,11 +3,13 @@
 #pragma once
 
 #include "bvh/bvh.h"
+#include "device/device_facts.h"
 #include "effects/effects.h"
 #include "output/image.h"
 #include "render/error_report.h"
 #include "render/render.h"
 
+#include <optional>
 #include <string>
 
 namespace clrt {
@@ -18,6 +20,7 @@ struct Report {
     const Scene& scene;
     const Effects& effects;
     const DeviceInfo& device;
+    const std::optional<DeviceFacts>& facts; ///< how it computes, where it was asked
     const Bvh& bvh;
     const Render& render;
     ErrorReport error;

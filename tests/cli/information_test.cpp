@@ -39,6 +39,12 @@ TEST_F(Information, DevicesAreListed) {
     EXPECT_TRUE(listing().empty());
 }
 
+TEST_F(Information, TheVerboseListSaysHowDevicesCompute) {
+    const auto result = clrt({"--list-devices", "-v"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(holds(result.out, {"0:0  ", " bits", "division 0.50", "pow "}));
+}
+
 TEST_F(Information, WithoutAnyDriverTheListSaysSo) {
     CommandSettings settings;
     settings.environment["OCL_ICD_VENDORS"] = folder.file("no-drivers");

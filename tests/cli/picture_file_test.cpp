@@ -136,11 +136,26 @@ TEST_F(PictureFile, MetadataTellHowThePictureWasMade) {
     const ReadPicture picture(folder.file("a.exr"));
     for (const char* name :
          {"version", "command", "device", "driver", "seed", "spp", "seconds.load", "seconds.bvh",
-          "seconds.compile", "seconds.render", "effects", "error", "nan", "infinite"})
+          "seconds.compile", "seconds.render", "effects", "error", "nan", "infinite", "device.same_bits", "device.facts"})
         EXPECT_FALSE(picture.spec.get_string_attribute(std::string("clrt.") + name).empty()) << name;
     EXPECT_EQ(picture.spec.get_string_attribute("clrt.seed"), "7");
     EXPECT_EQ(picture.spec.get_string_attribute("clrt.spp"), "16");
     EXPECT_TRUE(holds(picture.spec.get_string_attribute("clrt.command"), {"clrt", "scene.obj", "--seed 7"}));
+}
+
+TEST_F(PictureFile, BitsArePromisedInSingleOnlyAndWhereTheDeviceWasAsked) {
+    write_square("scene");
+    const std::vector<std::string> render = {"scene.obj", "-r", "16x12", "-s", "1", "-i", "raycast", "--stats", "s.json"};
+    const auto device = [&](std::initializer_list<std::string> more) {
+        std::vector<std::string> arguments = render;
+        arguments.insert(arguments.end(), more);
+        EXPECT_EQ(clrt(arguments).exit_code, 0);
+        return json("s.json")["device"];
+    };
+    EXPECT_EQ(device({"--precision", "fast"})["same_bits"], false);
+    const auto unasked = device({"--no-cache"});
+    EXPECT_TRUE(unasked["same_bits"].is_null());
+    EXPECT_TRUE(unasked["facts"].is_null());
 }
 
 TEST_F(PictureFile, AWindowKeepsItsPlaceInTheWholePicture) {
@@ -191,6 +206,9 @@ TEST_F(PictureFile, StatisticsAreJsonInSiUnits) {
         EXPECT_EQ(stats["nonfinite"][kind], 0) << kind;
     for (const char* key : {"platform", "name", "driver"})
         EXPECT_TRUE(stats["device"][key].is_string()) << key;
+    EXPECT_TRUE(stats["device"]["same_bits"].is_boolean());
+    EXPECT_TRUE(stats["device"]["facts"]["rules"]["fma rounded once"].is_boolean());
+    EXPECT_GE(stats["device"]["facts"]["errors_ulp"]["exp"], 0.5);
     EXPECT_TRUE(stats["effects"].is_array());
     EXPECT_TRUE(stats["version"].is_string());
     EXPECT_TRUE(holds(stats["command"], {"--stats s.json"}));
