@@ -128,18 +128,26 @@ int finish(const Report& report) {
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
 }
 
-/// How the device computes, said where its pictures are its own. Not asked without a cache, where every start would pay.
+/// How the device computes, said where its pictures are its own. Not asked without a cache, where every start would pay. A
+/// device that cannot answer renders all the same.
 std::optional<DeviceFacts> ask_facts(const Device& device, const Options& options, Progress& progress) {
     if (options.cache == Toggle::OFF)
         return std::nullopt;
-    const DeviceFacts facts = device_facts(device, {options.cache, options.cache_folder});
-    const bool is_odd = options.precision == Precision::SINGLE && !promises_bits(facts);
+    std::optional<DeviceFacts> facts;
+    try {
+        facts = device_facts(device, {options.cache, options.cache_folder});
+    } catch (const DeviceError& error) {
+        progress.finish();
+        spdlog::warn("how the device computes stays unknown: {}", error.what());
+        return std::nullopt;
+    }
+    const bool is_odd = options.precision == Precision::SINGLE && !promises_bits(*facts);
     if (is_odd || options.verbosity > 0)
         progress.finish();
-    spdlog::debug("device: {}", describe_facts(facts));
+    spdlog::debug("device: {}", describe_facts(*facts));
     if (is_odd)
         spdlog::info("this device breaks rules ({}), so its pictures may differ from other devices' in their last bits",
-                     fmt::join(broken_rules(facts), ", "));
+                     fmt::join(broken_rules(*facts), ", "));
     return facts;
 }
 

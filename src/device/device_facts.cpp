@@ -61,8 +61,7 @@ Answers ask(const Device& device, const FactOperands& operands) {
     kernel.set("results", results);
     kernel.set("rules", rules);
     check_opencl("asking the device how it computes", [&] {
-        device.queue.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, cl::NDRange(FACT_COUNT / 8),
-                                          cl::NDRange(64));
+        device.queue.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, cl::NDRange(FACT_COUNT / 8));
         device.queue.enqueueReadBuffer(results, CL_TRUE, 0, bytes, answers.results.data());
         device.queue.enqueueReadBuffer(rules, CL_TRUE, 0, sizeof answers.rules, &answers.rules);
     });
@@ -243,7 +242,7 @@ std::string format_facts(const std::vector<PlatformInfo>& platforms, const Progr
                                         ? "gives the same bits as every device that keeps the rules"
                                         : "may differ from other devices in the last bits",
                                     describe_facts(facts));
-            } catch (const std::runtime_error& error) {
+            } catch (const DeviceError& error) {
                 text += fmt::format("cannot be asked: {}\n", error.what());
             }
         }

@@ -7,6 +7,7 @@ target_compile_definitions(effect_masks_test PRIVATE CLRT_SCENES_FOLDER="${PROJE
 clrt_test(render furnace_test)
 clrt_test(render glass_test)
 clrt_test(render interreflection_test)
+clrt_test(render launch_bits_test)
 clrt_test(render paths_test)
 clrt_test(render pixel_filter_test)
 clrt_test(render ray_tree_test)

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film does not depend on how its samples are dealt out to launches: at once, one by one, tiles last to first.
+#include "bvh/bvh.h"
+#include "effects/effects.h"
+#include "render/film_buffers.h"
+#include "render/kernels.h"
+#include "render/launcher.h"
+#include "render/render_params.h"
+#include "support/kernel_probe.h"
+#include "support/render_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr u32 SAMPLES = 9;
+
+/// A launch: samples from `first` on, tiles from `tile` up to `end`.
+struct Launch {
+    u32 first, count, tile, end;
+};
+
+/// Glass, a rough ball, a sky and a lamp: all kinds of light, long and short paths side by side.
+void make_scene(TestScene& scene) {
+    scene.build.material("white", "Kd 0.7 0.7 0.7").material("glass", "Ni 1.5\nillum 7");
+    scene.build.material("rough", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2").material("lamp", "Ke 8 7 5");
+    scene.build.use("white").floor(4);
+    scene.build.use("glass").icosphere({-0.5, 0.6, 0}, 0.5, 1, Facing::OUTWARD, Shading::SMOOTH);
+    scene.build.use("rough").icosphere({0.6, 0.5, 0.2}, 0.4, 1);
+    scene.build.use("lamp").polygon({{-0.4, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.4, 2, 0.4}});
+    scene.options.light.points.push_back({{-1, 2, 1}, {2, 2, 4}});
+    scene.options.filter = Filter::GAUSSIAN;
+    scene.options.size = {44, 29}; // tiles at the edges are not whole
+    scene.options.replicates = 4;
+    scene.look({0, 1.5, 3}, {0, 0.4, 0}, 45);
+}
+
+/// One scene, its buffers and program, and the films that launches leave.
+class LaunchedScene {
+public:
+    explicit LaunchedScene(Integrator integrator) {
+        make_scene(test_);
+        Options& options = test_.options;
+        options.integrator = integrator;
+        const Scene scene = test_.load();
+        const Effects effects = find_effects(scene, options);
+        const BvhLayout layout = choose_layout(options.bvh, test_device().info);
+        programs_ = build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
+        const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout, BvhQuality::FAST);
+        buffers_ = upload_scene(test_device(), scene, bvh);
+        params_ = make_render_params(scene, options, film_scale(scene));
+        params_.film_replicates = params_.replicates;
+    }
+
+    u32 tiles() const { return params_.tile_count; }
+
+    std::vector<std::int64_t> sums(const std::vector<Launch>& launches) const {
+        FilmBuffers film(test_device(), params_, 0);
+        Launcher launcher(test_device(), programs_.picture,
+                          std::string("render_") + integrator_name(test_.options.integrator), params_, buffers_);
+        film.bind(launcher.kernel());
+        for (const Launch& launch : launches)
+            launcher.run(launch.first, launch.count, launch.tile, launch.end);
+        RenderProgress render;
+        render.film.width = int(params_.crop_width);
+        render.film.height = int(params_.crop_height);
+        render.film.replicates = int(params_.replicates);
+        film.read_sums(render);
+        return render.film.sums;
+    }
+
+private:
+    TestScene test_;
+    RenderPrograms programs_;
+    SceneBuffers buffers_;
+    RenderParams params_{};
+};
+
+} // namespace
+
+TEST(LaunchBits, DoNotDependOnTheSizesOrTheOrderOfLaunches) {
+    for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}) {
+        const LaunchedScene scene(integrator);
+        const u32 tiles = scene.tiles();
+        const std::vector<std::int64_t> at_once = scene.sums({{0, SAMPLES, 0, tiles}});
+        EXPECT_NE(at_once, std::vector<std::int64_t>(at_once.size(), 0));
+
+        std::vector<Launch> singly, backwards;
+        for (u32 sample = 0; sample < SAMPLES; ++sample)
+            for (u32 tile = 0; tile < tiles; ++tile)
+                singly.push_back({sample, 1, tile, tile + 1});
+        EXPECT_TRUE(scene.sums(singly) == at_once) << integrator_name(integrator);
+
+        for (u32 end = tiles; end > 0; end -= std::min(end, 7u))
+            for (const auto& [first, count] : {std::pair{5u, 4u}, {0u, 1u}, {1u, 4u}})
+                backwards.push_back({first, count, end - std::min(end, 7u), end});
+        EXPECT_TRUE(scene.sums(backwards) == at_once) << integrator_name(integrator);
+
+        singly.pop_back();
+        EXPECT_FALSE(scene.sums(singly) == at_once) << "a sample less must show";
+    }
+}
+
+} // namespace clrt
