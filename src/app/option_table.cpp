@@ -213,7 +213,7 @@ std::vector<OptionSpec> work_options() {
          "platform, else device, by a part of its name; cpu, gpu; or P:D as listed (default: variable "
          "CLRT_DEVICE, else the first GPU, else the CPU)",
          [](Options& o, const OptionValue& v) { apply_text(o.device, v); }},
-        {group, "l", "--list-devices", "", "list platforms and devices, then exit",
+        {group, "l", "--list-devices", "", "list platforms and devices, with -v how they compute, then exit",
          [](Options& o, const OptionValue&) { o.list_devices = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "i", "--integrator", "NAME",
          "path (global illumination), whitted (mirrors, glass, shadows) or raycast (first hit, shadows) "
