@@ -29,8 +29,9 @@
 #include <chrono>
 #include <cstdio>
 #include <fmt/format.h>
+#include <functional>
 #include <future>
-#include <new>
+#include <optional>
 #include <spdlog/spdlog.h>
 
 namespace clrt {
@@ -59,14 +60,38 @@ void write_pictures(const Picture& picture, const Options& options) {
         write_picture(picture, path, options.exposure_ev, options.tonemap);
 }
 
-void write_outputs(const Report& report) {
-    Picture picture = make_picture(report.render, report.scene, report.options);
+/// Writes the files at the end of a render. One that cannot be written must not cost the others.
+class FinalFiles {
+public:
+    void write(const std::string& path, const std::function<void()>& writer) {
+        try {
+            writer();
+            spdlog::info("wrote {}", path);
+        } catch (const SceneError& error) {
+            if (first_error_)
+                spdlog::error("{}", error.what());
+            else
+                first_error_ = error;
+        }
+    }
+    /// Throws the first error, if there was one.
+    void finish() const {
+        if (first_error_)
+            throw SceneError(*first_error_);
+    }
+
+private:
+    std::optional<SceneError> first_error_;
+};
+
+void write_outputs(const Report& report, FinalFiles& files) {
+    const Options& options = report.options;
+    Picture picture = make_picture(report.render, report.scene, options);
     picture.metadata = report_metadata(report);
-    write_pictures(picture, report.options);
-    for (const std::string& path : report.options.outputs)
-        spdlog::info("wrote {}", path);
-    if (!report.options.stats_path.empty())
-        write_text_file(report.options.stats_path, report_json(report));
+    for (const std::string& path : options.outputs)
+        files.write(path, [&] { write_picture(picture, path, options.exposure_ev, options.tonemap); });
+    if (!options.stats_path.empty())
+        files.write(options.stats_path, [&] { write_text_file(options.stats_path, report_json(report)); });
 }
 
 /// A save on the way must not end a render that goes on well: a full disk may have room later.
@@ -236,16 +261,18 @@ int run_render(Options options) {
                                 ? simulate_nothing(scene, effects, options)
                                 : simulate(device, scene, effects, options, progress, saving.hooks);
     progress.finish();
-    if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0) {
-        write_film_file(options.checkpoint_path, saving.film_file(done.render, options, device.info));
-        spdlog::info("wrote {}", options.checkpoint_path);
-    }
+    FinalFiles files;
+    if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0)
+        files.write(options.checkpoint_path, [&] {
+            write_film_file(options.checkpoint_path, saving.film_file(done.render, options, device.info));
+        });
 
     const Crop window = render_window(options);
     Report report{options, scene, effects, device.info, done.facts, done.bvh, done.render,
                   make_error_report(done.render, window.x0, window.y0), done.bvh_reason, load_seconds, done.compile_seconds,
                   seconds_since(start)};
-    write_outputs(report);
+    write_outputs(report, files);
+    files.finish();
     if (options.verbosity >= 0)
         fmt::print("{}", format_report(report));
     return finish(report);

@@ -4,7 +4,9 @@
 #include "error.h"
 #include "exit_code.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 namespace clrt {
@@ -15,7 +17,12 @@ int run_program(const char* name, const std::function<int()>& program) {
         return code;
     };
     try {
-        return program();
+        const int code = program();
+        // What was printed may still be in a buffer; a full disk shows now.
+        if (std::fflush(stdout) == 0 && !std::ferror(stdout))
+            return code;
+        report(code, (std::string("cannot write to the standard output: ") + std::strerror(errno)).c_str());
+        return code == EXIT_DONE ? EXIT_SCENE : code;
     } catch (const UsageError& error) {
         return report(EXIT_USAGE, error.what());
     } catch (const SceneError& error) {
@@ -23,7 +30,8 @@ int run_program(const char* name, const std::function<int()>& program) {
     } catch (const DeviceError& error) {
         return report(EXIT_DEVICE, error.what());
     } catch (const std::bad_alloc&) {
-        return report(EXIT_SCENE, "not enough memory");
+        return report(EXIT_SCENE, "not enough memory: expected a smaller scene, smaller textures or a smaller "
+                                  "picture (--size, --crop)");
     } catch (const std::exception& error) {
         return report(EXIT_SCENE, error.what());
     }

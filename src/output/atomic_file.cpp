@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,14 +19,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Leftovers of killed runs may have our process number; this many names are tried.
+/// Files of other machines on a shared disk may have our process number; this many names are tried.
 constexpr int LARGEST_ATTEMPT = 100;
+const char* const PARTIAL_MARK = ".partial-";
 
 /// The file behind symbolic links, so that renaming replaces the file and not the link.
 fs::path link_target(const fs::path& path) {
     std::error_code error;
     const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
     return target.empty() ? path : target;
+}
+
+/// Removes what killed runs left of the same file. A run holds a lock on the file it writes; a lock that can be had
+/// has no owner any more. Where the system knows no locks, nothing is removed.
+void remove_leftovers(const fs::path& target) {
+    const std::string start = target.filename().string() + PARTIAL_MARK;
+    std::error_code error;
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error)) {
+        const std::string name = file->path().filename().string();
+        if (name.compare(0, start.size(), start) != 0 ||
+            name.find_first_not_of("0123456789-", start.size()) != name.npos)
+            continue;
+        const int descriptor = open(file->path().c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (descriptor < 0)
+            continue;
+        if (flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+            unlink(file->path().c_str());
+        close(descriptor);
+    }
+}
+
+/// Creates a file that is not there yet and locks it; negative, and errno says why, if that is not possible.
+int create_locked(const std::string& path) {
+    // O_EXCL: never write through somebody else's file or link.
+    const int descriptor = open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return descriptor;
+    flock(descriptor, LOCK_EX);
+    // Another run may have taken it for a leftover before it was locked.
+    struct stat status {};
+    if (fstat(descriptor, &status) == 0 && status.st_nlink > 0)
+        return descriptor;
+    close(descriptor);
+    errno = EEXIST;
+    return -1;
 }
 
 /// Makes the rename itself last. Not every file system can do that; the picture is whole either way.
@@ -46,11 +84,11 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_path_(link
     if (fs::exists(status) && !fs::is_regular_file(status))
         throw SceneError(path_, 0, "expected a file to write, found a folder or device; choose another name");
 
-    // O_EXCL: never write through somebody else's file or link.
+    remove_leftovers(target_path_);
     for (int attempt = 0; attempt < LARGEST_ATTEMPT && descriptor_ < 0; ++attempt) {
-        partial_path_ = target_path_ + ".partial-" + std::to_string(getpid()) +
+        partial_path_ = target_path_ + PARTIAL_MARK + std::to_string(getpid()) +
                         (attempt ? "-" + std::to_string(attempt) : "");
-        descriptor_ = open(partial_path_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+        descriptor_ = create_locked(partial_path_);
         if (descriptor_ < 0 && errno != EEXIST)
             break;
     }
@@ -96,13 +134,12 @@ void AtomicFile::commit() {
         reject("write", write_error_);
     if (fsync(descriptor_) != 0)
         reject("write", errno);
-    const int closed = close(descriptor_);
-    descriptor_ = -1;
-    if (closed != 0)
-        reject("write", errno);
+    // The lock is held until the file has its name: nobody may take it for a leftover.
     if (std::rename(partial_path_.c_str(), target_path_.c_str()) != 0)
         reject("rename to", errno);
     committed_ = true;
+    close(descriptor_);
+    descriptor_ = -1;
     flush_folder(target_path_);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/load_scene.h"
 
+#include "error.h"
 #include "scene/assemble_geometry.h"
 #include "scene/camera_fit.h"
 #include "scene/colour.h"
@@ -15,6 +16,7 @@
 
 #include <chrono>
 #include <fmt/format.h>
+#include <new>
 
 namespace clrt {
 namespace {
@@ -98,9 +100,7 @@ void load_lights(const Options& options, const std::vector<double>& exitance, do
     scene.environment = load_environment(options.light, has_light, notices);
 }
 
-} // namespace
-
-Scene load_scene(const Options& options, Progress& progress) {
+Scene load_all(const Options& options, Progress& progress) {
     Scene scene;
     NoticeList notices;
 
@@ -126,6 +126,18 @@ Scene load_scene(const Options& options, Progress& progress) {
     scene.camera = fit_camera(options.camera, options.size, bounds, cover, notices);
     scene.notices = notices.lines();
     return scene;
+}
+
+} // namespace
+
+Scene load_scene(const Options& options, Progress& progress) {
+    try {
+        return load_all(options, progress);
+    } catch (const std::bad_alloc&) {
+        throw SceneError(options.scene_path, 0,
+                         "not enough memory to load the scene: expected a smaller one, smaller textures, or a "
+                         "machine with more memory");
+    }
 }
 
 } // namespace clrt

@@ -6,14 +6,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <filesystem>
 #include <OpenImageIO/imageio.h>
+#include <system_error>
 #include <tbb/parallel_for.h>
 
 namespace clrt {
 namespace {
 
 /// A texture is addressed by 32-bit words; a larger picture is refused before its memory is asked for.
-constexpr std::uint64_t MOST_PIXELS = std::uint64_t(1) << 32;
+constexpr std::uint64_t MOST_VALUES = (std::uint64_t(1) << 32) - 1;
+/// Rows of a picture without tiles that are read at a time.
+constexpr int BLOCK_ROWS = 64;
+/// Deflate writes at most 258 bytes for 2 bits, a PNG at least one bit a pixel.
+constexpr std::uint64_t MOST_PNG_PIXELS_A_BYTE = 258 * 4 * 8;
+
+/// A message of OpenImageIO, which may have several lines.
+std::string one_line(std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return message;
+}
 
 /// Where r, g, b, a come from among the file's channels; -1: alpha is 1.
 std::array<int, 4> channel_sources(const OIIO::ImageSpec& spec) {
@@ -36,22 +49,50 @@ std::vector<T> expand(const std::vector<T>& file, size_t channels, const std::ar
     return rgba;
 }
 
+/// Reads the rows [begin, end), counted from the top of the file's window.
+bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int begin, int end, OIIO::TypeDesc type,
+               void* values) {
+    begin += spec.y;
+    end += spec.y;
+    return spec.tile_width
+               ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
+                                  spec.nchannels, type, values)
+               : input.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, type, values);
+}
+
+/// Reads all pixels. Memory is filled as rows arrive, and asked for once the first have: a short file that
+/// claims to be a huge picture costs nothing.
 template <typename T>
 std::vector<T> read_values(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                            const std::string& path) {
-    std::vector<T> values(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
-    if (!input.read_image(0, 0, 0, spec.nchannels, type, values.data()))
-        throw SceneError(path, 0, "the picture cannot be read: " + input.geterror());
+    const size_t row = size_t(spec.width) * size_t(spec.nchannels);
+    const int step = spec.tile_width ? spec.tile_height : BLOCK_ROWS;
+    std::vector<T> values;
+    for (int begin = 0, end = 0; begin < spec.height; begin = end) {
+        end = step < spec.height - begin ? begin + step : spec.height;
+        values.resize(row * size_t(end));
+        if (!read_rows(input, spec, begin, end, type, &values[row * size_t(begin)]))
+            throw SceneError(path, 0, "the picture cannot be read: " + one_line(input.geterror()));
+        values.reserve(row * size_t(spec.height));
+    }
     return values;
 }
 
-void check_size(const OIIO::ImageSpec& spec, const std::string& path) {
+void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const std::string& path) {
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
         throw SceneError(path, 0, "the picture has no pixels");
-    if (std::uint64_t(spec.width) * std::uint64_t(spec.height) * std::uint64_t(spec.nchannels) >= MOST_PIXELS)
+    const std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
+    const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
+    if (pixels > MOST_VALUES / std::uint64_t(spec.nchannels))
         throw SceneError(path, 0,
-                         "the picture is too large: " + std::to_string(spec.width) + "x" +
-                             std::to_string(spec.height) + " pixels, expected fewer than 2^32 values");
+                         "the picture is too large: " + size + " pixels, expected fewer than 2^32 values");
+    // An interlaced PNG is unpacked as a whole before its first row is there.
+    std::error_code error;
+    const std::uint64_t bytes = std::filesystem::file_size(path, error);
+    if (!error && std::strcmp(input.format_name(), "png") == 0 && pixels / MOST_PNG_PIXELS_A_BYTE > bytes)
+        throw SceneError(path, 0,
+                         "the picture is cut off: " + size + " pixels are not in " + std::to_string(bytes) +
+                             " bytes");
 }
 
 std::vector<vec4> to_linear(const std::vector<float>& rgba, bool decode) {
@@ -73,9 +114,9 @@ Image read_image(const std::string& path, ImageEncoding encoding) {
     config["oiio:UnassociatedAlpha"] = 1;
     const auto input = OIIO::ImageInput::open(path, &config);
     if (!input)
-        throw SceneError(path, 0, "the picture cannot be opened: " + OIIO::geterror());
+        throw SceneError(path, 0, "the picture cannot be opened: " + one_line(OIIO::geterror()));
     const OIIO::ImageSpec spec = input->spec();
-    check_size(spec, path);
+    check_size(*input, spec, path);
 
     Image image;
     image.width = spec.width;

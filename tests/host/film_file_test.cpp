@@ -3,6 +3,7 @@
 #include "render/film_file.h"
 
 #include "error.h"
+#include "support/file_size_limit.h"
 #include "support/noise_film.h"
 #include "support/scratch_folder.h"
 
@@ -60,6 +61,17 @@ protected:
 };
 
 } // namespace
+
+TEST_F(FilmFileTest, AFullDiskLeavesTheOlderFilmWhole) {
+    const std::string older = bytes();
+    for (const size_t room : {size_t(0), size_t(10), older.size() - 1}) {
+        const FileSizeLimit limit(room);
+        EXPECT_THROW(write_film_file(folder.file("good.film"), make_film()), SceneError) << room;
+    }
+    EXPECT_EQ(folder.read("good.film"), older);
+    EXPECT_EQ(folder.count(), 1u);
+    EXPECT_NO_THROW(read_film_file(folder.file("good.film")));
+}
 
 TEST_F(FilmFileTest, EverythingComesBack) {
     const FilmFile written = make_film();

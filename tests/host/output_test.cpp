@@ -5,6 +5,7 @@
 #include "error.h"
 #include "output/atomic_file.h"
 #include "output/tonemap.h"
+#include "support/file_size_limit.h"
 #include "support/scratch_folder.h"
 
 #include <cmath>
@@ -70,24 +71,6 @@ double srgb_decode(double x) {
 std::uint8_t grey(double radiance, double factor = 1, Tonemap tonemap = Tonemap::NONE) {
     return display_colour(glm::dvec3(radiance), factor, tonemap)[0];
 }
-
-/// No file may grow beyond so many bytes in this scope: a disk that is full.
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit small{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &small);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-
-private:
-    void (*handler_)(int);
-    rlimit before_{};
-};
 
 /// Whoever runs the test is not root in this scope.
 class NotRoot {
@@ -399,13 +382,39 @@ TEST(AtomicFile, FollowsLinksAndRefusesFoldersAndDevices) {
     EXPECT_THROW(write_text_file("/dev/null", "x"), SceneError);
 }
 
-TEST(AtomicFile, LeavesALeftoverOfAnotherRunAlone) {
+TEST(AtomicFile, LeavesTheFileOfARunAloneThatIsAlive) {
     ScratchFolder folder;
-    const std::string leftover = "a.txt.partial-" + std::to_string(getpid());
-    folder.write(leftover, "theirs");
+    AtomicFile theirs(folder.file("a.txt"));
+    theirs.write_at("theirs", 6, 0);
     write_text_file(folder.file("a.txt"), "ours");
     EXPECT_EQ(folder.read("a.txt"), "ours");
-    EXPECT_EQ(folder.read(leftover), "theirs");
+    theirs.commit();
+    EXPECT_EQ(folder.read("a.txt"), "theirs");
+    EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(AtomicFile, RemovesWhatKilledRunsLeftOfTheSameFile) {
+    ScratchFolder folder;
+    const std::vector<std::string> others = {"b.txt.partial-12", "a.txt.partial-x", "a.txt.partial-12.png"};
+    for (const std::string& name : others)
+        folder.write(name, "not a leftover of this file");
+    for (const char* number : {"12", "99999999-3"})
+        folder.write(std::string("a.txt.partial-") + number, "left");
+    folder.write("a.txt.partial-" + std::to_string(getpid()), "left by a run that had our number");
+    write_text_file(folder.file("a.txt"), "ours");
+    EXPECT_EQ(folder.read("a.txt"), "ours");
+    EXPECT_EQ(folder.count(), 1 + others.size());
+}
+
+TEST(AtomicFile, StatisticsOnAFullDiskLeaveTheOldOnes) {
+    ScratchFolder folder;
+    folder.write("s.json", "older");
+    {
+        FileSizeLimit limit(100);
+        EXPECT_THROW(write_text_file(folder.file("s.json"), std::string(200, 'x')), SceneError);
+    }
+    EXPECT_EQ(folder.read("s.json"), "older");
+    EXPECT_EQ(folder.count(), 1u);
 }
 
 } // namespace clrt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cache of compiled programs: sound entries are found, everything else is a miss.
 #include "device/program_cache.h"
+#include "support/file_size_limit.h"
 #include "support/kernel_probe.h"
 #include "support/scratch_folder.h"
 
@@ -126,6 +127,18 @@ TEST_F(ProgramCacheTest, FoldersThatCannotBeUsedAreMisses) {
     fs::create_directory(folder_ + "/" + KEY + ".clrtprogram");
     write_cached_program(folder_, KEY, example(1));
     EXPECT_FALSE(read_cached_program(folder_, KEY));
+}
+
+TEST_F(ProgramCacheTest, AFullDiskKeepsTheOlderEntryAndNothingElse) {
+    write_cached_program(folder_, KEY, example(7));
+    for (const rlim_t room : {rlim_t(0), rlim_t(100)}) {
+        const FileSizeLimit limit(room);
+        write_cached_program(folder_, KEY, example(8));
+    }
+    EXPECT_EQ(files().size(), 1u);
+    const auto entry = read_cached_program(folder_, KEY);
+    ASSERT_TRUE(entry);
+    EXPECT_EQ(entry->binary, example(7).binary);
 }
 
 TEST_F(ProgramCacheTest, ReadersNeverSeeHalfAnEntryWhileProcessesWrite) {

@@ -171,6 +171,40 @@ TEST_F(TextureStoreTest, ATruncatedPictureIsNotUsed) {
     EXPECT_EQ(count_notices(notices, "the map is ignored"), 1);
 }
 
+TEST_F(TextureStoreTest, PicturesOfSeveralBlocksArriveWholeInTilesAndWithAnOffset) {
+    constexpr int WIDTH = 70, HEIGHT = 201; // no multiple of a block or a tile
+    std::vector<float> values;
+    for (int i = 0; i < WIDTH * HEIGHT; ++i)
+        values.push_back(float(i));
+    for (const bool tiled : {false, true})
+        for (const char* name : {"a.exr", "a.tif"}) {
+            SCOPED_TRACE(std::string(name) + (tiled ? " in tiles" : ""));
+            OIIO::ImageSpec spec(WIDTH, HEIGHT, 1, OIIO::TypeDesc::FLOAT);
+            spec.x = 5;
+            spec.y = 7;
+            spec.tile_width = spec.tile_height = tiled ? 64 : 0;
+            const std::string path = folder.path((tiled ? "tiled_" : "") + std::string(name));
+            const auto output = OIIO::ImageOutput::create(path);
+            ASSERT_TRUE(output && output->open(path, spec));
+            ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, values.data()) && output->close());
+            const FloatImage image = read_float_image(path, ImageEncoding::DATA);
+            ASSERT_EQ(image.rgba.size(), values.size());
+            for (size_t i = 0; i < values.size(); ++i)
+                ASSERT_EQ(image.rgba[i].x, values[i]) << i;
+        }
+}
+
+TEST_F(TextureStoreTest, AFileThatVanishesBetweenTwoUsesIsANotice) {
+    const std::string path = folder.write_image("a.png", 1, 1, 3, Bytes{9, 9, 9}, OIIO::TypeDesc::UINT8);
+    EXPECT_NE(add("a.png", TextureRole::COLOUR), NO_INDEX);
+    std::filesystem::remove(path);
+    EXPECT_EQ(add("a.png", TextureRole::NORMAL), NO_INDEX);
+    folder.write("a.png", "now another kind of file");
+    EXPECT_EQ(add("a.png", TextureRole::NORMAL), NO_INDEX);
+    EXPECT_EQ(count_notices(notices, "a.png"), 2);
+    EXPECT_EQ(store.texel(texture(0), 0, 0).w, 1) << "what was read stays";
+}
+
 TEST_F(TextureStoreTest, PathsOfOtherSystemsAreFound) {
     std::filesystem::create_directories(folder.path("images"));
     folder.write_image("images/a b.png", 1, 1, 1, Bytes{1}, OIIO::TypeDesc::UINT8);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -41,6 +42,10 @@ std::string read_all(std::FILE* file) {
     constexpr int REPLACE = 1, CANNOT_EXECUTE = 127;
     for (const auto& [name, value] : settings.environment)
         setenv(name.c_str(), value.c_str(), REPLACE);
+    for (const auto& [resource, bytes] : settings.limits) {
+        const rlimit limit{bytes, bytes};
+        setrlimit(__rlimit_resource_t(resource), &limit);
+    }
     std::vector<char*> words;
     for (const std::string& word : command)
         words.push_back(const_cast<char*>(word.c_str()));

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults around a render: full disks, folders that cannot be written, kills, little memory, files that lie.
+// What was there stays whole, what can be saved is, and the exit code says so.
+#include "clrt_command.h"
+#include "error.h"
+#include "render/film_file.h"
+
+#include <csignal>
+#include <random>
+#include <sys/resource.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr size_t MEBIBYTE = size_t(1) << 20;
+/// More than a driver writes to compile a kernel, less than a film or a float picture of 800 x 600 pixels.
+constexpr size_t FULL_DISK_BYTES = 4 * MEBIBYTE;
+
+class Fault : public ClrtCommand {
+protected:
+    Fault() { write_square("scene"); }
+
+    /// Runs clrt through the shell, which redirects its output.
+    CommandResult shell(const std::string& arguments) const {
+        CommandSettings settings;
+        settings.folder = path();
+        const char* device = std::getenv("CLRT_TEST_DEVICE");
+        settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+        return run_command({"/bin/sh", "-c", std::string(CLRT_EXECUTABLE) + " " + arguments}, settings);
+    }
+
+    /// Names of temporary files beside results.
+    std::vector<std::string> partial_files() const {
+        std::vector<std::string> names;
+        for (const std::string& name : listing())
+            if (name.find(".partial-") != name.npos)
+                names.push_back(name);
+        return names;
+    }
+
+    /// A PNG whose header claims a size and whose data end after the first row, as zlib stores them.
+    void write_lying_png(const std::string& name, bool interlaced) const;
+};
+
+/// Sanitizers reserve terabytes of addresses: no limit of them can be set.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool IS_SANITIZED = true;
+#else
+constexpr bool IS_SANITIZED = false;
+#endif
+
+/// A number as four bytes, most significant first.
+std::string big_endian(std::uint32_t value) {
+    return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
+}
+
+/// A chunk of a PNG with its checksum (PNG specification, annex D).
+std::string png_chunk(const std::string& content) {
+    std::uint32_t crc = 0xffffffffu;
+    for (const char c : content) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int bit = 0; bit < 8; ++bit)
+            crc = crc & 1 ? 0xedb88320u ^ crc >> 1 : crc >> 1;
+    }
+    return big_endian(std::uint32_t(content.size() - 4)) + content + big_endian(~crc);
+}
+
+void Fault::write_lying_png(const std::string& name, bool interlaced) const {
+    constexpr std::uint32_t WIDTH = 50000, HEIGHT = 20000;
+    const std::string header = std::string("IHDR") + big_endian(WIDTH) + big_endian(HEIGHT) + '\x08' +
+                               '\x02' + '\0' + '\0' + char(interlaced);
+    const std::string ten_zeros("\x78\x01\x01\x0a\x00\xf5\xff\0\0\0\0\0\0\0\0\0\0", 17); // zlib, stored
+    folder.write(name, "\x89PNG\r\n\x1a\n" + png_chunk(header) +
+                           png_chunk("IDAT" + ten_zeros + big_endian(0x000a0001)) + png_chunk("IEND"));
+}
+
+} // namespace
+
+TEST_F(Fault, AFullDiskUnderTheReportIsAnError) {
+    for (const char* arguments : {"--help", "--version", "--list-devices", "scene.obj --explain"}) {
+        const CommandResult result = shell(std::string(arguments) + " > /dev/full");
+        EXPECT_EQ(result.exit_code, 1) << arguments;
+        EXPECT_TRUE(holds(result.err, {"clrt: error: ", "No space left on device"})) << arguments;
+    }
+    const CommandResult result = shell("scene.obj -i raycast -s 1 -r 16x12 > /dev/full");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(exists("scene.png")) << "the picture is there all the same";
+    EXPECT_EQ(shell("scene.obj -i raycast -s 1 -r 16x12 2> /dev/full").exit_code, 0)
+        << "the log is not asked for";
+}
+
+TEST_F(Fault, AFullDiskCostsOnlyTheFilesThatDoNotFit) {
+    const std::vector<std::string> words = {"scene.obj", "-i",           "raycast", "-s",      "1",
+                                            "-o",        "a.pfm",        "-o",      "b.ppm",   "--checkpoint",
+                                            "a.film",    "--replicates", "1",       "--stats", "s.json"};
+    folder.write("a.pfm", "older picture");
+    folder.write("a.film", "older film");
+    CommandSettings full;
+    full.limits[RLIMIT_FSIZE] = FULL_DISK_BYTES;
+    const CommandResult result = clrt(words, full);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(holds(result.err,
+                      {"clrt: error: a.film: cannot write the file: File too large", "a.pfm: cannot write"}));
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(folder.read("a.pfm"), "older picture");
+    EXPECT_EQ(folder.read("a.film"), "older film");
+    EXPECT_EQ(ReadPicture(folder.file("b.ppm")).spec.width, 800) << "what fits is written";
+    EXPECT_TRUE(holds(folder.read("s.json"), {"\"spp\": 1"}));
+    EXPECT_EQ(partial_files(), std::vector<std::string>());
+    EXPECT_EQ(clrt(words).exit_code, 0) << "with room";
+}
+
+TEST_F(Fault, AFullDiskOnTheWayIsAWarningAndTheRenderGoesOn) {
+    CommandSettings full;
+    full.limits[RLIMIT_FSIZE] = FULL_DISK_BYTES;
+    const CommandResult result = clrt({"scene.obj", "-i", "raycast", "-s", "40", "--replicates", "1", "-o",
+                                       "b.ppm", "--checkpoint", "a.film,0.01"},
+                                      full);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(holds(result.err, {"a.film: cannot write the file", "the render goes on", "wrote b.ppm"}));
+    EXPECT_EQ(listing(), (std::vector<std::string>{"b.ppm", "scene.obj"}));
+}
+
+TEST_F(Fault, FoldersThatNobodyCanWriteAreErrorsForResultsAndNoneForTheCache) {
+    folder.write("file", "");
+    const std::vector<std::string> before = listing();
+    for (const std::string place : {"/proc", "file", "none"}) { // not even root can
+        EXPECT_EQ(clrt(quick({"scene.obj", "-o", place + "/a.png"})).exit_code, 1);
+        EXPECT_EQ(clrt(quick({"scene.obj", "--stats", place + "/s.json"})).exit_code, 1);
+        EXPECT_EQ(clrt(quick({"scene.obj", "--checkpoint", place + "/a.film"})).exit_code, 1);
+    }
+    EXPECT_EQ(clrt(quick({"scene.obj", "--dump-kernels", "file/kernels"})).exit_code, 1);
+    // Where root may look as if it could write, the picture of such a run is there.
+    std::filesystem::remove(folder.file("scene.png"));
+    EXPECT_EQ(listing(), before);
+    for (const char* place : {"/proc/clrt", "file/cache"}) {
+        const CommandResult result = clrt(quick({"scene.obj", "--cache", "on", "--cache-dir", place, "-v"}));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_TRUE(holds(result.err, {"The program cache's folder", "cannot be written"}));
+    }
+}
+
+TEST_F(Fault, KillsAtAnyMomentLeaveWholeFilesAndOneTemporaryFileAtMost) {
+    const std::vector<std::string> words = {
+        "scene.obj", "-i", "raycast", "-t",           "60",   "-s",           "4000000",    "-r",
+        "256x256",   "-o", "a.pfm",   "--save-every", "0.01", "--checkpoint", "a.film,0.01"};
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> moment(0.5, 2.5);
+    const char* device = std::getenv("CLRT_TEST_DEVICE");
+    for (int kill = 0; kill < 8; ++kill) {
+        CommandSettings settings;
+        settings.folder = path();
+        settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+        settings.signals = {{moment(random), SIGKILL}};
+        std::vector<std::string> command{CLRT_EXECUTABLE};
+        command.insert(command.end(), words.begin(), words.end());
+        EXPECT_EQ(run_command(command, settings).signal, SIGKILL);
+        if (exists("a.film")) {
+            EXPECT_NO_THROW(read_film_file(folder.file("a.film"))) << "kill " << kill;
+        }
+        if (exists("a.pfm")) {
+            EXPECT_EQ(ReadPicture(folder.file("a.pfm")).spec.width, 256) << "kill " << kill;
+        }
+        EXPECT_LE(partial_files().size(), 2u) << "one for each file that is written";
+    }
+    EXPECT_TRUE(exists("a.film"));
+    EXPECT_EQ(clrt(quick({"scene.obj", "-o", "a.pfm", "--checkpoint", "a.film"})).exit_code, 0);
+    EXPECT_EQ(partial_files(), std::vector<std::string>()) << "a run that ends removes what the others left";
+}
+
+TEST_F(Fault, AFilmThatNoDeviceHoldsIsAnErrorOfTheDevice) {
+    const CommandResult result =
+        clrt({"scene.obj", "-i", "raycast", "-s", "1", "-r", "65535x65535", "-o", "a.pfm"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_TRUE(holds(result.err, {"clrt: error: ", "\"film\" needs", "a smaller picture"}));
+    EXPECT_EQ(listing(), (std::vector<std::string>{"scene.obj"}));
+}
+
+TEST_F(Fault, PicturesThatLieAboutTheirSizeAreIgnoredWithoutTheMemoryTheyClaim) {
+    if (IS_SANITIZED)
+        GTEST_SKIP() << "needs a limit of memory";
+    CommandSettings little;
+    little.limits[RLIMIT_AS] = 2048 * MEBIBYTE;
+    for (const bool interlaced : {false, true}) {
+        write_lying_png("lie.png", interlaced);
+        folder.write("m.mtl", "newmtl m\nKd 0.8 0.8 0.8\nmap_Kd lie.png\n");
+        write_square("lie", "mtllib m.mtl\nusemtl m\n");
+        const CommandResult result = clrt({"lie.obj", "--explain"}, little);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_TRUE(holds(result.out, {"m.mtl:3: lie.png: the picture ", "the map is ignored"}));
+    }
+}
+
+TEST_F(Fault, AnObjThatTheMemoryCannotHoldIsAnError) {
+    if (IS_SANITIZED)
+        GTEST_SKIP() << "needs a limit of memory";
+    // Zeros that take no room on the disk: two gigabytes of a line.
+    folder.write("large.obj", "v 0 0 0\n");
+    std::filesystem::resize_file(folder.file("large.obj"), 2048 * MEBIBYTE);
+    CommandSettings little;
+    little.limits[RLIMIT_AS] = 1024 * MEBIBYTE;
+    const CommandResult result = clrt({"large.obj", "--explain"}, little);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(holds(result.err, {"clrt: error: large.obj: not enough memory to load the scene"}));
+}
+
+TEST_F(Fault, AMeshThatTheMemoryCannotHoldIsAnErrorWhereverItRunsOut) {
+    if (IS_SANITIZED)
+        GTEST_SKIP() << "needs a limit of memory";
+    // The long tier reads a file of two gigabytes.
+    const char* tier = std::getenv("CLRT_TEST_LONG");
+    const bool is_long = tier && std::string(tier) == "1";
+    const size_t bytes = (is_long ? 2048 : 24) * MEBIBYTE;
+    std::string block;
+    for (int i = 0; i < 10000; ++i)
+        block += "v " + std::to_string(i % 97) + ".5 " + std::to_string(i % 89) + ".25 0\nf -1 -2 -3\n";
+    {
+        std::ofstream file(folder.file("mesh.obj"), std::ios::binary);
+        file << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+        for (size_t written = 0; written < bytes; written += block.size())
+            file << block;
+    }
+    int failures = 0;
+    for (size_t room = bytes; room <= 8 * bytes; room += bytes) {
+        CommandSettings little;
+        little.limits[RLIMIT_AS] = 600 * MEBIBYTE + room;
+        const CommandResult result = clrt({"mesh.obj", "--explain", "-j", "2"}, little);
+        EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 1)
+            << room << ": " << result.exit_code << result.err;
+        if (result.exit_code == 1) {
+            EXPECT_TRUE(holds(result.err, {"clrt: error: ", "not enough memory"}));
+            ++failures;
+        }
+    }
+    if (is_long) {
+        EXPECT_GT(failures, 0);
+    }
+}
+
+} // namespace clrt
