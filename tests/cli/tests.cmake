@@ -19,6 +19,7 @@ clrt_command_test(odd_input_test)
 clrt_command_test(paths_command_test)
 clrt_command_test(picture_file_test)
 clrt_command_test(program_cache_cli_test)
+clrt_command_test(replay_command_test)
 if(TARGET clrt-bench)
   clrt_test(cli bench_command_test)
   target_compile_definitions(bench_command_test PRIVATE
