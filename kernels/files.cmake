@@ -57,5 +57,9 @@ set(CLRT_KERNEL_FILES
   shared/path_types.h
   shared/render_types.h
   shared/scene_types.h
+  shared/trace_types.h
   shared/types.h
+  trace/replay.h
+  trace/trace.h
+  trace/vertex.h
 )

@@ -24,6 +24,8 @@
 #include "render/render_params.h"
 #include "render/report.h"
 #include "render/scene_buffers.h"
+#include "replay/causes.h"
+#include "replay/replay_pixel.h"
 #include "scene/load_scene.h"
 
 #include <chrono>
@@ -137,8 +139,8 @@ struct Saving {
 int finish(const Report& report) {
     const Render& render = report.render;
     if (report.options.check != Check::OFF && render.counts.bad() > 0)
-        spdlog::warn("{} samples were not finite, negative or too large and count as 0 (the JSON of --stats "
-                     "lists them)",
+        spdlog::warn("{} samples were not finite, negative or too large and count as 0; see the causes in the "
+                     "report and `nonfinite` in the JSON of --stats",
                      render.counts.bad());
     if (render.stop_signal) {
         spdlog::warn("stopped by a signal after {} spp; the picture is saved", film_samples(render.film));
@@ -183,7 +185,22 @@ struct Simulation {
     std::string bvh_reason; ///< why the tree has its quality
     Render render;
     double compile_seconds = 0;
+    std::vector<CauseCount> causes; ///< of bad samples
 };
+
+/// Finds out why samples are bad. The render is done: what fails here is only said.
+std::vector<CauseCount> explain_bad_samples(const Device& device, const Scene& scene, const Effects& effects,
+                                            const Options& options, const BvhLayout layout, const SceneBuffers& buffers,
+                                            const Render& render) {
+    if (options.check == Check::OFF || render.counts.bad_samples.empty() || render.stop_signal)
+        return {};
+    try {
+        return find_causes(device, scene, options, effects, layout, buffers, render.counts);
+    } catch (const DeviceError& error) {
+        spdlog::warn("bad samples cannot be replayed: {}", error.what());
+        return {};
+    }
+}
 
 Simulation simulate(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
                     Progress& progress, const RenderHooks& hooks) {
@@ -207,6 +224,7 @@ Simulation simulate(const Device& device, const Scene& scene, const Effects& eff
     const SceneBuffers buffers = upload_scene(device, scene, done.bvh);
     done.render = render(device, programs, buffers, scene, options, progress, hooks);
     done.compile_seconds = programs.seconds;
+    done.causes = explain_bad_samples(device, scene, effects, options, layout, buffers, done.render);
     return done;
 }
 
@@ -240,6 +258,21 @@ int run_ledger(const Options& options) {
     return EXIT_DONE;
 }
 
+/// Prints the path of one sample.
+int run_replay(const Options& options) {
+    const Device device = open_chosen_device(options);
+    Progress progress(options.progress, options.verbosity < 0);
+    Scene scene = load_scene(options, progress);
+    progress.finish();
+    if (options.given.count("--output"))
+        spdlog::info("--pixel replays a sample: no picture is written");
+    const PixelReplay replay = replay_pixel(device, std::move(scene), options);
+    fmt::print("{}", replay.text);
+    if (!options.stats_path.empty())
+        write_text_file(options.stats_path, replay.json);
+    return EXIT_DONE;
+}
+
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     const Device device = open_chosen_device(options);
@@ -269,7 +302,8 @@ int run_render(Options options) {
 
     const Crop window = render_window(options);
     Report report{options, scene, effects, device.info, done.facts, done.bvh, done.render,
-                  make_error_report(done.render, window.x0, window.y0), done.bvh_reason, load_seconds, done.compile_seconds,
+                  make_error_report(done.render, window.x0, window.y0), done.bvh_reason, done.causes, load_seconds,
+                  done.compile_seconds,
                   seconds_since(start)};
     write_outputs(report, files);
     files.finish();
@@ -299,6 +333,8 @@ int run(int argc, const char* const* argv) {
     catch_stop_signals();
     if (options.explain != Explain::NO)
         return run_explain(options);
+    if (options.pixel)
+        return run_replay(options);
     return options.ledger ? run_ledger(options) : run_render(options);
 }
 

@@ -9,6 +9,7 @@
 #include "shared/bvh_types.h"
 #include "shared/effects.h"
 #include "numerics/vector.h"
+#include "trace/trace.h"
 
 #ifndef BVH_LAYOUT
 #define BVH_LAYOUT BVH_LAYOUT_BVH8
@@ -30,6 +31,9 @@ typedef struct {
 #ifdef CLRT_COUNT_VISITS
     uint* visits; /* of the rays so far: nodes, leaves, triangles; to be set by whoever counts */
 #endif
+#ifdef CLRT_TRACE
+    Trace* trace; /* the record of the sample at hand; to be set by whoever traces */
+#endif
 } Scene;
 
 /* Count what a traversal visits, in builds that are made to (clrt-bench); else they are nothing. */
@@ -42,6 +46,11 @@ typedef struct {
 #define SCENE_COUNT_LEAF(scene, triangle_count)
 #define SCENE_NO_VISITS
 #endif
+#ifdef CLRT_TRACE
+#define SCENE_NO_TRACE , 0
+#else
+#define SCENE_NO_TRACE
+#endif
 
 #define SCENE_PARAMS                                                                                          \
     global const uint* restrict bvh_nodes, global const uint* restrict bvh_leaves,                            \
@@ -53,6 +62,6 @@ typedef struct {
 
 #define SCENE_MAKE                                                                                            \
     {bvh_nodes, bvh_leaves,  triangles, positions, normals, uvs,                                              \
-     materials, textures, texel_words, emitters, lights, environment SCENE_NO_VISITS}
+     materials, textures, texel_words, emitters, lights, environment SCENE_NO_VISITS SCENE_NO_TRACE}
 
 #endif

@@ -8,6 +8,7 @@
 #include "geometry/visibility.h"
 #include "lights/lights.h"
 #include "numerics/real_functions.h"
+#include "trace/vertex.h"
 
 /* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. */
 static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight)
@@ -32,14 +33,21 @@ static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* p
                                        const Bsdf* bsdf, bool highlight, const LightSample* light, PixelRays* rays)
 {
     const real3 nothing = (real3)(REAL(0.0));
+    TRACE_LIGHT(scene, light);
     if (light->pdf_w == REAL(0.0))
         return nothing;
-    const real3 contribution = direct_eval(bsdf, light->wi, highlight) * light->radiance;
+    const real3 value = direct_eval(bsdf, light->wi, highlight);
+    const real3 contribution = value * light->radiance;
+    TRACE_VECTOR(scene, TRACE_LIGHT_BSDF, value);
+    TRACE_CHOICE(scene, TRACE_CONNECTS, vector_is_black(contribution) ? 0u : 1u);
     if (vector_is_black(contribution))
         return nothing;
     const Ray shadow = light_shadow_ray(surface, light);
     ++rays->shadow;
-    return contribution * (visible_share(scene, params, &shadow) / light->pdf_w);
+    const real share = visible_share(scene, params, &shadow);
+    TRACE_VISIBILITY(scene, share);
+    TRACE_VECTOR(scene, TRACE_CONNECTION, contribution * (share / light->pdf_w));
+    return contribution * (share / light->pdf_w);
 }
 
 /* Sums over all lights; `node` addresses the random numbers of this surface. */

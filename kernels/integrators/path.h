@@ -10,6 +10,7 @@
 #include "lights/lights.h"
 #include "path/filter.h"
 #include "path/layers.h"
+#include "trace/vertex.h"
 #include "pixel.h"
 
 /* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
@@ -39,9 +40,12 @@ static inline real3 path_emission(const Scene* scene, const RenderParams* params
                                   real pdf_w)
 {
     const real3 emitted = material_emitted(scene, surface);
+    TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
     if (pdf_w == REAL(0.0))
         return emitted;
     const real light_pdf_w = (real)params->choose_emitter * emitter_hit_pdf_w(scene, surface, t, wo);
+    TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
+    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, mis_weight(pdf_w, light_pdf_w));
     return emitted * mis_weight(pdf_w, light_pdf_w);
 }
 
@@ -121,16 +125,22 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
 {
     const LightSample light =
         lights_sample(scene, params, surface, bsdf->frame.z, path->numbers.light, path->numbers.alias);
+    TRACE_LIGHT(scene, &light);
     if (light.pdf_w == REAL(0.0))
         return;
     BsdfValue eval = bsdf_eval(bsdf, light.wi);
     if (HAS(EFFECT_PATH_FILTER))
         eval.value = filter_value(step, bsdf, light.wi, light.kind, eval.value);
     const real3 arriving = eval.value * light.radiance;
+    TRACE_VECTOR(scene, TRACE_LIGHT_BSDF, eval.value);
+    TRACE_NUMBER(scene, TRACE_LIGHT_BSDF_PDF, eval.pdf_w);
+    TRACE_CHOICE(scene, TRACE_CONNECTS, vector_is_black(arriving) ? 0u : 1u);
     if (vector_is_black(arriving))
         return;
     const real weight = light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w);
     path->connection = path->throughput * arriving * (weight / light.pdf_w);
+    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, weight);
+    TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
     path->shadow = light_shadow_ray(surface, &light);
     path->is_connected = true;
     path_connect_layers(bsdf, step, &light, path->throughput * light.radiance * (weight / light.pdf_w), path);
@@ -159,13 +169,17 @@ static inline bool path_follow(const Sampler* sampler, uint segment, const Bsdf*
 
 /* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios crossed so far
    are taken out: light inside glass is not lost, only compressed. */
-static inline bool path_survives(const RenderParams* params, const Sampler* sampler, uint segment, Path* path)
+static inline bool path_survives(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint segment,
+                                 Path* path)
 {
     if (segment < params->roulette_depth)
         return true;
     const real survival =
         clamp(vector_max_component(path->throughput) / path->eta_squared, PATH_SMALLEST_SURVIVAL, REAL(1.0));
-    if (sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival)
+    const bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);
+    TRACE_NUMBER(scene, TRACE_SURVIVAL, survival);
+    TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
+    if (!survives)
         return false;
     path->throughput /= survival;
     return true;
@@ -175,8 +189,10 @@ static inline bool path_survives(const RenderParams* params, const Sampler* samp
 static inline void path_escape(const Scene* scene, const RenderParams* params, const Path* path, CameraSample* sample)
 {
     const real3 direction = path->ray.direction;
-    sample->radiance +=
-        path->throughput * lights_escape(scene, params, direction, path->pdf_w, path_accepted(path));
+    const real3 sky = lights_escape(scene, params, direction, path->pdf_w, path_accepted(path));
+    sample->radiance += path->throughput * sky;
+    TRACE_VECTOR(scene, TRACE_SKY, sky);
+    TRACE_VECTOR(scene, TRACE_ADDED, path->throughput * sky);
     if (PATH_LAYERS == 0)
         return;
     path_add_layers(path, KIND_SKY, lights_escape(scene, params, direction, path->pdf_w, KIND_SKY), sample);
@@ -190,21 +206,25 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
 {
     const real3 wo = -path->ray.direction;
     path->is_alive = false;
+    TRACE_HIT(scene, segment, 0u, &path->ray, &path->hit);
     if (path->hit.triangle == NO_INDEX) {
         path_escape(scene, params, path, sample);
         return;
     }
     const Surface surface = surface_at(scene, &path->hit, wo);
+    TRACE_SURFACE(scene, &surface);
 
     /* Add what it emits. */
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && (path_accepted(path) & KIND_AREA)) {
         const real3 emitted = path_emission(scene, params, &surface, path->hit.t, wo, path->pdf_w);
         sample->radiance += path->throughput * emitted;
+        TRACE_VECTOR(scene, TRACE_ADDED, path->throughput * emitted);
         path_add_layers(path, KIND_AREA, emitted, sample);
     }
     if (segment >= params->max_depth)
         return;
     Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
     AutomatonStep step;
     bool continues = true;
     if (HAS(EFFECT_PATH_FILTER)) {
@@ -217,6 +237,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
 
     /* Choose the next direction, connect to a light. */
     const BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);
+    TRACE_DIRECTION(scene, &next, continues);
     if (bsdf_has_smooth_lobe(&bsdf) && (!HAS(EFFECT_PATH_FILTER) || filter_wants_light(&step, &bsdf)))
         path_connect(scene, params, &surface, &bsdf, &step, path);
 
@@ -227,10 +248,12 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     if (HAS(EFFECT_PATH_FILTER)) {
         if (!path_follow(&sample->sampler, segment, &bsdf, &step, &next, path))
             return;
+        TRACE_CHOICE(scene, TRACE_STATE, path->state);
     }
+    TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->throughput);
     path->pdf_w = next.pdf_w;
     path->eta_squared *= next.eta * next.eta;
-    path->is_alive = path_survives(params, &sample->sampler, segment, path);
+    path->is_alive = path_survives(scene, params, &sample->sampler, segment, path);
     path->ray = ray_make(surface_origin(&surface, next.wi), next.wi);
     rays->secondary += path->is_alive ? 1u : 0u;
 }
@@ -263,7 +286,10 @@ static inline uint path_advance(const Scene* scene, const RenderParams* params, 
         if (!paths[k].is_connected)
             continue;
         ++rays->shadow;
-        path_add_connection(&paths[k], visible_share(scene, params, &paths[k].shadow), &samples[k]);
+        const real share = visible_share(scene, params, &paths[k].shadow);
+        path_add_connection(&paths[k], share, &samples[k]);
+        TRACE_VISIBILITY(scene, share);
+        TRACE_VECTOR(scene, TRACE_ADDED, paths[k].connection * share);
     }
     return alive;
 }

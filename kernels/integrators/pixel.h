@@ -10,6 +10,7 @@
 #include "film/tile.h"
 #include "geometry/scene.h"
 #include "path/layers.h"
+#include "trace/vertex.h"
 
 /* Samples of a pixel that are simulated side by side. Their arithmetic does not depend on each other, so a processor that works
    ahead fills the waits of one with the others: four give a seventh more samples a second than one on a CPU. The host sets 1
@@ -63,20 +64,29 @@ static CLRT_NOINLINE void pixel_aim(const RenderParams* params, uint x, uint y, 
 
 /* Adds finished samples to the pixel's sums and moves the counter past them. */
 static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place, const CameraSample* samples, uint count,
-                                    SampleCounter* counter, global long* film, global volatile uint* counters)
+                                    SampleCounter* counter, global long* film, global uint* pixel_rays,
+                                    global volatile uint* counters)
 {
     const uint pixel = (params->crop_y + place.y) * params->width + params->crop_x + place.x;
     for (uint k = 0; k < count; ++k, sample_counter_next(params, counter)) {
-        const uint fault = film_fault(params, samples[k].radiance);
+        uint fault = film_fault(params, samples[k].radiance);
         if (fault == COUNT_WORDS) {
             film_add(params, film_sums(params, film, place.slot, counter->replicate), &samples[k].sampler,
                      samples[k].radiance);
             if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u)
-                film_report_fault(counters, COUNT_OVERFLOW, pixel, counter->sample);
-        } else
+                fault = COUNT_OVERFLOW;
+        }
+        if (fault != COUNT_WORDS) {
             film_report_fault(counters, fault, pixel, counter->sample);
+            ++pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_BAD_SAMPLES];
+        }
     }
 }
+
+#ifdef CLRT_TRACE
+#include "trace/replay.h"
+#define RENDER_KERNEL(KERNEL, RADIANCE) TRACE_KERNEL(RADIANCE)
+#else
 
 /* Defines the loop over samples and the entry point. The entry point is thin and the loop is out of line, because some
    compilers compile an entry point's body several times. */
@@ -93,7 +103,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));                            \
             pixel_aim(params, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);   \
             RADIANCE(scene, params, samples, count, &rays);                                                   \
-            pixel_add(params, place, samples, count, &counter, film, counters);                               \
+            pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
         }                                                                                                     \
         pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SECONDARY] += rays.secondary;                   \
         pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SHADOW] += rays.shadow;                         \
@@ -109,5 +119,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
         const Scene scene = SCENE_MAKE;                                                                       \
         KERNEL##_pixel(&scene, &params, place, film, pixel_rays, counters);                                   \
     }
+
+#endif
 
 #endif

@@ -11,16 +11,28 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
 {
     const real3 wo = -ray.direction;
     const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
-    if (hit.triangle == NO_INDEX)
-        return lights_escape(scene, params, ray.direction, REAL(0.0), KINDS_ALL);
+    TRACE_HIT(scene, 1u, 0u, &ray, &hit);
+    if (hit.triangle == NO_INDEX) {
+        const real3 sky = lights_escape(scene, params, ray.direction, REAL(0.0), KINDS_ALL);
+        TRACE_VECTOR(scene, TRACE_SKY, sky);
+        TRACE_VECTOR(scene, TRACE_ADDED, sky);
+        return sky;
+    }
     const Surface surface = surface_at(scene, &hit, wo);
+    TRACE_SURFACE(scene, &surface);
     real3 radiance = (real3)(REAL(0.0));
-    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         radiance = material_emitted(scene, &surface);
+        TRACE_VECTOR(scene, TRACE_EMITTED, radiance);
+        TRACE_VECTOR(scene, TRACE_ADDED, radiance);
+    }
     if (params->max_depth < 2u)
         return radiance;
     const Bsdf bsdf = material_bsdf(scene, &surface, wo);
-    return radiance + direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays);
+    TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
+    const real3 direct = direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays);
+    TRACE_VECTOR(scene, TRACE_ADDED, direct);
+    return radiance + direct;
 }
 
 static inline void raycast_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples, uint count,

@@ -84,22 +84,35 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
 
         /* Find the surface, or the light outside the scene. */
         const Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
+        TRACE_HIT(scene, current.segment, current.node, &current.ray, &hit);
+        TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
         if (hit.triangle == NO_INDEX) {
-            radiance += current.weight * lights_escape(scene, params, current.ray.direction, REAL(0.0), KINDS_ALL);
+            const real3 sky = lights_escape(scene, params, current.ray.direction, REAL(0.0), KINDS_ALL);
+            radiance += current.weight * sky;
+            TRACE_VECTOR(scene, TRACE_SKY, sky);
+            TRACE_VECTOR(scene, TRACE_ADDED, current.weight * sky);
             continue;
         }
         const Surface surface = surface_at(scene, &hit, wo);
-        if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-            radiance += current.weight * material_emitted(scene, &surface);
+        TRACE_SURFACE(scene, &surface);
+        if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
+            const real3 emitted = material_emitted(scene, &surface);
+            radiance += current.weight * emitted;
+            TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
+            TRACE_VECTOR(scene, TRACE_ADDED, current.weight * emitted);
+        }
         if (current.segment >= params->max_depth)
             continue;
 
         /* Light it, then follow reflection and refraction. */
         const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+        TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
         const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
-        radiance += current.weight *
-                    direct_light(scene, params, sampler, current.node, &surface, &bsdf, highlight, rays);
+        const real3 direct = direct_light(scene, params, sampler, current.node, &surface, &bsdf, highlight, rays);
+        radiance += current.weight * direct;
+        TRACE_VECTOR(scene, TRACE_ADDED, current.weight * direct);
         top = whitted_spawn(params, &current, &surface, &bsdf, wo, stack, top);
+        TRACE_CHOICE(scene, TRACE_WAITING, top);
     }
     return radiance;
 }

@@ -92,16 +92,20 @@ static CLRT_NOINLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2
     sample.pdf_w = REAL(0.0);
     sample.eta = REAL(1.0);
     sample.weight = (real3)(REAL(0.0));
+    TRACE_SET(sample.lobe, 0u);
     real3 wi = (real3)(REAL(0.0));
     if (HAS(EFFECT_MATTE) && u_lobe < bsdf->choose_matte) {
+        TRACE_SET(sample.lobe, LOBE_MATTE);
         wi = bsdf_matte_sample(u);
         bsdf_complete(bsdf, wi, &sample);
     } else if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY)) {
+        TRACE_SET(sample.lobe, LOBE_GLOSSY);
         wi = bsdf_glossy_sample(bsdf, u);
         bsdf_complete(bsdf, wi, &sample);
     } else if (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) {
         wi = bsdf_dielectric_sample(bsdf, u_lobe, u, &sample);
     } else if (HAS(EFFECT_MIRROR) && (bsdf->lobes & LOBE_MIRROR)) {
+        TRACE_SET(sample.lobe, LOBE_MIRROR);
         wi = vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z);
         sample.weight = bsdf_reflection_color(bsdf, bsdf->wo.z) / (REAL(1.0) - bsdf->choose_matte);
     }

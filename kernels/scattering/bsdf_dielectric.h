@@ -83,6 +83,7 @@ static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 
     const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
     const real choose = bsdf_dielectric_choose(bsdf, f);
     const bool reflects = u_lobe < choose;
+    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : TRACE_LOBE_REFRACTION);
     const real3 wi = reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
     /* A microfacet may send light through the macroscopic surface the wrong way, and the horizon sees none: such paths
        end. */

@@ -6,6 +6,7 @@
 #include "numerics/frame.h"
 #include "shared/effects.h"
 #include "shared/scene_types.h"
+#include "trace/trace.h"
 
 /* Ways of a smooth dielectric that a path must not go (path/filter.h), beside MATERIAL_*. */
 #define BSDF_NO_REFLECTION 0x10000u
@@ -41,6 +42,7 @@ typedef struct {
     real pdf_w;    /* per steradian; 0 for a delta lobe */
     real eta;      /* relative index crossed; 1 for reflection */
     bool is_valid; /* false: no direction, the path ends */
+    TRACE_MEMBER(uint lobe) /* chosen */
 } BsdfSample;
 
 #endif

@@ -57,10 +57,11 @@ ASSERT_SIZE(RenderParams, 224);
 #define TILE_SIZE 8
 #define TILE_PIXELS 64
 
-/* Rays of a pixel, over all its samples: two u32 a slot. */
-#define PIXEL_RAYS_WORDS 2
+/* Counts of a pixel, over all its samples: three u32 a slot. */
+#define PIXEL_RAYS_WORDS 3
 #define PIXEL_RAYS_SECONDARY 0
 #define PIXEL_RAYS_SHADOW 1
+#define PIXEL_BAD_SAMPLES 2
 
 /* Counters of a run, u32 each. */
 #define COUNT_NAN 0

@@ -109,11 +109,14 @@ std::vector<std::string> resumable_command(const Arguments& arguments) {
 
 /// A render of minutes must not end in "no such folder".
 void check_folders(const Options& options) {
+    if (!options.stats_path.empty())
+        check_output_folder(options.stats_path);
+    if (options.pixel) // writes nothing else
+        return;
     for (const std::string& path : options.outputs)
         check_output_folder(path);
-    for (const std::string& path : {options.stats_path, options.checkpoint_path})
-        if (!path.empty())
-            check_output_folder(path);
+    if (!options.checkpoint_path.empty())
+        check_output_folder(options.checkpoint_path);
 }
 
 } // namespace

@@ -86,6 +86,27 @@ void check_written_paths(const Options& options) {
         reject(options, "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
 }
 
+/// --pixel and --sample name a sample of the picture.
+void check_replay(const Options& options) {
+    if (!options.pixel) {
+        if (options.given.count("--sample"))
+            reject(options, "option --sample: expected together with --pixel, found alone");
+        return;
+    }
+    const Crop window = options.crop.value_or(Crop{0, 0, options.size.x, options.size.y});
+    const glm::ivec2 p = *options.pixel;
+    if (p.x < window.x0 || p.x >= window.x1 || p.y < window.y0 || p.y >= window.y1)
+        reject(options, "option --pixel: expected a pixel of the picture, from " + std::to_string(window.x0) + "," +
+                            std::to_string(window.y0) + " to " + std::to_string(window.x1 - 1) + "," +
+                            std::to_string(window.y1 - 1) + ", found " + std::to_string(p.x) + "," + std::to_string(p.y));
+    if (!options.spp) // no known end
+        return;
+    const std::uint64_t end = std::uint64_t(options.first_sample) + *options.spp;
+    if (options.sample < options.first_sample || options.sample >= end)
+        reject(options, "option --sample: expected a sample of the picture, from " + std::to_string(options.first_sample) +
+                            " to " + std::to_string(end - 1) + ", found " + std::to_string(options.sample));
+}
+
 /// Only `path` walks the automaton; the others simulate one language each.
 void check_paths(const Options& options) {
     const bool has_paths = !options.paths.empty();
@@ -97,7 +118,7 @@ void check_paths(const Options& options) {
                                      : "raycast, which simulates 'LD?E' alone"));
     }
     const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_layered_output);
-    if (!options.path_layers.empty() && !has_exr && options.explain == Explain::NO)
+    if (!options.path_layers.empty() && !has_exr && options.explain == Explain::NO && !options.pixel)
         reject(options, "option --aov: expected an output that ends in .exr for the layer '" +
                             options.path_layers.front().name + "', found none; add -o FILE.exr");
 }
@@ -112,6 +133,7 @@ void check_combinations(const Options& options) {
     check_error_target(options);
     check_written_paths(options);
     check_paths(options);
+    check_replay(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)
         reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
                             " with --integrator whitted, found " + std::to_string(*options.max_depth));

@@ -107,7 +107,7 @@ void check_paths(const OptionValue& v, const std::string& expression) {
 
 const std::vector<std::string>& fixed_layers() {
     static const std::vector<std::string> layers = {"albedo",     "N",        "Z",       "P",    "objectId",
-                                                    "materialId", "variance", "samples", "alpha"};
+                                                    "materialId", "variance", "samples", "badSamples", "alpha"};
     return layers;
 }
 
@@ -147,7 +147,7 @@ void apply_aov(Options& o, const OptionValue& v) {
         if (!known || repeated)
             reject_value(
                 v, "none or a list such as albedo,N of different layers out of albedo, N, Z, P, objectId, "
-                   "materialId, variance, samples, alpha, and NAME=EXPR");
+                   "materialId, variance, samples, badSamples, alpha, and NAME=EXPR");
         o.aovs->push_back(layer);
     }
 }
@@ -313,8 +313,8 @@ std::vector<OptionSpec> picture_options() {
          }},
         {group, "", "--aov", "LIST",
          "layers of EXR files, such as albedo,N or none: albedo N Z P objectId materialId variance samples "
-         "alpha, and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: "
-         "all but alpha)",
+         "badSamples alpha, and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable "
+         "(default: all but alpha, badSamples where there are any)",
          apply_aov, REPEATABLE},
     };
 }
@@ -400,6 +400,13 @@ std::vector<OptionSpec> promise_options() {
              o.check = parse_choice<Check>(
                  v, {{"off", Check::OFF}, {"count", Check::COUNT}, {"strict", Check::STRICT}});
          }},
+        {group, "", "--pixel", "X,Y",
+         "replay one sample of this pixel and print its path, in single and double precision side by side; -v adds "
+         "hexadecimal numbers, --stats writes JSON; no picture",
+         [](Options& o, const OptionValue& v) { o.pixel = parse_pixel(v); }, Repeat::NO, COMMAND_LINE_ONLY},
+        {group, "", "--sample", "N", "which sample of --pixel (default 0)",
+         [](Options& o, const OptionValue& v) { o.sample = static_cast<std::uint32_t>(parse_whole(v, 0, LARGEST_U32 - 1)); },
+         Repeat::NO, COMMAND_LINE_ONLY},
     };
 }
 
@@ -466,6 +473,8 @@ const std::vector<std::pair<std::string, std::string>>& exclusive_options() {
         {"--cache", "--no-cache"},
         {"--fov", "--focal-length"},
         {"--fov", "--film-width"},
+        {"--pixel", "--explain"},
+        {"--pixel", "--ledger"},
     };
     return pairs;
 }

@@ -134,6 +134,16 @@ Crop parse_crop(const OptionValue& value) {
     return crop;
 }
 
+glm::ivec2 parse_pixel(const OptionValue& value) {
+    const std::vector<std::string> parts = split_list(value.text);
+    glm::ivec2 pixel{-1, -1};
+    for (size_t i = 0; i < 2 && parts.size() == 2; ++i)
+        pixel[int(i)] = read_all<int>(parts[i]).value_or(-1);
+    if (pixel.x < 0 || pixel.y < 0)
+        reject_value(value, "a pixel x,y in whole numbers from 0, counted from the top left");
+    return pixel;
+}
+
 double parse_duration(const OptionValue& value) {
     const std::string expected = "a duration above 0 such as 90, 90s, 5m or 1h";
     std::string digits = value.text;

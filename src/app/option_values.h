@@ -55,6 +55,9 @@ glm::ivec2 parse_size(const OptionValue& value);
 /// A window "x0,y0,x1,y1" in pixels, not empty, no negative corner.
 Crop parse_crop(const OptionValue& value);
 
+/// A pixel "x,y" from the top left.
+glm::ivec2 parse_pixel(const OptionValue& value);
+
 /// A duration above 0 in seconds: "90", "90s", "5m", "1.5h".
 double parse_duration(const OptionValue& value);
 

@@ -117,6 +117,8 @@ struct Options {
     std::string paths;                         ///< path notation (paths/path_expression.h); empty: every path
     std::string stats_path;                    ///< JSON; empty: none
     Check check = Check::COUNT;
+    std::optional<glm::ivec2> pixel; ///< replay a sample of it; no picture
+    std::uint32_t sample = 0;        ///< which one
 
     // Runs
     std::string checkpoint_path;              ///< film file to write; empty: none

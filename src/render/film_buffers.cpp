@@ -64,6 +64,13 @@ void FilmBuffers::for_each_pixel(size_t first, size_t planes, Action&& action) c
     });
 }
 
+u32 FilmBuffers::pixel_of_slot(size_t slot) const {
+    const u32 tile = u32(slot / TILE_PIXELS), within = u32(slot % TILE_PIXELS);
+    const u32 x = params_.crop_x + tile % params_.tiles_x * TILE_SIZE + within % TILE_SIZE;
+    const u32 y = params_.crop_y + tile / params_.tiles_x * TILE_SIZE + within / TILE_SIZE;
+    return y * params_.width + x;
+}
+
 void FilmBuffers::write_sums(const RenderProgress& render) {
     const size_t replicates = params_.film_replicates;
     std::vector<std::int64_t> tiles(slots_ * 3 * (replicates + layers_), 0);
@@ -109,6 +116,8 @@ RenderCounts FilmBuffers::read_counts() const {
     for (size_t i = 0; i < rays.size(); i += PIXEL_RAYS_WORDS) {
         counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
         counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
+        if (const u32 bad = rays[i + PIXEL_BAD_SAMPLES])
+            counts.bad_pixels[pixel_of_slot(i / PIXEL_RAYS_WORDS)] = bad;
     }
     return counts;
 }

@@ -31,6 +31,9 @@ private:
     template <class Action>
     void for_each_pixel(size_t first, size_t planes, Action&& action) const;
 
+    /// Pixel (y width + x of the whole picture) of a slot.
+    u32 pixel_of_slot(size_t slot) const;
+
     const Device& device_;
     RenderParams params_;
     size_t slots_;  ///< pixels of whole tiles

@@ -59,10 +59,16 @@ private:
     std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
 
+/// More of them are left out of the header, which they would make too large.
+constexpr size_t MOST_BAD_PIXELS = size_t(1) << 20;
+
 Json counts_json(const RenderCounts& counts) {
-    return {{"primary", counts.primary},   {"secondary", counts.secondary}, {"shadow", counts.shadow},
+    Json json = {{"primary", counts.primary},   {"secondary", counts.secondary}, {"shadow", counts.shadow},
             {"nan", counts.nan},           {"infinite", counts.infinite},   {"negative", counts.negative},
             {"overflow", counts.overflow}, {"bad_samples", counts.bad_samples}};
+    if (!counts.bad_pixels.empty() && counts.bad_pixels.size() <= MOST_BAD_PIXELS)
+        json["bad_pixels"] = counts.bad_pixels; // pairs of pixel and count
+    return json;
 }
 
 RenderCounts read_counts(const Json& json) {
@@ -75,6 +81,8 @@ RenderCounts read_counts(const Json& json) {
     json.at("negative").get_to(counts.negative);
     json.at("overflow").get_to(counts.overflow);
     json.at("bad_samples").get_to(counts.bad_samples);
+    if (json.contains("bad_pixels"))
+        json.at("bad_pixels").get_to(counts.bad_pixels);
     return counts;
 }
 

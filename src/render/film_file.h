@@ -13,7 +13,8 @@
 //                  device      on which the samples were rendered
 //                  replicates  whose sums are kept apart
 //                  ranges      of sample numbers inside, [first, end), in order
-//                  counts      rays and bad samples; bad_samples lists pairs of pixel and sample
+//                  counts      rays and bad samples; bad_samples lists pairs of pixel and sample,
+//                              bad_pixels (absent without bad samples) pairs of pixel and count
 //                  history     errors at doublings of the samples
 //                  seconds     of rendering
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:

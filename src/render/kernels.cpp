@@ -14,13 +14,33 @@ namespace {
 
 /// Layers that come from the primary hits; the others are made from the film.
 bool is_hit_layer(const std::string& name) {
-    return name != "variance" && name != "samples" && name != "alpha";
+    return name != "variance" && name != "samples" && name != "alpha" && name != "badSamples";
 }
 
 /// Samples of a pixel that a work-item simulates side by side (kernels/integrators/pixel.h): a CPU's core fills the waits
 /// of one with the others, a GPU has other work-items for that.
 int samples_at_once(const DeviceInfo& device) {
     return device.type == "CPU" ? 4 : 1;
+}
+
+KernelFiles kernel_files(const Options& options) {
+    return options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
+}
+
+/// What every program of integrators/NAME.cl is built with.
+ProgramRequest make_request(const KernelFiles& files, const std::string& name, const Options& options, u32 effects,
+                            BvhLayout layout, int samples) {
+    ProgramRequest request;
+    request.name = name;
+    request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
+    request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
+                       fmt::format("SAMPLES_AT_ONCE={}", samples)};
+    if (options.sampler == SamplerChoice::INDEPENDENT)
+        request.defines.push_back("CLRT_SAMPLER=SAMPLER_INDEPENDENT");
+    request.precision = options.precision;
+    request.dump_folder = options.dump_folder;
+    request.cache = {options.cache, options.cache_folder};
+    return request;
 }
 
 } // namespace
@@ -66,20 +86,10 @@ bool wants_layers(const Options& options) {
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout,
                                      const PathPlan& paths) {
     const auto start = std::chrono::steady_clock::now();
-    const KernelFiles files =
-        options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
+    const KernelFiles files = kernel_files(options);
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
-        ProgramRequest request;
-        request.name = name;
-        request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
-        request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
-                           fmt::format("SAMPLES_AT_ONCE={}", samples_at_once(device.info))};
+        ProgramRequest request = make_request(files, name, options, effects, layout, samples_at_once(device.info));
         request.defines.insert(request.defines.end(), defines.begin(), defines.end());
-        if (options.sampler == SamplerChoice::INDEPENDENT)
-            request.defines.push_back("CLRT_SAMPLER=SAMPLER_INDEPENDENT");
-        request.precision = options.precision;
-        request.dump_folder = options.dump_folder;
-        request.cache = {options.cache, options.cache_folder};
         return build_program(device, request);
     };
     RenderPrograms programs;
@@ -89,6 +99,18 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
         programs.layers = build("aov", {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return programs;
+}
+
+Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
+                             BvhLayout layout, const PathPlan& paths) {
+    ProgramRequest request =
+        make_request(kernel_files(options), integrator_name(options.integrator), options, effects, layout, 1);
+    request.name += "_replay";
+    request.precision = precision;
+    request.defines.emplace_back("CLRT_TRACE=1");
+    const std::vector<std::string> automaton = path_defines(paths);
+    request.defines.insert(request.defines.end(), automaton.begin(), automaton.end());
+    return build_program(device, request);
 }
 
 } // namespace clrt

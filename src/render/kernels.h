@@ -36,4 +36,8 @@ bool wants_layers(const Options& options);
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout,
                                      const PathPlan& paths = {});
 
+/// Compiles the same integrator so that it records what single samples do (kernels/trace), in a precision of its own.
+Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
+                             BvhLayout layout, const PathPlan& paths);
+
 } // namespace clrt

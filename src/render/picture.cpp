@@ -13,6 +13,17 @@ namespace {
 /// Where the sums of kernels/integrators/aov.cl lie within a pixel.
 enum HitOffset { ALBEDO = 0, NORMAL = 3, POSITION = 6, DEPTH = 9, HITS = 10, OBJECT = 11, MATERIAL = 12 };
 
+/// How many bad samples each pixel has.
+Layer bad_samples_layer(const Render& render, const Crop& window, int full_width) {
+    Layer layer{"", {"badSamples"}, std::vector<float>(size_t(render.film.width) * size_t(render.film.height)), true};
+    for (const auto& [pixel, count] : render.counts.bad_pixels) {
+        const int x = int(pixel) % full_width - window.x0, y = int(pixel) / full_width - window.y0;
+        if (x >= 0 && y >= 0 && x < render.film.width && y < render.film.height)
+            layer.values[size_t(y) * size_t(render.film.width) + size_t(x)] = float(count);
+    }
+    return layer;
+}
+
 bool wants(const Options& options, const std::string& name) {
     if (!options.aovs)
         return name != "alpha";
@@ -132,6 +143,8 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
         picture.layers.push_back(
             {"", {"samples"}, std::vector<float>(pixels, float(film_samples(render.film))), false});
     }
+    if (options.aovs ? wants(options, "badSamples") : !render.counts.bad_pixels.empty())
+        picture.layers.push_back(bad_samples_layer(render, window, options.size.x));
     return picture;
 }
 

@@ -286,6 +286,8 @@ void RenderCounts::add(const RenderCounts& other) {
     infinite += other.infinite;
     negative += other.negative;
     overflow += other.overflow;
+    for (const auto& [pixel, count] : other.bad_pixels)
+        bad_pixels[pixel] += count;
     bad_samples.insert(bad_samples.end(), other.bad_samples.begin(), other.bad_samples.end());
     std::sort(bad_samples.begin(), bad_samples.end(),
               [](const auto& a, const auto& b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,8 @@ struct RenderCounts {
     std::uint64_t nan = 0, infinite = 0, negative = 0, overflow = 0;
     /// Addresses of the first bad samples: pixel (y width + x of the whole picture) and sample.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> bad_samples;
+    /// How many bad samples a pixel has, by pixel; only those that have some.
+    std::map<std::uint32_t, std::uint64_t> bad_pixels;
     std::uint64_t bad() const { return nan + infinite + negative + overflow; }
     std::uint64_t rays() const { return primary + secondary + shadow; }
     /// Adds another run's counts.

@@ -126,6 +126,7 @@ std::string format_report(const Report& report) {
     text += format_error_report(report.error);
     text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
                         counts.negative, counts.overflow);
+    text += format_causes(report.causes, counts.bad(), report.scene, report.options);
     if (report.effects.paths.is_asked)
         text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
     text += fmt::format("absent   {}\n", fmt::join(names_of_effects(report.effects, false), ", "));
@@ -163,7 +164,9 @@ std::string report_json(const Report& report) {
     json["nonfinite"] = {{"nan", counts.nan},
                          {"infinite", counts.infinite},
                          {"negative", counts.negative},
-                         {"overflow", counts.overflow}};
+                         {"overflow", counts.overflow},
+                         {"replayed", replayed_samples(report.causes)},
+                         {"by_cause", causes_json(report.causes, report.scene, report.options)}};
     json["bad_samples"] = Json::array();
     for (const auto& [pixel, sample] : counts.bad_samples)
         json["bad_samples"].push_back({{"x", pixel % u32(report.options.size.x)},

@@ -8,6 +8,7 @@
 #include "output/image.h"
 #include "render/error_report.h"
 #include "render/render.h"
+#include "replay/causes.h"
 
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct Report {
     const Render& render;
     ErrorReport error;
     std::string bvh_reason; ///< why the tree has its quality
+    std::vector<CauseCount> causes; ///< of the bad samples that were replayed
     double load_seconds = 0, compile_seconds = 0, total_seconds = 0;
 };
 

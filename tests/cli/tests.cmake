@@ -27,6 +27,7 @@ clrt_command_test(picture_file_test)
 clrt_command_test(program_cache_cli_test)
 clrt_command_test(same_bits_command_test)
 target_compile_definitions(same_bits_command_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
+clrt_command_test(replay_command_test)
 if(TARGET clrt-bench)
   clrt_test(cli bench_command_test)
   target_compile_definitions(bench_command_test PRIVATE

@@ -61,6 +61,8 @@ const std::map<std::string, std::string>& samples() {
         {"--paths", "L(D|S)*E"},
         {"--stats", "run.json"},
         {"--check", "strict"},
+        {"--pixel", "3,4"},
+        {"--sample", "5"},
         {"--checkpoint", "a.film,90s"},
         {"--resume", "a.film"},
         {"--save-every", "1m"},
@@ -85,6 +87,8 @@ std::vector<std::string> companions(const std::string& option) {
         return {"--film-width", "36"};
     if (option == "--film-width")
         return {"--focal-length", "50"};
+    if (option == "--sample")
+        return {"--pixel", "3,4"};
     return {};
 }
 

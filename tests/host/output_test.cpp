@@ -196,6 +196,23 @@ TEST(Output, ExrHoldsEveryLayerExactly) {
         ASSERT_EQ(words[i * 11 + id], 16777216 - 490 + i);
 }
 
+// X04: HALF ends at 65504 and would turn these into infinities.
+TEST(Output, ExrHoldsRadianceBeyondTheRangeOfHalf) {
+    const ScratchFolder folder;
+    Picture picture = noise(2, 1);
+    const std::vector<float> values = {65504.0f, 7e4f, 1e6f, 3.4e38f, 1e-7f, 1e-40f};
+    picture.layers[0].values = values;
+    picture.layers.push_back({"variance", {"R", "G", "B"}, values, false});
+    write_picture(picture, folder.file("a.exr"), 0, Tonemap::NONE);
+    OIIO::ImageSpec spec;
+    const std::vector<float> read = read_pixels<float>(folder.file("a.exr"), spec);
+    ASSERT_EQ(spec.nchannels, 6);
+    for (int channel = 0; channel < spec.nchannels; ++channel)
+        EXPECT_EQ(spec.channelformat(channel), OIIO::TypeFloat) << spec.channelnames[size_t(channel)];
+    EXPECT_EQ(read, (std::vector<float>{65504.0f, 7e4f, 1e6f, 65504.0f, 7e4f, 1e6f, 3.4e38f, 1e-7f, 1e-40f, 3.4e38f,
+                                        1e-7f, 1e-40f}));
+}
+
 TEST(Output, ExrKeepsTheWindowsPlaceAndTheMetadata) {
     ScratchFolder folder;
     Picture picture = noise(5, 4);

@@ -52,6 +52,18 @@ TEST(EffectSyntax, EverySetOfEffectsCompilesInOpenCl12And30) {
             EXPECT_EQ(complaints(file, standard, mask), "") << standard << ", " << describe_effects(mask);
 }
 
+TEST(EffectSyntax, RecordingProgramsCompileToo) {
+    const ScratchFolder folder;
+    for (const char* name : {"path", "whitted", "raycast"})
+        for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
+            const std::string file =
+                folder.write("replay.cl", fmt::format("#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n{}"
+                                                      "#include \"integrators/{}.cl\"\n", precision, name));
+            for (const u32 mask : {u32(EFFECT_ALL), u32(EFFECT_MATTE), u32(EFFECT_MATTE | EFFECT_AREA_LIGHT)})
+                EXPECT_EQ(complaints(file, "CL1.2", mask), "") << name << precision << describe_effects(mask);
+        }
+}
+
 TEST(EffectSyntax, TheCheckSeesAnError) {
     const ScratchFolder folder;
     const std::string file = folder.write("all.cl", all_entry_points() + "int broken(void) { return HAS(EFFECT_NONE); }\n");

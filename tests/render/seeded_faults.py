@@ -112,6 +112,17 @@ FAULTS = [
      "paths_test"),
     ("reflection and refraction swapped", "path/filter.h", "? step->refraction : step->mirror",
      "? step->mirror : step->refraction", "paths_test"),
+    ("a replay of another sample", "trace/replay.h", "counter.index = sample / params->replicates;",
+     "counter.index = sample;", "replay_test"),
+    ("choices left out of the hash", "trace/trace.h", "sampler_hash(x ^ sampler_hash(quantity + (y << 8)))", "quantity",
+     "replay_test"),
+    ("a lobe not recorded", "scattering/bsdf.h", "TRACE_SET(sample.lobe, LOBE_MIRROR);", "", "replay_test"),
+    ("bad samples of a pixel not counted", "integrators/pixel.h",
+     "++pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_BAD_SAMPLES];", "", "replay_test"),
+    ("the sampled direction not recorded", "integrators/path.h", "    TRACE_DIRECTION(scene, &next, continues);\n", "",
+     "replay_test"),
+    ("the film's share not replayed", "trace/replay.h",
+     "    film_add(params, sums, &sample->sampler, sample->radiance);\n", "", "replay_test"),
 ]
 
 

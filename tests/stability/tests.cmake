@@ -2,6 +2,8 @@
 find_package(embree 3 REQUIRED)
 clrt_test(stability degenerate_test)
 clrt_test(stability embree_test embree)
+clrt_test(stability flips_test)
+target_compile_definitions(flips_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
 clrt_test(stability odd_rays_test)
 clrt_test(stability offset_test)
 clrt_test(stability watertight_test)

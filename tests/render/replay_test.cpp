@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+// A replayed sample has the bits of the rendered one; a planted fault is found where it was planted, and so
+// is a decision that is made differently in double precision.
+#include "bvh/bvh.h"
+#include "render/film_buffers.h"
+#include "render/launcher.h"
+#include "render/render_params.h"
+#include "replay/causes.h"
+#include "replay/flips.h"
+#include "support/effect_masks.h"
+#include "support/kernel_probe.h"
+
+#include "app/progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
+
+/// A folder of kernels to take instead of those inside the test; empty: none.
+std::string tested_kernels_folder() {
+    const char* const folder = std::getenv("CLRT_TEST_KERNELS");
+    return folder ? folder : "";
+}
+
+/// A loaded scene on the device.
+struct Stage {
+    const Device& device = test_device();
+    Scene scene;
+    Options options;
+    Effects effects;
+    BvhLayout layout;
+    SceneBuffers buffers;
+
+    Stage(Scene loaded, Options given)
+        : scene(std::move(loaded)), options(std::move(given)), effects(find_effects(scene, options)),
+          layout(choose_layout(options.bvh, device.info)),
+          buffers(upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout))) {
+        if (options.kernels_folder.empty())
+            options.kernels_folder = tested_kernels_folder();
+    }
+
+    std::vector<SampleAddress> all_pixels(u32 sample) const {
+        std::vector<SampleAddress> addresses;
+        for (u32 pixel = 0; pixel < u32(options.size.x * options.size.y); ++pixel)
+            addresses.push_back({pixel, sample});
+        return addresses;
+    }
+    Render render() const {
+        Progress silent(Toggle::OFF, true);
+        return clrt::render(device,
+                            build_render_programs(device, options, effects.mask, layout, effects.paths),
+                            buffers, scene, options, silent);
+    }
+    Replay replay(Precision precision) const {
+        return Replay(device, scene, options, precision, effects, layout, buffers);
+    }
+};
+
+/// How many of the film's sums are not those of the replayed samples.
+size_t count_differences(const Render& render, const std::vector<SampleTrace>& traces) {
+    const size_t plane = film_plane(render.film);
+    const size_t replicate = render.film.ranges.front().first % u32(render.film.replicates);
+    size_t differences = 0;
+    for (const SampleTrace& trace : traces)
+        for (size_t c = 0; c < 3; ++c)
+            differences += trace.film[c] != render.film.sums[replicate * plane + 3 * trace.address.pixel + c];
+    return differences;
+}
+
+/// A small room that every kind of path runs through.
+Stage every_effect(Integrator integrator) {
+    SceneOfEffects small(EVERY_EFFECT);
+    small.options.integrator = integrator;
+    small.options.size = {24, 20};
+    small.options.replicates = 4;
+    small.options.spp = 1;
+    if (integrator != Integrator::PATH)
+        small.options.paths.clear();
+    return Stage(small.load(), small.options);
+}
+
+/// A copy of the kernels in which texts are replaced.
+class PlantedKernels {
+public:
+    PlantedKernels() {
+        const std::string from = tested_kernels_folder();
+        std::filesystem::copy(from.empty() ? CLRT_KERNELS_FOLDER : from, path(),
+                              std::filesystem::copy_options::recursive);
+    }
+    std::string path() const { return folder_.file("kernels"); }
+    void replace(const std::string& file, const std::string& from, const std::string& to) const {
+        std::string text = folder_.read("kernels/" + file);
+        const size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from << " is not in " << file;
+        folder_.write("kernels/" + file, text.replace(at, from.size(), to));
+    }
+
+private:
+    ScratchFolder folder_;
+};
+
+/// A closed room that shines a little everywhere, 16 x 16 pixels.
+void make_white_room(TestScene& room) {
+    room.build.material("white", "Kd 0.7 0.7 0.7\nKe 0.1 0.1 0.1").use("white");
+    room.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    room.look({0, 0, 0.9}, {0, 0, -1}, 60);
+    room.options.all_effects = false;
+}
+
+/// A change to integrators/path.h that spoils one sample, and what it is to be reported as.
+struct Fault {
+    const char* name;
+    std::string from, to;
+    u32 kind, quantity, bounce;
+};
+
+/// Faults in sample 6 of pixel (3, 2): number 1 of replicate 2 of 4.
+std::vector<Fault> planted_faults() {
+    const std::string here =
+        "(sample->sampler.word_key == sampler_make(params->seed, 2u * 16u + 3u, 2u, 1u).word_key)";
+    const std::string sampled =
+        "const BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);";
+    const std::string at = "if (" + here + " && segment == ";
+    const std::string not_const = sampled.substr(6);
+    const std::string light =
+        "const LightSample light =\n        lights_sample(scene, params, surface, bsdf->frame.z, "
+        "path->numbers.light, path->numbers.alias);";
+    return {
+        {"NaN weight at bounce 2", sampled, not_const + at + "2u) next.weight.y = as_float(0x7fc00000u);",
+         COUNT_NAN, TRACE_WEIGHT, 2},
+        {"infinite weight at bounce 1", sampled,
+         not_const + at + "1u) next.weight.x = as_float(0x7f800000u);", COUNT_INFINITE, TRACE_WEIGHT, 1},
+        {"negative throughput", "path->throughput *= next.weight;",
+         "path->throughput *= next.weight; " + at + "1u) path->throughput *= REAL(-100.0);", COUNT_NEGATIVE,
+         TRACE_THROUGHPUT, 1},
+        {"overflow in the sum", "    const real3 wo = -path->ray.direction;\n",
+         "    const real3 wo = -path->ray.direction;\n    " + at + "1u) sample->radiance.x = REAL(1e30);\n",
+         COUNT_OVERFLOW, 0, 0},
+        {"NaN density of the light at bounce 2", light,
+         "const Sampler planted = sampler_make(params->seed, 2u * 16u + 3u, 2u, 1u);\n    " +
+             light.substr(6) +
+             "\n    if (path->numbers.alias == sampler_word(&planted, 2u, SAMPLE_LIGHT_ALIAS)) light.pdf_w = "
+             "as_float(0x7fc00000u);",
+         COUNT_NAN, TRACE_LIGHT_PDF, 2},
+    };
+}
+
+} // namespace
+
+TEST(Replay, ASampleAddsToTheFilmWhatTheRenderAdds) {
+    for (const Integrator integrator : INTEGRATORS)
+        for (const Precision precision : {Precision::SINGLE, Precision::DOUBLE}) {
+            if (precision == Precision::DOUBLE &&
+                (!test_device().info.fp64 || integrator == Integrator::WHITTED))
+                continue;
+            Stage stage = every_effect(integrator);
+            stage.options.precision = precision;
+            Replay replay = stage.replay(precision);
+            for (const u32 sample : {0u, 7u}) {
+                stage.options.first_sample = sample;
+                const std::vector<SampleTrace> traces = replay.run(stage.all_pixels(sample));
+                EXPECT_EQ(count_differences(stage.render(), traces), 0u)
+                    << integrator_name(integrator) << ' ' << sample;
+            }
+        }
+}
+
+TEST(Replay, SimplerScenesHaveTheBitsOfTheirOwnPrograms) {
+    const std::vector<u32> sets = single_effects();
+    for (size_t i = 0; i < sets.size(); i += 4) {
+        SceneOfEffects small(sets[i]);
+        small.options.all_effects = false;
+        small.options.spp = 1;
+        small.options.first_sample = 3;
+        const Stage stage(small.load(), small.options);
+        Replay replay = stage.replay(Precision::SINGLE);
+        EXPECT_EQ(count_differences(stage.render(), replay.run(stage.all_pixels(3))), 0u)
+            << describe_effects(sets[i]);
+    }
+}
+
+TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
+    // A film of quanta so fine that the sums are the floats themselves.
+    constexpr double QUANTUM = 0x1p-44;
+    for (const Integrator integrator : {Integrator::PATH, Integrator::RAYCAST}) {
+        const Stage stage = every_effect(integrator);
+        RenderParams params = make_render_params(stage.scene, stage.options, film_scale(stage.scene));
+        restrict_lights(stage.effects.paths, params);
+        params.quantum = float(QUANTUM);
+        params.inverse_quantum = float(1 / QUANTUM);
+        params.largest_contribution = 0x1p18f;
+        const RenderPrograms programs = build_render_programs(stage.device, stage.options, stage.effects.mask,
+                                                              stage.layout, stage.effects.paths);
+        const FilmBuffers film(stage.device, params, programs.paths.layers.size());
+        Launcher launcher(stage.device, programs.picture,
+                          std::string("render_") + integrator_name(integrator), params, stage.buffers);
+        film.bind(launcher.kernel());
+        launcher.run(5, 1, 0, params.tile_count);
+        RenderProgress sums;
+        sums.film.width = stage.options.size.x;
+        sums.film.height = stage.options.size.y;
+        film.read_sums(sums);
+
+        const size_t plane = size_t(3 * stage.options.size.x * stage.options.size.y);
+        size_t lit = 0, different = 0;
+        for (const SampleTrace& trace : stage.replay(Precision::SINGLE).run(stage.all_pixels(5))) {
+            const auto radiance =
+                std::find_if(trace.events.begin(), trace.events.end(),
+                             [](const TraceEvent& e) { return e.quantity == TRACE_RADIANCE; });
+            ASSERT_NE(radiance, trace.events.end());
+            for (int c = 0; c < 3; ++c) {
+                const double value = trace_value(trace, *radiance, c);
+                const double sum = double(
+                    sums.film.sums[plane * (5 % params.replicates) + 3 * trace.address.pixel + size_t(c)]);
+                lit += value > 0;
+                different +=
+                    value > 0x1p-20 ? sum * QUANTUM != value : std::abs(sum * QUANTUM - value) > QUANTUM;
+            }
+        }
+        EXPECT_EQ(different, 0u) << integrator_name(integrator);
+        EXPECT_GT(lit, plane / 4);
+    }
+}
+
+TEST(Replay, LongPathsAreRecordedWhole) {
+    TestScene scene;
+    scene.build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3").use("mirror");
+    scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    scene.look({0.1, 0.2, 0.3}, {0, 0, -1}, 60);
+    scene.options.size = {2, 1};
+    scene.options.max_depth = 3000;
+    scene.options.roulette_depth = 4000;
+    const Stage stage(scene.load(), scene.options);
+    Replay replay = stage.replay(Precision::SINGLE);
+    const std::vector<SampleTrace> traces = replay.run({{1, 0}, {0, 9}});
+    ASSERT_EQ(traces.size(), 2u);
+    for (const SampleTrace& trace : traces) {
+        EXPECT_EQ(trace.events.size(), trace.event_count);
+        EXPECT_EQ(trace_bounce(trace, trace.events.size() - 1), 3000u);
+        EXPECT_EQ(trace.events.back().quantity, TRACE_RADIANCE);
+        const bool all_mirrors =
+            std::all_of(trace.events.begin(), trace.events.end(), [](const TraceEvent& event) {
+                return event.quantity != TRACE_LOBE || event.bits[0] == LOBE_MIRROR;
+            });
+        EXPECT_TRUE(all_mirrors);
+    }
+    EXPECT_EQ(traces[0].decisions, replay.run({{1, 0}}, TraceEvents::NONE)[0].decisions);
+    EXPECT_NE(traces[0].decisions, traces[1].decisions);
+}
+
+// X01: faults at a known pixel, sample, bounce and quantity.
+TEST(Replay, PlantedFaultsAreFoundWhereTheyArePlanted) {
+    for (const Fault& fault : planted_faults()) {
+        PlantedKernels kernels;
+        kernels.replace("integrators/path.h", fault.from, fault.to);
+        TestScene room;
+        make_white_room(room);
+        room.options.replicates = 4;
+        room.options.spp = 8;
+        room.options.kernels_folder = kernels.path();
+        const Stage stage(room.load(), room.options);
+        const Render render = stage.render();
+        const RenderCounts& counts = render.counts;
+        EXPECT_EQ(counts.nan, fault.kind == COUNT_NAN) << fault.name;
+        EXPECT_EQ(counts.infinite, fault.kind == COUNT_INFINITE) << fault.name;
+        EXPECT_EQ(counts.negative, fault.kind == COUNT_NEGATIVE) << fault.name;
+        EXPECT_EQ(counts.overflow, fault.kind == COUNT_OVERFLOW) << fault.name;
+        ASSERT_EQ(counts.bad_samples.size(), 1u) << fault.name;
+        EXPECT_EQ(counts.bad_samples[0], std::pair(2u * 16u + 3u, 6u)) << fault.name;
+        EXPECT_EQ(counts.bad_pixels, (std::map<u32, std::uint64_t>{{2u * 16u + 3u, 1u}})) << fault.name;
+
+        const std::vector<CauseCount> causes = find_causes(
+            stage.device, stage.scene, stage.options, stage.effects, stage.layout, stage.buffers, counts);
+        ASSERT_EQ(causes.size(), 1u) << fault.name;
+        EXPECT_EQ(causes[0].cause.kind, fault.kind) << fault.name;
+        EXPECT_EQ(causes[0].cause.quantity, fault.quantity) << fault.name;
+        EXPECT_EQ(causes[0].cause.bounce, fault.bounce) << fault.name;
+        EXPECT_EQ(causes[0].count, 1u) << fault.name;
+        EXPECT_EQ(causes[0].cause.material,
+                  fault.quantity != 0 ? stage.scene.triangles[0].material : NO_INDEX)
+            << fault.name;
+    }
+}
+
+TEST(Replay, ADecisionThatDoubleMakesDifferentlyIsFound) {
+    if (!test_device().info.fp64)
+        GTEST_SKIP() << "the device has no fp64";
+    PlantedKernels kernels;
+    // In double, Russian roulette ends what it would let live at bounce 2 in one pixel of three.
+    kernels.replace("integrators/path.h",
+                    "const bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);",
+                    "bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);\n"
+                    "#ifdef REAL_IS_DOUBLE\n    if (segment == 2u && sampler->key % 3u == 0u) survives = "
+                    "!survives;\n#endif\n");
+    TestScene room;
+    make_white_room(room);
+    room.options.spp = 4;
+    room.options.roulette_depth = 2;
+    room.options.kernels_folder = tested_kernels_folder();
+    const FlipStatistics clean = find_flips(test_device(), room.load(), room.options);
+    EXPECT_EQ(clean.samples, 16u * 16u * 4u);
+    EXPECT_LT(clean.share(), 0.01);
+    room.options.kernels_folder = kernels.path();
+    const FlipStatistics flips = find_flips(test_device(), room.load(), room.options);
+    const std::uint64_t planted = flips.counts()[{"roulette", 2u}];
+    EXPECT_NEAR(double(planted) / double(flips.samples), 1.0 / 3, 0.05);
+    EXPECT_GE(planted + clean.flips.size(), flips.flips.size()) << format_flips(flips);
+}
+
+} // namespace clrt
