@@ -11,6 +11,24 @@ typedef struct {
     uint slot; /* place among the film's sums: tile by tile, rows within a tile */
 } TilePixel;
 
+/* Samples that a launch takes of a pixel. */
+typedef struct {
+    uint first, count;
+} SampleRange;
+
+/* The same ones everywhere, or those of the tile of a slot where a launch deals to half of the replicates. */
+static inline SampleRange tile_samples(const RenderParams* params, global const uint* pixel_rays, uint slot)
+{
+    SampleRange range = {params->first_sample, params->sample_count};
+    if (params->dealt_replicates != params->replicates) {
+        global const uint* ranges = pixel_rays + (ulong)PIXEL_RAYS_WORDS * TILE_PIXELS * params->tile_count;
+        ranges += TILE_RANGE_WORDS * (slot / TILE_PIXELS);
+        range.first = ranges[TILE_RANGE_FIRST];
+        range.count = ranges[TILE_RANGE_COUNT];
+    }
+    return range;
+}
+
 /* The pixel of this work-item; false for padding. */
 static inline bool tile_pixel(const RenderParams* params, TilePixel* pixel)
 {

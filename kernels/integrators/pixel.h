@@ -32,22 +32,23 @@ typedef struct {
     uint sample, replicate, index;
 } SampleCounter;
 
-static inline SampleCounter sample_counter_make(const RenderParams* params)
+/* Starts with sample number `first` among those that the launch deals out. */
+static inline SampleCounter sample_counter_make(const RenderParams* params, uint first)
 {
     SampleCounter counter;
-    counter.sample = params->first_sample;
-    counter.replicate = params->first_sample % params->replicates;
-    counter.index = params->first_sample / params->replicates;
+    counter.replicate = params->first_replicate + first % params->dealt_replicates;
+    counter.index = first / params->dealt_replicates;
+    counter.sample = counter.index * params->replicates + counter.replicate;
     return counter;
 }
 
 static inline void sample_counter_next(const RenderParams* params, SampleCounter* counter)
 {
-    ++counter->sample;
-    if (++counter->replicate == params->replicates) {
-        counter->replicate = 0u;
+    if (++counter->replicate == params->first_replicate + params->dealt_replicates) {
+        counter->replicate = params->first_replicate;
         ++counter->index;
     }
+    counter->sample = counter->index * params->replicates + counter->replicate;
 }
 
 /* Aims `count` samples of the pixel (x, y) from the counter on. */
@@ -96,10 +97,11 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
                                              global volatile uint* counters)                                  \
     {                                                                                                         \
         PixelRays rays = {0u, 0u};                                                                            \
-        SampleCounter counter = sample_counter_make(params);                                                  \
+        const SampleRange range = tile_samples(params, pixel_rays, place.slot);                               \
+        SampleCounter counter = sample_counter_make(params, range.first);                                     \
         CameraSample samples[SAMPLES_AT_ONCE];                                                                \
-        for (uint i = 0; i < params->sample_count; i += SAMPLES_AT_ONCE) {                                    \
-            const uint count = min((uint)SAMPLES_AT_ONCE, params->sample_count - i);                          \
+        for (uint i = 0; i < range.count; i += SAMPLES_AT_ONCE) {                                             \
+            const uint count = min((uint)SAMPLES_AT_ONCE, range.count - i);                                   \
             CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));                            \
             pixel_aim(params, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);   \
             RADIANCE(scene, params, samples, count, &rays);                                                   \

@@ -27,6 +27,8 @@ typedef struct {
     u32 first_sample;           /* of this launch */
     u32 sample_count;           /* of this launch: samples first_sample .. first_sample + sample_count - 1 */
     u32 replicates;             /* sample s belongs to replicate s mod replicates */
+    u32 first_replicate;        /* an adaptive launch deals samples to half of them only: sample s of the half is number */
+    u32 dealt_replicates;       /* s / dealt_replicates of replicate first_replicate + s mod dealt_replicates */
     u32 film_replicates;        /* replicates whose sums are kept apart: a power of two below or equal to replicates */
     u32 seed;
     u32 max_depth;              /* path segments */
@@ -49,7 +51,6 @@ typedef struct {
     u32 tiles_x;                /* tiles a row */
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
-    u32 unused0, unused1;
 } RenderParams;
 ASSERT_SIZE(RenderParams, 224);
 
@@ -62,6 +63,11 @@ ASSERT_SIZE(RenderParams, 224);
 #define PIXEL_RAYS_SECONDARY 0
 #define PIXEL_RAYS_SHADOW 1
 #define PIXEL_BAD_SAMPLES 2
+
+/* Behind them, the samples of an adaptive launch: two u32 a tile. Kernels have no argument to spare. */
+#define TILE_RANGE_WORDS 2
+#define TILE_RANGE_FIRST 0
+#define TILE_RANGE_COUNT 1
 
 /* Counters of a run, u32 each. */
 #define COUNT_NAN 0

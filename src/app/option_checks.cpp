@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "output/image.h"
+#include "render/adaptive.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +17,8 @@ namespace {
 constexpr int WHITTED_STACK_DEPTH = 64;
 /// Fewer give no interval.
 constexpr int FEWEST_REPLICATES_WITH_ERROR = 4;
+/// Two in each half, whose spread is the half's noise.
+constexpr int FEWEST_ADAPTIVE_REPLICATES = 4;
 /// Samples a pixel are counted in 32 bits.
 constexpr std::uint64_t SAMPLE_LIMIT = std::uint64_t(1) << 32;
 
@@ -70,6 +73,28 @@ void check_error_target(const Options& options) {
     if (options.error && options.replicates < FEWEST_REPLICATES_WITH_ERROR)
         reject(options, "option --error: expected --replicates " + std::to_string(FEWEST_REPLICATES_WITH_ERROR) +
                             " or more, whose spread is the error, found " + std::to_string(options.replicates));
+}
+
+/// Halves of the replicates decide for each other, from two samples in each replicate on.
+void check_adaptive(const Options& options) {
+    if (!options.adaptive)
+        return;
+    const int replicates = options.replicates;
+    if (replicates < FEWEST_ADAPTIVE_REPLICATES || replicates % 2 != 0)
+        reject(options, "option --adaptive: expected an even number of --replicates from " +
+                            std::to_string(FEWEST_ADAPTIVE_REPLICATES) + ", found " + std::to_string(replicates));
+    if (options.spp && *options.spp < pilot_samples(replicates))
+        reject(options, "option --adaptive: expected --spp " + std::to_string(pilot_samples(replicates)) +
+                            " or more with --replicates " + std::to_string(replicates) + ", found " +
+                            std::to_string(*options.spp));
+    if (options.first_sample != 0)
+        reject(options, "option --adaptive: expected no --first-sample, found " + std::to_string(options.first_sample) +
+                            "; adaptive films do not merge, --resume goes on with them");
+    if (!options.path_layers.empty())
+        reject(options, "option --adaptive: expected no --aov NAME=EXPR, found the layer '" +
+                            options.path_layers.front().name + "', which is not summed by halves");
+    if (options.ledger)
+        reject(options, "option --adaptive: expected no --ledger, found both; the ledger compares pictures of equal samples");
 }
 
 void check_written_paths(const Options& options) {
@@ -131,6 +156,7 @@ void check_combinations(const Options& options) {
     check_lens(options);
     check_samples(options);
     check_error_target(options);
+    check_adaptive(options);
     check_written_paths(options);
     check_paths(options);
     check_replay(options);

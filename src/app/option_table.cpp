@@ -261,6 +261,10 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.replicates = static_cast<int>(parse_whole(v, 1, LARGEST_REPLICATES));
          }},
+        {group, "", "--adaptive", "",
+         "take more samples where the picture is noisy, by tiles of 16 x 16 pixels; --spp is their mean, at least 2 for each "
+         "of the --replicates (default: the same everywhere)",
+         [](Options& o, const OptionValue&) { o.adaptive = true; }},
         {group, "", "--sampler", "NAME",
          "sobol (scrambled points, even over the samples of a pixel) or independent (white noise, to compare "
          "with) (default sobol)",

@@ -88,6 +88,7 @@ struct Options {
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;
     int replicates = 8;
+    bool adaptive = false; ///< samples go where the picture is noisy
     SamplerChoice sampler = SamplerChoice::SOBOL;
     Precision precision = Precision::SINGLE;
     int threads = 0; ///< 0: all

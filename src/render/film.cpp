@@ -35,6 +35,23 @@ double brightest_light(const Scene& scene) {
     return std::max(brightest, texel * std::max({sky.x, sky.y, sky.z}));
 }
 
+/// Mean radiance of an adaptive film: the halves' means, each by weight 1/2.
+std::vector<float> mean_of_halves(const Film& film) {
+    const size_t plane = film_plane(film), of_half = size_t(film.replicates / 2);
+    std::vector<float> mean(plane);
+    for (size_t i = 0; i < plane; ++i) {
+        double value = 0;
+        for (size_t half = 0; half < 2; ++half) {
+            std::int64_t sum = 0;
+            for (size_t r = half * of_half; r < (half + 1) * of_half; ++r)
+                sum += film.sums[r * plane + i];
+            value += 0.5 * double(sum) * film.scale.quantum / double(film.tile_samples[half][film_tile(film, i / 3)]);
+        }
+        mean[i] = float(value);
+    }
+    return mean;
+}
+
 } // namespace
 
 FilmScale film_scale(const Scene& scene) {
@@ -57,6 +74,47 @@ Film film_layer(const Film& film) {
     return layer;
 }
 
+size_t film_tiles_across(const Film& film) {
+    return (size_t(film.width) + ADAPTIVE_TILE_SIZE - 1) / ADAPTIVE_TILE_SIZE;
+}
+
+size_t film_tiles(const Film& film) {
+    return film_tiles_across(film) * ((size_t(film.height) + ADAPTIVE_TILE_SIZE - 1) / ADAPTIVE_TILE_SIZE);
+}
+
+size_t film_tile(const Film& film, size_t pixel) {
+    const size_t x = pixel % size_t(film.width), y = pixel / size_t(film.width);
+    return y / ADAPTIVE_TILE_SIZE * film_tiles_across(film) + x / ADAPTIVE_TILE_SIZE;
+}
+
+std::vector<std::uint32_t> tile_pixel_counts(const Film& film) {
+    std::vector<std::uint32_t> counts(film_tiles(film), 0);
+    for (size_t pixel = 0; pixel < size_t(film.width) * size_t(film.height); ++pixel)
+        ++counts[film_tile(film, pixel)];
+    return counts;
+}
+
+std::vector<float> film_pixel_samples(const Film& film) {
+    std::vector<float> samples(size_t(film.width) * size_t(film.height), float(film_samples(film)));
+    if (is_adaptive(film))
+        for (size_t pixel = 0; pixel < samples.size(); ++pixel) {
+            const size_t tile = film_tile(film, pixel);
+            samples[pixel] = float(film.tile_samples[0][tile] + film.tile_samples[1][tile]);
+        }
+    return samples;
+}
+
+std::uint64_t film_all_samples(const Film& film) {
+    if (!is_adaptive(film))
+        return film_samples(film) * std::uint64_t(film.width) * std::uint64_t(film.height);
+    const std::vector<std::uint32_t> pixels = tile_pixel_counts(film);
+    std::uint64_t samples = 0;
+    for (const std::vector<std::uint32_t>& half : film.tile_samples)
+        for (size_t tile = 0; tile < pixels.size(); ++tile)
+            samples += std::uint64_t(half[tile]) * pixels[tile];
+    return samples;
+}
+
 std::uint64_t film_samples(const Film& film) {
     std::uint64_t samples = 0;
     for (const SampleRange& range : film.ranges)
@@ -74,6 +132,16 @@ std::uint64_t film_replicate_samples(const Film& film, int replicate) {
 }
 
 ReplicateMeans::ReplicateMeans(const Film& film) : film_(film) {
+    if (is_adaptive(film)) {
+        const int of_half = film.replicates / 2;
+        for (int r = 0; r < film.replicates; ++r)
+            first_.push_back(size_t(r) * film_plane(film));
+        for (size_t tile = 0; tile < film_tiles(film); ++tile)
+            for (int r = 0; r < film.replicates; ++r)
+                factor_.push_back(film.scale.quantum * double(of_half) /
+                                  double(film.tile_samples[size_t(r / of_half)][tile]));
+        return;
+    }
     for (int r = 0; r < film.replicates; ++r) {
         const std::uint64_t n = film_replicate_samples(film, r);
         if (n == 0)
@@ -84,8 +152,9 @@ ReplicateMeans::ReplicateMeans(const Film& film) : film_(film) {
 }
 
 void ReplicateMeans::read(size_t i, double* means) const {
+    const double* factor = &factor_[is_adaptive(film_) ? film_tile(film_, i / 3) * count() : 0];
     for (size_t k = 0; k < count(); ++k)
-        means[k] = double(film_.sums[first_[k] + i]) * factor_[k];
+        means[k] = double(film_.sums[first_[k] + i]) * factor[k];
 }
 
 double ReplicateMeans::read_deviations(size_t i, double* deviations, double& squares) const {
@@ -115,6 +184,8 @@ std::vector<float> film_mean(const Film& film) {
     std::vector<float> mean(plane, 0.0f);
     if (samples == 0)
         return mean;
+    if (is_adaptive(film))
+        return mean_of_halves(film);
     for (size_t i = 0; i < plane; ++i) {
         std::int64_t sum = 0;
         for (int r = 0; r < film.replicates; ++r)

@@ -4,6 +4,7 @@
 
 #include "scene/scene.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,12 +31,19 @@ struct SampleRange {
     bool operator==(const SampleRange& other) const { return first == other.first && end == other.end; }
 };
 
+/// Side of the tiles that an adaptive render gives samples to, pixels.
+constexpr int ADAPTIVE_TILE_SIZE = 16;
+
+/// Samples a pixel of each half of the replicates in each tile, row by row.
+using TileSamples = std::array<std::vector<std::uint32_t>, 2>;
+
 /// Sums of a window of pixels: [replicate][pixel][rgb].
 struct Film {
     int width = 0, height = 0;
     int replicates = 1;              ///< kept apart
     FilmScale scale;
     std::vector<SampleRange> ranges; ///< the samples inside: in order, disjoint, not empty; merged films can have gaps
+    TileSamples tile_samples;        ///< of an adaptive film, whose range is their mean; empty: all tiles are equal
     std::vector<std::int64_t> sums;
 };
 
@@ -47,10 +55,30 @@ inline size_t film_plane(const Film& film) {
 /// A film of the same samples without their sums, in one replicate.
 Film film_layer(const Film& film);
 
-/// Samples of a pixel, over all replicates.
+/// Whether tiles have samples of their own.
+inline bool is_adaptive(const Film& film) {
+    return !film.tile_samples[0].empty();
+}
+
+/// Adaptive tiles in a row, and in all.
+size_t film_tiles_across(const Film& film);
+size_t film_tiles(const Film& film);
+/// The adaptive tile of a pixel.
+size_t film_tile(const Film& film, size_t pixel);
+/// Pixels of each tile: fewer at the right and at the bottom.
+std::vector<std::uint32_t> tile_pixel_counts(const Film& film);
+
+/// Samples of a pixel, over all replicates; of an adaptive film the mean that it has come to.
 std::uint64_t film_samples(const Film& film);
 
-/// Samples of a pixel that fell into replicate `replicate`: sample s belongs to replicate s mod replicates.
+/// Samples of each pixel.
+std::vector<float> film_pixel_samples(const Film& film);
+
+/// Samples of all pixels together.
+std::uint64_t film_all_samples(const Film& film);
+
+/// Samples of a pixel that fell into replicate `replicate`: sample s belongs to replicate s mod replicates. For films
+/// that are not adaptive.
 std::uint64_t film_replicate_samples(const Film& film, int replicate);
 
 /// Means of the replicates that have samples, one value (pixel and channel) after the other.
@@ -67,11 +95,11 @@ public:
 private:
     const Film& film_;
     std::vector<size_t> first_;  ///< where each replicate's plane starts
-    std::vector<double> factor_; ///< quantum / samples of each
+    std::vector<double> factor_; ///< quantum / samples of each; of an adaptive film, for one tile after the other
 };
 
 /// Adds the sums of replicates together until `replicates`, a divisor of their number, are kept apart: the
-/// picture keeps its bits, the error becomes coarser.
+/// picture keeps its bits, the error becomes coarser. Not for adaptive films.
 void fold_replicates(Film& film, int replicates);
 
 /// Mean radiance, rgb a pixel. Zero samples give black.

@@ -42,7 +42,8 @@ int fitting_replicates(const Device& device, const RenderParams& params, size_t 
 FilmBuffers::FilmBuffers(const Device& device, const RenderParams& params, size_t layers)
     : device_(device), params_(params), slots_(film_slots(params)), layers_(layers),
       film_(create_buffer(device, "film", slots_ * 3 * (params.film_replicates + layers) * sizeof(std::int64_t))),
-      pixel_rays_(create_buffer(device, "pixel_rays", slots_ * PIXEL_RAYS_WORDS * sizeof(u32))),
+      pixel_rays_(create_buffer(device, "pixel_rays",
+                                (slots_ * PIXEL_RAYS_WORDS + params.tile_count * TILE_RANGE_WORDS) * sizeof(u32))),
       counters_(create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))) {}
 
 void FilmBuffers::bind(Kernel& kernel) const {
@@ -69,6 +70,21 @@ u32 FilmBuffers::pixel_of_slot(size_t slot) const {
     const u32 x = params_.crop_x + tile % params_.tiles_x * TILE_SIZE + within % TILE_SIZE;
     const u32 y = params_.crop_y + tile / params_.tiles_x * TILE_SIZE + within / TILE_SIZE;
     return y * params_.width + x;
+}
+
+void FilmBuffers::write_tile_ranges(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to) {
+    static_assert(ADAPTIVE_TILE_SIZE % TILE_SIZE == 0, "a tile of the device lies in one adaptive tile");
+    const u32 ratio = ADAPTIVE_TILE_SIZE / TILE_SIZE, across = (params_.tiles_x + ratio - 1) / ratio;
+    std::vector<u32> ranges(size_t(params_.tile_count) * TILE_RANGE_WORDS);
+    for (u32 i = 0; i < params_.tile_count; ++i) {
+        const size_t tile = size_t(i / params_.tiles_x / ratio) * across + i % params_.tiles_x / ratio;
+        ranges[TILE_RANGE_WORDS * i + TILE_RANGE_FIRST] = from[tile];
+        ranges[TILE_RANGE_WORDS * i + TILE_RANGE_COUNT] = to[tile] - from[tile];
+    }
+    check_opencl("dealing out samples", [&] {
+        device_.queue.enqueueWriteBuffer(pixel_rays_, CL_TRUE, slots_ * PIXEL_RAYS_WORDS * sizeof(u32),
+                                         ranges.size() * sizeof(u32), ranges.data());
+    });
 }
 
 void FilmBuffers::write_sums(const RenderProgress& render) {

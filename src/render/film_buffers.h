@@ -19,6 +19,8 @@ public:
     FilmBuffers(const Device& device, const RenderParams& params, size_t layers);
     /// Binds the outputs of a render kernel.
     void bind(Kernel& kernel) const;
+    /// The samples of each adaptive tile that the next launches take: those in `to` but not in `from`.
+    void write_tile_ranges(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to);
     /// Starts from the sums of an earlier run.
     void write_sums(const RenderProgress& render);
     /// Reads the sums, from the device's tiles into the rows of film and layers.

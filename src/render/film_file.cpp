@@ -97,6 +97,8 @@ Json header_json(const FilmFile& film) {
     json["ranges"] = Json::array();
     for (const SampleRange& range : render.film.ranges)
         json["ranges"].push_back({range.first, range.end});
+    if (is_adaptive(render.film))
+        json["round"] = {render.round.first, render.round.end, render.round.noise.size()};
     json["counts"] = counts_json(render.counts);
     json["history"] = Json::array();
     for (const SquaredError& error : render.history)
@@ -112,7 +114,36 @@ FilmOrigin read_origin(const Json& json) {
     return {json.at("command"), json.at("folder"), json.at("device")};
 }
 
-/// Everything but the sums.
+/// Powers of two among the samples of a tile.
+constexpr size_t MOST_LEVELS = 32;
+
+/// The round of an adaptive film, with room for the samples of its tiles.
+AdaptiveRound read_round(const Json& json, const Film& film) {
+    AdaptiveRound round;
+    json.at(0).get_to(round.first);
+    json.at(1).get_to(round.end);
+    for (TileSamples* samples : {&round.start, &round.target})
+        for (std::vector<std::uint32_t>& half : *samples)
+            half.resize(film_tiles(film));
+    const std::vector<double> noise(film_tiles(film));
+    round.noise.assign(std::min(json.at(2).get<size_t>(), MOST_LEVELS), {noise, noise});
+    return round;
+}
+
+/// Whether a round is one that this film can be in.
+bool is_possible(const AdaptiveRound& round, const Film& film) {
+    const std::uint64_t samples = film_samples(film);
+    bool possible = round.first < round.end && round.first <= samples && samples <= round.end &&
+                    film.replicates % 2 == 0 && film.ranges.size() == 1 && film.ranges[0].first == 0;
+    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(film.replicates);
+    for (int half = 0; half < 2; ++half)
+        for (size_t tile = 0; tile < round.start[half].size(); ++tile)
+            possible = possible && round.start[half][tile] <= round.target[half][tile] &&
+                       round.target[half][tile] <= most;
+    return possible;
+}
+
+/// Everything but the sums and the samples of tiles.
 FilmFile read_header(const Json& json) {
     FilmFile film;
     film.identity = json.at("identity");
@@ -125,6 +156,8 @@ FilmFile read_header(const Json& json) {
     json.at("replicates").get_to(sums.replicates);
     for (const Json& range : json.at("ranges"))
         sums.ranges.push_back({range.at(0), range.at(1)});
+    if (film.identity.value("adaptive", false))
+        film.render.round = read_round(json.at("round"), sums);
     film.render.counts = read_counts(json.at("counts"));
     for (const Json& error : json.at("history"))
         film.render.history.push_back({error.at("samples"), error.at("mean_squared"), error.at("mean_radiance"),
@@ -165,7 +198,9 @@ public:
     /// Reads the sums of film and layers and compares the checksum.
     void sums(RenderProgress& render) {
         const std::uint64_t plane = film_plane(render.film), count = std::uint64_t(render.film.replicates) * plane;
-        const std::uint64_t expected = position_ + 8 * (count + render.path_layers.size() * plane) + CHECKSUM_BYTES;
+        const std::uint64_t tiles = render.round.start[0].size() * (1 + render.round.noise.size());
+        const std::uint64_t expected =
+            position_ + 8 * (count + render.path_layers.size() * plane) + 16 * tiles + CHECKSUM_BYTES;
         if (size_ != expected)
             reject(fmt::format("{}: expected {} bytes, found {}", size_ < expected ? "truncated" : "damaged", expected,
                                size_));
@@ -175,6 +210,12 @@ public:
             layer.sums.resize(plane);
             take(layer.sums.data(), 8 * plane);
         }
+        for (TileSamples* samples : {&render.round.start, &render.round.target})
+            for (std::vector<std::uint32_t>& half : *samples)
+                take(half.data(), 4 * half.size());
+        for (TileNoise& noise : render.round.noise)
+            for (std::vector<double>& half : noise)
+                take(half.data(), 8 * half.size());
         const std::string computed = checksum_.text();
         if (take(CHECKSUM_BYTES) != computed)
             reject("damaged: the checksum at its end differs from that of its content");
@@ -235,6 +276,14 @@ void write_film_file(const std::string& path, const FilmFile& film) {
     append_sums(film.render.film);
     for (const Film& layer : film.render.path_layers)
         append_sums(layer);
+    if (is_adaptive(film.render.film)) {
+        for (const TileSamples* samples : {&film.render.round.start, &film.render.round.target})
+            for (const std::vector<std::uint32_t>& half : *samples)
+                append(half.data(), half.size() * sizeof(std::uint32_t));
+        for (const TileNoise& noise : film.render.round.noise)
+            for (const std::vector<double>& half : noise)
+                append(half.data(), half.size() * sizeof(double));
+    }
     const std::string end = checksum.text();
     append(end.data(), end.size());
     file.commit();
@@ -253,6 +302,11 @@ FilmFile read_film_file(const std::string& path) {
     if (!in_order)
         reader.reject("damaged: the header's window, replicates or ranges are impossible");
     reader.sums(film.render);
+    if (const AdaptiveRound& round = film.render.round; round.end > 0) {
+        if (!is_possible(round, sums))
+            reader.reject("damaged: the samples of its tiles are impossible");
+        film.render.film.tile_samples = samples_within(round, film_samples(sums), sums.replicates);
+    }
     return film;
 }
 

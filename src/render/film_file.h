@@ -13,6 +13,7 @@
 //                  device      on which the samples were rendered
 //                  replicates  whose sums are kept apart
 //                  ranges      of sample numbers inside, [first, end), in order
+//                  round       with --adaptive: first and last mean samples a pixel of the present round, and n
 //                  counts      rays and bad samples; bad_samples lists pairs of pixel and sample,
 //                              bad_pixels (absent without bad samples) pairs of pixel and count
 //                  history     errors at doublings of the samples
@@ -20,6 +21,9 @@
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:
 //                [replicate][row][column][red, green, blue]
 //   8 w h 3      of each layer of paths (identity.layers), in one replicate
+//   16 t         with --adaptive: samples a pixel of t tiles (film.h) as unsigned 32-bit integers: before the round in the
+//                first half of the replicates, in the second half, and likewise after the round
+//   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first half, second half
 //   16           XXH3-128 of all bytes before it, canonical (most significant byte first)
 //
 // Integers are little endian.

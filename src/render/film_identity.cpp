@@ -119,6 +119,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Fil
     identity["scene"] = scene_hash(scene);
     identity["precision"] = precision_name(options.precision);
     identity["sampler"] = sampler_name(options.sampler);
+    identity["adaptive"] = options.adaptive;
     identity["seed"] = params.seed;
     identity["replicates"] = params.replicates;
     identity["size"] = {params.width, params.height};

@@ -22,11 +22,23 @@ Launcher::Launcher(const Device& device, const Program& program, const std::stri
 }
 
 void Launcher::run(std::uint32_t first, std::uint32_t count, u32 first_tile, u32 end_tile) {
-    params_.first_sample = first;
-    params_.sample_count = count;
-    params_.first_tile = first_tile;
-    params_.end_tile = end_tile;
-    kernel_.set("params", params_);
+    RenderParams params = params_;
+    params.first_sample = first;
+    params.sample_count = count;
+    launch(params, first_tile, end_tile);
+}
+
+void Launcher::run_half(int half, u32 first_tile, u32 end_tile) {
+    RenderParams params = params_;
+    params.dealt_replicates = params.replicates / 2;
+    params.first_replicate = u32(half) * params.dealt_replicates;
+    launch(params, first_tile, end_tile);
+}
+
+void Launcher::launch(RenderParams params, u32 first_tile, u32 end_tile) {
+    params.first_tile = first_tile;
+    params.end_tile = end_tile;
+    kernel_.set("params", params);
     const u32 groups = std::max(end_tile - first_tile, 1u);
     const u32 columns = std::min(groups, GRID_COLUMNS);
     const u32 rows = (groups + columns - 1) / columns;

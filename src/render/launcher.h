@@ -22,11 +22,16 @@ public:
 
     /// Runs `count` samples from `first` on tiles [first_tile, end_tile) and waits.
     void run(std::uint32_t first, std::uint32_t count, u32 first_tile, u32 end_tile);
+    /// Runs the samples of half `half` of the replicates that FilmBuffers::write_tile_ranges named, on tiles
+    /// [first_tile, end_tile), and waits.
+    void run_half(int half, u32 first_tile, u32 end_tile);
 
 private:
+    void launch(RenderParams params, u32 first_tile, u32 end_tile);
+
     const Device& device_;
     Kernel kernel_;
-    RenderParams params_;
+    const RenderParams params_;
 };
 
 } // namespace clrt

@@ -43,6 +43,11 @@ std::string ranges_text(const Film& film) {
 } // namespace
 
 void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const std::string& part_path) {
+    for (const auto& [film, path] : {std::pair(&sum, &sum_path), std::pair(&part, &part_path)})
+        if (is_adaptive(film->render.film))
+            throw SceneError(*path, 0,
+                             "expected a film with adaptive: false, found adaptive: true; the samples of an --adaptive "
+                             "render were dealt out by its own noise and only --resume can add to them");
     if (const auto difference = identity_difference(sum.identity, part.identity))
         throw SceneError(part_path, 0,
                          fmt::format("expected a film of the same scene and options as {}, found another {}", sum_path,
@@ -88,8 +93,7 @@ Picture film_picture(const FilmFile& file) {
         picture.layers.push_back({layer_names[i], {"R", "G", "B"}, film_mean(file.render.path_layers[i]), false});
     if (std::vector<float> variance = film_variance(film); !variance.empty())
         picture.layers.push_back({"variance", {"R", "G", "B"}, std::move(variance), false});
-    const size_t pixels = size_t(film.width) * size_t(film.height);
-    picture.layers.push_back({"", {"samples"}, std::vector<float>(pixels, float(film_samples(film))), false});
+    picture.layers.push_back({"", {"samples"}, film_pixel_samples(film), false});
 
     for (const auto& [name, value] : file.identity.items())
         picture.metadata.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());

@@ -138,11 +138,8 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
         if (!variance.empty())
             picture.layers.push_back({"variance", {"R", "G", "B"}, std::move(variance), false});
     }
-    if (wants(options, "samples")) {
-        const size_t pixels = size_t(picture.width) * size_t(picture.height);
-        picture.layers.push_back(
-            {"", {"samples"}, std::vector<float>(pixels, float(film_samples(render.film))), false});
-    }
+    if (wants(options, "samples"))
+        picture.layers.push_back({"", {"samples"}, film_pixel_samples(render.film), false});
     if (options.aovs ? wants(options, "badSamples") : !render.counts.bad_pixels.empty())
         picture.layers.push_back(bad_samples_layer(render, window, options.size.x));
     return picture;

@@ -75,7 +75,11 @@ private:
     StopRule run_until_stopped();
     void run_launches(std::uint32_t samples);
     std::uint32_t next_samples(const RenderState& state) const;
-    u32 launch_tiles(std::uint32_t samples) const;
+    u32 launch_tiles(double samples) const;
+    template <class Launch>
+    void run_tiles(double samples, double done, Launch&& launch);
+    void begin_round();
+    void run_adaptive(std::uint64_t end);
     RenderState measured_state();
     void measure();
     void read_back();
@@ -98,6 +102,7 @@ private:
     RenderCounts earlier_counts_;
     double earlier_seconds_ = 0;
     std::uint64_t first_ = 0, samples_ = 0; ///< the next sample's number; samples of the whole film
+    std::uint64_t earlier_samples_ = 0;     ///< of all pixels, from earlier runs
     std::optional<SquaredError> last_error_; ///< as last measured
     double launch_seconds_ = 0;             ///< of all launches of this run
     double pass_seconds_ = 0;               ///< of one pass, by the last launch
@@ -120,6 +125,7 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
         film_buffers_.write_sums(result);
         first_ = result.film.ranges.back().end;
         samples_ = film_samples(result.film);
+        earlier_samples_ = film_all_samples(result.film);
     }
     earlier_counts_ = result.counts;
     earlier_seconds_ = result.seconds;
@@ -130,44 +136,88 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     result.first_launch_seconds = seconds_since(start);
 }
 
-/// Samples of the next launch on all tiles: what fits the aimed time, up to the next measurement or the end.
+/// Samples of the next launch on all tiles: what fits the aimed time, up to the next measurement, decision or the end.
 std::uint32_t Passes::next_samples(const RenderState& state) const {
-    if (result_.passes == 0)
-        return 1;
-    const double pass = std::max(state.pass_seconds, 1e-6);
-    const double fitting = LAUNCH_SECONDS / pass;
-    double samples = fitting <= 1 ? 1 : std::ceil(fitting / SAMPLE_GROUP) * SAMPLE_GROUP;
-    // Grow slowly: the first passes may be unlike the later ones.
-    samples = std::min(samples, 2.0 * double(result_.passes));
-    if (options_.time_seconds)
-        samples = std::min(samples, std::max(1.0, (*options_.time_seconds - state.seconds) / pass));
-    const std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
+    std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
+    if (options_.adaptive)
+        end = std::min(end, result_.round.end);
+    double samples = 1;
+    if (result_.passes > 0) {
+        const double pass = std::max(state.pass_seconds, 1e-6);
+        const double fitting = LAUNCH_SECONDS / pass;
+        samples = fitting <= 1 ? 1 : std::ceil(fitting / SAMPLE_GROUP) * SAMPLE_GROUP;
+        // Grow slowly: the first passes may be unlike the later ones.
+        samples = std::min(samples, 2.0 * double(result_.passes));
+        if (options_.time_seconds)
+            samples = std::min(samples, std::max(1.0, (*options_.time_seconds - state.seconds) / pass));
+    }
+    // Adaptive tiles advance by whole samples of every replicate.
+    if (options_.adaptive)
+        samples = std::ceil(samples / options_.replicates) * options_.replicates;
     return std::uint32_t(std::min(double(end - samples_), samples));
 }
 
 /// Tiles of a launch; a cautious first share while no pass has been timed.
-u32 Passes::launch_tiles(std::uint32_t samples) const {
+u32 Passes::launch_tiles(double samples) const {
     if (pass_seconds_ <= 0)
         return std::max(params_.tile_count / 16, std::min(params_.tile_count, 64u));
     const double share = LAUNCH_SECONDS / (pass_seconds_ * samples);
     return share >= 1 ? params_.tile_count : std::max(u32(share * params_.tile_count), 1u);
 }
 
-/// Runs whole passes, in several launches where they take long.
-void Passes::run_launches(std::uint32_t samples) {
+/// Calls launch(first tile, end of tiles) until all tiles have their `samples`, in several launches where they take long;
+/// `done` samples a pixel are there already.
+template <class Launch>
+void Passes::run_tiles(double samples, double done, Launch&& launch) {
     for (u32 tile = 0; tile < params_.tile_count;) {
         const u32 end = std::min(params_.tile_count, tile + launch_tiles(samples));
-        const auto launch = Clock::now();
-        launcher_.run(std::uint32_t(first_), samples, tile, end);
-        const double seconds = seconds_since(launch);
+        const auto start = Clock::now();
+        launch(tile, end);
+        const double seconds = seconds_since(start);
         launch_seconds_ += seconds;
         pass_seconds_ = seconds / samples * params_.tile_count / (end - tile);
         tile = end;
-        const double done = double(samples_) + double(samples) * tile / params_.tile_count;
+        const double now = done + samples * tile / params_.tile_count;
         const std::optional<FilmError> error = last_error_ ? relative_error(*last_error_) : std::nullopt;
-        progress_.update({"render", rules_.fraction(done, seconds_since(start_), last_error_), std::uint64_t(done), -1,
+        progress_.update({"render", rules_.fraction(now, seconds_since(start_), last_error_), std::uint64_t(now), -1,
                           error ? error->relative_rmse : -1});
     }
+}
+
+/// Decides where the next samples of an adaptive render go, when it has come to the end of a round.
+void Passes::begin_round() {
+    AdaptiveRound& round = result_.round;
+    if (round.end == 0) {
+        round = first_round(result_.film);
+    } else if (samples_ == round.end) {
+        const auto start = Clock::now();
+        film_buffers_.read_sums(result_);
+        round = next_round(result_.film, round);
+        result_.check_seconds += seconds_since(start);
+    }
+}
+
+/// Takes the tiles of both halves to where they are when the mean is `end` samples a pixel.
+void Passes::run_adaptive(std::uint64_t end) {
+    const int replicates = options_.replicates;
+    const TileSamples from = samples_within(result_.round, samples_, replicates);
+    const TileSamples to = samples_within(result_.round, end, replicates);
+    const double samples = 0.5 * double(end - samples_);
+    for (int half = 0; half < 2; ++half) {
+        film_buffers_.write_tile_ranges(from[size_t(half)], to[size_t(half)]);
+        run_tiles(samples, double(samples_) + half * samples,
+                  [&](u32 tile, u32 tiles_end) { launcher_.run_half(half, tile, tiles_end); });
+    }
+    result_.film.tile_samples = to;
+}
+
+/// Runs whole passes.
+void Passes::run_launches(std::uint32_t samples) {
+    if (options_.adaptive)
+        run_adaptive(samples_ + samples);
+    else
+        run_tiles(samples, double(samples_),
+                  [&](u32 tile, u32 end) { launcher_.run(std::uint32_t(first_), samples, tile, end); });
     samples_ += samples;
     first_ += samples;
     result_.passes += samples;
@@ -208,7 +258,7 @@ RenderState Passes::measured_state() {
 void Passes::read_back() {
     film_buffers_.read_sums(result_);
     result_.counts = film_buffers_.read_counts();
-    result_.counts.primary = std::uint64_t(params_.crop_width) * params_.crop_height * result_.passes;
+    result_.counts.primary = film_all_samples(result_.film) - earlier_samples_;
     result_.counts.add(earlier_counts_);
     result_.run_seconds = seconds_since(start_);
     result_.seconds = earlier_seconds_ + result_.run_seconds;
@@ -233,6 +283,8 @@ StopRule Passes::run_until_stopped() {
         const RenderState state = measured_state();
         if (const std::optional<StopRule> rule = rules_.ended(state))
             return *rule;
+        if (options_.adaptive)
+            begin_round();
         run_launches(next_samples(state));
         save_when_due();
     }
@@ -312,6 +364,10 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
         fold_replicates(film, std::min(fitting, film.replicates));
     params.film_replicates = u32(film.replicates);
     check_film_capacity(options, film);
+    if (options.adaptive && film.replicates != options.replicates)
+        throw DeviceError(fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
+                                      "a smaller --size or --crop, or fewer --replicates",
+                                      options.replicates, film.replicates));
 
     progress.update({"compile", -1, 0, -1, -1});
     Passes passes(device, programs, buffers, options, params, progress, hooks, result);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/progress.h"
+#include "render/adaptive.h"
 #include "render/film.h"
 #include "render/film_error.h"
 #include "render/kernels.h"
@@ -42,6 +43,7 @@ struct RenderProgress {
     RenderCounts counts;
     std::vector<Film> path_layers;     ///< light of each layer NAME=EXPR in one replicate
     std::vector<SquaredError> history; ///< errors at doublings, for the slope
+    AdaptiveRound round;               ///< of an adaptive render: the present one
     double seconds = 0;                ///< of the launches
 };
 

@@ -99,6 +99,7 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     set_filter(options, params);
     params.seed = options.seed;
     params.replicates = u32(options.replicates);
+    params.dealt_replicates = u32(options.replicates);
     params.film_replicates = u32(options.replicates);
     params.max_depth = u32(effective_max_depth(options));
     params.min_contribution = float(options.min_contribution);

@@ -73,6 +73,34 @@ void add_facts(const Report& report, Metadata& metadata) {
         metadata.emplace_back("device.facts", describe_facts(*report.facts));
 }
 
+/// Samples a pixel of the tiles of an adaptive film.
+struct TileSpread {
+    double mean = 0;
+    std::uint32_t fewest = UINT32_MAX, most = 0;
+};
+
+TileSpread tile_spread(const Film& film) {
+    TileSpread spread;
+    for (size_t tile = 0; tile < film_tiles(film); ++tile) {
+        const std::uint32_t samples = film.tile_samples[0][tile] + film.tile_samples[1][tile];
+        spread.fewest = std::min(spread.fewest, samples);
+        spread.most = std::max(spread.most, samples);
+    }
+    spread.mean = double(film_all_samples(film)) / double(film_plane(film) / 3);
+    return spread;
+}
+
+/// Null where all tiles have the same number of samples.
+Json adaptive_json(const Film& film) {
+    if (!is_adaptive(film))
+        return nullptr;
+    const TileSpread spread = tile_spread(film);
+    return {{"tile_size", ADAPTIVE_TILE_SIZE},
+            {"mean_spp", spread.mean},
+            {"fewest_spp", spread.fewest},
+            {"most_spp", spread.most}};
+}
+
 Json effects_json(const Effects& effects) {
     Json list = Json::array();
     for (const Effect& effect : effects.list)
@@ -123,6 +151,11 @@ std::string format_report(const Report& report) {
     text += fmt::format("tree     {} {} ({}), SAH cost {:.1f}\n", layout_name(report.bvh.layout),
                         quality_name(report.bvh.quality), report.bvh_reason,
                         report.bvh.sah_cost);
+    if (is_adaptive(render.film)) {
+        const TileSpread spread = tile_spread(render.film);
+        text += fmt::format("adaptive {} to {} spp by tiles of {} x {}, {:.2f} on average\n", spread.fewest, spread.most,
+                            ADAPTIVE_TILE_SIZE, ADAPTIVE_TILE_SIZE, spread.mean);
+    }
     text += format_error_report(report.error);
     text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
                         counts.negative, counts.overflow);
@@ -145,6 +178,7 @@ std::string report_json(const Report& report) {
     json["spp"] = film_samples(render.film);
     json["passes"] = render.passes;
     json["first_sample"] = report.options.first_sample;
+    json["adaptive"] = adaptive_json(render.film);
     json["sampler"] = sampler_name(report.options.sampler);
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
@@ -215,6 +249,10 @@ Metadata report_metadata(const Report& report) {
                       {"negative", std::to_string(render.counts.negative)},
                       {"overflow", std::to_string(render.counts.overflow)}};
     add_facts(report, metadata);
+    if (is_adaptive(render.film)) {
+        const TileSpread spread = tile_spread(render.film);
+        metadata.emplace_back("adaptive", fmt::format("{} to {} spp", spread.fewest, spread.most));
+    }
     add_paths(report.effects.paths, metadata);
     add_error_metadata(report.error, metadata);
     return metadata;

@@ -147,6 +147,30 @@ TEST_F(FilmCommand, AResumedRunIsTheSingleRun) {
     expect_same_picture("d.exr", "whole.exr");
 }
 
+TEST_F(FilmCommand, AnAdaptiveRunGoesOnButDoesNotMerge) {
+    const std::vector<std::string> adaptive = {"--adaptive", "--size", "48x32"};
+    const auto with = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), adaptive.begin(), adaptive.end());
+        return arguments;
+    };
+    render_part("whole", 0, 64, with({"-j", "1", "--stats", "s.json"}));
+    EXPECT_TRUE(holds(folder.read("s.json"), {"\"spp\": 64", "\"adaptive\": {", "\"tile_size\": 16"}));
+    // Stop in the middle of rounds.
+    render_part("a", 0, 20, adaptive);
+    EXPECT_EQ(clrt({"--resume", "a.film", "-s", "43", "-o", "b.exr", "--checkpoint", "b.film"}).exit_code, 0);
+    const CommandResult result = clrt({"--resume", "b.film", "-s", "64", "-o", "c.exr", "--checkpoint", "c.film"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(holds(result.out, {"adaptive ", " spp by tiles of 16 x 16, "}));
+    expect_same_film("c.film", "whole.film");
+    expect_same_picture("c.exr", "whole.exr");
+    EXPECT_EQ(merge({"c.film", "-o", "alone.exr"}).exit_code, 0);
+    expect_same_picture("alone.exr", "whole.exr");
+    render_part("uniform", 64, 8, {"--size", "48x32"});
+    const CommandResult refused = merge({"uniform.film", "c.film", "-o", "out.exr"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_TRUE(holds(refused.err, {"c.film: expected a film with adaptive: false, found adaptive: true"}));
+}
+
 TEST_F(FilmCommand, ResumingSaysWhatDoesNotFit) {
     render_part("a", 0, 2, {"-o", "a.png"});
     for (const auto& [option, part] : {std::pair{"--seed=3", "seed: expected 0, found 3"},

@@ -87,6 +87,7 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     EXPECT_EQ(field([](Options& o) { o.filter_radius = 0.7; }), "filter_radius");
     EXPECT_EQ(field([](Options& o) { o.max_depth = 5; }), "max_depth");
     EXPECT_EQ(field([](Options& o) { o.roulette_depth = 9; }), "roulette_depth");
+    EXPECT_EQ(field([](Options& o) { o.adaptive = true; }), "adaptive");
     EXPECT_EQ(field([](Options& o) { o.sampler = SamplerChoice::INDEPENDENT; }), "sampler");
     EXPECT_EQ(field([](Options& o) { o.min_contribution = 0.1; }), "min_contribution");
     EXPECT_EQ(field([](Options& o) { o.paths = "LDE"; }), "paths");

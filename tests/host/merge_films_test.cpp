@@ -104,4 +104,11 @@ TEST(MergeFilms, ThePictureHasVarianceAndSamples) {
     EXPECT_EQ(picture.layers[2].values, std::vector<float>(12, 16.0f));
 }
 
+TEST(MergeFilms, AdaptiveFilmsAreRefused) {
+    FilmFile adaptive = part(4, 4);
+    adaptive.render.film.tile_samples = {std::vector<std::uint32_t>{8}, std::vector<std::uint32_t>{8}};
+    EXPECT_NE(refusal(part(0, 4), adaptive).find("b.film: expected a film with adaptive: false"), std::string::npos);
+    EXPECT_NE(refusal(adaptive, part(0, 4)).find("a.film: expected a film with adaptive: false"), std::string::npos);
+}
+
 } // namespace clrt

@@ -42,6 +42,16 @@ kernel void probe_add(const RenderParams params, const u32 count, global long* s
     }
 }
 
+kernel void probe_ranges(const RenderParams params, const u32 count, global const u32* pixel_rays, global u32* out)
+{
+    const uint slot = (uint)get_global_id(0);
+    if (slot >= count)
+        return;
+    const SampleRange range = tile_samples(&params, pixel_rays, slot);
+    out[2 * slot] = range.first;
+    out[2 * slot + 1] = range.count;
+}
+
 kernel void probe_tiles(const RenderParams params, const u32 width, global u32* visits, global u32* slots)
 {
     TilePixel pixel;
@@ -113,6 +123,33 @@ TEST(Film, RoundingIsUnbiased) {
             above += step;
         }
         EXPECT_NEAR(above / WORDS, double(quanta) - std::floor(double(quanta)), 1.0 / WORDS) << quanta;
+    }
+}
+
+TEST(Tile, SamplesAreThoseOfTheLaunchOrOfTheTile) {
+    RenderParams params = window_params(24, 8); // 3 tiles
+    params.first_sample = 40;
+    params.sample_count = 5;
+    params.replicates = 8;
+    const u32 slots = params.tile_count * TILE_PIXELS;
+    std::vector<u32> words(slots * PIXEL_RAYS_WORDS, 999);
+    words.insert(words.end(), {0, 4, 8, 0, 16, 32});
+    const cl::Buffer buffer = upload_buffer(test_device(), "pixel_rays", words);
+    for (const bool by_tile : {false, true}) {
+        params.dealt_replicates = by_tile ? 4 : 8;
+        const cl::Buffer out = zeros<u32>(2 * slots);
+        Kernel kernel = probe().kernel("probe_ranges");
+        kernel.set("params", params);
+        kernel.set("count", slots);
+        kernel.set("pixel_rays", buffer);
+        kernel.set("out", out);
+        probe().launch(kernel, slots);
+        const std::vector<u32> got = probe().read<u32>(out, size_t{2} * slots);
+        for (u32 slot = 0; slot < slots; ++slot) {
+            const u32 expected[3][2] = {{0, 4}, {8, 0}, {16, 32}};
+            EXPECT_EQ(got[2 * slot], by_tile ? expected[slot / TILE_PIXELS][0] : 40u);
+            EXPECT_EQ(got[2 * slot + 1], by_tile ? expected[slot / TILE_PIXELS][1] : 5u);
+        }
     }
 }
 

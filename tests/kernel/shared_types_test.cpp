@@ -75,12 +75,13 @@ const Layout RENDER_PARAMS = {
     "RenderParams",
     sizeof(RenderParams),
     {M(eye), M(film_dx), M(film_dy), M(look), M(environment), M(width), M(height),
-     M(crop_x), M(crop_y), M(crop_width), M(crop_height), M(first_sample), M(sample_count), M(replicates),
+     M(crop_x), M(crop_y), M(crop_width), M(crop_height), M(first_sample), M(sample_count), M(replicates), M(first_replicate),
+     M(dealt_replicates),
      M(film_replicates), M(seed), M(max_depth), M(min_contribution), M(filter), M(filter_radius),
      M(scene_extent), M(emitter_count), M(light_count), M(environment_width), M(environment_height),
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
-     M(tile_stride), M(first_tile), M(end_tile), M(unused0), M(unused1)}};
+     M(tile_stride), M(first_tile), M(end_tile)}};
 #undef M
 // clang-format on
 

@@ -14,7 +14,7 @@ namespace clrt {
 namespace {
 
 constexpr int SEEDS = 50;
-constexpr std::uint32_t SPP = 16, REFERENCE_SPP = 1024, REFERENCE_SEED = 1000;
+constexpr std::uint32_t SPP = 16, ADAPTIVE_SPP = 64, REFERENCE_SPP = 1024, REFERENCE_SEED = 1000;
 /// Of 50 intervals of 95 %, 47.5 hold the truth on average; fewer than 43 happen once in 200 times.
 constexpr int FEWEST_COVERED = 43;
 constexpr double LARGEST_Z = 3;
@@ -40,14 +40,22 @@ double realised_squared_error(const std::vector<float>& x, const std::vector<flo
     return sum;
 }
 
-struct ErrorBar : testing::TestWithParam<Integrator> {};
+struct Case {
+    const char* name;
+    Integrator integrator;
+    bool adaptive;
+};
+
+struct ErrorBar : testing::TestWithParam<Case> {};
 
 } // namespace
 
 TEST_P(ErrorBar, HoldsTheErrorThatOtherSeedsHave) {
     TestScene scene;
     make_room(scene);
-    scene.options.integrator = GetParam();
+    scene.options.integrator = GetParam().integrator;
+    if (GetParam().adaptive) // 3 x 3 tiles
+        scene.options.size = {48, 48};
     const Scene loaded = scene.load();
     const auto render = [&](std::uint32_t seed, std::uint32_t spp) {
         scene.options.seed = seed;
@@ -57,11 +65,14 @@ TEST_P(ErrorBar, HoldsTheErrorThatOtherSeedsHave) {
     const std::vector<float> a = film_mean(render(REFERENCE_SEED, REFERENCE_SPP));
     const std::vector<float> b = film_mean(render(REFERENCE_SEED + 1, REFERENCE_SPP));
 
+    scene.options.adaptive = GetParam().adaptive;
+    const std::uint32_t spp = GetParam().adaptive ? ADAPTIVE_SPP : SPP;
+
     // Compare what each render says with what it is wrong by.
     std::vector<double> realised, differences, ratios;
     std::vector<SquaredError> estimates;
     for (int seed = 0; seed < SEEDS; ++seed) {
-        const Film film = render(std::uint32_t(seed), SPP);
+        const Film film = render(std::uint32_t(seed), spp);
         const auto estimate = film_squared_error(film);
         ASSERT_TRUE(estimate);
         estimates.push_back(*estimate);
@@ -79,7 +90,7 @@ TEST_P(ErrorBar, HoldsTheErrorThatOtherSeedsHave) {
     }
     const Moments ratio = moments_of(ratios);
     std::printf("%-8s error %.2f %%, squared error estimated over true %.3f +- %.3f, interval holds it in %d of %d\n",
-                integrator_name(GetParam()), 100 * std::sqrt(truth) / estimates[0].mean_radiance, ratio.mean,
+                GetParam().name, 100 * std::sqrt(truth) / estimates[0].mean_radiance, ratio.mean,
                 std::sqrt(ratio.variance_of_mean()), covered, SEEDS);
     EXPECT_GT(truth, 0);
     EXPECT_GE(covered, FEWEST_COVERED);
@@ -87,8 +98,10 @@ TEST_P(ErrorBar, HoldsTheErrorThatOtherSeedsHave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, ErrorBar,
-                         testing::Values(Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST),
-                         [](const auto& test) { return std::string(integrator_name(test.param)); });
+                         testing::Values(Case{"path", Integrator::PATH, false}, Case{"adaptive", Integrator::PATH, true},
+                                         Case{"whitted", Integrator::WHITTED, false},
+                                         Case{"raycast", Integrator::RAYCAST, false}),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 // Direct light without a penumbra, one bounce: what Sobol points are good at.
 TEST(ErrorSlope, OfUnshadowedDirectLightIsSteep) {

@@ -19,6 +19,11 @@ KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 
 # Name, file, text, text with the fault, test program.
 FAULTS = [
+    ("both halves of an adaptive render are one", "integrators/pixel.h",
+     "counter.replicate = params->first_replicate + first % params->dealt_replicates;",
+     "counter.replicate = first % params->dealt_replicates;", "adaptive_render_test"),
+    ("an adaptive tile starts over", "film/tile.h", "range.first = ranges[TILE_RANGE_FIRST];", "range.first = 0u;",
+     "adaptive_render_test"),
     ("dropped cosine", "scattering/bsdf_matte.h", "(fmax(wi.z, REAL(0.0)) * REAL_INVERSE_PI)",
      "(wi.z > REAL(0.0) ? REAL_INVERSE_PI : REAL(0.0))", "direct_light_test"),
     ("missing 1/p in roulette", "integrators/path.h", "path->throughput /= survival;", "", "furnace_test"),
