@@ -32,6 +32,7 @@ const std::map<std::string, std::string>& samples() {
         {"--seed", "4294967295"},
         {"--first-sample", "32"},
         {"--replicates", "4"},
+        {"--adaptive", ""},
         {"--sampler", "independent"},
         {"--precision", "double"},
         {"--threads", "2"},

@@ -86,9 +86,7 @@ TEST(AdaptiveRender, TakesItsSamplesWhereThePictureIsNoisy) {
     const Render rendered = scene.render();
     const std::vector<float> samples = film_pixel_samples(rendered.film);
     const auto [fewest, most] = std::minmax_element(samples.begin(), samples.end());
-    double mean = 0;
-    for (const float n : samples)
-        mean += double(n) / double(samples.size());
+    const double mean = double(film_all_samples(rendered.film)) / double(samples.size());
     EXPECT_LE(mean, SPP);
     EXPECT_GE(mean, 0.8 * SPP);
     EXPECT_LE(*fewest, SPP);
@@ -107,7 +105,7 @@ TEST(AdaptiveRender, OfManySeedsIsTheUniformPictureWithLessError) {
                 moments_of(adaptive.means.back()).mean, moments_of(uniform.means.back()).mean, worst,
                 adaptive.mean_squared / uniform.mean_squared);
     EXPECT_LE(worst, LARGEST_T);
-    EXPECT_LE(adaptive.mean_squared, 0.8 * uniform.mean_squared);
+    EXPECT_LE(adaptive.mean_squared, 0.5 * uniform.mean_squared);
 }
 
 } // namespace clrt
