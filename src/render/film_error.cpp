@@ -111,8 +111,8 @@ struct PixelErrors {
     double once_squared = 0;       ///< sum of their squares
 };
 
-/// Finds the pixels in which one replicate stands alone: of n deviations it holds nearly (n - 1) / n of the squares, which is what a
-/// single event gives. Such a pixel tells of an event that may as well have been missed.
+/// Finds the pixels in which one replicate stands alone: of n deviations it holds nearly (n - 1) / n of the
+/// squares, which is what a single event gives. Such a pixel tells of an event that may as well have been missed.
 PixelErrors pixel_errors(const Film& film) {
     const ReplicateMeans replicates(film);
     const double n = double(replicates.count());
