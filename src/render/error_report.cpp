@@ -75,8 +75,10 @@ std::string format_error_report(const ErrorReport& report) {
     text += fmt::format("worst    {} of the picture's mean in the {} x {} tile at {},{}\n", percent(spread.worst_tile),
                         ERROR_TILE_SIZE, ERROR_TILE_SIZE, report.window_x + spread.tile_x,
                         report.window_y + spread.tile_y);
-    text += fmt::format("tails    the noisiest {} of the pixels hold {:.0f} % of the squared error: {}\n",
+    text += fmt::format("tails    the noisiest {} of the pixels hold {:.0f} % of the squared error; {:.0f} % was seen by one "
+                        "replicate alone, which makes it uncertain by {:.1f} %: {}\n",
                         spread.tail_pixels == 1 ? "one" : "thousandth", 100 * spread.tail_share,
+                        100 * spread.once_share, 100 * spread.once_error,
                         spread.usable() ? "the error can be believed"
                                         : "do not believe the error, rare bright samples are still to come");
     return text;
@@ -110,6 +112,8 @@ Json error_report_json(const ErrorReport& report) {
                               {"size", ERROR_TILE_SIZE}};
         json["tails"] = {{"pixels", report.spread->tail_pixels},
                          {"share", report.spread->tail_share},
+                         {"once_share", report.spread->once_share},
+                         {"once_error", report.spread->once_error},
                          {"usable", report.spread->usable()}};
     }
     return json;
@@ -131,6 +135,9 @@ void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
     if (report.spread) {
         add("error.worst_tile", report.spread->worst_tile);
         add("error.tail_share", report.spread->tail_share);
+        add("error.once_share", report.spread->once_share);
+        add("error.once_error", report.spread->once_error);
+        metadata.emplace_back("error.usable", report.spread->usable() ? "true" : "false");
     }
 }
 

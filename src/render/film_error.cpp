@@ -17,6 +17,7 @@ constexpr double OCTAVES_FOR_SLOPE = 16;     ///< last over first samples: four 
 constexpr double INDEPENDENT_SLOPE = -0.5;   ///< of the error of independent samples
 constexpr double SLOWEST_SLOPE = -0.1;       ///< half the error for 1024 times the samples
 constexpr size_t TAIL_PART = 1000;           ///< the tail is this part of the pixels
+constexpr double ALONE = 0.9;                ///< of a single event's share: 1 of 200 pixels of normal noise, 8 replicates
 constexpr size_t VALUES_AT_ONCE = 1u << 14;  ///< of a parallel sum: its order, and so its bits, follow from this
 
 /// Sums over values of their squared error and mean, with and without each replicate.
@@ -83,13 +84,53 @@ double line_slope(const std::vector<double>& x, const std::vector<double>& y) {
     return xy / xx;
 }
 
-/// Variance of the mean of every pixel, summed over its channels.
-std::vector<double> pixel_variances(const Film& film) {
-    const std::vector<float> values = film_variance(film);
-    std::vector<double> pixels(values.size() / 3);
-    for (size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = double(values[3 * i]) + double(values[3 * i + 1]) + double(values[3 * i + 2]);
-    return pixels;
+/// Squared deviations of one pixel, summed over its channels.
+struct PixelSquares {
+    double sum = 0, largest = 0; ///< over replicates
+};
+
+PixelSquares pixel_squares(const ReplicateMeans& replicates, size_t pixel, std::vector<double>& deviations,
+                           std::vector<double>& squares) {
+    PixelSquares result;
+    double sum = 0;
+    std::fill(squares.begin(), squares.end(), 0.0);
+    for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+        replicates.read_deviations(i, deviations.data(), sum);
+        result.sum += sum;
+        for (size_t k = 0; k < squares.size(); ++k)
+            squares[k] += deviations[k] * deviations[k];
+    }
+    result.largest = *std::max_element(squares.begin(), squares.end());
+    return result;
+}
+
+/// Squared errors of all pixels.
+struct PixelErrors {
+    std::vector<double> variance;  ///< of each pixel's mean, summed over channels
+    double once = 0;               ///< sum of those that rest on one replicate
+    double once_squared = 0;       ///< sum of their squares
+};
+
+/// Finds the pixels in which one replicate stands alone: of n deviations it holds nearly (n - 1) / n of the
+/// squares, which is what a single event gives. Such a pixel tells of an event that may as well have been missed.
+PixelErrors pixel_errors(const Film& film) {
+    const ReplicateMeans replicates(film);
+    const double n = double(replicates.count());
+    PixelErrors errors;
+    if (replicates.count() < 2)
+        return errors;
+    errors.variance.resize(film_plane(film) / 3);
+    std::vector<double> deviations(replicates.count()), squares(replicates.count());
+    for (size_t i = 0; i < errors.variance.size(); ++i) {
+        const PixelSquares found = pixel_squares(replicates, i, deviations, squares);
+        const double variance = found.sum / (n * (n - 1));
+        errors.variance[i] = variance;
+        if (found.largest > ALONE * (n - 1) / n * found.sum) {
+            errors.once += variance;
+            errors.once_squared += variance * variance;
+        }
+    }
+    return errors;
 }
 
 /// Mean over a tile's pixels; (x, y) is its top left pixel.
@@ -174,7 +215,8 @@ std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history) 
 }
 
 std::optional<ErrorSpread> film_error_spread(const Film& film) {
-    std::vector<double> pixels = pixel_variances(film);
+    PixelErrors errors = pixel_errors(film);
+    std::vector<double>& pixels = errors.variance;
     double total = 0, radiance = 0;
     for (const double variance : pixels)
         total += variance;
@@ -183,8 +225,12 @@ std::optional<ErrorSpread> film_error_spread(const Film& film) {
     if (!(total > 0) || !(radiance > 0))
         return std::nullopt;
 
-    // Find the worst tile.
+    // Events seen once are as uncertain as a count of one: the variance of their sum is the sum of their squares.
     ErrorSpread spread;
+    spread.once_share = errors.once / total;
+    spread.once_error = std::sqrt(errors.once_squared) / total;
+
+    // Find the worst tile.
     double worst = -1;
     for (int y = 0; y < film.height; y += ERROR_TILE_SIZE)
         for (int x = 0; x < film.width; x += ERROR_TILE_SIZE)

@@ -50,8 +50,13 @@ struct ErrorSpread {
     int tile_x = 0, tile_y = 0;    ///< top left pixel of that tile within the window
     size_t tail_pixels = 0;        ///< the noisiest thousandth of the pixels
     double tail_share = 0;         ///< their share of the sum of squared errors
-    /// Whether the error can be believed: with most of it in few pixels, what is missing was never seen.
-    bool usable() const { return tail_share <= 0.5; }
+    double once_share = 0;         ///< share of the pixels in which one replicate alone saw something
+    double once_error = 0;         ///< relative standard error of the squared error, from what was seen once
+    /// Whether the error can be believed.
+    bool usable() const { return once_error <= LARGEST_ONCE_ERROR; }
+
+    /// Three standard errors then move the squared error by 1.2^2 - 1, and so the error itself by a fifth.
+    static constexpr double LARGEST_ONCE_ERROR = (1.2 * 1.2 - 1) / 3;
 };
 
 /// Side of the tiles that are compared, pixels.

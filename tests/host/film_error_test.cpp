@@ -175,7 +175,7 @@ TEST(FilmError, TheWorstTileIsFound) {
     EXPECT_TRUE(spread->usable());
 }
 
-TEST(FilmError, AFewPixelsWithMostOfTheErrorMakeItUnusable) {
+TEST(FilmError, NoiseInFewPixelsThatAllReplicatesSawIsBelieved) {
     std::mt19937 random(8);
     Film film = empty_film(50, 40, 8, 0, 64); // two pixels are a thousandth
     fill_with_noise(film, 10, 1, random);
@@ -183,12 +183,84 @@ TEST(FilmError, AFewPixelsWithMostOfTheErrorMakeItUnusable) {
     ASSERT_TRUE(spread);
     EXPECT_EQ(spread->tail_pixels, 2u);
     EXPECT_LT(spread->tail_share, 0.01);
-    // One replicate saw something a thousand times as bright in one pixel.
-    film.sums[3 * film_plane(film) + 300] += std::llround(10000 / film.scale.quantum);
+    EXPECT_LT(spread->once_share, 0.02);
+    EXPECT_LT(spread->once_error, 0.005);
+
+    // The edge of a lamp: two of 2000 pixels with 80 % of the error.
+    std::normal_distribution<double> noise(0, 8 * 60);
+    for (size_t r = 0; r < 8; ++r)
+        for (size_t i = 900; i < 906; ++i)
+            film.sums[r * film_plane(film) + i] += std::llround(noise(random) / film.scale.quantum);
     spread = film_error_spread(film);
     ASSERT_TRUE(spread);
+    EXPECT_GT(spread->tail_share, 0.7);
+    EXPECT_LT(spread->once_error, 0.01);
+    EXPECT_TRUE(spread->usable());
+}
+
+TEST(FilmError, ARareBrightEventMakesItUnusable) {
+    std::mt19937 random(8);
+    Film film = empty_film(50, 40, 8, 0, 64);
+    fill_with_noise(film, 10, 1, random);
+    // One replicate saw something in one pixel that brings its own 10 to 166.
+    film.sums[3 * film_plane(film) + 300] += std::llround(8 * 1250 / film.scale.quantum);
+    const auto spread = film_error_spread(film);
+    ASSERT_TRUE(spread);
     EXPECT_GT(spread->tail_share, 0.9);
+    EXPECT_GT(spread->once_share, 0.9);
+    EXPECT_NEAR(spread->once_error, spread->once_share, 0.01) << "the square of a single event is uncertain by itself";
     EXPECT_FALSE(spread->usable());
+}
+
+TEST(FilmError, ManyEventsSeenOnceMakeItUsable) {
+    std::mt19937 random(8);
+    // Every pixel's noise is one event in one of the replicates: their number is known well.
+    for (const auto& [events, usable] : {std::pair{10, false}, {1000, true}}) {
+        Film film = empty_film(50, 40, 8, 0, 64);
+        fill_with_noise(film, 10, 0, random);
+        for (int i = 0; i < events; ++i)
+            film.sums[size_t(i % 8) * film_plane(film) + size_t(6 * i)] += std::llround(8 * 1250 / film.scale.quantum);
+        const auto spread = film_error_spread(film);
+        ASSERT_TRUE(spread);
+        EXPECT_NEAR(spread->once_share, 1, 1e-9);
+        EXPECT_NEAR(spread->once_error, 1 / std::sqrt(events), 1e-6);
+        EXPECT_EQ(spread->usable(), usable) << events;
+    }
+}
+
+// Pictures that see rare bright events, from one to a hundred: the verdict must doubt the errors that are wrong by a fifth,
+// unless no event was seen at all, which nothing in a picture can tell.
+TEST(FilmError, TheVerdictDoubtsWrongErrorsAndBelievesManyEvents) {
+    std::mt19937 random(10);
+    constexpr double CHANCE = 1e-5, EVENT = 400; // a sample
+    constexpr int PIXELS = 2000;
+    int wrong = 0, wrong_believed = 0;
+    for (int trial = 0; trial < 240; ++trial) {
+        const std::uint64_t samples = std::uint64_t(64) << (3 * (trial % 3));
+        Film film = empty_film(50, 40, 8, 0, samples);
+        fill_with_noise(film, 10, 1, random);
+        std::poisson_distribution<int> number(CHANCE * double(samples) * PIXELS / 8);
+        std::uniform_int_distribution<size_t> where(0, PIXELS - 1);
+        int seen = 0;
+        for (size_t r = 0; r < 8; ++r)
+            for (int left = number(random); left > 0; --left, ++seen)
+                for (size_t c = 0, pixel = where(random); c < 3; ++c)
+                    film.sums[r * film_plane(film) + 3 * pixel + c] += std::llround(EVENT / film.scale.quantum);
+        if (seen == 0)
+            continue;
+        const auto squared = film_squared_error(film);
+        const auto spread = film_error_spread(film);
+        ASSERT_TRUE(squared && spread);
+        const double ratio = std::sqrt(squared->mean_squared * double(samples) / (1 + CHANCE * EVENT * EVENT));
+        const bool is_wrong = ratio > 1.2 || ratio < 1 / 1.2;
+        wrong += is_wrong;
+        wrong_believed += is_wrong && spread->usable();
+        const bool has_many = samples == 4096; // 82 events on average
+        EXPECT_TRUE(spread->usable() || !has_many) << seen;
+    }
+    std::printf("%d errors wrong by a fifth, %d of them believed\n", wrong, wrong_believed);
+    EXPECT_GT(wrong, 20);
+    EXPECT_LE(wrong_believed, wrong / 20);
 }
 
 TEST(FilmError, HalfTheErrorIsPricedByTheSlope) {

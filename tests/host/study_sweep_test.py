@@ -38,6 +38,13 @@ class Sweep(unittest.TestCase):
         self.assertFalse(budget.fits(Point(SOBOL, 256, 2)))
         self.assertTrue(study_runs.Budget(None).fits(Point(SOBOL, 4096, 1)))
 
+    def test_compiling_once_is_not_expected_again(self):
+        budget = study_runs.Budget(100, lambda: 40.0)
+        budget.note(Point(SOBOL, 4, 1, cold=True), 71.0, 1.0, 68.0)
+        budget.start = 0
+        self.assertTrue(budget.fits(Point(SOBOL, 4, 2)))     # 40 + 3 s
+        self.assertFalse(budget.fits(Point(SOBOL, 256, 2)))  # 40 + 66 s
+
 
 class Errors(unittest.TestCase):
     def setUp(self):

@@ -110,7 +110,10 @@ class Budget:
     def elapsed(self):
         return self.clock() - self.start
 
-    def note(self, point, seconds, render_seconds):
+    def note(self, point, seconds, render_seconds, compile_seconds=0.0):
+        """Notes a run; only a cold run's compiling is not to be expected again."""
+        if point.cold:
+            seconds -= compile_seconds
         if point.spp >= self.known.get(point.method, (0,))[0]:
             self.known[point.method] = (point.spp, render_seconds, seconds - render_seconds)
 
