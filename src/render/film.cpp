@@ -35,6 +35,17 @@ double brightest_light(const Scene& scene) {
     return std::max(brightest, texel * std::max({sky.x, sky.y, sky.z}));
 }
 
+/// The sum of value `i` over all replicates, rounded once. Full replicates take 64 bits each, so the halves are added apart.
+double sum_over_replicates(const Film& film, size_t i) {
+    std::int64_t high = 0, low = 0;
+    for (int r = 0; r < film.replicates; ++r) {
+        const std::int64_t sum = film.sums[size_t(r) * film_plane(film) + i];
+        high += sum >> 32;
+        low += sum & 0xffffffff;
+    }
+    return std::ldexp(double(high), 32) + double(low);
+}
+
 } // namespace
 
 FilmScale film_scale(const Scene& scene) {
@@ -109,18 +120,21 @@ void fold_replicates(Film& film, int replicates) {
     film.replicates = replicates;
 }
 
+bool add_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& others) {
+    bool fits = true;
+    for (size_t i = 0; i < sums.size(); ++i)
+        fits &= !__builtin_add_overflow(sums[i], others[i], &sums[i]);
+    return fits;
+}
+
 std::vector<float> film_mean(const Film& film) {
     const size_t plane = film_plane(film);
     const std::uint64_t samples = film_samples(film);
     std::vector<float> mean(plane, 0.0f);
     if (samples == 0)
         return mean;
-    for (size_t i = 0; i < plane; ++i) {
-        std::int64_t sum = 0;
-        for (int r = 0; r < film.replicates; ++r)
-            sum += film.sums[size_t(r) * plane + i];
-        mean[i] = float(double(sum) * film.scale.quantum / double(samples));
-    }
+    for (size_t i = 0; i < plane; ++i)
+        mean[i] = float(sum_over_replicates(film, i) * film.scale.quantum / double(samples));
     return mean;
 }
 

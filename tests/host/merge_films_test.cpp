@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace clrt {
 
@@ -102,6 +103,15 @@ TEST(MergeFilms, ThePictureHasVarianceAndSamples) {
     EXPECT_EQ(picture.layers[0].values, film_mean(film.render.film));
     EXPECT_EQ(picture.layers[1].values, film_variance(film.render.film));
     EXPECT_EQ(picture.layers[2].values, std::vector<float>(12, 16.0f));
+}
+
+TEST(MergeFilms, SumsThatDoNotFitAreRefused) {
+    FilmFile a = part(0, 5);
+    const FilmFile b = part(5, 5);
+    a.render.film.sums.back() = std::numeric_limits<std::int64_t>::max();
+    EXPECT_NE(refusal(a, b).find("64 bits"), std::string::npos) << refusal(a, b);
+    a.render.film.sums.back() -= b.render.film.sums.back();
+    EXPECT_EQ(refusal(a, b), "accepted");
 }
 
 } // namespace clrt

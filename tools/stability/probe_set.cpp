@@ -53,10 +53,6 @@ std::string kernel_text(const ProbedExpression& e, const std::string& code) {
                        e.name, input_parameters(e), read_inputs(e), e.outputs, code, keep, TIMED_ELEMENTS, add);
 }
 
-Precision precision_of(Build build) {
-    return build == Build::DOUBLE ? Precision::DOUBLE : build == Build::FAST ? Precision::FAST : Precision::SINGLE;
-}
-
 size_t length_of(const ProbedExpression& e, const Columns& inputs) {
     if (inputs.size() != size_t(e.inputs) || inputs.empty())
         throw std::logic_error(fmt::format("expression {}: expected {} inputs, found {}", e.name, e.inputs, inputs.size()));
@@ -72,6 +68,23 @@ double median(std::vector<double> values, double share = 0.5) {
 }
 
 } // namespace
+
+Precision precision_of(Build build) {
+    return build == Build::DOUBLE ? Precision::DOUBLE : build == Build::FAST ? Precision::FAST : Precision::SINGLE;
+}
+
+ProbeTime time_in_turns(int rounds, const std::function<double()>& naive, const std::function<double()>& robust) {
+    std::vector<double> seconds[2], ratios;
+    for (int round = 0; round <= rounds; ++round) {
+        const double taken[2] = {naive(), robust()};
+        if (round == 0) // the driver compiles in its first launch
+            continue;
+        seconds[0].push_back(taken[0]);
+        seconds[1].push_back(taken[1]);
+        ratios.push_back(taken[1] / taken[0]);
+    }
+    return {median(seconds[0]), median(seconds[1]), median(ratios), median(ratios, 0.25), median(ratios, 0.75)};
+}
 
 ProbeSet::ProbeSet(const Device& device, std::vector<std::string> headers, std::vector<ProbedExpression> expressions,
                    std::string text, std::vector<std::string> defines)
@@ -143,21 +156,14 @@ ProbeTime ProbeSet::time(const std::string& expression, const Columns& inputs, i
     const Build builds[2] = {Build::NAIVE, Build::SINGLE};
     const Kernel kernels[2] = {prepare(builds[0], "time_" + e.name, inputs, outs[0], rounded_items),
                                prepare(builds[1], "time_" + e.name, inputs, outs[1], rounded_items)};
-    std::vector<double> seconds[2], ratios;
-    for (int round = 0; round <= rounds; ++round) {
-        double taken[2];
-        for (int side = 0; side < 2; ++side) {
+    const auto run_side = [&](int side) {
+        return [&, side] {
             const auto start = std::chrono::steady_clock::now();
             probe(builds[side]).launch(kernels[side], items);
-            taken[side] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(count);
-        }
-        if (round == 0) // the driver compiles in its first launch
-            continue;
-        seconds[0].push_back(taken[0]);
-        seconds[1].push_back(taken[1]);
-        ratios.push_back(taken[1] / taken[0]);
-    }
-    return {median(seconds[0]), median(seconds[1]), median(ratios), median(ratios, 0.25), median(ratios, 0.75)};
+            return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(count);
+        };
+    };
+    return time_in_turns(rounds, run_side(0), run_side(1));
 }
 
 } // namespace clrt

@@ -5,12 +5,16 @@
 #include "stability/stability_case.h"
 #include "support/kernel_probe.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace clrt {
+
+/// The precision that a build is compiled in; naive is single.
+Precision precision_of(Build build);
 
 /// Statements that read the inputs a, b, c, ... and the index i, and assign out[0], out[1], ... (all `real`).
 struct ProbedExpression {
@@ -29,6 +33,9 @@ struct ProbeTime {
     double ratio = 0;             ///< median over the rounds of single over naive
     double ratio_low = 0, ratio_high = 0; ///< its quartiles
 };
+
+/// Times two ways to do the same in turns. Each returns seconds for one element; a first round only warms up.
+ProbeTime time_in_turns(int rounds, const std::function<double()>& naive, const std::function<double()>& robust);
 
 class ProbeSet {
 public:
