@@ -4,7 +4,6 @@
 #include "support/ray_device.h"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -189,14 +188,9 @@ ProbeTime FilmBench::time_film_against(SumKind naive, int rounds) {
     KernelProbe& p = probe(device_, Build::SINGLE);
     const auto timed = [&](SumKind kind) {
         const Bound bound = bind(Build::SINGLE, kind, u32(series_.size()));
-        return [&p, bound, this] {
-            const auto start = std::chrono::steady_clock::now();
-            p.launch(bound.kernel, PIXELS, 1);
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-                   (double(series_.size()) * PIXELS);
-        };
+        return [&p, bound] { p.launch(bound.kernel, PIXELS, 1); };
     };
-    return time_in_turns(rounds, timed(naive), timed(SumKind::FILM));
+    return time_in_turns(timed(naive), timed(SumKind::FILM), series_.size() * PIXELS, rounds);
 }
 
 std::vector<long double> FilmBench::replicate_means() const {

@@ -33,7 +33,6 @@ void measure_costs(const StabilityOptions& options, const Device& device, Progre
             report.costs.push_back({&choice, choice.time(device)});
         }
     if (options.cases.empty()) {
-        report.cpu_seconds = renders_take_cpu_seconds(device);
         report.render_costs =
             measure_render_costs(device, [&](const std::string& next) { progress.update({"cost: " + next}); });
     }

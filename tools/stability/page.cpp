@@ -54,7 +54,7 @@ std::string arrow_cell(const Figure& figure) {
 
 std::string case_rows(const CaseResult& result) {
     const StabilityCase& subject = *result.subject;
-    std::string rows = fmt::format("<tr id=\"{0}\"><th colspan=\"7\">{0} {1}<br><span class=\"faint\">{2}; against {3}. {4}."
+    std::string rows = fmt::format("<tr id=\"{0}\"><th colspan=\"7\">{0} {1}<br><span class=\"faint\">{2}; against {3}. Limit: {4}."
                                    "</span></th></tr>\n",
                                    subject.id, subject.name, escape(subject.set_up), escape(subject.oracle),
                                    escape(subject.why));
@@ -122,7 +122,9 @@ std::string cost_table(const StabilityReport& report) {
                             figure ? arrow_cell(*figure) : "<td>&ndash;</td>",
                             figure ? escape(fmt::format("{} {}", cost.choice->case_id, figure->quantity)) : cost.choice->case_id);
     }
-    return "<h2 id=\"costs\">What robustness costs</h2>\n<p>Nanoseconds an evaluation, taken in turns; the ratio is the median "
+    return "<h2 id=\"costs\">What robustness costs</h2>\n<p>Nanoseconds an evaluation" +
+           std::string(takes_cpu_seconds(report) ? " (CPU time of all threads)" : "") +
+           ", taken in turns; the ratio is the median "
            "over the rounds with its quartiles.</p>\n<div class=\"scroll\"><table>\n<tr><td>choice</td><td>naive</td><td>robust"
            "</td><td>naive ns</td><td>ns</td><td>ratio</td><td>error, naive &rarr; <b>robust</b></td><td>of</td></tr>\n" +
            rows + "</table></div>\n";
@@ -141,7 +143,7 @@ std::string render_cost_table(const StabilityReport& report) {
                        "same random numbers; noise: relative error of clrt's picture.</p>\n<div class=\"scroll\"><table>\n"
                        "<tr><td>kernels</td><td>scene</td><td>s</td><td>clrt's s</td><td>ratio</td><td>difference</td><td>noise"
                        "</td></tr>\n{}</table></div>\n",
-                       report.cpu_seconds ? "CPU" : "Wall", rows);
+                       takes_cpu_seconds(report) ? "CPU" : "Wall", rows);
 }
 
 std::string waiting_table() {
@@ -169,7 +171,7 @@ std::string report_page(const StabilityReport& report) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"color-scheme\" content=\"light dark\">\n<title>clrt: numerical stability</title>\n<style>\n{}"
         ".beyond {{ color: #c33; }}\n.cases td:nth-child(n+2):nth-child(-n+6) {{ text-align: right; }}\n"
-        ".cases th {{ white-space: normal; padding-top: 1em; }}\n"
+        ".cases th {{ white-space: normal; padding-top: 1em; }}\n.cases .faint {{ font-weight: normal; }}\n"
         ".contents {{ columns: 14em; padding-left: 1.2em; }}\n</style>\n</head>\n<body>\n<h1>Numerical stability</h1>\n"
         "<p class=\"faint\">{}: {}, driver {}, clrt {}</p>\n<p>{}</p>\n"
         "<p>Each figure is the worst of its inputs, or how many of them failed. The limit holds for single and double; naive is the "

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <sys/resource.h>
 
 namespace clrt {
 
@@ -71,19 +72,6 @@ double median(std::vector<double> values, double share = 0.5) {
 
 Precision precision_of(Build build) {
     return build == Build::DOUBLE ? Precision::DOUBLE : build == Build::FAST ? Precision::FAST : Precision::SINGLE;
-}
-
-ProbeTime time_in_turns(int rounds, const std::function<double()>& naive, const std::function<double()>& robust) {
-    std::vector<double> seconds[2], ratios;
-    for (int round = 0; round <= rounds; ++round) {
-        const double taken[2] = {naive(), robust()};
-        if (round == 0) // the driver compiles in its first launch
-            continue;
-        seconds[0].push_back(taken[0]);
-        seconds[1].push_back(taken[1]);
-        ratios.push_back(taken[1] / taken[0]);
-    }
-    return {median(seconds[0]), median(seconds[1]), median(ratios), median(ratios, 0.25), median(ratios, 0.75)};
 }
 
 ProbeSet::ProbeSet(const Device& device, std::vector<std::string> headers, std::vector<ProbedExpression> expressions,
@@ -156,14 +144,36 @@ ProbeTime ProbeSet::time(const std::string& expression, const Columns& inputs, i
     const Build builds[2] = {Build::NAIVE, Build::SINGLE};
     const Kernel kernels[2] = {prepare(builds[0], "time_" + e.name, inputs, outs[0], rounded_items),
                                prepare(builds[1], "time_" + e.name, inputs, outs[1], rounded_items)};
-    const auto run_side = [&](int side) {
-        return [&, side] {
-            const auto start = std::chrono::steady_clock::now();
-            probe(builds[side]).launch(kernels[side], items);
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(count);
-        };
-    };
-    return time_in_turns(rounds, run_side(0), run_side(1));
+    const auto launch = [&](int side) { return [&, side] { probe(builds[side]).launch(kernels[side], items); }; };
+    return time_in_turns(launch(0), launch(1), count, rounds);
+}
+
+double device_seconds() {
+    if (test_device().info.type != "CPU")
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single, size_t elements,
+                        int rounds) {
+    std::vector<double> seconds[2], ratios;
+    for (int round = 0; round <= rounds; ++round) {
+        double taken[2];
+        for (int side = 0; side < 2; ++side) {
+            const double start = device_seconds();
+            (side ? single : naive)();
+            taken[side] = (device_seconds() - start) / double(elements);
+        }
+        if (round == 0)
+            continue;
+        seconds[0].push_back(taken[0]);
+        seconds[1].push_back(taken[1]);
+        ratios.push_back(taken[1] / taken[0]);
+    }
+    return {median(seconds[0]), median(seconds[1]), median(ratios), median(ratios, 0.25), median(ratios, 0.75)};
 }
 
 } // namespace clrt

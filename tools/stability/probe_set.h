@@ -34,8 +34,14 @@ struct ProbeTime {
     double ratio_low = 0, ratio_high = 0; ///< its quartiles
 };
 
-/// Times two ways to do the same in turns. Each returns seconds for one element; a first round only warms up.
-ProbeTime time_in_turns(int rounds, const std::function<double()>& naive, const std::function<double()>& robust);
+/// Seconds that the device has worked, from some moment on: CPU seconds of this process where the test device is a CPU, so
+/// that other programs do not count, else wall seconds.
+double device_seconds();
+
+/// Times two ways of doing the same to `elements` inputs in turns; the first round of each, in which drivers compile, does not
+/// count.
+ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single, size_t elements,
+                        int rounds = 15);
 
 class ProbeSet {
 public:

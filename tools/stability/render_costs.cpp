@@ -4,10 +4,8 @@
 #include "stability/shipped_scenes.h"
 #include "support/prepared_render.h"
 
-#include <chrono>
 #include <cmath>
 #include <memory>
-#include <sys/resource.h>
 
 namespace clrt {
 
@@ -32,17 +30,6 @@ const RenderVariant VARIANTS[] = {
     {"everything in double", Precision::DOUBLE, false, true},
 };
 
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double wall_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 /// RMS difference over the mean of `b`.
 double relative_difference(const std::vector<float>& a, const std::vector<float>& b) {
     double squares = 0, sum = 0;
@@ -55,7 +42,7 @@ double relative_difference(const std::vector<float>& a, const std::vector<float>
 
 /// Renders by a variant and by clrt's own kernels in turns.
 RenderCost measure(const Device& device, const RenderVariant& variant, const PreparedRender& own, const ShippedScene& subject,
-                   const Scene& scene, double (*clock)()) {
+                   const Scene& scene) {
     Device as_told = device;
     as_told.info.correctly_rounded_division &= variant.rounds_correctly;
     Options options = subject.options;
@@ -71,26 +58,19 @@ RenderCost measure(const Device& device, const RenderVariant& variant, const Pre
     cost.choice = variant.choice;
     Film films[2];
     double noise = 0;
-    const auto timed = [&](const PreparedRender& picture, Film& film) {
-        const double start = clock();
-        Render render = picture.run();
-        const double seconds = clock() - start;
-        film = std::move(render.film);
-        if (&film == &films[0] && render.error)
-            noise = render.error->relative_rmse;
-        return seconds;
+    const auto render = [&](const PreparedRender& picture, Film& film) {
+        Render rendered = picture.run();
+        film = std::move(rendered.film);
+        if (&film == &films[0] && rendered.error)
+            noise = rendered.error->relative_rmse;
     };
-    cost.time = time_in_turns(ROUNDS, [&] { return timed(own, films[0]); }, [&] { return timed(other, films[1]); });
+    cost.time = time_in_turns([&] { render(own, films[0]); }, [&] { render(other, films[1]); }, 1, ROUNDS);
     cost.difference = relative_difference(film_mean(films[1]), film_mean(films[0]));
     cost.noise = noise;
     return cost;
 }
 
 } // namespace
-
-bool renders_take_cpu_seconds(const Device& device) {
-    return device.info.type == "CPU";
-}
 
 std::vector<RenderCost> measure_render_costs(const Device& device, const std::function<void(const std::string&)>& tell) {
     std::vector<RenderCost> costs;
@@ -105,8 +85,7 @@ std::vector<RenderCost> measure_render_costs(const Device& device, const std::fu
                 (!variant.rounds_correctly && !device.info.correctly_rounded_division))
                 continue;
             tell(std::string(name) + ", " + variant.choice);
-            costs.push_back(measure(device, variant, own, subject, scene,
-                                    renders_take_cpu_seconds(device) ? cpu_seconds : wall_seconds));
+            costs.push_back(measure(device, variant, own, subject, scene));
             costs.back().scene = name;
         }
     }

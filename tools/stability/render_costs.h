@@ -14,13 +14,10 @@ namespace clrt {
 struct RenderCost {
     std::string choice;  ///< "the compiler may contract a b + c"
     std::string scene;   ///< of those that clrt ships
-    ProbeTime time;      ///< seconds of a picture: naive is clrt's, single the other one's, ratio other over clrt's
+    ProbeTime time;      ///< device_seconds() of a picture: naive is clrt's, single the other one's, ratio other over clrt's
     double difference = 0; ///< RMS difference of the pictures over clrt's mean; same random numbers
     double noise = 0;      ///< relative error of clrt's picture, to compare with
 };
-
-/// Whether pictures are timed in CPU seconds (CPU devices) or wall seconds.
-bool renders_take_cpu_seconds(const Device& device);
 
 /// Renders all of them, a minute or two; `tell` hears which one is next.
 std::vector<RenderCost> measure_render_costs(const Device& device, const std::function<void(const std::string&)>& tell);

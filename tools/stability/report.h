@@ -24,9 +24,11 @@ struct StabilityReport {
     std::vector<CaseResult> cases;
     std::vector<ChoiceCost> costs;
     std::vector<RenderCost> render_costs;
-    bool cpu_seconds = true; ///< of render_costs
     double seconds = 0;
 };
+
+/// Whether costs are in CPU seconds (device_seconds in probe_set.h).
+bool takes_cpu_seconds(const StabilityReport& report);
 
 /// The figure that a choice's case shows, or null where the case did not run.
 const Figure* figure_of(const StabilityReport& report, const RobustChoice& choice);
