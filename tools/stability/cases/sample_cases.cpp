@@ -33,15 +33,17 @@ const Planted PLANTED[] = {
     {{255, 2}, "2.0f * params->largest_contribution, 1, 1"},
 };
 
-/// Replaces the radiance of planted samples before the film sees it.
-KernelPatch planting_patch() {
-    const char* const before = "        const uint fault = film_fault(params, samples[k].radiance);";
-    std::string text = "#define NAN_BITS as_float(0x7fc00001u)\n#define INFINITE_BITS as_float(0x7f800000u)\n";
+/// Replaces the radiance of planted samples where the film looks at it.
+std::vector<KernelPatch> planting_patches() {
+    const std::string include = "#include \"path/layers.h\"\n", radiance = "samples[k].radiance";
+    std::string text = "#define NAN_BITS as_float(0x7fc00001u)\n#define INFINITE_BITS as_float(0x7f800000u)\n"
+                       "static inline real3 plant(const RenderParams* params, real3* radiance, uint pixel, uint sample)\n{\n";
     for (const Planted& planted : PLANTED)
-        text += fmt::format("        if (pixel == {}u && counter->sample == {}u)\n"
-                            "            ((CameraSample*)samples)[k].radiance = convert_real3((float3)({}));\n",
+        text += fmt::format("    if (pixel == {}u && sample == {}u)\n        *radiance = convert_real3((float3)({}));\n",
                             planted.address.first, planted.address.second, planted.radiance);
-    return {"integrators/pixel.h", before, text + before};
+    return {{"integrators/pixel.h", include, include + text + "    return *radiance;\n}\n"},
+            {"integrators/pixel.h", "film_fault(params, " + radiance + ")",
+             "film_fault(params, plant(params, (real3*)&" + radiance + ", pixel, counter->sample))"}};
 }
 
 /// The inside of a shining box, every sample with sums of its own.
@@ -59,7 +61,7 @@ void planted_faults(CaseRun& run) {
     Figure& counted = run.figure("planted samples not counted by kind", 0);
     Figure& listed = run.figure("planted samples not listed, and others", 0);
     Figure& differing = run.figure("sums of other samples that differ", 0);
-    const PatchedKernels planting({planting_patch()});
+    const PatchedKernels planting(planting_patches());
     const FurnaceBox subject;
     const Scene scene = subject.load();
     std::vector<Address> addresses;
