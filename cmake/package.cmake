@@ -6,11 +6,18 @@
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   set(CLRT_MAN_PAGES)
-  foreach(program clrt clrt-merge)
+  foreach(program clrt clrt-merge clrt-bench clrt-stability clrt-compare clrt-study)
     set(page ${CMAKE_BINARY_DIR}/${program}.1)
+    if(TARGET ${program})
+      set(path $<TARGET_FILE:${program}>)
+    elseif(EXISTS ${PROJECT_SOURCE_DIR}/tools/${program})
+      set(path ${PROJECT_SOURCE_DIR}/tools/${program})
+    else() # not built, for want of a library
+      continue()
+    endif()
     add_custom_command(OUTPUT ${page}
-      COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manpage.py $<TARGET_FILE:${program}> > ${page}
-      DEPENDS ${program} ${PROJECT_SOURCE_DIR}/tools/manpage.py
+      COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manpage.py ${path} ${PROJECT_VERSION} > ${page}
+      DEPENDS $<TARGET_NAME_IF_EXISTS:${program}> ${path} ${PROJECT_SOURCE_DIR}/tools/manpage.py
       VERBATIM)
     list(APPEND CLRT_MAN_PAGES ${page})
   endforeach()

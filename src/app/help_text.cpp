@@ -20,6 +20,10 @@ constexpr size_t TEXT_COLUMN = 31, EXIT_TEXT_COLUMN = 7;
 void append_entry(std::string& page, const std::string& name, const std::string& text, size_t indent,
                   size_t columns) {
     std::string line = name;
+    if (name.size() + 2 > indent) { // two blanks tell a name from its text
+        page += name + "\n";
+        line.clear();
+    }
     line.resize(indent, ' ');
     std::istringstream words(text);
     bool first_word = true;

@@ -35,18 +35,27 @@ double brightest_light(const Scene& scene) {
     return std::max(brightest, texel * std::max({sky.x, sky.y, sky.z}));
 }
 
+/// The sum of value `i` over replicates [begin, end), rounded once. Full replicates take 64 bits each, so the halves of the words
+/// are added apart.
+double sum_over_replicates(const Film& film, size_t i, size_t begin, size_t end) {
+    std::int64_t high = 0, low = 0;
+    for (size_t r = begin; r < end; ++r) {
+        const std::int64_t sum = film.sums[r * film_plane(film) + i];
+        high += sum >> 32;
+        low += sum & 0xffffffff;
+    }
+    return std::ldexp(double(high), 32) + double(low);
+}
+
 /// Mean radiance of an adaptive film: the halves' means, each by weight 1/2.
 std::vector<float> mean_of_halves(const Film& film) {
     const size_t plane = film_plane(film), of_half = size_t(film.replicates / 2);
     std::vector<float> mean(plane);
     for (size_t i = 0; i < plane; ++i) {
         double value = 0;
-        for (size_t half = 0; half < 2; ++half) {
-            std::int64_t sum = 0;
-            for (size_t r = half * of_half; r < (half + 1) * of_half; ++r)
-                sum += film.sums[r * plane + i];
-            value += 0.5 * double(sum) * film.scale.quantum / double(film.tile_samples[half][film_tile(film, i / 3)]);
-        }
+        for (size_t half = 0; half < 2; ++half)
+            value += 0.5 * sum_over_replicates(film, i, half * of_half, (half + 1) * of_half) * film.scale.quantum /
+                     double(film.tile_samples[half][film_tile(film, i / 3)]);
         mean[i] = float(value);
     }
     return mean;
@@ -178,6 +187,13 @@ void fold_replicates(Film& film, int replicates) {
     film.replicates = replicates;
 }
 
+bool add_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& others) {
+    bool fits = true;
+    for (size_t i = 0; i < sums.size(); ++i)
+        fits &= !__builtin_add_overflow(sums[i], others[i], &sums[i]);
+    return fits;
+}
+
 std::vector<float> film_mean(const Film& film) {
     const size_t plane = film_plane(film);
     const std::uint64_t samples = film_samples(film);
@@ -186,12 +202,8 @@ std::vector<float> film_mean(const Film& film) {
         return mean;
     if (is_adaptive(film))
         return mean_of_halves(film);
-    for (size_t i = 0; i < plane; ++i) {
-        std::int64_t sum = 0;
-        for (int r = 0; r < film.replicates; ++r)
-            sum += film.sums[size_t(r) * plane + i];
-        mean[i] = float(double(sum) * film.scale.quantum / double(samples));
-    }
+    for (size_t i = 0; i < plane; ++i)
+        mean[i] = float(sum_over_replicates(film, i, 0, size_t(film.replicates)) * film.scale.quantum / double(samples));
     return mean;
 }
 

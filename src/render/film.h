@@ -102,6 +102,10 @@ private:
 /// picture keeps its bits, the error becomes coarser. Not for adaptive films.
 void fold_replicates(Film& film, int replicates);
 
+/// Adds `others` to `sums` one by one. False where one does not fit 64 bits, which takes more samples than
+/// FILM_SAMPLES_PER_REPLICATE and contributions near the largest.
+bool add_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& others);
+
 /// Mean radiance, rgb a pixel. Zero samples give black.
 std::vector<float> film_mean(const Film& film);
 

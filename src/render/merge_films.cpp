@@ -59,12 +59,14 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
     const int kept = std::gcd(film.replicates, part.render.film.replicates);
     fold_replicates(film, kept);
     fold_replicates(part.render.film, kept);
-    std::transform(film.sums.begin(), film.sums.end(), part.render.film.sums.begin(), film.sums.begin(), std::plus<>());
-
-    for (size_t i = 0; i < sum.render.path_layers.size(); ++i) {
-        std::vector<std::int64_t>& layer = sum.render.path_layers[i].sums;
-        std::transform(layer.begin(), layer.end(), part.render.path_layers[i].sums.begin(), layer.begin(), std::plus<>());
-    }
+    bool fits = add_sums(film.sums, part.render.film.sums);
+    for (size_t i = 0; i < sum.render.path_layers.size(); ++i)
+        fits &= add_sums(sum.render.path_layers[i].sums, part.render.path_layers[i].sums);
+    if (!fits)
+        throw SceneError(part_path, 0,
+                         fmt::format("expected sums that fit 64 bits together with those of {}, found brighter ones; "
+                                     "merge fewer samples",
+                                     sum_path));
 
     // The command of the first samples is the one that --resume can repeat; errors of parts are none of the whole.
     if (part.render.film.ranges.front().first < film.ranges.front().first)

@@ -35,6 +35,12 @@ if(TARGET clrt-bench)
     CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes" CLRT_BENCH_FOLDER="${PROJECT_SOURCE_DIR}/tools/bench")
   add_dependencies(bench_command_test clrt-bench)
 endif()
+clrt_test(cli stability_command_test)
+target_compile_definitions(stability_command_test PRIVATE
+  CLRT_EXECUTABLE="$<TARGET_FILE:clrt-stability>" CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels")
+add_dependencies(stability_command_test clrt-stability)
+clrt_python_test(cli man_page_test $<TARGET_FILE:clrt> $<TARGET_FILE:clrt-merge> $<TARGET_FILE:clrt-stability>
+  ${PROJECT_SOURCE_DIR}/tools/clrt-compare ${PROJECT_SOURCE_DIR}/tools/clrt-study)
 clrt_python_test(cli compare_command_test)
 clrt_python_test(cli integrator_pairs_test $<TARGET_FILE:clrt>)
 clrt_python_test(cli study_command_test $<TARGET_FILE:clrt>)

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 namespace clrt {
@@ -64,6 +65,16 @@ TEST(Film, SumsBeyondTheDigitsOfADoubleKeepTheirMean) {
     Film film = empty_film(1, 1, 2, 0, std::uint64_t(1) << 20);
     film.sums = {std::int64_t(1) << 60, 4096, 0, -(std::int64_t(1) << 60), 4096, 0};
     EXPECT_EQ(film_mean(film), (std::vector<float>{0, float(std::ldexp(2.0, -20)), 0}));
+}
+
+TEST(Film, TheMeanOfFullReplicatesDoesNotWrapRound) {
+    Film film = empty_film(1, 1, 8, 0, 8);
+    for (std::int64_t& sum : film.sums)
+        sum = std::numeric_limits<std::int64_t>::max();
+    EXPECT_EQ(film_mean(film), std::vector<float>(3, float(std::ldexp(1.0, 63 - 12))));
+    for (std::int64_t& sum : film.sums)
+        sum = std::numeric_limits<std::int64_t>::min();
+    EXPECT_EQ(film_mean(film), std::vector<float>(3, float(-std::ldexp(1.0, 63 - 12))));
 }
 
 TEST(Film, WithoutSamplesItIsBlackAndHasNoError) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace clrt {
 
@@ -109,6 +110,15 @@ TEST(MergeFilms, AdaptiveFilmsAreRefused) {
     adaptive.render.film.tile_samples = {std::vector<std::uint32_t>{8}, std::vector<std::uint32_t>{8}};
     EXPECT_NE(refusal(part(0, 4), adaptive).find("b.film: expected a film with adaptive: false"), std::string::npos);
     EXPECT_NE(refusal(adaptive, part(0, 4)).find("a.film: expected a film with adaptive: false"), std::string::npos);
+}
+
+TEST(MergeFilms, SumsThatDoNotFitAreRefused) {
+    FilmFile a = part(0, 5);
+    const FilmFile b = part(5, 5);
+    a.render.film.sums.back() = std::numeric_limits<std::int64_t>::max();
+    EXPECT_NE(refusal(a, b).find("64 bits"), std::string::npos) << refusal(a, b);
+    a.render.film.sums.back() -= b.render.film.sums.back();
+    EXPECT_EQ(refusal(a, b), "accepted");
 }
 
 } // namespace clrt

@@ -144,24 +144,6 @@ TEST(SameBits, AWindowHoldsWhatTheWholePictureHoldsThere) {
     }
 }
 
-TEST(SameBits, RangesOfSamplesAddUpToTheWhole) {
-    SmallScene scene(make_maps);
-    const Film whole = scene.render().film;
-    Film merged;
-    for (const auto& [first, count] : {std::pair{0u, 5u}, {5u, 1u}, {6u, 10u}}) {
-        scene.options.first_sample = first;
-        scene.options.spp = count;
-        const Film part = scene.render().film;
-        EXPECT_EQ(part.ranges, (std::vector<SampleRange>{{first, first + count}}));
-        if (merged.sums.empty())
-            merged = part;
-        else
-            std::transform(part.sums.begin(), part.sums.end(), merged.sums.begin(), merged.sums.begin(),
-                           std::plus<>());
-    }
-    EXPECT_EQ(count_differences(whole, merged), 0u);
-}
-
 TEST(SameBits, SamplesGoRoundTheReplicates) {
     SmallScene scene(make_room);
     scene.options.spp = 3;

@@ -14,7 +14,7 @@ endif()
 # The catalogue, a ctest entry for the cases of some letters: so they run side by side and none runs long.
 add_executable(catalogue_test stability/catalogue_test.cpp)
 target_link_libraries(catalogue_test PRIVATE clrt_stability_core GTest::gtest GTest::gtest_main)
-foreach(letters IN ITEMS I SC DG TRF PLE KABMXV)
+foreach(letters IN ITEMS I SC DG TRF PLE AB KMXV)
   add_test(NAME stability.catalogue_${letters}
     COMMAND catalogue_test "--gtest_filter=Case/Catalogue.Holds/[${letters}]*:CatalogueTable.*")
   set_tests_properties(stability.catalogue_${letters} PROPERTIES LABELS stability TIMEOUT 600)

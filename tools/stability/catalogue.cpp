@@ -44,6 +44,10 @@ std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>&
 const std::vector<RobustChoice>& robust_choices() {
     static const std::vector<RobustChoice> choices = {
         {"Fresnel reflectance", "1 - eta^2 (1 - cos^2)", "two-product form", "T01", 0, time_fresnel},
+        {"film sum", "a float", "64-bit fixed point", "A02", 0, time_film_plain},
+        {"film sum", "blocks of 1024 floats, two-sum", "64-bit fixed point", "A02", 1, time_film_blocks},
+        {"film sum", "a double", "64-bit fixed point", "A02", 2, time_film_double},
+        {"guard against bad samples", "none", "exponent bits, counted by kind", "X01", 0, time_film_guard},
     };
     return choices;
 }

@@ -9,4 +9,11 @@ namespace clrt {
 /// Reflectance of a dielectric (cases/dielectric_cases.cpp).
 ProbeTime time_fresnel(const Device& device);
 
+/// Adding a sample to the film against a sum in float, blocks of floats joined by two-sum, a sum in double, and against
+/// the film without its look for bad samples (cases/film_cases.cpp).
+ProbeTime time_film_plain(const Device& device);
+ProbeTime time_film_blocks(const Device& device);
+ProbeTime time_film_double(const Device& device);
+ProbeTime time_film_guard(const Device& device);
+
 } // namespace clrt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-stability: the catalogue of hard cases on a device.
 #include "app/log.h"
+#include "app/progress.h"
 #include "app/run_program.h"
 #include "exit_code.h"
 #include "output/image.h"
@@ -25,22 +26,38 @@ const Device& open_chosen_device(const StabilityOptions& options) {
     return test_device();
 }
 
+void measure_costs(const StabilityOptions& options, const Device& device, Progress& progress, StabilityReport& report) {
+    for (const RobustChoice& choice : robust_choices())
+        if (options.cases.empty() || figure_of(report, choice)) {
+            progress.update({fmt::format("cost: {} against {}", choice.choice, choice.naive)});
+            report.costs.push_back({&choice, choice.time(device)});
+        }
+    if (options.cases.empty()) {
+        report.render_costs =
+            measure_render_costs(device, [&](const std::string& next) { progress.update({"cost: " + next}); });
+    }
+    progress.finish();
+}
+
 StabilityReport run_catalogue(const StabilityOptions& options, const Device& device) {
     const auto start = std::chrono::steady_clock::now();
     StabilityReport report;
     report.device = device.info;
     report.tier = options.tier;
     report.command = options.command;
+    Progress progress(Toggle::AUTO, /*quiet=*/false);
+    const std::vector<const StabilityCase*> subjects = runnable_cases(options.cases);
     fmt::print("{}", format_case_head());
-    for (const StabilityCase* subject : runnable_cases(options.cases)) {
+    std::fflush(stdout);
+    for (const StabilityCase* subject : subjects) {
+        progress.update({fmt::format("{} {}", subject->id, subject->name), double(report.cases.size()) / double(subjects.size())});
         report.cases.push_back(run_case(*subject, device, options.tier));
+        progress.finish();
         fmt::print("{}", format_case(report.cases.back()));
         std::fflush(stdout);
     }
     if (options.costs)
-        for (const RobustChoice& choice : robust_choices())
-            if (options.cases.empty() || figure_of(report, choice))
-                report.costs.push_back({&choice, choice.time(device)});
+        measure_costs(options, device, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <sys/resource.h>
 
 namespace clrt {
 
@@ -53,10 +54,6 @@ std::string kernel_text(const ProbedExpression& e, const std::string& code) {
                        e.name, input_parameters(e), read_inputs(e), e.outputs, code, keep, TIMED_ELEMENTS, add);
 }
 
-Precision precision_of(Build build) {
-    return build == Build::DOUBLE ? Precision::DOUBLE : build == Build::FAST ? Precision::FAST : Precision::SINGLE;
-}
-
 size_t length_of(const ProbedExpression& e, const Columns& inputs) {
     if (inputs.size() != size_t(e.inputs) || inputs.empty())
         throw std::logic_error(fmt::format("expression {}: expected {} inputs, found {}", e.name, e.inputs, inputs.size()));
@@ -72,6 +69,10 @@ double median(std::vector<double> values, double share = 0.5) {
 }
 
 } // namespace
+
+Precision precision_of(Build build) {
+    return build == Build::DOUBLE ? Precision::DOUBLE : build == Build::FAST ? Precision::FAST : Precision::SINGLE;
+}
 
 ProbeSet::ProbeSet(const Device& device, std::vector<std::string> headers, std::vector<ProbedExpression> expressions,
                    std::string text, std::vector<std::string> defines)
@@ -143,15 +144,30 @@ ProbeTime ProbeSet::time(const std::string& expression, const Columns& inputs, i
     const Build builds[2] = {Build::NAIVE, Build::SINGLE};
     const Kernel kernels[2] = {prepare(builds[0], "time_" + e.name, inputs, outs[0], rounded_items),
                                prepare(builds[1], "time_" + e.name, inputs, outs[1], rounded_items)};
+    const auto launch = [&](int side) { return [&, side] { probe(builds[side]).launch(kernels[side], items); }; };
+    return time_in_turns(launch(0), launch(1), count, rounds);
+}
+
+double device_seconds() {
+    if (test_device().info.type != "CPU")
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single, size_t elements,
+                        int rounds) {
     std::vector<double> seconds[2], ratios;
     for (int round = 0; round <= rounds; ++round) {
         double taken[2];
         for (int side = 0; side < 2; ++side) {
-            const auto start = std::chrono::steady_clock::now();
-            probe(builds[side]).launch(kernels[side], items);
-            taken[side] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(count);
+            const double start = device_seconds();
+            (side ? single : naive)();
+            taken[side] = (device_seconds() - start) / double(elements);
         }
-        if (round == 0) // the driver compiles in its first launch
+        if (round == 0)
             continue;
         seconds[0].push_back(taken[0]);
         seconds[1].push_back(taken[1]);

@@ -5,12 +5,16 @@
 #include "stability/stability_case.h"
 #include "support/kernel_probe.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace clrt {
+
+/// The precision that a build is compiled in; naive is single.
+Precision precision_of(Build build);
 
 /// Statements that read the inputs a, b, c, ... and the index i, and assign out[0], out[1], ... (all `real`).
 struct ProbedExpression {
@@ -29,6 +33,15 @@ struct ProbeTime {
     double ratio = 0;             ///< median over the rounds of single over naive
     double ratio_low = 0, ratio_high = 0; ///< its quartiles
 };
+
+/// Seconds that the device has worked, from some moment on: CPU seconds of this process where the test device is a CPU, so
+/// that other programs do not count, else wall seconds.
+double device_seconds();
+
+/// Times two ways of doing the same to `elements` inputs in turns; the first round of each, in which drivers compile, does not
+/// count.
+ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single, size_t elements,
+                        int rounds = 15);
 
 class ProbeSet {
 public:

@@ -41,7 +41,41 @@ Json case_json(const CaseResult& result) {
     return json;
 }
 
+std::string format_choice_costs(const StabilityReport& report) {
+    if (report.costs.empty())
+        return "";
+    std::string lines = fmt::format("\n{:<52} {:>9} {:>9} {:>18} {:>11} {:>11}  of\n", "what robustness costs, against naive", "naive ns",
+                                    "ns", "ratio (quartiles)", "naive error", "error");
+    for (const ChoiceCost& cost : report.costs) {
+        const Figure* figure = figure_of(report, *cost.choice);
+        lines += fmt::format("{:<52} {:>9.2f} {:>9.2f} {:>5.2f} ({:.2f}..{:.2f}) {:>11} {:>11}  {}\n",
+                             fmt::format("{}: {}", cost.choice->choice, cost.choice->naive),
+                             cost.time.naive * 1e9, cost.time.single * 1e9, cost.time.ratio, cost.time.ratio_low,
+                             cost.time.ratio_high, figure ? format_worst((*figure)[Build::NAIVE]) : "-",
+                             figure ? format_worst((*figure)[Build::SINGLE]) : "-",
+                             figure ? fmt::format("{} {}", cost.choice->case_id, figure->quantity) : cost.choice->case_id);
+    }
+    return lines;
+}
+
+std::string format_render_costs(const StabilityReport& report) {
+    if (report.render_costs.empty())
+        return "";
+    std::string lines = fmt::format("\n{:<30} {:<14} {:>9} {:>9} {:>18} {:>11} {:>11}\n", "what other kernels would save",
+                                    "scene", takes_cpu_seconds(report) ? "CPU s" : "s", "clrt's", "ratio (quartiles)", "difference",
+                                    "noise");
+    for (const RenderCost& cost : report.render_costs)
+        lines += fmt::format("{:<30} {:<14} {:>9.3f} {:>9.3f} {:>5.2f} ({:.2f}..{:.2f}) {:>11.2g} {:>11.2g}\n", cost.choice,
+                             cost.scene, cost.time.single, cost.time.naive, cost.time.ratio, cost.time.ratio_low,
+                             cost.time.ratio_high, cost.difference, cost.noise);
+    return lines;
+}
+
 } // namespace
+
+bool takes_cpu_seconds(const StabilityReport& report) {
+    return report.device.type == "CPU";
+}
 
 const Figure* figure_of(const StabilityReport& report, const RobustChoice& choice) {
     for (const CaseResult& result : report.cases)
@@ -79,19 +113,7 @@ std::string format_case(const CaseResult& result) {
 }
 
 std::string format_costs(const StabilityReport& report) {
-    if (report.costs.empty())
-        return "";
-    std::string lines = fmt::format("\n{:<30} {:>9} {:>9} {:>18} {:>11} {:>11}  of\n", "what robustness costs", "naive ns",
-                                    "ns", "ratio (quartiles)", "naive error", "error");
-    for (const ChoiceCost& cost : report.costs) {
-        const Figure* figure = figure_of(report, *cost.choice);
-        lines += fmt::format("{:<30} {:>9.2f} {:>9.2f} {:>5.2f} ({:.2f}..{:.2f}) {:>11} {:>11}  {}\n", cost.choice->choice,
-                             cost.time.naive * 1e9, cost.time.single * 1e9, cost.time.ratio, cost.time.ratio_low,
-                             cost.time.ratio_high, figure ? format_worst((*figure)[Build::NAIVE]) : "-",
-                             figure ? format_worst((*figure)[Build::SINGLE]) : "-",
-                             figure ? fmt::format("{} {}", cost.choice->case_id, figure->quantity) : cost.choice->case_id);
-    }
-    return lines;
+    return format_choice_costs(report) + format_render_costs(report);
 }
 
 std::string format_summary(const StabilityReport& report) {
@@ -131,6 +153,16 @@ std::string report_json(const StabilityReport& report) {
                                  {"seconds", cost.time.single},
                                  {"ratio", cost.time.ratio},
                                  {"ratio_quartiles", {cost.time.ratio_low, cost.time.ratio_high}}});
+    for (const RenderCost& cost : report.render_costs)
+        json["render_costs"].push_back({{"choice", cost.choice},
+                                        {"scene", cost.scene},
+                                        {"clock", takes_cpu_seconds(report) ? "cpu" : "wall"},
+                                        {"clrt_seconds", cost.time.naive},
+                                        {"seconds", cost.time.single},
+                                        {"ratio", cost.time.ratio},
+                                        {"ratio_quartiles", {cost.time.ratio_low, cost.time.ratio_high}},
+                                        {"rel_rms_difference", cost.difference},
+                                        {"rel_rmse_of_clrt", cost.noise}});
     for (const CaseGroup& group : catalogue())
         for (const StabilityCase& subject : group.cases)
             if (subject.waits_for)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "stability/catalogue.h"
+#include "stability/render_costs.h"
 #include "stability/stability_options.h"
 
 #include <string>
@@ -22,8 +23,12 @@ struct StabilityReport {
     std::vector<std::string> command;
     std::vector<CaseResult> cases;
     std::vector<ChoiceCost> costs;
+    std::vector<RenderCost> render_costs;
     double seconds = 0;
 };
+
+/// Whether costs are in CPU seconds (device_seconds in probe_set.h).
+bool takes_cpu_seconds(const StabilityReport& report);
 
 /// The figure that a choice's case shows, or null where the case did not run.
 const Figure* figure_of(const StabilityReport& report, const RobustChoice& choice);
@@ -37,7 +42,7 @@ std::string format_case_head();
 /// A line for each figure of a case.
 std::string format_case(const CaseResult& result);
 
-/// The table of costs; empty without costs.
+/// The tables of costs; empty without costs.
 std::string format_costs(const StabilityReport& report);
 
 /// "38 of 38 cases hold, quick tier, 52.1 s".

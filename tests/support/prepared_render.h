@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A loaded scene with programs and buffers of its own, to be rendered again and again: on any device, by kernels whose text
+// was changed.
+#pragma once
+
+#include "support/kernel_probe.h"
+#include "support/render_scene.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// A place in the kernels and what stands there instead.
+struct KernelPatch {
+    std::string file; ///< below kernels/
+    std::string from, to;
+};
+
+/// The kernels under test with patches, as a folder for --kernels. Throws where a text is not found.
+class PatchedKernels {
+public:
+    explicit PatchedKernels(const std::vector<KernelPatch>& patches);
+    const std::string& path() const { return path_; }
+
+private:
+    ScratchFolder folder_;
+    std::string path_;
+};
+
+class PreparedRender {
+public:
+    /// Takes the kernels of options.kernels_folder, else those under test. The device must outlive it.
+    PreparedRender(Scene scene, Options options, const Device& device = test_device());
+
+    Render run() const;
+    /// Seconds that compiling took.
+    double build_seconds() const { return programs_.seconds; }
+
+private:
+    const Device& device_;
+    Scene scene_;
+    Options options_;
+    Effects effects_;
+    RenderPrograms programs_;
+    Bvh bvh_;
+    SceneBuffers buffers_;
+};
+
+} // namespace clrt
