@@ -64,8 +64,8 @@ static inline void bsdf_choose_lobes(Bsdf* bsdf)
     bsdf->choose_glossy = (bsdf->lobes == LOBE_GLOSSY) ? REAL(1.0) : REAL(0.0);
     if (!HAS(EFFECT_GLOSSY | EFFECT_MIRROR) || !(bsdf->lobes & LOBE_MATTE) || bsdf->lobes == LOBE_MATTE)
         return;
-    const real matte = vector_luminance(bsdf->matte);
-    const real reflection = vector_luminance(bsdf_reflection_color(bsdf, bsdf->wo.z));
+    const real matte = vector_color_size(bsdf->matte);
+    const real reflection = vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
     const real sum = matte + reflection;
     bsdf->choose_matte = sum > REAL(0.0) ? matte / sum : REAL(1.0);
     bsdf->choose_glossy = (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) - bsdf->choose_matte : REAL(0.0);
