@@ -77,7 +77,8 @@ static inline void bsdf_complete(const Bsdf* bsdf, real3 wi, BsdfSample* sample)
     /* Alone, Lambert's lobe is sampled exactly. */
     if (bsdf->lobes == LOBE_MATTE) {
         sample->pdf_w = bsdf_matte_pdf_w(wi);
-        sample->weight = bsdf->matte;
+        /* Along the horizon there is no sample: a density of 0 would say that the lobe is a delta function. */
+        sample->weight = sample->pdf_w > REAL(0.0) ? bsdf->matte : (real3)(REAL(0.0));
         return;
     }
     const BsdfValue eval = bsdf_eval_local(bsdf, wi);
