@@ -3,6 +3,7 @@
 #include "support/scene_probe.h"
 
 #include "render/scene_buffers.h"
+#include "support/ray_device.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -10,7 +11,7 @@
 namespace clrt {
 
 SceneProbe::SceneProbe(std::vector<std::string> headers, const std::string& text)
-    : probe_(test_device(), std::move(headers)) {
+    : probe_(test_device(), std::move(headers), {}, kernels_under_test()) {
     probe_.add_text("vec4 probe_vec4(real3 v, real w) { return (vec4)(convert_float3(v), (float)w); }\n" +
                     text);
 }

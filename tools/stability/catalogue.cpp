@@ -44,6 +44,11 @@ std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>&
 const std::vector<RobustChoice>& robust_choices() {
     static const std::vector<RobustChoice> choices = {
         {"Fresnel reflectance", "1 - eta^2 (1 - cos^2)", "two-product form", "T01", 0, time_fresnel},
+        {"Distribution of normals", "by cos^2", "by local components", "R01", 0, time_ggx_d},
+        {"Random number from a word", "word / 2^32", "odd multiples of 2^-24", "P05", 0, time_uniforms},
+        {"Frame around a normal", "1 / (1 + z)", "1 / (|z| + 1)", "P04", 0, time_frames},
+        {"Choice among 4096 lights", "sums in float, bisection", "alias table of integers", "L07", 0, time_light_choice},
+        {"MIS weight", "squares of densities", "square of their ratio", "L09", 0, time_mis_weight},
     };
     return choices;
 }
