@@ -188,29 +188,34 @@ void light_in_a_box(CaseRun& run) {
     Figure& edges = run.figure("share of paths to edges and corners that do", 0.15);
     TestScene scene;
     scene.build.material("wall", "Kd 0.8 0.8 0.8").material("lamp", "Kd 0 0 0\nKe 1e6 1e6 1e6");
-    scene.build.use("wall").box({-1, -1, -1}, {1, 1, 1}).use("lamp").icosphere({0, 0, 0}, 0.5, 1);
+    scene.build.use("wall").floor(4, -1.5).box({-1, -1, -1}, {1, 1, 1}).use("lamp").icosphere({0, 0, 0}, 0.5, 1);
     scene.options.light.points.push_back({{0.7, 0.7, 0.7}, dvec3(1e6)});
     scene.options.max_depth = 8;
     const PathProbe probe(run.device, scene);
     Random random(2);
     std::vector<TestRay> rays;
     for (size_t i = 0; i < run.count(2e4, 1e6, 1e7); ++i) {
-        dvec3 at = random.in_cube(1); // anywhere, on edges, at corners
-        for (size_t k = 0; k < i % 4; ++k)
+        // Through the box, to its faces, edges and corners, and to the floor below.
+        dvec3 at = random.in_cube(1), from = 3.0 * random.direction();
+        for (size_t k = 0; k < i % 5 && i % 5 < 4; ++k)
             at[int((i + k) % 3)] = random.word() & 1 ? 1 : -1;
-        rays.push_back(probe.ray(3.0 * random.direction(), at));
+        if (i % 5 == 4) {
+            at.y = -1.5;
+            from.y = -1.2;
+        }
+        rays.push_back(probe.ray(from, at));
     }
     for (const Build build : path_builds(run))
         for (const Integrator integrator : TREE_AND_PATH) {
             const std::vector<dvec3> got = probe.radiance(build, integrator, rays);
             double at_edges = 0;
             for (size_t i = 0; i < got.size(); ++i)
-                if (i % 4 > 1)
+                if (i % 5 == 2 || i % 5 == 3)
                     at_edges += got[i].x != 0;
                 else
                     leaks[build].count(got[i].x != 0, [&] { return fmt::format("ray {}: {}", i, got[i].x); });
-            edges[build].see(at_edges / (double(got.size()) / 2),
-                             [&] { return fmt::format("{} of {}", at_edges, got.size() / 2); });
+            edges[build].see(at_edges / (0.4 * double(got.size())),
+                             [&] { return fmt::format("{} of {}", at_edges, got.size() * 2 / 5); });
         }
 }
 
@@ -284,7 +289,8 @@ const std::vector<StabilityCase>& light_cases() {
          all_powers},
         {"L09", "MisGrid", "densities from 1e-38 to 1e38, 0 and infinity", "w_a + w_b = 1, the power heuristic",
          "four roundings of values up to 1", mis_grid},
-        {"L10", "LightInABox", "lamps inside a closed box, seen from outside at faces, edges, corners", "0",
+        {"L10", "LightInABox",
+         "lamps inside a closed box over a floor, seen from outside at faces, edges, corners, and on the floor", "0",
          "a law; a ray that meets an edge exactly hits both faces at one distance, and goes on inside where the lower index is "
          "the face seen from behind",
          light_in_a_box},
