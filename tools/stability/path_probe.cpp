@@ -15,7 +15,7 @@ namespace {
 
 const char* const TEXT = R"(
 #define PROBE_PATHS(NAME, RADIANCE)                                                                                   \
-    kernel void NAME(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,    \
+    CLRT_KERNEL void NAME(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,    \
                      const u32 samples, global real* restrict out_values)                                             \
     {                                                                                                                 \
         const u32 i = (u32)get_global_id(0);                                                                          \
