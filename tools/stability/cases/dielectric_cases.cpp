@@ -66,7 +66,7 @@ void snell(CaseRun& run) {
     Figure& length = run.figure("| |wi| - 1 |", 4 * FLOAT_U);
     Random random(2);
     Columns inputs(4);
-    const size_t count = run.count(2e5, 1e7, 1e8);
+    const size_t count = run.count(2e5, 2e6, 8e6);
     for (size_t i = 0; i < count; ++i) {
         const glm::dvec3 wo = random.upper_direction();
         const double etas[] = {1.5, 1 / 1.5, 2.417, 1.333, 1.0001, 1 / 2.417};

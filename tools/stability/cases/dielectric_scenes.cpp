@@ -67,7 +67,7 @@ void meet_both_faces(CaseRun& run, double place, double thickness, Figure& lost)
     const RayDevice slab(loaded, BvhLayout::BVH8);
     Random random(4);
     std::vector<TestRay> rays;
-    const size_t count = run.count(1e5, 1e6, 1e7);
+    const size_t count = run.count(1e5, 1e6, 4e6);
     const double half = 0.5 * loaded.normalisation.scale;
     for (size_t i = 0; i < count; ++i) {
         const dvec3 target(random.between(-0.99, 0.99) * half, random.between(-0.99, 0.99) * half, 0);

@@ -57,7 +57,7 @@ void reciprocity(CaseRun& run) {
     Reciprocal pairs;
     Random random(1);
     const std::vector<LobeSet> sets = all_lobe_sets();
-    const size_t count = run.count(2e4, 1e6, 1e7);
+    const size_t count = run.count(2e4, 2e5, 5e5);
     const size_t outside = set_index("rough glass from outside"), inside = set_index("rough glass from inside");
     for (size_t i = 0; i < count; ++i) {
         const dvec3 a = direction_at(random.between(0.02, 1), 2 * PI * random.unit()),
@@ -150,7 +150,7 @@ void pdf_mass(CaseRun& run) {
     Figure& narrow = run.figure("the same of rough glass, and seen at a cosine of 0.05", 1e-3);
     const SphereCells cells(64, 64, 12);
     const std::vector<dvec3> nodes = cells.nodes();
-    const size_t count = run.count(1u << 18, 1u << 21, 1u << 23);
+    const size_t count = run.count(1u << 18, 1u << 20, 1u << 22);
     for_each_density([&](size_t set, const dvec3& wo) {
         BsdfInputs inputs; // Roberts' lattice
         for (size_t i = 0; i < count; ++i) {

@@ -157,7 +157,7 @@ void mis_grid(CaseRun& run) {
             inputs[1].push_back(float(std::pow(10, y)));
         }
     Random random(1);
-    for (size_t i = 0; i < run.count(1e5, 1e7, 1e8); ++i) {
+    for (size_t i = 0; i < run.count(1e5, 2e6, 8e6); ++i) {
         inputs[0].push_back(float(random.between(0.5, 2)));
         inputs[1].push_back(float(random.between(0.5, 2)));
     }

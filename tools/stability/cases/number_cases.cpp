@@ -112,7 +112,7 @@ size_t empty_intervals(const std::vector<std::array<u32, 2>>& words, int m) {
 void bases(CaseRun& run) {
     Figure& error = run.figure("|dot products|, |lengths - 1|", 4 * FLOAT_U);
     Figure& handed = run.figure("left-handed or not finite", 0);
-    const Columns inputs = normals(run.count(1e5, 1e7, 1e8));
+    const Columns inputs = normals(run.count(1e5, 2e6, 8e6));
     for (const Build build : run.builds()) {
         const auto got = number_probes(run.device).run(build, "frame", inputs);
         for (size_t i = 0; i < inputs[0].size(); ++i) {
@@ -161,7 +161,7 @@ void uniforms(CaseRun& run) {
 
 void streams(CaseRun& run) {
     Figure& alike = run.figure("pixels that repeat another's words", 0);
-    const size_t count = run.count(1u << 20, 3840 * 2160, 1u << 24);
+    const size_t count = run.count(1u << 20, 3840 * 2160, 3840 * 2160);
     std::vector<float> pixels(count);
     for (size_t i = 0; i < count; ++i)
         pixels[i] = float(i * (count < 4000000 ? 7 : 1));

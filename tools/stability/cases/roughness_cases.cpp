@@ -46,7 +46,7 @@ void distribution(CaseRun& run) {
     Figure& error = run.figure("relative |dD|", 1e-6);
     Columns inputs(4);
     Random random(1);
-    const size_t count = run.count(2e4, 1e6, 1e7);
+    const size_t count = run.count(2e4, 2e5, 1e6);
     for (const double alpha : {1.0, 1e-1, 1e-2, 1e-3, 1e-4})
         for (size_t i = 0; i < count; ++i) {
             const dvec3 h = normal_at(alpha, random.between(0, 8), 2 * PI * random.unit());
@@ -109,7 +109,7 @@ void visible_weights(CaseRun& run) {
     Figure& bad = run.figure("weights that are no number", 0);
     BsdfInputs inputs;
     Random random(2);
-    const size_t count = run.count(2e5, 1e7, 1e8);
+    const size_t count = run.count(2e5, 2e6, 8e6);
     for (size_t i = 0; i < count; ++i) {
         const double alpha = std::abs(random.signed_log(1e-4, 1)), cosine = std::abs(random.signed_log(1e-6, 1));
         const double x = random.unit();
@@ -216,7 +216,7 @@ void sample_is_eval(CaseRun& run) {
     BsdfInputs inputs;
     Random random(3);
     const std::vector<LobeSet> sets = all_lobe_sets();
-    const size_t count = run.count(2e4, 1e6, 1e7);
+    const size_t count = run.count(2e4, 2e5, 1e6);
     for (size_t set = 0; set < sets.size(); ++set)
         if (is_smooth(sets[set]) && !(sets[set].lobes & LOBE_MIRROR))
             for (size_t i = 0; i < count; ++i) {
