@@ -19,7 +19,7 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
         return value;
     if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE))
         value += bsdf_matte_eval(bsdf->matte, wi);
-    if (highlight && bsdf->exponent > REAL(0.0)) {
+    if (HAS(EFFECT_GLOSSY) && highlight && bsdf->exponent > REAL(0.0)) {
         const real cos_r = vector_dot(vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z), wi);
         if (cos_r > REAL(0.0))
             value += bsdf->specular * ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *

@@ -41,6 +41,10 @@ static inline real vector_luminance(real3 rgb)
     return fma(REAL(0.2126), rgb.x, fma(REAL(0.7152), rgb.y, REAL(0.0722) * rgb.z));
 }
 
+/* How much a colour weighs where parts are chosen by chance. A choice by lengths gives the least sum of the channels' second
+   moments; luminance would choose blue beside green so rarely that the few samples of blue are ten times too bright. */
+static inline real vector_color_size(real3 rgb) { return vector_length(rgb); }
+
 /* a + t (b - a), exactly a where t is 0. */
 static inline real3 vector_mix(real3 a, real3 b, real t) { return a + t * (b - a); }
 

@@ -5,7 +5,7 @@
 // One direction can be scattered by the matte and by the glossy lobe. Where the automaton treats them alike, the event has no
 // class and nothing changes. Where it does not, write f = f_D + f_G for the BSDF times cosine and p for the density of the
 // mixture. Light sampling adds f_c L w_light / p_light for each class c that accepts the light: both parts, no choice. The
-// sampled direction goes on as one class, chosen with probability P_c = |f_c| / |f| (luminances) and divided by it: its
+// sampled direction goes on as one class, chosen with probability P_c = |f_c| / (|f_D| + |f_G|) and divided by it: its
 // throughput is f_c / (p P_c), whose mean over the choice is f_c / p for either class. The density of the direction is p
 // whatever the class, so the weights of light sampling and BSDF sampling, which only know p and p_light, sum to 1 for each
 // class, and the sum over the classes is the whole integral.
@@ -113,7 +113,8 @@ static CLRT_NOINLINE bool filter_choose_matte(const AutomatonStep* step, const B
 {
     const real3 matte = filter_matte_part(bsdf, wi_world);
     const real3 glossy = filter_glossy_part(bsdf, wi_world);
-    real chance = vector_luminance(matte) / vector_luminance(matte + glossy);
+    const real size = vector_color_size(matte) + vector_color_size(glossy);
+    real chance = size > REAL(0.0) ? vector_color_size(matte) / size : REAL(0.5);
     if (!automaton_continues(step->glossy))
         chance = REAL(1.0);
     if (!automaton_continues(step->matte))

@@ -64,8 +64,8 @@ static inline void bsdf_choose_lobes(Bsdf* bsdf)
     bsdf->choose_glossy = (bsdf->lobes == LOBE_GLOSSY) ? REAL(1.0) : REAL(0.0);
     if (!HAS(EFFECT_GLOSSY | EFFECT_MIRROR) || !(bsdf->lobes & LOBE_MATTE) || bsdf->lobes == LOBE_MATTE)
         return;
-    const real matte = vector_luminance(bsdf->matte);
-    const real reflection = vector_luminance(bsdf_reflection_color(bsdf, bsdf->wo.z));
+    const real matte = vector_color_size(bsdf->matte);
+    const real reflection = vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
     const real sum = matte + reflection;
     bsdf->choose_matte = sum > REAL(0.0) ? matte / sum : REAL(1.0);
     bsdf->choose_glossy = (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) - bsdf->choose_matte : REAL(0.0);
@@ -77,7 +77,8 @@ static inline void bsdf_complete(const Bsdf* bsdf, real3 wi, BsdfSample* sample)
     /* Alone, Lambert's lobe is sampled exactly. */
     if (bsdf->lobes == LOBE_MATTE) {
         sample->pdf_w = bsdf_matte_pdf_w(wi);
-        sample->weight = bsdf->matte;
+        /* Along the horizon there is no sample: a density of 0 would say that the lobe is a delta function. */
+        sample->weight = sample->pdf_w > REAL(0.0) ? bsdf->matte : (real3)(REAL(0.0));
         return;
     }
     const BsdfValue eval = bsdf_eval_local(bsdf, wi);

@@ -120,7 +120,8 @@ static inline void material_parameters(const Scene* scene, global const Material
         bsdf->specular = vector_mix((real3)(REAL(0.04)), bsdf->matte, metallic);
         bsdf->matte *= REAL(1.0) - metallic;
     }
-    if (roughness != REAL(1.0)) {
+    /* What is smooth stays so, whatever its map: only alpha calls for the effects of rough lobes. */
+    if (roughness != REAL(1.0) && material->roughness_sqrt_x > 0.0f) {
         const real x = (real)material->roughness_sqrt_x * roughness;
         const real y = (real)material->roughness_sqrt_y * roughness;
         bsdf->alpha_x = fmax(x * x, MATERIAL_SMALLEST_ALPHA);

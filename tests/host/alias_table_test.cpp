@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alias table by exact enumeration of its integers.
+// The alias table by exact enumeration of its integers; a million weights are case L07 of the catalogue.
 #include "scene/alias_table.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numeric>
 #include <random>
 
 using namespace clrt;
@@ -25,24 +24,6 @@ std::vector<double> enumerate(const AliasTable& table) {
 }
 
 } // namespace
-
-TEST(AliasTable, EnumerationReproducesAMillionWeights) {
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> uniform(0.01, 1);
-    std::vector<double> weights(1000000);
-    for (double& weight : weights)
-        weight = std::pow(uniform(random), 4) + 0.01;
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const AliasTable table = build_alias_table(weights);
-    const std::vector<double> p = enumerate(table);
-    double worst = 0, worst_stored = 0;
-    for (size_t i = 0; i < p.size(); ++i) {
-        worst = std::max(worst, std::fabs(p[i] * sum / weights[i] - 1));
-        worst_stored = std::max(worst_stored, std::fabs(p[i] / table.probability[i] - 1));
-    }
-    EXPECT_LT(worst, 1e-6);
-    EXPECT_LT(worst_stored, 1e-12);
-}
 
 TEST(AliasTable, WeightsOfZeroAreNeverChosen) {
     std::mt19937_64 random(2);

@@ -31,10 +31,6 @@ BsdfProbe& probe() {
     return instance;
 }
 
-double luminance(const dvec3& rgb) {
-    return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
-}
-
 struct Reference {
     dvec3 value{0};
     double pdf_w = 0;
@@ -74,7 +70,7 @@ Reference reference_eval(const LobeSet& set, const dvec3& wo, const dvec3& wi) {
     if (wi.z <= 0)
         return {};
     const bool has_matte = set.lobes & LOBE_MATTE;
-    const double matte = luminance(set.matte), reflection = luminance(reflection_color(set, wo.z));
+    const double matte = glm::length(set.matte), reflection = glm::length(reflection_color(set, wo.z));
     const double choose_matte = !has_matte ? 0 : set.lobes == LOBE_MATTE ? 1 : matte / (matte + reflection);
     Reference sum{set.matte * (wi.z / PI), choose_matte * wi.z / PI};
     if (set.lobes & LOBE_GLOSSY) {
@@ -276,7 +272,7 @@ TEST(Bsdf, AMirrorBesideAMatteLobeSharesTheSamples) {
         const BsdfSamples samples = probe().sample(set, wo, u);
         for (size_t i = 0; i < COUNT; ++i) {
             const dvec3 color = reflection_color(set, wo[i].z);
-            const double choose_matte = luminance(set.matte) / (luminance(set.matte) + luminance(color));
+            const double choose_matte = glm::length(set.matte) / (glm::length(set.matte) + glm::length(color));
             const bool spread = samples.pdf_w[i] > 0;
             ASSERT_TRUE(std::abs(u[i].x - choose_matte) < 1e-6 || spread == (u[i].x < choose_matte)) << name;
             const dvec3 weight = spread ? set.matte / choose_matte : color / (1 - choose_matte);

@@ -4,7 +4,6 @@
 #include "support/kernel_probe.h"
 #include "support/random_inputs.h"
 #include "support/reference.h"
-#include "support/sphere_cells.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -73,19 +72,6 @@ std::vector<float> cosines(size_t count) {
         cosines.push_back(float(i % 2 ? t : 0.5 - 0.5 * std::cos(PI * t)));
     }
     return cosines;
-}
-
-/// Integral over the hemisphere of reflectance times cosine over pi: the mean of F for diffuse light.
-double hemispherical(double eta) {
-    constexpr size_t NODES = size_t{1} << 18;
-    std::vector<float> cosine(NODES);
-    for (size_t i = 0; i < NODES; ++i)
-        cosine[i] = float((double(i) + 0.5) / NODES);
-    const std::vector<float> f = probe().run<float>("dielectric", cosine, same(float(eta), NODES));
-    double sum = 0;
-    for (size_t i = 0; i < NODES; ++i)
-        sum += 2 * cosine[i] * double(f[i]) / NODES;
-    return sum;
 }
 
 } // namespace
@@ -258,9 +244,4 @@ TEST(Fresnel, RefractedDirectionsObeySnellsLaw) {
     EXPECT_LE(length, 4 * FLOAT_U);
     EXPECT_LE(snell, 8 * FLOAT_U); // 4 u of the direction, 3 u of the length of n, 1 u of wo's
     EXPECT_LT(side, 0);
-}
-
-TEST(Fresnel, DiffuseLightIsReflectedByTheKnownShare) {
-    EXPECT_NEAR(hemispherical(1 / 1.5), 0.0917779594, 1e-6); // from outside
-    EXPECT_NEAR(hemispherical(1.5), 0.5963457597, 1e-6);     // from inside
 }

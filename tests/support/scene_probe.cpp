@@ -3,6 +3,7 @@
 #include "support/scene_probe.h"
 
 #include "render/scene_buffers.h"
+#include "support/ray_device.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -10,14 +11,14 @@
 namespace clrt {
 
 SceneProbe::SceneProbe(std::vector<std::string> headers, const std::string& text)
-    : probe_(test_device(), std::move(headers)) {
+    : probe_(test_device(), std::move(headers), {}, kernels_under_test()) {
     probe_.add_text("vec4 probe_vec4(real3 v, real w) { return (vec4)(convert_float3(v), (float)w); }\n" +
                     text);
 }
 
 void SceneProbe::add(const std::string& name, const std::string& statements) {
     probe_.add_text(fmt::format(
-        "kernel void probe_{}(SCENE_PARAMS, const RenderParams params_value, const u32 count, global const "
+        "CLRT_KERNEL void probe_{}(SCENE_PARAMS, const RenderParams params_value, const u32 count, global const "
         "vec4* in_a,\n"
         "                     global const vec4* in_b, global const vec4* in_c, global vec4* out_first,\n"
         "                     global vec4* out_second, global vec4* out_third)\n"

@@ -48,6 +48,11 @@ const std::vector<RobustChoice>& robust_choices() {
         {"film sum", "blocks of 1024 floats, two-sum", "64-bit fixed point", "A02", 1, time_film_blocks},
         {"film sum", "a double", "64-bit fixed point", "A02", 2, time_film_double},
         {"guard against bad samples", "none", "exponent bits, counted by kind", "X01", 0, time_film_guard},
+        {"Distribution of normals", "by cos^2", "by local components", "R01", 0, time_ggx_d},
+        {"Random number from a word", "word / 2^32", "odd multiples of 2^-24", "P05", 0, time_uniforms},
+        {"Frame around a normal", "1 / (1 + z)", "1 / (|z| + 1)", "P04", 0, time_frames},
+        {"Choice among 4096 lights", "sums in float, bisection", "alias table of integers", "L07", 0, time_light_choice},
+        {"MIS weight", "squares of densities", "square of their ratio", "L09", 0, time_mis_weight},
     };
     return choices;
 }

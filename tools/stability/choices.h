@@ -16,4 +16,17 @@ ProbeTime time_film_blocks(const Device& device);
 ProbeTime time_film_double(const Device& device);
 ProbeTime time_film_guard(const Device& device);
 
+/// The distribution of microfacet normals (cases/roughness_cases.cpp).
+ProbeTime time_ggx_d(const Device& device);
+
+/// A word as a number, and a frame around a normal (cases/number_cases.cpp).
+ProbeTime time_uniforms(const Device& device);
+ProbeTime time_frames(const Device& device);
+
+/// Choosing one of many lights (cases/light_table_cases.cpp).
+ProbeTime time_light_choice(const Device& device);
+
+/// The power heuristic (cases/light_cases.cpp).
+ProbeTime time_mis_weight(const Device& device);
+
 } // namespace clrt

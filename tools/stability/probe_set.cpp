@@ -39,11 +39,11 @@ std::string kernel_text(const ProbedExpression& e, const std::string& code) {
         keep += fmt::format("out_values[(size_t){}u * count + i] = out[{}]; ", k, k);
     for (int k = 1; k < e.outputs; ++k)
         add += fmt::format(" + out[{}]", k);
-    return fmt::format("__kernel void run_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
+    return fmt::format("CLRT_KERNEL void run_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
                        "    const u32 i = (u32)get_global_id(0);\n"
                        "    if (i < count) {{ {2} real out[{3}]; {{ {4} }} {5} }}\n"
                        "}}\n"
-                       "__kernel void time_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
+                       "CLRT_KERNEL void time_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
                        "    real sum = REAL(0.0);\n"
                        "    for (u32 k = 0; k < {6}u; ++k) {{\n"
                        "        const u32 i = (u32)get_global_id(0) * {6}u + k;\n"

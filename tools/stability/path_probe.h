@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single light paths of a scene: the integrators' own functions, sample by sample, without camera and film, whose rounding
+// would hide the last digits.
+#pragma once
+
+#include "bvh/bvh.h"
+#include "render/scene_buffers.h"
+#include "stability/stability_case.h"
+#include "support/ray_device.h"
+#include "support/render_scene.h"
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace clrt {
+
+/// A scene on the device in every build but naive; the programs are made once a process.
+class PathProbe {
+public:
+    /// Loads the scene; its camera is not used. Its options give depth, roulette and seed.
+    PathProbe(const Device& device, const TestScene& scene) : PathProbe(device, scene.load(), scene.options) {}
+    PathProbe(const Device& device, Scene scene, const Options& options);
+
+    /// What the integrators get; a case may change it.
+    RenderParams params{};
+    const Scene& scene() const { return scene_; }
+
+    /// The ray from one point towards another, both in the scene's units.
+    TestRay ray(const glm::dvec3& origin, const glm::dvec3& at) const;
+
+    /// The radiance along each ray, `samples` of them one after the other.
+    std::vector<glm::dvec3> radiance(Build build, Integrator integrator, const std::vector<TestRay>& rays,
+                                     size_t samples = 1) const;
+
+private:
+    const Device& device_;
+    Scene scene_;
+    SceneBuffers buffers_;
+};
+
+/// The builds that PathProbe has: single and double. FAST is left out: it would cost the seconds of a program to show what the
+/// arithmetic cases show.
+std::vector<Build> path_builds(const CaseRun& run);
+
+} // namespace clrt
