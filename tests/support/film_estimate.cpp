@@ -39,15 +39,4 @@ glm::dvec3 film_pixel(const Film& film, int x, int y) {
     return rgb;
 }
 
-testing::AssertionResult agrees(const Estimate& estimate, double expected, double sharpness,
-                                double rounding) {
-    const double difference = std::abs(estimate.mean - expected), scale = std::abs(expected);
-    const bool sharp = estimate.error <= sharpness * scale;
-    if (sharp && difference <= LARGEST_Z * estimate.error + rounding * scale)
-        return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "expected " << expected << ", found " << estimate.mean << " +- "
-                                       << estimate.error << " (z = " << difference / estimate.error << ")"
-                                       << (sharp ? "" : ", too noisy for this comparison");
-}
-
 } // namespace clrt

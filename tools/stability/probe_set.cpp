@@ -12,20 +12,25 @@ namespace clrt {
 
 namespace {
 
+/// The name of input `k`: a, b, ... without i, which is the index.
+char input_letter(int k) {
+    return static_cast<char>('a' + k + (k >= 'i' - 'a'));
+}
+
 /// Elements that a work-item of a timed kernel goes through, so that arithmetic and not the launch is timed.
 constexpr u32 TIMED_ELEMENTS = 64;
 
 std::string input_parameters(const ProbedExpression& e) {
     std::string text;
     for (int k = 0; k < e.inputs; ++k)
-        text += fmt::format("__global const float *restrict in_{}, ", static_cast<char>('a' + k));
+        text += fmt::format("__global const float *restrict in_{}, ", input_letter(k));
     return text;
 }
 
 std::string read_inputs(const ProbedExpression& e) {
     std::string text;
     for (int k = 0; k < e.inputs; ++k) {
-        const char letter = static_cast<char>('a' + k);
+        const char letter = input_letter(k);
         text += fmt::format("const real {0} = (real)in_{0}[i]; (void){0}; ", letter);
     }
     return text;
@@ -85,6 +90,13 @@ const ProbedExpression& ProbeSet::find(const std::string& name) const {
     throw std::logic_error("no expression " + name);
 }
 
+void ProbeSet::use_naive_kernels(KernelFiles files) {
+    naive_kernels_ = std::move(files);
+    for (ProbedExpression& expression : expressions_)
+        if (expression.naive.empty())
+            expression.naive = expression.code;
+}
+
 bool ProbeSet::has(Build build, const std::string& expression) const {
     if (build == Build::DOUBLE)
         return device_.info.fp64;
@@ -95,7 +107,7 @@ KernelProbe& ProbeSet::probe(Build build) {
     std::unique_ptr<KernelProbe>& made = probes_[build];
     if (!made) {
         made = std::make_unique<KernelProbe>(device_, headers_, ProbeOptions{precision_of(build), defines_},
-                                             kernels_under_test());
+                                             build == Build::NAIVE && naive_kernels_ ? *naive_kernels_ : kernels_under_test());
         made->add_text(text_);
         for (const ProbedExpression& e : expressions_)
             if (build != Build::NAIVE || !e.naive.empty())
@@ -108,7 +120,7 @@ Kernel ProbeSet::prepare(Build build, const std::string& kernel, const Columns& 
     KernelProbe& p = probe(build);
     Kernel made = p.kernel(kernel);
     for (size_t k = 0; k < inputs.size(); ++k)
-        made.set(std::string("in_") + static_cast<char>('a' + k), p.upload(inputs[k]));
+        made.set(std::string("in_") + input_letter(int(k)), p.upload(inputs[k]));
     out = create_buffer(device_, "out", out_values * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
     made.set("out_values", out);
     made.set("count", static_cast<u32>(inputs[0].size()));
@@ -143,15 +155,21 @@ ProbeTime ProbeSet::time(const std::string& expression, const Columns& inputs, i
     const Build builds[2] = {Build::NAIVE, Build::SINGLE};
     const Kernel kernels[2] = {prepare(builds[0], "time_" + e.name, inputs, outs[0], rounded_items),
                                prepare(builds[1], "time_" + e.name, inputs, outs[1], rounded_items)};
+    const auto launch = [&](int side) { return [&, side] { probe(builds[side]).launch(kernels[side], items); }; };
+    return time_in_turns(launch(0), launch(1), count, rounds);
+}
+
+ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single, size_t elements,
+                        int rounds) {
     std::vector<double> seconds[2], ratios;
     for (int round = 0; round <= rounds; ++round) {
         double taken[2];
         for (int side = 0; side < 2; ++side) {
             const auto start = std::chrono::steady_clock::now();
-            probe(builds[side]).launch(kernels[side], items);
-            taken[side] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(count);
+            (side ? single : naive)();
+            taken[side] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(elements);
         }
-        if (round == 0) // the driver compiles in its first launch
+        if (round == 0)
             continue;
         seconds[0].push_back(taken[0]);
         seconds[1].push_back(taken[1]);

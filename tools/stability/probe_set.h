@@ -6,13 +6,15 @@
 #include "support/kernel_probe.h"
 
 #include <map>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace clrt {
 
-/// Statements that read the inputs a, b, c, ... and the index i, and assign out[0], out[1], ... (all `real`).
+/// Statements that read the inputs a, b, c, ... (never i) and the index i, and assign out[0], out[1], ... (all `real`).
 struct ProbedExpression {
     std::string name;
     int inputs = 1, outputs = 1;
@@ -30,12 +32,20 @@ struct ProbeTime {
     double ratio_low = 0, ratio_high = 0; ///< its quartiles
 };
 
+/// Times two ways of doing the same to `elements` inputs in turns; the first round of each, in which drivers compile, does not
+/// count.
+ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single, size_t elements,
+                        int rounds = 15);
+
 class ProbeSet {
 public:
     /// `headers` by their path below kernels/; `text`: functions that the expressions need. One program a build, made when it is
     /// first needed.
     ProbeSet(const Device& device, std::vector<std::string> headers, std::vector<ProbedExpression> expressions,
              std::string text = "", std::vector<std::string> defines = {});
+
+    /// Gives the naive build kernel files of its own: so the same expression shows what they do.
+    void use_naive_kernels(KernelFiles files);
 
     /// The outputs, one array each, widened to double. Inputs stay float in every build.
     std::vector<std::vector<double>> run(Build build, const std::string& expression, const Columns& inputs);
@@ -56,6 +66,7 @@ private:
     std::vector<ProbedExpression> expressions_;
     std::string text_;
     std::vector<std::string> defines_;
+    std::optional<KernelFiles> naive_kernels_;
     std::map<Build, std::unique_ptr<KernelProbe>> probes_;
 };
 

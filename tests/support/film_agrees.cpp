@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Apart from film_estimate.cpp, so that programs without GoogleTest can link that.
+#include "support/film_estimate.h"
+
+#include <cmath>
+
+namespace clrt {
+
+testing::AssertionResult agrees(const Estimate& estimate, double expected, double sharpness,
+                                double rounding) {
+    const double difference = std::abs(estimate.mean - expected), scale = std::abs(expected);
+    const bool sharp = estimate.error <= sharpness * scale;
+    if (sharp && difference <= LARGEST_Z * estimate.error + rounding * scale)
+        return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "expected " << expected << ", found " << estimate.mean << " +- "
+                                       << estimate.error << " (z = " << difference / estimate.error << ")"
+                                       << (sharp ? "" : ", too noisy for this comparison");
+}
+
+} // namespace clrt
