@@ -22,18 +22,19 @@ static inline Frame frame_make(real3 n)
     return frame;
 }
 
-/* A frame around n whose x axis is the part of t across n; frame_make(n) where t is zero or along n. */
+/* A frame around n whose x axis is the part of t across n; frame_make(n) where t is zero or along n. By cross products: they
+   keep their digits where t is nearly along n, where t - (t . n) n would cancel. */
 static inline Frame frame_make_tangent(real3 n, real3 t)
 {
-    const real3 across = t - vector_dot(t, n) * n;
-    const real length_squared = vector_dot(across, across);
-    /* Below this share of |t| the direction across n is rounding noise. */
+    const real3 beside = vector_cross(n, t);
+    const real length_squared = vector_dot(beside, beside);
+    /* Below this share of |t| the direction across n is rounding noise of t itself. */
     const real noise = REAL(16.0) * REAL_ROUNDING;
     if (!(length_squared > noise * noise * vector_dot(t, t)))
         return frame_make(n);
     Frame frame;
-    frame.x = across / real_sqrt(length_squared);
-    frame.y = vector_cross(n, frame.x);
+    frame.y = beside / real_sqrt(length_squared);
+    frame.x = vector_cross(frame.y, n);
     frame.z = n;
     return frame;
 }

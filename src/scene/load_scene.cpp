@@ -4,6 +4,7 @@
 #include "error.h"
 #include "scene/assemble_geometry.h"
 #include "scene/camera_fit.h"
+#include "scene/cut_vast.h"
 #include "scene/colour.h"
 #include "scene/environment.h"
 #include "scene/lights.h"
@@ -119,6 +120,10 @@ Scene load_all(const Options& options, Progress& progress) {
     scene.normalisation = fit_normalisation(bounds);
     const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
     assemble_geometry(mesh, bounds, scene.normalisation, options.scene_path, scene, notices);
+    const CutTriangles cut = cut_vast_triangles(scene);
+    if (cut.vast)
+        notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}", options.scene_path,
+                                     cut.vast, cut.vast + cut.added));
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
     const bool whole_camera = options.camera.eye && options.camera.at;

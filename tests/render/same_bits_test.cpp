@@ -197,29 +197,6 @@ TEST(SameBits, AllTreesFindTheSameHits) {
     }
 }
 
-TEST(SameBits, AScaleByAPowerOfTwoChangesNothing) {
-    for (const int exponent : {-10, 10}) {
-        SmallScene scene(make_room);
-        scene.build.material("gloss", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2");
-        scene.build.use("gloss").icosphere({0.5, 0.4, 0.2}, 0.3, 2, Facing::OUTWARD, Shading::SMOOTH);
-        const Film unscaled = scene.render().film;
-        scene.scale = std::ldexp(1.0, exponent);
-        *scene.options.camera.eye *= scene.scale;
-        *scene.options.camera.at *= scene.scale;
-        EXPECT_EQ(count_differences(unscaled, scene.render().film), 0u) << exponent;
-    }
-}
-
-TEST(SameBits, TrianglesWithoutAreaChangeNothing) {
-    SmallScene scene(make_room);
-    const Film clean = scene.render().film;
-    scene.build.use("red").polygon({{0, 1, 0}, {0, 1, 0}, {0, 1, 0}});            // a point
-    scene.build.use("white").polygon({{-1, 0.5, 0}, {0, 0.5, 0}, {1, 0.5, 0}});   // a line
-    scene.build.use("lamp").polygon({{0, 0.2, 0}, {0, 0.2, 0}, {0.5, 0.9, 0.5}}); // a line that would shine
-    scene.build.raw("v nan 0 0\nf -1 -2 -3\nf 1 2");
-    EXPECT_EQ(count_differences(clean, scene.render().film), 0u);
-}
-
 TEST(SameBits, TheSameRunTwiceGivesTheSameFilmAndAnotherSeedAnother) {
     SmallScene scene(make_optics);
     const Film first = scene.render().film;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that break builders and traversals: no area, copies, twins, nothing at all, depth without end.
-#include "support/meshes.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
+// Meshes that break builders and traversals: corners on a line, coordinates that are not finite, needles. More is in the catalogue
+// (tools/stability/cases/degenerate_cases.cpp).
+#include "support/aimed_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,26 +11,6 @@
 
 namespace clrt {
 namespace {
-
-/// Rays from around the cube [-1, 1]^3 to points and corners within.
-std::vector<TestRay> rays_at(const Scene& scene, size_t count, u32 seed) {
-    Random random(seed);
-    std::vector<TestRay> rays;
-    while (rays.size() < count) {
-        glm::dvec3 target = random.in_cube(1);
-        if (rays.size() % 2 && !scene.triangles.empty())
-            target = corner_position(scene, scene.triangles[random.word() % scene.triangles.size()], 0);
-        rays.push_back(make_ray_to(random.in_cube(2), target));
-    }
-    return rays;
-}
-
-size_t count_differences(const std::vector<TestHit>& a, const std::vector<TestHit>& b) {
-    size_t differences = a.size() != b.size();
-    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        differences += a[i] != b[i];
-    return differences;
-}
 
 size_t count_hits(const std::vector<TestHit>& hits) {
     return size_t(
@@ -50,24 +29,6 @@ void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays, si
 }
 
 } // namespace
-
-TEST(Degenerate, TrianglesWithEqualCornersChangeNoHit) {
-    const Scene soup = make_soup(2000, 0.3, 1);
-    Scene with_degenerate = soup;
-    Random random(1);
-    const auto any_position = [&] { return u32(random.word() % with_degenerate.positions.size()); };
-    for (int i = 0; i < 10000; ++i) {
-        const u32 a = any_position(), b = any_position();
-        add_triangle(with_degenerate, a, i % 2 == 0 ? a : b, a);
-    }
-    const std::vector<TestRay> rays = rays_at(with_degenerate, 50000, 1);
-    for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(with_degenerate, layout);
-        EXPECT_EQ(device.bvh().triangle_count, soup.triangles.size());
-        EXPECT_EQ(count_differences(device.closest(rays), RayDevice(soup, layout).closest(rays)), 0u)
-            << layout_name(layout);
-    }
-}
 
 TEST(Degenerate, CornersInLineAreHitAsTheTriangleTestSays) {
     Scene scene = make_soup(2000, 0.3, 1);
@@ -108,90 +69,6 @@ TEST(Degenerate, TrianglesThatAreNotFiniteChangeNoHit) {
     }
 }
 
-// Copies first, the original last: the tree must not keep the one it meets first.
-TEST(Degenerate, OfManyCopiesTheLowestIndexIsHit) {
-    constexpr u32 COPIES = 100000;
-    Scene scene = make_empty_scene();
-    const u32 first = add_position(scene, {-1, -1, 0});
-    add_position(scene, {1, -1, 0.5});
-    add_position(scene, {0, 1, -0.5});
-    for (u32 i = 0; i < COPIES; ++i)
-        add_triangle(scene, first, first + 1, first + 2);
-    Random random(3);
-    std::vector<TestRay> rays;
-    for (int i = 0; i < 64; ++i)
-        rays.push_back(
-            make_ray_to(random.in_cube(0.5) + glm::dvec3(0, 0, 3), {random.between(-0.2, 0.2), -0.3, 0}));
-    for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(scene, layout);
-        EXPECT_LE(device.bvh().depth, BVH_MAX_DEPTH);
-        size_t wrong = 0;
-        for (const TestHit& hit : device.closest(rays))
-            wrong += hit.triangle != 0;
-        EXPECT_EQ(wrong, 0u) << layout_name(layout);
-    }
-}
-
-TEST(Degenerate, OfTwinsTheFirstIsHit) {
-    Scene scene = make_tilted_plane(16);
-    const u32 count = u32(scene.triangles.size());
-    Random random(4);
-    // Each triangle once more, in another order and with its corners in another order, which turns the
-    // winding too.
-    std::vector<Triangle> twins = scene.triangles;
-    for (u32 i = count - 1; i > 0; --i)
-        std::swap(twins[i], twins[random.word() % (i + 1)]);
-    for (const Triangle& twin : twins)
-        add_triangle(scene, twin.v0, twin.v1, twin.v2);
-    const std::vector<TestRay> rays = rays_at(scene, 50000, 4);
-    expect_hits_of_all(scene, rays, rays.size() / 4);
-    for (const BvhLayout layout : ALL_LAYOUTS)
-        for (const TestHit& hit : RayDevice(scene, layout).closest(rays))
-            ASSERT_TRUE(hit.triangle == NO_INDEX || hit.triangle < count) << layout_name(layout);
-}
-
-TEST(Degenerate, AnEmptySceneIsHitNowhere) {
-    Scene scene = make_empty_scene();
-    const std::vector<TestRay> rays = rays_at(scene, 10000, 5);
-    for (int points = 0; points < 2; ++points) {
-        for (const BvhLayout layout : ALL_LAYOUTS) {
-            const RayDevice device(scene, layout);
-            EXPECT_EQ(count_hits(device.closest(rays)), 0u) << layout_name(layout);
-            const std::vector<u32> any = device.any(rays);
-            EXPECT_EQ(std::count(any.begin(), any.end(), 1u), 0) << layout_name(layout);
-        }
-        add_triangle(scene, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}); // a point is nothing, too
-    }
-}
-
-TEST(Degenerate, ASingleTriangleIsHitWhereItIs) {
-    Scene scene = make_empty_scene();
-    add_triangle(scene, {-1, -1, 0.25}, {1, -1, 0.25}, {0, 1, 0.25});
-    const std::vector<TestRay> rays = rays_at(scene, 20000, 6);
-    expect_hits_of_all(scene, rays, rays.size() / 20);
-}
-
-// Triangles at 2^-k: each level of a tree splits few of them off.
-TEST(Degenerate, ChainsOfShrinkingTrianglesAreHitLikeAllTriangles) {
-    Scene scene = make_empty_scene();
-    for (int k = 0; k <= 120; ++k) {
-        const double s = std::ldexp(1.0, -k);
-        add_triangle(scene, {s, 0, 0}, {s, s / 2, 0}, {s, 0, s / 2});
-        add_triangle(scene, {s, s, 0}, {s / 2, s, s / 4}, {s, s / 2, s / 4});
-    }
-    Random random(7);
-    std::vector<TestRay> rays;
-    for (int i = 0; i < 100000; ++i) {
-        const Triangle& triangle = scene.triangles[random.word() % scene.triangles.size()];
-        const glm::dvec3 target = corner_position(scene, triangle, int(random.word() % 3));
-        // From everywhere, and along the chain so that all boxes are met.
-        rays.push_back(
-            i % 2 ? make_ray_to(random.in_cube(2), target)
-                  : make_ray({-0.5, 0, 0}, {1, random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3)}));
-    }
-    expect_hits_of_all(scene, rays, rays.size() / 8);
-}
-
 // Nested triangles: a tree of about 50 levels, where each ray meets all boxes.
 TEST(Degenerate, ADeepTreeOverflowsNoStack) {
     Scene scene = make_empty_scene();
@@ -209,24 +86,6 @@ TEST(Degenerate, ADeepTreeOverflowsNoStack) {
     for (const BvhLayout layout : ALL_LAYOUTS)
         EXPECT_GT(RayDevice(scene, layout).bvh().depth, 40) << layout_name(layout);
     expect_hits_of_all(scene, rays, rays.size() * 2 / 5);
-}
-
-// Beside each of 58 shrinking levels stands a group of much larger triangles: the cheapest wide tree would
-// have more levels than the stack of cwbvh has entries. Rays near the small end meet nearly all boxes.
-TEST(Degenerate, TheLongestPathOverflowsNoStack) {
-    Scene scene = make_empty_scene();
-    for (int k = 0; k < 58; ++k)
-        for (int i = 0; i < 64; ++i) {
-            const double s = std::ldexp(1.0, 58 - 3 * k), step = s / 8, y = i % 8 * step, z = i / 8 * step;
-            add_triangle(scene, {0.9 * s, y, z}, {s, y + step / 2, z}, {0.95 * s, y, z + step / 2});
-        }
-    Random random(10);
-    std::vector<TestRay> rays;
-    for (int i = 0; i < 2000; ++i)
-        rays.push_back(make_ray_to(
-            {0, 0, 0},
-            corner_position(scene, scene.triangles[random.word() % scene.triangles.size()], i % 3)));
-    expect_hits_of_all(scene, rays, rays.size() / 4);
 }
 
 // Edges whose products underflow when they are squared, and edges that become parallel when they are rounded:

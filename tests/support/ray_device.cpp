@@ -24,6 +24,10 @@ typedef struct {
     u32 triangle;
 } TracedHit;
 
+typedef struct {
+    real x, y, z, offset;
+} TracedPoint;
+
 static Ray load_ray(global const float4* rays, size_t i)
 {
     Ray ray = ray_make(vector_from(rays[2 * i]), vector_from(rays[2 * i + 1]));
@@ -119,6 +123,18 @@ const EntryPoint ENTRY_POINTS[] = {
     const Surface surface = load_surface(&scene, &ray, &traced);
     const real3 n = surface.normal_g;
     out[i] = (float4)((float)n.x, (float)n.y, (float)n.z, (float)surface.offset);)"},
+    {"surface_light", "u32", SURFACE_PARAMETERS, R"(
+    const TracedHit traced = hits[i];
+    const Surface surface = load_surface(&scene, &ray, &traced);
+    const u32 word = (u32)(in[i].x * 16777216.0f) << 8;
+    const LightSample light = emitter_sample(&scene, &params, surface.position, word, 0u, (real)in[i].y);
+    const Ray shadow = light_shadow_ray(&surface, &light);
+    out[i] = light.pdf_w == REAL(0.0) ? 0u : scene_any_hit(&scene, &params, &shadow) ? 2u : 1u;)"},
+    {"surface_point", "TracedPoint", SURFACE_PARAMETERS, R"(
+    const TracedHit traced = hits[i];
+    const Surface surface = load_surface(&scene, &ray, &traced);
+    const TracedPoint point = {surface.position.x, surface.position.y, surface.position.z, surface.offset};
+    out[i] = point;)"},
 };
 
 /// The functions, and all entry points between the same beginning and end.
@@ -149,13 +165,18 @@ struct DoubleHit {
     double t, b1, b2;
     u32 triangle, padding;
 };
+template <class Number>
+struct NumberPoint {
+    Number x, y, z, offset;
+};
 
 KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
     // Never freed, like the test device that they refer to.
-    using Key = std::tuple<BvhLayout, Precision, u32, std::vector<std::string>>;
+    using Key = std::tuple<BvhLayout, Precision, u32, std::vector<std::string>, std::string>;
     static auto* const probes = new std::map<Key, std::unique_ptr<KernelProbe>>;
     std::unique_ptr<KernelProbe>& probe =
-        (*probes)[{chosen.layout, chosen.precision, chosen.effects, chosen.defines}];
+        (*probes)[{chosen.layout, chosen.precision, chosen.effects, chosen.defines,
+                   chosen.variant ? chosen.variant->name : ""}];
     if (!probe) {
         ProbeOptions options;
         options.precision = chosen.precision;
@@ -164,7 +185,8 @@ KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
         options.defines.push_back(fmt::format("CLRT_EFFECTS={:#x}u", chosen.effects));
         options.defines.push_back(fmt::format("MOST_LAYERS={}u", MOST_LAYERS));
         probe = std::make_unique<KernelProbe>(
-            test_device(), std::vector<std::string>{"geometry/visibility.h", "geometry/surface.h"}, options);
+            test_device(), std::vector<std::string>{"geometry/visibility.h", "lights/emitter.h"}, options,
+            chosen.variant ? chosen.variant->files : kernels_under_test());
         probe->add_text(kernel_text());
     }
     return *probe;
@@ -188,13 +210,14 @@ bool operator==(const TestHit& a, const TestHit& b) {
 }
 
 RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects)
-    : RayDevice(scene, RayDeviceOptions{layout, BvhQuality::FAST, precision, effects, {}, {}}) {}
+    : RayDevice(scene, RayDeviceOptions{layout, BvhQuality::FAST, precision, effects, {}, {}, nullptr}) {}
 
 RayDevice::RayDevice(const Scene& scene, const RayDeviceOptions& options)
     : probe_(ray_probe(options)), precision_(options.precision),
       bvh_(build_bvh(scene.positions, scene.triangles, options.layout, options.quality)),
       buffers_(upload_scene(test_device(), scene, bvh_)) {
     params_.scene_extent = options.extent ? *options.extent : extent_of(scene);
+    params_.emitter_count = static_cast<u32>(scene.emitters.size());
     params_.width = static_cast<u32>(scene.triangles.size()); // how many trace_all tests
 }
 
@@ -242,22 +265,31 @@ std::vector<u32> RayDevice::any(const std::vector<TestRay>& rays) const {
     return trace<u32>("trace_any", rays);
 }
 
-std::vector<vec4> RayDevice::at_surfaces(const std::string& name, const std::vector<TestRay>& rays,
-                                         const std::vector<TestHit>& hits,
-                                         const std::vector<vec4>& in) const {
-    assert(precision_ == Precision::SINGLE && hits.size() == rays.size() && in.size() == rays.size());
+Kernel RayDevice::make_surface_kernel(const std::string& name, const std::vector<TestRay>& rays,
+                                      const std::vector<TestHit>& hits, const std::vector<vec4>& in,
+                                      const cl::Buffer& out) const {
+    assert(hits.size() == rays.size() && in.size() == rays.size());
     std::vector<FloatHit> float_hits;
-    float_hits.reserve(hits.size());
+    std::vector<DoubleHit> double_hits;
     for (const TestHit& hit : hits) {
         assert(hit.triangle != NO_INDEX);
-        float_hits.push_back({float(hit.t), float(hit.b1), float(hit.b2), hit.triangle});
+        if (precision_ == Precision::DOUBLE)
+            double_hits.push_back({hit.t, hit.b1, hit.b2, hit.triangle, 0});
+        else
+            float_hits.push_back({float(hit.t), float(hit.b1), float(hit.b2), hit.triangle});
     }
-    const cl::Buffer out = create_buffer(test_device(), "surfaces", in.size() * sizeof(vec4));
     Kernel kernel = make_kernel(name, rays, out);
-    kernel.set("hits", probe_.upload(float_hits));
+    kernel.set("hits", precision_ == Precision::DOUBLE ? probe_.upload(double_hits) : probe_.upload(float_hits));
     kernel.set("in", probe_.upload(in));
-    probe_.launch(kernel, rays.size());
-    return probe_.read<vec4>(out, in.size());
+    return kernel;
+}
+
+template <class Out>
+std::vector<Out> RayDevice::at_surfaces(const std::string& name, const std::vector<TestRay>& rays,
+                                        const std::vector<TestHit>& hits, const std::vector<vec4>& in) const {
+    const cl::Buffer out = create_buffer(test_device(), "surfaces", in.size() * sizeof(Out));
+    probe_.launch(make_surface_kernel(name, rays, hits, in, out), rays.size());
+    return probe_.read<Out>(out, in.size());
 }
 
 std::vector<TestRay> RayDevice::leaving(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
@@ -266,7 +298,7 @@ std::vector<TestRay> RayDevice::leaving(const std::vector<TestRay>& rays, const 
     wanted.reserve(directions.size());
     for (const glm::dvec3& direction : directions)
         wanted.push_back(make_ray(glm::dvec3(0), direction).direction);
-    const std::vector<vec4> origins = at_surfaces("surface_leave", rays, hits, wanted);
+    const std::vector<vec4> origins = at_surfaces<vec4>("surface_leave", rays, hits, wanted);
     std::vector<TestRay> result(rays.size());
     for (size_t i = 0; i < result.size(); ++i)
         result[i] = {{origins[i].x, origins[i].y, origins[i].z, FAR_AWAY}, wanted[i]};
@@ -275,7 +307,41 @@ std::vector<TestRay> RayDevice::leaving(const std::vector<TestRay>& rays, const 
 
 std::vector<vec4> RayDevice::normals(const std::vector<TestRay>& rays,
                                      const std::vector<TestHit>& hits) const {
-    return at_surfaces("surface_normal", rays, hits, std::vector<vec4>(rays.size()));
+    return at_surfaces<vec4>("surface_normal", rays, hits, std::vector<vec4>(rays.size()));
+}
+
+std::vector<TestPoint> RayDevice::points(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const {
+    std::vector<TestPoint> points;
+    const auto keep = [&](const auto& found) {
+        for (const auto& p : found)
+            points.push_back({{p.x, p.y, p.z}, p.offset});
+    };
+    const std::vector<vec4> unused(rays.size());
+    if (precision_ == Precision::DOUBLE)
+        keep(at_surfaces<NumberPoint<double>>("surface_point", rays, hits, unused));
+    else
+        keep(at_surfaces<NumberPoint<float>>("surface_point", rays, hits, unused));
+    return points;
+}
+
+std::vector<u32> RayDevice::lights_seen(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
+                                        const std::vector<vec4>& numbers) const {
+    return at_surfaces<u32>("surface_light", rays, hits, numbers);
+}
+
+std::function<void()> RayDevice::leaver(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const {
+    std::vector<vec4> back;
+    for (const TestRay& ray : rays)
+        back.push_back({-ray.direction.x, -ray.direction.y, -ray.direction.z, 0});
+    const cl::Buffer out = create_buffer(test_device(), "left", rays.size() * sizeof(vec4));
+    return [this, count = rays.size(), kernel = make_surface_kernel("surface_leave", rays, hits, back, out)] {
+        probe_.launch(kernel, count);
+    };
+}
+
+std::function<void()> RayDevice::tracer(const std::vector<TestRay>& rays) const {
+    const cl::Buffer out = create_buffer(test_device(), "traced", rays.size() * sizeof(DoubleHit));
+    return [this, count = rays.size(), kernel = make_kernel("trace_closest", rays, out)] { probe_.launch(kernel, count); };
 }
 
 std::vector<std::vector<u32>> RayDevice::layers(const std::vector<TestRay>& rays) const {

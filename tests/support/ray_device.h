@@ -10,6 +10,7 @@
 #include "scene/scene.h"
 #include "support/kernel_probe.h"
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -44,6 +45,12 @@ inline bool operator!=(const TestHit& a, const TestHit& b) {
     return !(a == b);
 }
 
+/// Other kernel files than those under test; the name tells them apart.
+struct KernelVariant {
+    std::string name;
+    KernelFiles files;
+};
+
 /// What a test may choose about the tree and the programs.
 struct RayDeviceOptions {
     BvhLayout layout = BvhLayout::BVH8;
@@ -53,6 +60,16 @@ struct RayDeviceOptions {
     std::vector<std::string> defines = {};
     std::optional<float> extent =
         {}; ///< the scene's, where `extent_of` would meet coordinates that are not finite
+    const KernelVariant* variant = nullptr; ///< nullptr: the kernels under test
+};
+
+/// What RayDevice::lights_seen gives.
+constexpr u32 NO_LIGHT = 0, LIGHT_SEEN = 1, LIGHT_HIDDEN = 2;
+
+/// The point of a surface and its offset bound.
+struct TestPoint {
+    glm::dvec3 position;
+    double offset;
 };
 
 /// A scene on the test device. Its programs are built once a process for each layout, precision, mask and set
@@ -72,13 +89,27 @@ public:
     std::vector<u32> any(const std::vector<TestRay>& rays) const;
 
     /// Rays that leave the surfaces at `hits` of `rays` in the given directions (surface_at, surface_origin).
-    /// Every hit must be one; single precision.
+    /// Every hit must be one; origins are rounded to float.
     std::vector<TestRay> leaving(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
                                  const std::vector<glm::dvec3>& directions) const;
 
-    /// The unit geometric normal of surface_at for every hit (x, y, z) and the offset bound (w); single
-    /// precision.
+    /// The unit geometric normal of surface_at for every hit (x, y, z) and the offset bound (w), rounded to
+    /// float.
     std::vector<vec4> normals(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
+
+    /// The position of surface_at for every hit, in the kernels' precision.
+    std::vector<TestPoint> points(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
+
+    /// For every hit, whether the point of the emitters that the numbers in `numbers` (x, y in [0, 1)) choose is seen.
+    std::vector<u32> lights_seen(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
+                                 const std::vector<vec4>& numbers) const;
+
+    /// Computes at every call, without copying anything, the surfaces at the hits and where rays back along their way
+    /// leave them: to be timed.
+    std::function<void()> leaver(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
+
+    /// Traces the rays by scene_closest_hit at every call, without copying anything: to be timed.
+    std::function<void()> tracer(const std::vector<TestRay>& rays) const;
 
     /// All hits along every ray, found one after the other with the `after` of scene_closest_hit; at most 16.
     /// Needs EFFECT_CUT_OUT.
@@ -99,8 +130,11 @@ private:
     std::vector<Out> trace(const std::string& kernel, const std::vector<TestRay>& rays,
                            size_t per_ray = 1) const;
     std::vector<TestHit> trace_hits(const std::string& kernel, const std::vector<TestRay>& rays) const;
-    std::vector<vec4> at_surfaces(const std::string& kernel, const std::vector<TestRay>& rays,
-                                  const std::vector<TestHit>& hits, const std::vector<vec4>& in) const;
+    Kernel make_surface_kernel(const std::string& name, const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
+                               const std::vector<vec4>& in, const cl::Buffer& out) const;
+    template <class Out>
+    std::vector<Out> at_surfaces(const std::string& kernel, const std::vector<TestRay>& rays,
+                                 const std::vector<TestHit>& hits, const std::vector<vec4>& in) const;
 
     KernelProbe& probe_;
     Precision precision_;

@@ -37,16 +37,19 @@ void write_texture(const std::string& path, int width, int height, int channels,
 
 RenderPrograms build_programs(Options options, const Effects& effects, BvhLayout layout) {
     const char* folder = std::getenv("CLRT_TEST_KERNELS");
-    options.kernels_folder = folder ? folder : "";
+    if (options.kernels_folder.empty() && folder)
+        options.kernels_folder = folder;
     return build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
 }
 
 const RenderPrograms& programs_for(const Options& options, const Effects& effects, BvhLayout layout) {
-    using Key = std::tuple<Integrator, Precision, SamplerChoice, u32, BvhLayout, std::vector<std::string>>;
+    using Key = std::tuple<Integrator, Precision, SamplerChoice, u32, BvhLayout, std::vector<std::string>,
+                           std::string>;
     // Never freed: at exit some drivers are gone before our statics.
     static auto* const programs = new std::map<Key, RenderPrograms>;
     const Key key{options.integrator, options.precision, options.sampler,
-                  effects.mask,       layout,            path_defines(effects.paths)};
+                  effects.mask,       layout,            path_defines(effects.paths),
+                  options.kernels_folder};
     const auto found = programs->find(key);
     if (found != programs->end())
         return found->second;

@@ -43,6 +43,10 @@ std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>&
 
 const std::vector<RobustChoice>& robust_choices() {
     static const std::vector<RobustChoice> choices = {
+        {"Edge test of triangles", "Moeller-Trumbore", "sheared corners, exact signs", "I01", 0, time_edge_test},
+        {"Box test", "plain slabs", "padded slabs", "I05", 0, time_slab},
+        {"Leaving a surface", "Waechter-Binder", "error bound of the hit", "S04", 0, time_offset},
+        {"Point of a hit", "origin + t direction", "by weights, on pieces of vast triangles", "C04", 0, time_hit_point},
         {"Fresnel reflectance", "1 - eta^2 (1 - cos^2)", "two-product form", "T01", 0, time_fresnel},
         {"film sum", "a float", "64-bit fixed point", "A02", 0, time_film_plain},
         {"film sum", "blocks of 1024 floats, two-sum", "64-bit fixed point", "A02", 1, time_film_blocks},

@@ -29,4 +29,14 @@ ProbeTime time_light_choice(const Device& device);
 /// The power heuristic (cases/light_cases.cpp).
 ProbeTime time_mis_weight(const Device& device);
 
+/// Rays through a soup of triangles, by both edge tests and by both box tests (cases/intersection_cases.cpp).
+ProbeTime time_edge_test(const Device& device);
+ProbeTime time_slab(const Device& device);
+
+/// Surfaces of hits and where rays leave them (cases/offsets_cases.cpp).
+ProbeTime time_offset(const Device& device);
+
+/// The point of a hit, along the ray and by its weights (cases/scale_cases.cpp).
+ProbeTime time_hit_point(const Device& device);
+
 } // namespace clrt

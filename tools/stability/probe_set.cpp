@@ -13,20 +13,25 @@ namespace clrt {
 
 namespace {
 
+/// The name of input `k`: a, b, ... without i, which is the index.
+char input_letter(int k) {
+    return static_cast<char>('a' + k + (k >= 'i' - 'a'));
+}
+
 /// Elements that a work-item of a timed kernel goes through, so that arithmetic and not the launch is timed.
 constexpr u32 TIMED_ELEMENTS = 64;
 
 std::string input_parameters(const ProbedExpression& e) {
     std::string text;
     for (int k = 0; k < e.inputs; ++k)
-        text += fmt::format("__global const float *restrict in_{}, ", static_cast<char>('a' + k));
+        text += fmt::format("__global const float *restrict in_{}, ", input_letter(k));
     return text;
 }
 
 std::string read_inputs(const ProbedExpression& e) {
     std::string text;
     for (int k = 0; k < e.inputs; ++k) {
-        const char letter = static_cast<char>('a' + k);
+        const char letter = input_letter(k);
         text += fmt::format("const real {0} = (real)in_{0}[i]; (void){0}; ", letter);
     }
     return text;
@@ -86,6 +91,13 @@ const ProbedExpression& ProbeSet::find(const std::string& name) const {
     throw std::logic_error("no expression " + name);
 }
 
+void ProbeSet::use_naive_kernels(KernelFiles files) {
+    naive_kernels_ = std::move(files);
+    for (ProbedExpression& expression : expressions_)
+        if (expression.naive.empty())
+            expression.naive = expression.code;
+}
+
 bool ProbeSet::has(Build build, const std::string& expression) const {
     if (build == Build::DOUBLE)
         return device_.info.fp64;
@@ -96,7 +108,7 @@ KernelProbe& ProbeSet::probe(Build build) {
     std::unique_ptr<KernelProbe>& made = probes_[build];
     if (!made) {
         made = std::make_unique<KernelProbe>(device_, headers_, ProbeOptions{precision_of(build), defines_},
-                                             kernels_under_test());
+                                             build == Build::NAIVE && naive_kernels_ ? *naive_kernels_ : kernels_under_test());
         made->add_text(text_);
         for (const ProbedExpression& e : expressions_)
             if (build != Build::NAIVE || !e.naive.empty())
@@ -109,7 +121,7 @@ Kernel ProbeSet::prepare(Build build, const std::string& kernel, const Columns& 
     KernelProbe& p = probe(build);
     Kernel made = p.kernel(kernel);
     for (size_t k = 0; k < inputs.size(); ++k)
-        made.set(std::string("in_") + static_cast<char>('a' + k), p.upload(inputs[k]));
+        made.set(std::string("in_") + input_letter(int(k)), p.upload(inputs[k]));
     out = create_buffer(device_, "out", out_values * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
     made.set("out_values", out);
     made.set("count", static_cast<u32>(inputs[0].size()));

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace clrt {
 /// The precision that a build is compiled in; naive is single.
 Precision precision_of(Build build);
 
-/// Statements that read the inputs a, b, c, ... and the index i, and assign out[0], out[1], ... (all `real`).
+/// Statements that read the inputs a, b, c, ... (never i) and the index i, and assign out[0], out[1], ... (all `real`).
 struct ProbedExpression {
     std::string name;
     int inputs = 1, outputs = 1;
@@ -50,6 +51,9 @@ public:
     ProbeSet(const Device& device, std::vector<std::string> headers, std::vector<ProbedExpression> expressions,
              std::string text = "", std::vector<std::string> defines = {});
 
+    /// Gives the naive build kernel files of its own: so the same expression shows what they do.
+    void use_naive_kernels(KernelFiles files);
+
     /// The outputs, one array each, widened to double. Inputs stay float in every build.
     std::vector<std::vector<double>> run(Build build, const std::string& expression, const Columns& inputs);
 
@@ -69,6 +73,7 @@ private:
     std::vector<ProbedExpression> expressions_;
     std::string text_;
     std::vector<std::string> defines_;
+    std::optional<KernelFiles> naive_kernels_;
     std::map<Build, std::unique_ptr<KernelProbe>> probes_;
 };
 

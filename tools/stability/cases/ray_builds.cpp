@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/cases/ray_builds.h"
+
+#include "naive/naive_kernels.h"
+
+#include <fmt/format.h>
+
+namespace clrt {
+
+const KernelVariant& plain_triangles() {
+    static const KernelVariant variant = {"plain triangles", with_naive(kernels_under_test(), true, false)};
+    return variant;
+}
+
+const KernelVariant& plain_boxes() {
+    static const KernelVariant variant = {"plain boxes", with_naive(kernels_under_test(), false, true)};
+    return variant;
+}
+
+const KernelVariant& plain_offsets() {
+    static const KernelVariant variant = {"plain offsets", with_naive_offset(kernels_under_test())};
+    return variant;
+}
+
+RayDeviceOptions ray_options(Build build, const KernelVariant& naive) {
+    RayDeviceOptions options;
+    options.precision = build == Build::DOUBLE ? Precision::DOUBLE
+                        : build == Build::FAST ? Precision::FAST
+                                               : Precision::SINGLE;
+    options.variant = build == Build::NAIVE ? &naive : nullptr;
+    return options;
+}
+
+void for_each_tree(Build build, const KernelVariant& naive,
+                   const std::function<void(const RayDeviceOptions&, const std::string&)>& trace) {
+    RayDeviceOptions options = ray_options(build, naive);
+    if (build != Build::SINGLE)
+        return trace(options, layout_name(options.layout));
+    for (const BvhLayout layout : ALL_LAYOUTS)
+        for (const BvhQuality quality : {BvhQuality::FAST, BvhQuality::HIGH}) {
+            options.layout = layout;
+            options.quality = quality;
+            trace(options, std::string(layout_name(layout)) + (quality == BvhQuality::HIGH ? " high" : ""));
+        }
+}
+
+std::vector<Build> robust_builds(const CaseRun& run) {
+    std::vector<Build> builds = run.builds();
+    builds.erase(builds.begin());
+    return builds;
+}
+
+std::string ray_text(const TestRay& ray) {
+    const vec4 &o = ray.origin, &d = ray.direction;
+    return fmt::format("({:a}, {:a}, {:a}) + t ({:a}, {:a}, {:a})", o.x, o.y, o.z, d.x, d.y, d.z);
+}
+
+} // namespace clrt
