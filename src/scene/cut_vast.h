@@ -16,7 +16,7 @@ struct CutTriangles {
     size_t added = 0; ///< triangles more than before
 };
 
-/// Cuts triangles whose extent is more than 256 times the extent of a smaller triangle plus the way to it, at the middle of
+/// Cuts triangles whose extent is more than 1024 times the extent of a smaller triangle plus the way to it, at the middle of
 /// their longest edges (Rivara 1984): triangles that share an edge are cut at the same point, so meshes stay closed. A piece
 /// keeps the index of its triangle, the others are appended. Triangles with different corner normals stay whole, and so do
 /// those whose extent is small beside their place, where that decides the error. Positions are in the normalised frame.

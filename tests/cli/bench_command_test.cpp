@@ -94,7 +94,7 @@ TEST_F(BenchCommand, CountsAimedRaysThatGetOut) {
 TEST_F(BenchCommand, FourForRaysThatGetOut) {
     std::filesystem::copy(CLRT_KERNELS_FOLDER, folder.file("kernels"),
                           std::filesystem::copy_options::recursive);
-    std::filesystem::copy_file(CLRT_BENCH_FOLDER "/kernels/naive/triangle.h",
+    std::filesystem::copy_file(CLRT_BENCH_FOLDER "/../naive/kernels/triangle.h",
                                folder.file("kernels/geometry/triangle.h"),
                                std::filesystem::copy_options::overwrite_existing);
     const CommandResult result = bench({"--watertight=100000", "--kernels", "kernels"});

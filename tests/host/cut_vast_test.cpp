@@ -73,7 +73,7 @@ TEST(CutVast, PiecesNearSomethingSmallAreNotVast) {
         for (int k = 0; k < 3; ++k)
             if (glm::length(corner_position(scene, triangle, k)) < 0x1p-18) {
                 ++near;
-                EXPECT_LT(extent(scene, triangle), 512 * 0x1p-20);
+                EXPECT_LT(extent(scene, triangle), 2048 * 0x1p-20);
             }
     EXPECT_GT(near, 320u);
 }

@@ -38,10 +38,6 @@ Render render_scaled(double scale, Precision precision, std::uint32_t spp) {
     return scene.render();
 }
 
-Precision precision_of(Build build) {
-    return build == Build::DOUBLE ? Precision::DOUBLE : Precision::SINGLE;
-}
-
 /// Single, and double where the device has it.
 std::vector<Build> picture_builds(const CaseRun& run) {
     std::vector<Build> builds = {Build::SINGLE};
