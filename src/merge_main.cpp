@@ -7,6 +7,7 @@
 #include "output/image.h"
 #include "render/error_report.h"
 #include "render/merge_films.h"
+#include "run/saving.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -98,13 +99,15 @@ void merge(const MergeOptions& options) {
         spdlog::warn("samples {} to {} are in no film", film.ranges[i - 1].end, film.ranges[i].first - 1);
 
     const Picture picture = film_picture(sum);
-    for (const std::string& path : options.outputs) {
-        if (is_film_path(path))
-            write_film_file(path, sum);
-        else
-            write_picture(picture, path, options.exposure_ev, tonemap_named(options.tonemap));
-        spdlog::info("wrote {}", path);
-    }
+    FinalFiles files;
+    for (const std::string& path : options.outputs)
+        files.write(path, [&] {
+            if (is_film_path(path))
+                write_film_file(path, sum);
+            else
+                write_picture(picture, path, options.exposure_ev, tonemap_named(options.tonemap));
+        });
+    files.finish();
     if (options.quiet)
         return;
     fmt::print("{} x {}, {} spp of {} films, {} s of rendering\n", film.width, film.height, film_samples(film),

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/saving.h"
+
+#include "output/image.h"
+#include "render/picture.h"
+
+#include <spdlog/spdlog.h>
+
+namespace clrt {
+
+namespace {
+
+void write_pictures(const Picture& picture, const Options& options) {
+    for (const std::string& path : options.outputs)
+        write_picture(picture, path, options.exposure_ev, options.tonemap);
+}
+
+/// Saves while the render goes on, whatever happens to the file.
+void save_on_the_way(Progress& progress, const std::function<void()>& save) {
+    try {
+        save();
+    } catch (const SceneError& error) {
+        progress.finish();
+        spdlog::warn("{}; the render goes on", error.what());
+    }
+}
+
+} // namespace
+
+void FinalFiles::write(const std::string& path, const std::function<void()>& writer) {
+    try {
+        writer();
+        spdlog::info("wrote {}", path);
+    } catch (const SceneError& error) {
+        if (first_error_)
+            spdlog::error("{}", error.what());
+        else
+            first_error_ = error;
+    }
+}
+
+void FinalFiles::finish() const {
+    if (first_error_)
+        throw SceneError(*first_error_);
+}
+
+void write_outputs(const Report& report, FinalFiles& files) {
+    const Options& options = report.options;
+    Picture picture = make_picture(report.render, report.scene, options);
+    picture.metadata = report_metadata(report);
+    for (const std::string& path : options.outputs)
+        files.write(path, [&] { write_picture(picture, path, options.exposure_ev, options.tonemap); });
+    if (!options.stats_path.empty())
+        files.write(options.stats_path, [&] { write_text_file(options.stats_path, report_json(report)); });
+}
+
+Saving::Saving(const Scene& scene, const Options& options, const DeviceInfo& device, Progress& progress) {
+    if (!options.checkpoint_path.empty() || !options.resume_path.empty())
+        identity = film_identity(scene, options, film_scale(scene));
+    if (!options.resume_path.empty())
+        resumed = read_resumed_film(options, identity);
+    hooks.resume = resumed ? &*resumed : nullptr;
+    hooks.save_picture = [&](const Render& render) {
+        save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
+    };
+    hooks.save_film = [&](const Render& render) {
+        save_on_the_way(progress, [&] {
+            write_film_file(options.checkpoint_path, film_file(render, options, device));
+        });
+    };
+}
+
+FilmFile Saving::film_file(const Render& render, const Options& options, const DeviceInfo& device) const {
+    return make_film_file(render, identity, options, device);
+}
+
+} // namespace clrt

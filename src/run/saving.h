@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a render writes: pictures and films on the way, and all its files at the end.
+#pragma once
+
+#include "app/progress.h"
+#include "error.h"
+#include "render/checkpoint.h"
+#include "render/film_identity.h"
+#include "render/report.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace clrt {
+
+/// Writes the files at the end of a render. One that cannot be written must not cost the others.
+class FinalFiles {
+public:
+    void write(const std::string& path, const std::function<void()>& writer);
+    /// Throws the first error, if there was one.
+    void finish() const;
+
+private:
+    std::optional<SceneError> first_error_;
+};
+
+/// Pictures and the statistics of a finished render.
+void write_outputs(const Report& report, FinalFiles& files);
+
+/// Film files and pictures beside a render, and the film that it goes on from. Refers to the arguments of its constructor. A save
+/// on the way that fails does not end the render: a full disk may have room later.
+struct Saving {
+    FilmIdentity identity;
+    std::optional<RenderProgress> resumed;
+    RenderHooks hooks;
+
+    Saving(const Scene& scene, const Options& options, const DeviceInfo& device, Progress& progress);
+    Saving(const Saving&) = delete;
+    Saving& operator=(const Saving&) = delete;
+
+    /// Everything about a render that --resume and clrt-merge need.
+    FilmFile film_file(const Render& render, const Options& options, const DeviceInfo& device) const;
+};
+
+} // namespace clrt
