@@ -4,10 +4,10 @@
 #ifndef CLRT_TRACE_TRACE_H
 #define CLRT_TRACE_TRACE_H
 
-#ifdef CLRT_TRACE
-
 #include "numerics/sampler.h"
 #include "shared/trace_types.h"
+
+#ifdef CLRT_TRACE
 
 /* The record of the sample at hand. */
 typedef struct {

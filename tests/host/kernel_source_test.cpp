@@ -8,6 +8,9 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
+#include <set>
+#include <sstream>
 
 using namespace clrt;
 using testing::HasSubstr;
@@ -104,6 +107,28 @@ TEST(KernelSource, EmbeddedFilesAreTheFilesOfTheKernelsFolder) {
         EXPECT_EQ(embedded_kernel_files().at(file), text) << file;
     }
     EXPECT_EQ(embedded_kernel_files().size(), in_folder.size());
+}
+
+// A file is expanded where it is first included. Were that under a condition that is false, it would be nowhere.
+TEST(KernelSource, WhatIsIncludedUnderAConditionIsIncludedNowhereElse) {
+    std::map<std::string, int> includes;
+    std::set<std::string> conditional;
+    for (const auto& [file, text] : embedded_kernel_files()) {
+        std::istringstream lines(text);
+        int depth = file.substr(file.size() - 2) == ".h" ? -1 : 0; // the include guard is no condition
+        for (std::string line; std::getline(lines, line);) {
+            depth += line.rfind("#if", 0) == 0 ? 1 : line.rfind("#endif", 0) == 0 ? -1 : 0;
+            if (line.rfind("#include \"", 0) != 0)
+                continue;
+            const std::string name = line.substr(line.find_last_of("/\"", line.size() - 2) + 1);
+            ++includes[name];
+            if (depth > 0)
+                conditional.insert(name);
+        }
+    }
+    EXPECT_FALSE(conditional.empty());
+    for (const std::string& name : conditional)
+        EXPECT_EQ(includes[name], 1) << name;
 }
 
 TEST_F(KernelFolder, KernelFilesAreReadFromAllLevels) {
