@@ -103,6 +103,10 @@ COLUMNS = ["scene", "device", "integrator", "precision", "sampler", "seed", "spp
            "nonfinite", "command"]
 
 
+# Kinds of samples that a film leaves out.
+BAD_SAMPLES = ("nan", "infinite", "negative", "overflow")
+
+
 def _row(run, scene):
     stats, point = run.stats, run.point
     seconds = stats["seconds"]
@@ -110,7 +114,7 @@ def _row(run, scene):
             point.spp, stats["width"], stats["height"], int(point.cold), *(f"{seconds[name]:.6f}" for name in (
                 "load", "bvh", "compile", "first_launch", "render", "total")), f"{run.cpu_seconds:.6f}",
             repr(run.mse), "" if run.rel_rmse is None else repr(run.rel_rmse), repr(run.relmse),
-            stats.get("error", {}).get("rel_rmse") or "", sum(stats.get("nonfinite", {}).values()), run.command]
+            stats.get("error", {}).get("rel_rmse") or "", sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES), run.command]
 
 
 def write_csv(path, runs, scene):
