@@ -199,6 +199,11 @@ private:
         return normal(triangle.n0) == normal(triangle.n1) && normal(triangle.n0) == normal(triangle.n2);
     }
 
+    bool has_corner_at(const Triangle& t, const vec4& place) const {
+        const auto is_there = [&](u32 v) { return to_dvec3(scene_.positions[v]) == to_dvec3(place); };
+        return is_there(t.v0) || is_there(t.v1) || is_there(t.v2);
+    }
+
     /// Cuts the triangle's longest edge after those of neighbours that have a longer one. False where one cannot be cut.
     bool cut(u32 t) {
         const Edge e = edge(scene_.triangles[t], longest_edge(t));
@@ -216,8 +221,10 @@ private:
         const vec4 a = scene_.positions[e.first], b = scene_.positions[e.second];
         const glm::dvec3 middle = (to_dvec3(a) + to_dvec3(b)) * 0.5;
         const vec4 rounded = {float(middle.x), float(middle.y), float(middle.z), 0};
-        if (to_dvec3(rounded) == to_dvec3(a) || to_dvec3(rounded) == to_dvec3(b))
-            return false; // no float between them
+        // No float between them, or a corner in line is there already: a half would have two equal corners, and so no edges.
+        for (const u32 s : by_edge_[e])
+            if (has_corner_at(scene_.triangles[s], rounded))
+                return false;
         scene_.positions.push_back(rounded);
         const std::vector<u32> sharing = std::move(by_edge_[e]);
         by_edge_.erase(e);

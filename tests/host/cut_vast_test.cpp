@@ -89,6 +89,21 @@ TEST(CutVast, MeshesStayClosed) {
     EXPECT_EQ(open_edges(scene), 0u);
 }
 
+// Their halves would have two equal corners. The line lies along the edge between the ground's triangles.
+TEST(CutVast, LinesWithACornerInTheMiddleStayWhole) {
+    Scene scene = ball_on_ground(0x1p-20);
+    const u32 first = add_position(scene, {-1, 0, -1});
+    add_position(scene, {1, 0, 1});
+    add_position(scene, {0, 0, 0});
+    add_triangle(scene, first, first + 1, first + 2);
+    const Triangle line = scene.triangles.back();
+    const size_t at = scene.triangles.size() - 1;
+    cut_vast_triangles(scene);
+    EXPECT_EQ(scene.triangles[at].v0, line.v0);
+    EXPECT_EQ(scene.triangles[at].v1, line.v1);
+    EXPECT_EQ(scene.triangles[at].v2, line.v2);
+}
+
 TEST(CutVast, TextureCoordinatesAndLabelsGoWithThePlace) {
     Scene scene = ball_on_ground(0x1p-16);
     for (u32 i = 0; i < 4; ++i) {
