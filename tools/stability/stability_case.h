@@ -13,7 +13,7 @@
 
 namespace clrt {
 
-/// How many inputs the cases try: seconds, minutes, hours in all.
+/// How many inputs the cases try: minutes, an hour or so, hours in all.
 enum class Tier { QUICK, NIGHT, LONG };
 
 /// What is compared: the textbook's formula in float, clrt's kernels, the same with relaxed maths, the same in double.

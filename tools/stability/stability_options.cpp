@@ -22,7 +22,7 @@ textbook's formula (naive). Then it times what each robust choice costs.
 
 Options:
   --device NAME    OpenCL device, as for clrt (default: CLRT_DEVICE, else the first GPU, else the CPU)
-  --tier TIER      how many inputs: quick (about a minute), night, long (hours) (default quick)
+  --tier TIER      how many inputs: quick (a few minutes), night, long (hours) (default quick)
   --case ID        only cases whose id begins so, such as T or I01; repeatable
   --list           print the catalogue, and what waits for what, and exit
   --no-costs       leave out the timings
