@@ -108,7 +108,7 @@ const std::vector<StabilityCase>& camera_cases() {
     constexpr const char* LENS = "a thin lens";
     static const std::vector<StabilityCase> cases = {
         {"K01", "ExtremeAngles", "angles of view of 1e-3 and 179.9 degrees, a camera away from all axes, pixel centres",
-         "the pinhole in double", "the study's: a direction in float is good to 1e-7 rad", extreme_angles},
+         "the pinhole in double", "a direction in float is good to 1e-7 rad", extreme_angles},
         {"K02", "LookAlongUp", "an up vector along the view, and 1e-7 to 1e-5 beside it", "orthonormal film vectors",
          "computed in double, rounded once: products of two have 4 u", look_along_up},
         {"K03", "LensRadiusZero", "a lens of radius 0", "the pinhole", "", nullptr, LENS},

@@ -278,7 +278,7 @@ const std::vector<StabilityCase>& degenerate_cases() {
         {"D02", "Garbage", "OBJ files of random bits, words that are no numbers, indices out of range",
          "a picture without bad samples, or a scene error", "no input may end in anything else", garbage},
         {"D03", "Duplicates", "1e5 copies of a triangle", "the lowest index is hit; a soup of as many triangles",
-         "ties are decided by the index; the study's depth and time", duplicates},
+         "ties are decided by the index; a depth of 64 and three times a soup's time: copies must not spoil the tree", duplicates},
         {"D04", "Needles", "a ball of meridian slivers as long as the ball, aimed at vertices and edges",
          "a closed mesh holds every ray", "edge functions have exact signs whatever a triangle's shape", needles},
         {"D05", "CoplanarTwins", "a plane of triangles, and each of them once more", "the lower index is hit",

@@ -109,7 +109,7 @@ void schlick(CaseRun& run) {
 const std::vector<StabilityCase>& grazing_cases() {
     static const std::vector<StabilityCase> cases = {
         {"G01", "GrazedPlane", "a plane seen at 1e-1 to 1e-6 rad", "x = h / tan in double",
-         "the study's: four roundings across the ray, over the angle along it", grazed_plane},
+         "four roundings across the ray, over the angle along it", grazed_plane},
         {"G02", "GrazingBsdfs", "every BSDF at cosines from 0.1 to 1e-30 and 0, evaluated and sampled",
          "numbers that are finite and not negative",
          "a law; weights: one lobe returns at most its colour, two that are chosen by size at most the sum of their sizes",

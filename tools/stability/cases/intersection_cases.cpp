@@ -200,7 +200,7 @@ const std::vector<StabilityCase>& intersection_cases() {
          "a loop over all triangles; a closed box holds every ray", "as I04", face_planes},
         {"I06", "BoxesWithoutThickness", "a grid of 256 x 256 quads in y = 0, aimed at corners and edges", "t = -o.y / d.y",
          "weighted depths 6 u, sum of weights 4 u, two quotients and a product: 13 u where divisions are exact, 21 u where "
-         "within 2.5 units in the last place; the study's 4 u leaves out that weights round too",
+         "within 2.5 units in the last place; 4 u would leave out that weights round too",
          flat_boxes},
         {"I07", "FalseHits", "needles of aspect above 10 seen within a degree of their plane",
          "distance from ray to triangle in double; depths of the corners",
@@ -215,7 +215,7 @@ const std::vector<StabilityCase>& intersection_cases() {
         {"I10", "DeepTree", "triangles at 2^-k, k = 0..120; 58 shrinking groups that make the longest path of a tree",
          "a loop over all triangles", "the builders bound the depth that the stacks are made for", deep_trees},
         {"I11", "BadRays", "NaN, infinity, no direction, no length in every place; a second set of good rays",
-         "a miss by definition", "they are turned away before traversal; the study allows 2.5 times the time of good rays",
+         "a miss by definition", "they are turned away before traversal; 2.5 times the time of good rays is what Embree's tests allow",
          bad_rays},
         {"I12", "FarSmallBall", "a ball of triangles seen from 10 to 1e5 radii", "distance to the vertex aimed at",
          "the rounded direction passes the target by up to 2 u of the distance on a slope of up to 1 / 0.35", far_ball},

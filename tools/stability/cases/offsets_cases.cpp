@@ -190,7 +190,7 @@ const std::vector<StabilityCase>& offsets_cases() {
         {"S03", "ConvexBody", "an icosphere of 20,480 triangles, rays outward", "a convex body is not met again", "as S01",
          convex_body},
         {"S04", "OffsetSize", "a ball of 24 x 24 in five sizes and places", "the way from the hit to the next ray's origin",
-         "the study's: 2e-6 of the size, 4 units in the last place where that is larger", offset_size},
+         "a few roundings: 2e-6 of the size, 4 units in the last place of the distance where that is larger", offset_size},
         {"S05", "ThinGap", "two planes 8 offset bounds apart, rays that leave one towards the other, at 1 and at 1e3",
          "the other plane is met", "two bounds and the rounding of the origin are less than 8", thin_gap},
         {"S06", "ShadowRayEnds", "a triangle light, with and without a blocker 8 offset bounds before it",
@@ -202,7 +202,7 @@ const std::vector<StabilityCase>& offsets_cases() {
          "the other one within a few bounds of the edge, where half of these rays are aimed",
          light_tight_rooms},
         {"S08", "ShadowTerminator", "smooth icospheres of 80 to 1280 triangles under a sun",
-         "the cosine of the true sphere", "the study's for 1280 triangles; coarser facets lie farther below the ball",
+         "the cosine of the true sphere", "no terminator may show; coarser facets lie farther below the ball",
          shadow_terminator},
     };
     return cases;

@@ -204,7 +204,7 @@ const std::vector<StabilityCase>& scale_cases() {
         {"C03", "Moved", "a room and a ball 1e3, 1e4, 1e5 sizes away", "no ray gets out; the corners as written",
          "half a unit in the last place from the file, the frame adds less", moved},
         {"C04", "MixedScale", "a ball of radius 1 on two triangles of 1e7 a side, seen from 3 away; naive: along the ray, triangles as they are",
-         "the plane in double", "the study's: contact within a thousandth of the ball", mixed_scale},
+         "the plane in double", "contact within a thousandth of the ball", mixed_scale},
         {"C05", "SunAsABall", "R = 6.96e8 at 1.5e11, a scene of size 1", "E = pi L (R / d)^2", "", nullptr,
          "lights that are spheres, outside the frame of the triangles"},
         {"C06", "AbsurdUnits", "the scene of C01 times 2^-60 and 2^60", "the film of 2^0", "as C01", absurd_units},
