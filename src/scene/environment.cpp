@@ -16,6 +16,9 @@ namespace {
 
 constexpr double PI = glm::pi<double>();
 
+/// A map whose bright texels exceed its mean by less than this share of its light is constant: more is not rounding.
+constexpr double SMALLEST_EXCESS = 1e-6;
+
 /// Counts bad texels and remembers the first, for one line in the log.
 struct BadTexels {
     size_t count = 0;
@@ -31,6 +34,24 @@ struct BadTexels {
 
 double luminance_at(const EnvironmentImage& image, int x, int y) {
     return luminance(glm::dvec3(image.texels[size_t(y) * size_t(image.width) + size_t(x)]));
+}
+
+/// MIS compensation of weights that are luminance times solid angle and add up to `sum`: leaves of each what exceeds
+/// the mean over the sphere. Where next to nothing does, they stay as they are.
+void keep_above_mean(std::vector<double>& weights, int width, int height, double sum) {
+    const auto above_mean = [&](int x, int y) {
+        const double share = texel_solid_angle(y, width, height) / (4 * PI);
+        return std::fmax(weights[size_t(y) * size_t(width) + size_t(x)] - sum * share, 0.0);
+    };
+    double excess = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            excess += above_mean(x, y);
+    if (!(excess > SMALLEST_EXCESS * sum))
+        return;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            weights[size_t(y) * size_t(width) + size_t(x)] = above_mean(x, y);
 }
 
 void check_factor(double factor, double rotation_degrees) {
@@ -104,8 +125,12 @@ double texel_solid_angle(int row, int width, int height) {
     return 2 * PI / width * 2 * std::sin(middle) * std::sin(half);
 }
 
+SkySampling sky_sampling(Integrator integrator) {
+    return integrator == Integrator::PATH ? SkySampling::BY_TABLE_AND_BSDF : SkySampling::BY_TABLE;
+}
+
 Environment map_environment(const EnvironmentImage& image, double factor, double rotation_degrees,
-                            NoticeList& notices) {
+                            SkySampling sampling, NoticeList& notices) {
     check_factor(factor, rotation_degrees);
     std::vector<double> weights = cell_luminance(image);
     double sum = 0;
@@ -118,6 +143,8 @@ Environment map_environment(const EnvironmentImage& image, double factor, double
         notices.add("the environment map is black: it gives no light");
         return {};
     }
+    if (sampling == SkySampling::BY_TABLE_AND_BSDF)
+        keep_above_mean(weights, image.width, image.height, sum);
 
     const AliasTable table = build_alias_table(weights);
     Environment environment;
@@ -148,13 +175,14 @@ Environment constant_environment(const glm::dvec3& radiance) {
     return environment;
 }
 
-Environment load_environment(const LightOptions& options, bool scene_has_light, NoticeList& notices) {
+Environment load_environment(const LightOptions& options, bool scene_has_light, SkySampling sampling,
+                             NoticeList& notices) {
     const double factor = options.environment_scale;
     check_factor(factor, options.environment_rotation_degrees);
     if (!options.environment_file.empty()) {
         EnvironmentImage image = read_environment(options.environment_file);
         clean_environment(image, options.environment_file, notices);
-        return map_environment(image, factor, options.environment_rotation_degrees, notices);
+        return map_environment(image, factor, options.environment_rotation_degrees, sampling, notices);
     }
     if (options.environment)
         return constant_environment(*options.environment * factor);

@@ -98,7 +98,7 @@ void load_lights(const Options& options, const std::vector<double>& exitance, do
     scene.emitters = std::move(emitters.emitters);
     scene.lights = std::move(lights.lights);
     scene.emitted_power = emitters.power + lights.power;
-    scene.environment = load_environment(options.light, has_light, notices);
+    scene.environment = load_environment(options.light, has_light, sky_sampling(options.integrator), notices);
 }
 
 Scene load_all(const Options& options, Progress& progress) {

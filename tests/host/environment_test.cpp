@@ -61,7 +61,7 @@ TEST(Environment, ProbabilityIsPositiveExactlyWhereTheLookupIs) {
     EnvironmentImage image = black(8, 6);
     image.texels[0] = glm::vec3(100); // top left: its neighbours wrap around in u
     NoticeList notices;
-    const Environment environment = map_environment(image, 1, 0, notices);
+    const Environment environment = map_environment(image, 1, 0, SkySampling::BY_TABLE, notices);
     double sum = 0;
     for (int y = 0; y < 6; ++y)
         for (int x = 0; x < 8; ++x) {
@@ -71,6 +71,40 @@ TEST(Environment, ProbabilityIsPositiveExactlyWhereTheLookupIs) {
             sum += p;
         }
     EXPECT_NEAR(sum, 1, 1e-6);
+}
+
+TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(0, 2);
+    EnvironmentImage image = black(12, 8);
+    for (glm::vec3& texel : image.texels)
+        texel = glm::vec3(uniform(random), uniform(random), uniform(random));
+    NoticeList notices;
+    const Environment environment = map_environment(image, 3, 0, SkySampling::BY_TABLE_AND_BSDF, notices);
+    const std::vector<double> cells = cell_luminance(image);
+    double mean = 0, sum = 0;
+    for (size_t i = 0; i < cells.size(); ++i)
+        mean += cells[i] * texel_solid_angle(int(i) / 12, 12, 8) / (4 * PI);
+    const auto weight = [&](size_t i) {
+        return std::max(cells[i] - mean, 0.0) * texel_solid_angle(int(i) / 12, 12, 8);
+    };
+    for (size_t i = 0; i < cells.size(); ++i)
+        sum += weight(i);
+    size_t dim = 0;
+    for (size_t i = 0; i < cells.size(); ++i) {
+        const double p = double(environment.texels[i].radiance.w);
+        EXPECT_NEAR(p, weight(i) / sum, 1e-7) << i;
+        EXPECT_EQ(p > 0, cells[i] > mean) << i;
+        dim += p == 0;
+    }
+    EXPECT_GT(dim, 0u);
+    EXPECT_NEAR(environment.mean_radiance, 3 * mean, 1e-12) << "the light that is left to the BSDF counts";
+}
+
+TEST(Environment, OnlyThePathTracerLeavesDimTexelsToTheBsdf) {
+    EXPECT_EQ(sky_sampling(Integrator::PATH), SkySampling::BY_TABLE_AND_BSDF);
+    EXPECT_EQ(sky_sampling(Integrator::WHITTED), SkySampling::BY_TABLE);
+    EXPECT_EQ(sky_sampling(Integrator::RAYCAST), SkySampling::BY_TABLE);
 }
 
 TEST(Environment, SolidAnglesSumToTheSphere) {
@@ -84,17 +118,18 @@ TEST(Environment, SolidAnglesSumToTheSphere) {
 }
 
 TEST(Environment, AConstantMapIsChosenBySolidAngle) {
-    EnvironmentImage image = black(6, 5);
-    image.texels.assign(30, glm::vec3(0.5f));
-    NoticeList notices;
-    const Environment environment = map_environment(image, 3, 25, notices);
-    for (int y = 0; y < 5; ++y)
-        EXPECT_NEAR(environment.texels[size_t(y * 6)].radiance.w, texel_solid_angle(y, 6, 5) / (4 * PI),
-                    1e-7);
-    EXPECT_NEAR(environment.mean_radiance, 1.5, 1e-12);
-    EXPECT_EQ(environment.radiance, glm::dvec3(3));
-    EXPECT_EQ(environment.rotation_degrees, 25);
-    EXPECT_EQ(environment.texels[0].radiance.x, 0.5f) << "the factor is not in the texels";
+    for (const SkySampling sampling : {SkySampling::BY_TABLE, SkySampling::BY_TABLE_AND_BSDF}) {
+        EnvironmentImage image = black(6, 5);
+        image.texels.assign(30, glm::vec3(0.5f));
+        NoticeList notices;
+        const Environment environment = map_environment(image, 3, 25, sampling, notices);
+        for (int y = 0; y < 5; ++y)
+            EXPECT_NEAR(environment.texels[size_t(y * 6)].radiance.w, texel_solid_angle(y, 6, 5) / (4 * PI), 1e-7);
+        EXPECT_NEAR(environment.mean_radiance, 1.5, 1e-12);
+        EXPECT_EQ(environment.radiance, glm::dvec3(3));
+        EXPECT_EQ(environment.rotation_degrees, 25);
+        EXPECT_EQ(environment.texels[0].radiance.x, 0.5f) << "the factor is not in the texels";
+    }
 }
 
 TEST(Environment, BadTexelsBecomeBlackAndAreCounted) {
@@ -113,28 +148,30 @@ TEST(Environment, BadTexelsBecomeBlackAndAreCounted) {
 }
 
 TEST(Environment, ABlackMapGivesNoLight) {
-    NoticeList notices;
-    const Environment environment = map_environment(black(4, 2), 1, 0, notices);
-    EXPECT_TRUE(environment.texels.empty());
-    EXPECT_EQ(environment.width, 0);
-    EXPECT_EQ(environment.radiance, glm::dvec3(0));
-    EXPECT_EQ(count_notices(notices, "black"), 1);
+    for (const SkySampling sampling : {SkySampling::BY_TABLE, SkySampling::BY_TABLE_AND_BSDF}) {
+        NoticeList notices;
+        const Environment environment = map_environment(black(4, 2), 1, 0, sampling, notices);
+        EXPECT_TRUE(environment.texels.empty());
+        EXPECT_EQ(environment.width, 0);
+        EXPECT_EQ(environment.radiance, glm::dvec3(0));
+        EXPECT_EQ(count_notices(notices, "black"), 1);
+    }
 }
 
 TEST(Environment, AWhiteSkyComesOnlyWithoutAnyLight) {
     LightOptions options;
     NoticeList notices;
-    EXPECT_EQ(load_environment(options, false, notices).radiance, glm::dvec3(1));
+    EXPECT_EQ(load_environment(options, false, SkySampling::BY_TABLE, notices).radiance, glm::dvec3(1));
     EXPECT_EQ(count_notices(notices, "no light in the scene: white sky of radiance 1 (--env 1,1,1)"), 1);
 
     NoticeList none;
-    EXPECT_EQ(load_environment(options, true, none).radiance, glm::dvec3(0));
+    EXPECT_EQ(load_environment(options, true, SkySampling::BY_TABLE, none).radiance, glm::dvec3(0));
     options.environment = glm::dvec3(0);
-    EXPECT_EQ(load_environment(options, false, none).radiance, glm::dvec3(0))
+    EXPECT_EQ(load_environment(options, false, SkySampling::BY_TABLE, none).radiance, glm::dvec3(0))
         << "--env 0,0,0 counts as given";
     options.environment = glm::dvec3(1, 2, 3);
     options.environment_scale = 2;
-    EXPECT_EQ(load_environment(options, true, none).radiance, glm::dvec3(2, 4, 6));
+    EXPECT_EQ(load_environment(options, true, SkySampling::BY_TABLE, none).radiance, glm::dvec3(2, 4, 6));
     EXPECT_TRUE(none.lines().empty());
 }
 
@@ -142,10 +179,10 @@ TEST(Environment, WrongValuesAreUsageErrors) {
     NoticeList notices;
     LightOptions options;
     options.environment = glm::dvec3(1, -1, 0);
-    EXPECT_THROW(load_environment(options, false, notices), UsageError);
+    EXPECT_THROW(load_environment(options, false, SkySampling::BY_TABLE, notices), UsageError);
     options.environment = glm::dvec3(1);
     options.environment_scale = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(load_environment(options, false, notices), UsageError);
+    EXPECT_THROW(load_environment(options, false, SkySampling::BY_TABLE, notices), UsageError);
 }
 
 TEST(Environment, MapsAreReadFromTheTop) {

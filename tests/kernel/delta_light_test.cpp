@@ -122,7 +122,7 @@ struct Everything {
             image.texels.push_back(
                 glm::vec3(float(random.unit()), float(random.unit()), float(random.between(0, 5))));
         NoticeList notices;
-        scene.environment = map_environment(image, 1, 0, notices);
+        scene.environment = map_environment(image, 1, 0, SkySampling::BY_TABLE, notices);
         params.environment = {1, 1, 1, 0};
         params.environment_width = 8;
         params.environment_height = 4;

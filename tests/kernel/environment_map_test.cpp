@@ -6,6 +6,7 @@
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 using namespace clrt;
@@ -67,9 +68,10 @@ EnvironmentImage random_image(int width, int height) {
     return image;
 }
 
-Environment map_of(const EnvironmentImage& image, double factor = 1, double rotation = 0) {
+Environment map_of(const EnvironmentImage& image, double factor = 1, double rotation = 0,
+                   SkySampling sampling = SkySampling::BY_TABLE) {
     NoticeList notices;
-    return map_environment(image, factor, rotation, notices);
+    return map_environment(image, factor, rotation, sampling, notices);
 }
 
 /// The definition: u = 0.5 + atan2(z, x) / (2 pi), v = angle from +Y over pi, after turning back about +Y.
@@ -118,6 +120,39 @@ std::vector<vec4> random_numbers(size_t count, u32 seed) {
 
 double luminance(const dvec3& rgb) {
     return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
+}
+
+/// Expects directions to be chosen by the stored probabilities, uniformly within each texel.
+void expect_stored_probabilities(const Environment& map) {
+    constexpr size_t SAMPLES = 400000;
+    constexpr int PARTS = 3; // of a texel along each side
+    const std::vector<vec4> got = run("sample", map, random_numbers(SAMPLES, 3)).first;
+    std::vector<double> counts(map.texels.size() * PARTS * PARTS), expected;
+    for (const EnvironmentTexel& texel : map.texels)
+        for (int i = 0; i < PARTS * PARTS; ++i)
+            expected.push_back(SAMPLES * double(texel.radiance.w) / (PARTS * PARTS));
+    for (const vec4& sample : got) {
+        const dvec3 d = to_dvec3(sample);
+        ASSERT_NEAR(glm::length(d), 1, 8 * FLOAT_U);
+        const glm::dvec2 uv = reference_uv(map, d);
+        const double x = uv.x * map.width;
+        const int column = std::min(int(x), map.width - 1),
+                  row = std::min(int(uv.y * map.height), map.height - 1);
+        // Uniform over the texel's solid angle: in u and in the cosine.
+        const double top = std::cos(PI * row / map.height), bottom = std::cos(PI * (row + 1) / map.height);
+        const int across = std::min(int((x - column) * PARTS), PARTS - 1);
+        const int down = std::clamp(int((d.y - top) / (bottom - top) * PARTS), 0, PARTS - 1);
+        ++counts[(size_t(row * map.width + column) * PARTS + size_t(down)) * PARTS + size_t(across)];
+    }
+    // A rounding may cross into a texel that is never chosen: not more than one sample in ten thousand.
+    double strays = 0;
+    for (size_t i = 0; i < counts.size(); ++i)
+        if (expected[i] == 0) {
+            strays += counts[i];
+            counts[i] = 0;
+        }
+    EXPECT_LE(strays, SAMPLES * 1e-4);
+    EXPECT_GT(chi_squared_test(counts, expected).p_value, SMALLEST_P);
 }
 
 } // namespace
@@ -197,36 +232,12 @@ TEST(EnvironmentMap, LookupsAreBilinear) {
 }
 
 TEST(EnvironmentMap, SampledTexelsHaveTheirProbabilityAndAreFilledUniformly) {
-    constexpr size_t SAMPLES = 400000;
-    constexpr int PARTS = 3; // of a texel along each side
-    const Environment map = map_of(random_image(12, 6), 1, 40);
-    const std::vector<vec4> got = run("sample", map, random_numbers(SAMPLES, 3)).first;
-    std::vector<double> counts(map.texels.size() * PARTS * PARTS), expected;
-    for (const EnvironmentTexel& texel : map.texels)
-        for (int i = 0; i < PARTS * PARTS; ++i)
-            expected.push_back(SAMPLES * double(texel.radiance.w) / (PARTS * PARTS));
-    for (const vec4& sample : got) {
-        const dvec3 d = to_dvec3(sample);
-        ASSERT_NEAR(glm::length(d), 1, 8 * FLOAT_U);
-        const glm::dvec2 uv = reference_uv(map, d);
-        const double x = uv.x * map.width;
-        const int column = std::min(int(x), map.width - 1),
-                  row = std::min(int(uv.y * map.height), map.height - 1);
-        // Uniform over the texel's solid angle: in u and in the cosine.
-        const double top = std::cos(PI * row / map.height), bottom = std::cos(PI * (row + 1) / map.height);
-        const int across = std::min(int((x - column) * PARTS), PARTS - 1);
-        const int down = std::clamp(int((d.y - top) / (bottom - top) * PARTS), 0, PARTS - 1);
-        ++counts[(size_t(row * map.width + column) * PARTS + size_t(down)) * PARTS + size_t(across)];
-    }
-    // A rounding may cross into a texel that is never chosen: not more than one sample in ten thousand.
-    double strays = 0;
-    for (size_t i = 0; i < counts.size(); ++i)
-        if (expected[i] == 0) {
-            strays += counts[i];
-            counts[i] = 0;
-        }
-    EXPECT_LE(strays, SAMPLES * 1e-4);
-    EXPECT_GT(chi_squared_test(counts, expected).p_value, SMALLEST_P);
+    expect_stored_probabilities(map_of(random_image(12, 6), 1, 40));
+    const Environment bright = map_of(random_image(12, 6), 1, 40, SkySampling::BY_TABLE_AND_BSDF);
+    expect_stored_probabilities(bright);
+    EXPECT_GT(std::count_if(bright.texels.begin(), bright.texels.end(),
+                            [](const EnvironmentTexel& texel) { return texel.radiance.w == 0; }),
+              20) << "dim texels are never chosen";
 }
 
 TEST(EnvironmentMap, SamplesCarryThePdfAndTheRadianceOfTheirDirection) {

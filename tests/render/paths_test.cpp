@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path notation in pictures: expressions that share no path add up to the whole, each shows what a closed
 // form says, and what they exclude costs no ray.
+#include "render/film_identity.h"
 #include "render/kernels.h"
 #include "support/closed_forms.h"
 #include "support/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -154,6 +156,34 @@ TEST(Paths, DisjointExpressionsAddUpToThePicture) {
 TEST(Paths, LightsAddUpToThePicture) {
     AllLetters scene;
     expect_partition(scene, "", {"La(D|S)*E", "Lp(D|S)*E", "Ld(D|S)*E", "Le(D|S)*E"});
+}
+
+TEST(Paths, TheTableOfTheSkyDoesNotChangeTheMean) {
+    // The classic integrators' table holds every texel, the path tracer's only the bright ones.
+    for (const char* paths : {"", "LDE", "L(D|G)E", "LS*GS*E", "L.*DE"})
+        for (const int depth : {2, 8}) {
+            SCOPED_TRACE(fmt::format("--paths '{}' --max-depth {}", paths, depth));
+            AllLetters scene;
+            scene.options.light.suns.clear();
+            scene.options.light.points.clear();
+            scene.options.spp = 1024;
+            scene.options.paths = paths;
+            scene.options.max_depth = depth;
+            Scene bright = scene.load();
+            scene.options.integrator = Integrator::WHITTED;
+            Scene whole = scene.load();
+            scene.options.integrator = Integrator::PATH;
+            ASSERT_NE(scene_hash(bright), scene_hash(whole));
+            const Film a = render_loaded(std::move(bright), scene.options).film;
+            scene.options.seed = 1;
+            const Film b = render_loaded(std::move(whole), scene.options).film;
+            for (int channel = 0; channel < 3; ++channel) {
+                const Estimate x = film_estimate(a, channel), y = film_estimate(b, channel);
+                const double error = std::hypot(x.error, y.error);
+                EXPECT_LE(std::abs(x.mean - y.mean), LARGEST_Z * error) << x.mean << " and " << y.mean;
+                EXPECT_LE(error, 0.03 * y.mean) << "too noisy for this comparison";
+            }
+        }
 }
 
 TEST(Paths, MatteAndGlossyOfOneSurfaceAreToldApart) {

@@ -65,6 +65,11 @@ FAULTS = [
     ("sky turned the other way", "lights/environment.h",
      "vector_make(fma(c, d.x, -(s * d.z)), d.y, fma(s, d.x, c * d.z))",
      "vector_make(fma(c, d.x, s * d.z), d.y, fma(-s, d.x, c * d.z))", "sky_light_test"),
+    ("sky that its table leaves to the BSDF is lost", "lights/lights.h",
+     "environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);",
+     "environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);\n        if (pdf_w > REAL(0.0) && "
+     "params->choose_environment > 0.0f && light_pdf_w == REAL(0.0))\n            radiance = (real3)(REAL(0.0));",
+     "sky_light_test"),
     ("screens cast no shadow", "geometry/visibility.h", "share *= REAL(1.0) - visibility_coverage(scene, &hit);", "",
      "cut_out_test"),
     ("cut-out lamps shine in full", "lights/emitter.h", "sample.radiance *= material_coverage(scene, material, uv);", "",

@@ -6,6 +6,7 @@
 #include "support/render_scene.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -184,6 +185,31 @@ TEST(SkyLight, AMapOfOneValueIsAConstantSky) {
     map.values.assign(map.values.size(), 0.75f);
     SlopeUnderMap scene(map);
     scene.expect_irradiance(0.75 * PI, 3e-3);
+}
+
+/// A map that is bright on the side of +Z and dim on the other, so that its table beside BSDF sampling holds the bright
+/// half alone.
+GreyMap half_bright_map() {
+    GreyMap map(32, 16);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x)
+            map.at(x, y) = x >= 16 ? 3 : 1;
+    return map;
+}
+
+TEST(SkyLight, TheDimHalfOfAMapLightsAFloorWhateverEndsThePaths) {
+    const GreyMap map = half_bright_map();
+    SlopeUnderMap scene(map);
+    const double irradiance = map.irradiance(scene.normal);
+    for (const char* paths : {"", "LDE", "L(D|G)E", "L.*E"})
+        for (const int depth : {2, 8})
+            for (const int roulette : {1, 4}) {
+                SCOPED_TRACE(fmt::format("--paths '{}' --max-depth {} --roulette-depth {}", paths, depth, roulette));
+                scene.options.paths = paths;
+                scene.options.max_depth = depth;
+                scene.options.roulette_depth = roulette;
+                EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.5 * irradiance / PI, 1.5e-3, 2e-5));
+            }
 }
 
 TEST(SkyLight, AMirrorShowsTheMapAsItIs) {

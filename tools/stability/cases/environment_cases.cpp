@@ -24,7 +24,7 @@ EnvironmentImage even_image(int width, int height, float value) {
 
 Environment map_of(const EnvironmentImage& image) {
     NoticeList notices;
-    return map_environment(image, 1, 0, notices);
+    return map_environment(image, 1, 0, SkySampling::BY_TABLE_AND_BSDF, notices);
 }
 
 /// A floor of reflectance 1/2 under a map.
