@@ -31,6 +31,7 @@ set(CLRT_KERNEL_FILES
   lights/environment.h
   lights/light_sample.h
   lights/lights.h
+  lights/spherical_triangle.h
   numerics/device.h
   numerics/device_facts.cl
   numerics/frame.h

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emissive triangles: chosen by power, sampled by area.
+// Emissive triangles: chosen by power, sampled by solid angle where they look large, else by area.
 #ifndef CLRT_LIGHTS_EMITTER_H
 #define CLRT_LIGHTS_EMITTER_H
 
 #include "light_sample.h"
 #include "scattering/material.h"
+#include "spherical_triangle.h"
 
 /* Density per steradian at distance d of a density per area; cos_l is the cosine on the light. */
 static inline real emitter_pdf_w(real pdf_a, real distance_squared, real cos_l)
 {
     return pdf_a * distance_squared / cos_l;
+}
+
+/* Density per steradian where the point is uniform in the triangle's solid angle. */
+static inline real emitter_pdf_of_angle(global const Emitter* emitter, real3 normal, real solid_angle)
+{
+    const real area = vector_length(normal) * (REAL(0.5) / (SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE));
+    return (real)emitter->pdf_a * area / solid_angle;
 }
 
 /* Chooses a triangle by the alias table and a point on it. `word` gives the index and, by its rest, the point's first
@@ -23,14 +31,22 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     const uint chosen = alias_word < scene->emitters[slot].threshold ? slot : scene->emitters[slot].alias;
     global const Emitter* emitter = scene->emitters + chosen;
     global const Triangle* triangle = scene->triangles + emitter->triangle;
-    /* A uniform point. */
+    /* A point on it. */
     real3 p0, p1, p2;
     surface_corners(scene, triangle, &p0, &p1, &p2);
-    const real2 b = warp_triangle((real2)(warp_rest(word, params->emitter_count, alias_word), v));
     const real3 e1 = p1 - p0;
     const real3 e2 = p2 - p0;
-    const real3 point = p0 + fma((real3)(b.x), e1, b.y * e2);
     const real3 normal = surface_cross(e1, e2);
+    const real2 u = (real2)(warp_rest(word, params->emitter_count, alias_word), v);
+    real2 b = warp_triangle(u);
+    real solid_angle = REAL(0.0);
+    if (spherical_triangle_is_near(p0 - position, e1, e2, normal)) {
+        const SphericalTriangle seen = spherical_triangle_make(p0 - position, p1 - position, p2 - position, normal);
+        solid_angle = seen.solid_angle;
+        if (solid_angle > REAL(0.0))
+            b = spherical_triangle_sample(&seen, u);
+    }
+    const real3 point = p0 + fma((real3)(b.x), e1, b.y * e2);
     const real3 way = point - position;
     const real facing = -vector_dot(way, normal);
     const bool front = (facing > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
@@ -45,7 +61,9 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     sample.is_distant = false;
     sample.is_delta = false;
     /* facing is cos_l times the lengths of way and normal. */
-    sample.pdf_w = (real)emitter->pdf_a * distance * distance * (distance * vector_length(normal) / fabs(facing));
+    sample.pdf_w = solid_angle > REAL(0.0)
+                       ? emitter_pdf_of_angle(emitter, normal, solid_angle)
+                       : (real)emitter->pdf_a * distance * distance * (distance * vector_length(normal) / fabs(facing));
     float2 uv = (float2)(0.0f);
     if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
         const float2 t0 = scene->uvs[triangle->t0];
@@ -58,11 +76,20 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     return sample;
 }
 
-/* Density with which emitter_sample chooses the direction to a point of an emitter that was hit at distance t. */
-static inline real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real t, real3 wo)
+/* Density with which emitter_sample at `from` chooses the direction to a point of an emitter that was hit at distance t. */
+static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real3 from, real t, real3 wo)
 {
+    global const Emitter* emitter = scene->emitters + surface->emitter;
+    real3 p0, p1, p2;
+    surface_corners(scene, scene->triangles + emitter->triangle, &p0, &p1, &p2);
+    const real3 normal = surface_cross(p1 - p0, p2 - p0);
+    if (spherical_triangle_is_near(p0 - from, p1 - p0, p2 - p0, normal)) {
+        const SphericalTriangle seen = spherical_triangle_make(p0 - from, p1 - from, p2 - from, normal);
+        if (seen.solid_angle > REAL(0.0))
+            return emitter_pdf_of_angle(emitter, normal, seen.solid_angle);
+    }
     const real cos_l = vector_dot(surface->normal_g, wo);
-    return cos_l > REAL(0.0) ? emitter_pdf_w((real)scene->emitters[surface->emitter].pdf_a, t * t, cos_l) : REAL(0.0);
+    return cos_l > REAL(0.0) ? emitter_pdf_w((real)emitter->pdf_a, t * t, cos_l) : REAL(0.0);
 }
 
 #endif

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 using namespace clrt;
+using glm::dvec2;
 using glm::dvec3;
 
 namespace {
@@ -25,11 +26,12 @@ SceneProbe& probe() {
             sample +
                 "first = probe_vec4(s.wi, s.pdf_w); second = probe_vec4(s.radiance, 0.0f);"
                 "third = probe_vec4(s.target, (s.is_distant ? 1.0f : 0.0f) + (s.is_delta ? 2.0f : 0.0f));");
-        // a: barycentric weights 1 and 2, triangle; b: wo; c.x: distance
-        made.add("hit_pdf", "Hit hit; hit.t = (real)c.x; hit.b1 = (real)a.x; hit.b2 = (real)a.y;"
+        // a: barycentric weights 1 and 2, triangle; b: wo; c: the point that the ray left, distance
+        made.add("hit_pdf", "Hit hit; hit.t = (real)c.w; hit.b1 = (real)a.x; hit.b2 = (real)a.y;"
                             "hit.triangle = as_uint(a.z);"
                             "const Surface surface = surface_at(scene, &hit, vector_from(b));"
-                            "first.x = emitter_hit_pdf_w(scene, &surface, hit.t, vector_from(b));");
+                            "first.x = emitter_hit_pdf_w(scene, &surface, vector_from(c), hit.t, "
+                            "vector_from(b));");
         made.add("pdf", "first.x = emitter_pdf_w((real)a.x, (real)a.y, (real)a.z);");
         // b.z: the light's triangle. first.x: the shadow ray meets it; first.y: the unbounded line does.
         made.add("shadow", sample + R"(
@@ -161,45 +163,154 @@ double solid_angle(const dvec3& a, const dvec3& b, const dvec3& c) {
                                                                   glm::dot(b, c) * la + glm::dot(c, a) * lb));
 }
 
-} // namespace
+/// Whether points are chosen by solid angle (spherical_triangle.h).
+bool looks_large(const dvec3& a, const dvec3& b, const dvec3& c) {
+    const double whole = solid_angle(a, b, c), distance = glm::length(a + b + c) / 3;
+    const double if_small = std::abs(glm::dot(a, glm::cross(b - a, c - a))) / 2 / std::pow(distance, 3);
+    const bool is_near = if_small > 0.25 || distance < std::max(glm::length(b - a), glm::length(c - a));
+    return is_near && whole >= 0.25 && whole <= 6.27;
+}
 
-TEST(Emitter, TrianglesAreChosenByPowerAndPointsByArea) {
-    constexpr size_t SAMPLES = 400000, SIDE = 5;
-    const Lamps lamps = five_lamps();
-    const Numbers numbers = numbers_at({0.1, -0.2, 0}, SAMPLES, 1);
+/// Congruent parts of a triangle, by squares of the weights folded over the diagonal.
+constexpr u32 SIDE = 5;
+constexpr u32 PARTS = SIDE * SIDE;
+
+/// Row r has 2 (SIDE - r) - 1 parts.
+u32 part_index(u32 column, u32 row, bool upper) {
+    return std::min(row * (2 * SIDE - row) + 2 * column + upper, PARTS - 1);
+}
+
+u32 part_of(const glm::dvec2& b) {
+    const double x = std::clamp(b.x, 0.0, 0.999999) * SIDE, y = std::clamp(b.y, 0.0, 0.999999) * SIDE;
+    const u32 column = u32(x), row = u32(y);
+    return part_index(column, row, x - column + y - row > 1);
+}
+
+/// The share of every part in the points that are chosen on a triangle seen from a position.
+std::vector<double> part_shares(const Lamps& lamps, u32 triangle, const dvec3& position) {
+    std::vector<double> shares(PARTS, 1.0 / PARTS);
+    const dvec3 a = lamps.corner(triangle, 0) - position, e1 = lamps.corner(triangle, 1) - position - a,
+                e2 = lamps.corner(triangle, 2) - position - a;
+    const double whole = solid_angle(a, a + e1, a + e2);
+    if (!looks_large(a, a + e1, a + e2))
+        return shares;
+    const auto corner = [&](u32 x, u32 y) { return a + (double(x) * e1 + double(y) * e2) / double(SIDE); };
+    for (u32 y = 0; y < SIDE; ++y)
+        for (u32 x = 0; x + y < SIDE; ++x) {
+            shares[part_index(x, y, false)] = solid_angle(corner(x, y), corner(x + 1, y), corner(x, y + 1)) / whole;
+            if (x + y + 1 < SIDE)
+                shares[part_index(x, y, true)] =
+                    solid_angle(corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)) / whole;
+        }
+    return shares;
+}
+
+/// p-value of the points that are chosen as seen from a position; each lies on its triangle.
+double points_p_value(const Lamps& lamps, const dvec3& position, size_t samples, u32 seed) {
+    const Numbers numbers = numbers_at(position, samples, seed);
     const std::vector<vec4> targets =
         probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words).third;
-    std::vector<double> counts(5 * SIDE * SIDE), expected;
-    for (u32 triangle = 0; triangle < 5; ++triangle) // pi area luminance, over the sum
-        expected.insert(expected.end(), SIDE * SIDE,
-                        SAMPLES * PI * lamps.area(triangle) * lamps.exitance[triangle] / lamps.power /
-                            (SIDE * SIDE));
-    for (size_t i = 0; i < SAMPLES; ++i) {
+    const u32 triangles = u32(lamps.scene.triangles.size());
+    std::vector<double> counts(size_t{triangles} * PARTS), expected;
+    for (u32 triangle = 0; triangle < triangles; ++triangle) // pi area luminance, over the sum
+        for (const double share : part_shares(lamps, triangle, to_dvec3(to_vec4(position))))
+            expected.push_back(double(samples) * PI * lamps.area(triangle) * lamps.exitance[triangle] / lamps.power * share);
+    for (size_t i = 0; i < samples; ++i) {
         const u32 triangle =
             lamps.chosen(float_to_bits(numbers.words[i].x), float_to_bits(numbers.words[i].y));
         const glm::dvec2 b = lamps.weights(triangle, to_dvec3(targets[i]));
-        ASSERT_TRUE(b.x > -1e-4 && b.y > -1e-4 && b.x + b.y < 1 + 1e-4);
-        const dvec3 normal = glm::normalize(lamps.normal(triangle));
-        ASSERT_NEAR(glm::dot(to_dvec3(targets[i]) - lamps.corner(triangle, 0), normal), 0, 1e-5);
-        // Congruent parts: squares of the weights, folded over the diagonal.
-        const double x = std::clamp(b.x, 0.0, 0.999999) * SIDE, y = std::clamp(b.y, 0.0, 0.999999) * SIDE;
-        const size_t column = size_t(x), row = size_t(y);
-        const bool upper = x - double(column) + y - double(row) > 1;
-        // Row r of small triangles has 2 (SIDE - r) - 1 of them.
-        const size_t part = std::min(row * (2 * SIDE - row) + 2 * column + upper, SIDE * SIDE - 1);
-        ++counts[triangle * SIDE * SIDE + part];
+        EXPECT_TRUE(b.x > -1e-4 && b.y > -1e-4 && b.x + b.y < 1 + 1e-4) << i;
+        EXPECT_NEAR(glm::dot(to_dvec3(targets[i]) - lamps.corner(triangle, 0), glm::normalize(lamps.normal(triangle))), 0,
+                    1e-5);
+        if (::testing::Test::HasFailure())
+            break;
+        ++counts[triangle * PARTS + part_of(b)];
     }
-    EXPECT_GT(chi_squared_test(counts, expected).p_value, SMALLEST_P);
+    return chi_squared_test(counts, expected).p_value;
 }
 
-TEST(Emitter, TheDensityPerSteradianIsAreaDensityTimesSquaredDistanceOverCosine) {
+/// One triangle that shines on both sides.
+Lamps one_lamp(const dvec3& p0, const dvec3& p1, const dvec3& p2) {
+    Lamps lamps;
+    lamps.add(p0, p1, p2, {1, 1, 1}, MATERIAL_EMITS_BOTH_SIDES);
+    lamps.finish();
+    return lamps;
+}
+
+} // namespace
+
+TEST(Emitter, FarTrianglesAreChosenByPowerAndPointsByArea) {
+    Lamps lamps = five_lamps();
+    for (Material& material : lamps.scene.materials)
+        material.flags |= MATERIAL_EMITS_BOTH_SIDES;
+    EXPECT_GT(points_p_value(lamps, {0.1, -0.2, 12}, 400000, 1), SMALLEST_P);
+}
+
+TEST(Emitter, PointsOfNearTrianglesAreChosenBySolidAngle) {
+    const Lamps lamps = five_lamps();
+    for (const dvec3& position : {dvec3(0.1, -0.2, 0), dvec3(0.5, -0.3, 1.0)})
+        EXPECT_GT(points_p_value(lamps, position, 400000, 1), SMALLEST_P) << position.z;
+}
+
+TEST(Emitter, PointsAreUniformInSolidAngleFromNearlyNothingToNearlyAHalfSpace) {
+    // Over the middle, an edge, a corner, and beside a needle's end.
+    const Lamps lamps = one_lamp({-0.4, -0.5, 0}, {0.8, -0.3, 0}, {-0.1, 0.9, 0});
+    const Lamps needle = one_lamp({-1, 0, 0}, {1, 0.02, 0}, {1, -0.02, 0});
+    u32 seed = 20, large = 0;
+    for (const double height : {1.5, 0.5, 0.1, 0.02, 0.005, 0.002})
+        for (const dvec2& at : {dvec2(0, 0), dvec2(0.2, -0.4), dvec2(-0.1, 0.89), dvec2(-0.5, -0.6)}) {
+            const dvec3 position(at.x, at.y, height);
+            EXPECT_GT(points_p_value(lamps, position, 100000, ++seed), SMALLEST_P) << at.x << " " << height;
+            EXPECT_GT(points_p_value(needle, position, 100000, ++seed), SMALLEST_P) << at.x << " " << height;
+            large +=
+                looks_large(lamps.corner(0, 0) - position, lamps.corner(0, 1) - position, lamps.corner(0, 2) - position);
+        }
+    EXPECT_GT(large, 12u);
+}
+
+TEST(Emitter, BothTechniquesSwitchBetweenAngleAndAreaAtTheSamePoint) {
+    // Heights around those where the angle passes either limit: the same density from a sample and from a hit there.
+    const Lamps lamps = one_lamp({-0.4, -0.5, 0}, {0.8, -0.3, 0}, {-0.1, 0.9, 0});
+    const auto angle_at = [&](double height) {
+        const dvec3 p(0.05, -0.02, height);
+        return solid_angle(lamps.corner(0, 0) - p, lamps.corner(0, 1) - p, lamps.corner(0, 2) - p);
+    };
+    for (const double limit : {0.25, 6.27}) {
+        double low = 1e-4, high = 10; // the angle falls with the height
+        for (int k = 0; k < 60; ++k)
+            (angle_at(std::sqrt(low * high)) > limit ? low : high) = std::sqrt(low * high);
+        Numbers numbers = numbers_at({0.05, -0.02, low}, 4000, 31);
+        for (size_t i = 0; i < numbers.positions.size(); ++i)
+            numbers.positions[i].z = float(low * (1 + (double(i) - 2000) * 1e-8));
+        const SceneProbe::Outputs got =
+            probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
+        std::vector<vec4> hits, wo, from;
+        size_t by_angle = 0;
+        for (size_t i = 0; i < numbers.positions.size(); ++i) {
+            const dvec3 position = to_dvec3(numbers.positions[i]);
+            const glm::dvec2 b = lamps.weights(0, to_dvec3(got.third[i]));
+            const dvec3 point = lamps.corner(0, 0) + b.x * (lamps.corner(0, 1) - lamps.corner(0, 0)) +
+                                b.y * (lamps.corner(0, 2) - lamps.corner(0, 0));
+            hits.push_back({float(b.x), float(b.y), bits_to_float(0), 0});
+            wo.push_back(to_vec4(-to_dvec3(got.first[i])));
+            from.push_back(to_vec4(position, glm::length(point - position)));
+            by_angle += std::abs(got.first[i].w * limit - 1) < 1e-4;
+        }
+        EXPECT_TRUE(by_angle > 200 && by_angle < 3800) << by_angle;
+        const std::vector<vec4> hit = probe().run("hit_pdf", lamps.scene, lamps.params(), hits, wo, from).first;
+        for (size_t i = 0; i < hit.size(); ++i)
+            ASSERT_NEAR(hit[i].x / got.first[i].w, 1, 1e-4) << i << " " << limit;
+    }
+}
+
+TEST(Emitter, TheDensityIsThatOfTheAreaPerSteradianOrTheReciprocalOfTheSolidAngle) {
     constexpr size_t SAMPLES = 100000;
     const Lamps lamps = five_lamps();
     for (const dvec3& position : {dvec3(0, 0, 0), dvec3(0.9, -0.3, 1.1), dvec3(-1.2, 0.4, -0.8)}) {
         const Numbers numbers = numbers_at(position, SAMPLES, 2);
         const SceneProbe::Outputs got =
             probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
-        std::vector<vec4> hits, wo, distances, kept;
+        std::vector<vec4> hits, wo, from, kept;
         for (size_t i = 0; i < SAMPLES; ++i) {
             if (got.first[i].w == 0)
                 continue;
@@ -215,17 +326,22 @@ TEST(Emitter, TheDensityPerSteradianIsAreaDensityTimesSquaredDistanceOverCosine)
             const double pdf_a = lamps.exitance[triangle] * PI / lamps.power;
             // Roundings of the point, magnified where the lamp is seen edge-on.
             const double tolerance = 2e-6 + 2e-6 / (cos_l * glm::length(way));
-            ASSERT_NEAR(got.first[i].w / (pdf_a * glm::dot(way, way) / cos_l), 1, tolerance);
+            const dvec3 at = to_dvec3(numbers.positions[i]);
+            const dvec3 a = p0 - at, b1 = lamps.corner(triangle, 1) - at, b2 = lamps.corner(triangle, 2) - at;
+            const double angle = solid_angle(a, b1, b2);
+            const double expected =
+                looks_large(a, b1, b2) ? pdf_a * lamps.area(triangle) / angle : pdf_a * glm::dot(way, way) / cos_l;
+            ASSERT_NEAR(got.first[i].w / expected, 1, tolerance) << angle;
             ASSERT_LE(glm::length(to_dvec3(got.first[i]) - glm::normalize(way)), 1e-6 / glm::length(way));
             ASSERT_EQ(got.third[i].w, 0); // neither distant nor delta
             hits.push_back({float(b.x), float(b.y), bits_to_float(triangle), 0});
             wo.push_back(to_vec4(-to_dvec3(got.first[i])));
-            distances.push_back({float(glm::length(way)), 0, 0, 0});
+            from.push_back(to_vec4(at, glm::length(way)));
             kept.push_back({got.first[i].w, float(tolerance), 0, 0});
         }
         // The other technique, which hits the lamp by chance, computes the same number.
         const std::vector<vec4> hit =
-            probe().run("hit_pdf", lamps.scene, lamps.params(), hits, wo, distances).first;
+            probe().run("hit_pdf", lamps.scene, lamps.params(), hits, wo, from).first;
         for (size_t i = 0; i < hit.size(); ++i)
             ASSERT_NEAR(hit[i].x / kept[i].x, 1, 2 * kept[i].y) << i;
     }

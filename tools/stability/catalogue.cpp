@@ -56,6 +56,7 @@ const std::vector<RobustChoice>& robust_choices() {
         {"Random number from a word", "word / 2^32", "odd multiples of 2^-24", "P05", 0, time_uniforms},
         {"Frame around a normal", "1 / (1 + z)", "1 / (|z| + 1)", "P04", 0, time_frames},
         {"Choice among 4096 lights", "sums in float, bisection", "alias table of integers", "L07", 0, time_light_choice},
+        {"Point of a near lamp", "by area", "by solid angle", "L06", 0, time_solid_angle},
         {"MIS weight", "squares of densities", "square of their ratio", "L09", 0, time_mis_weight},
     };
     return choices;

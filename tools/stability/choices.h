@@ -26,6 +26,9 @@ ProbeTime time_frames(const Device& device);
 /// Choosing one of many lights (cases/light_table_cases.cpp).
 ProbeTime time_light_choice(const Device& device);
 
+/// Points on triangles, by solid angle against by area (cases/solid_angle_case.cpp).
+ProbeTime time_solid_angle(const Device& device);
+
 /// The power heuristic (cases/light_cases.cpp).
 ProbeTime time_mis_weight(const Device& device);
 

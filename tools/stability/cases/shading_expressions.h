@@ -33,4 +33,7 @@ void nets(CaseRun& run);
 void dark_lights(CaseRun& run);
 void many_lights(CaseRun& run);
 
+// Triangles by solid angle (solid_angle_case.cpp).
+void solid_angles(CaseRun& run);
+
 } // namespace clrt
