@@ -51,9 +51,10 @@ Device open_chosen_device(const Options& options) {
 int finish(const Report& report) {
     const Render& render = report.render;
     if (report.options.check != Check::OFF && render.counts.bad() > 0)
-        spdlog::warn("{} samples were not finite, negative or too large and count as 0; see the causes in the "
-                     "report and `nonfinite` in the JSON of --stats",
-                     render.counts.bad());
+        spdlog::warn(
+            "{} samples were not finite, negative or too large and count as 0; see the causes in the "
+            "report and `nonfinite` in the JSON of --stats",
+            render.counts.bad());
     if (render.stop_signal) {
         spdlog::warn("stopped by a signal after {} spp; the picture is saved", film_samples(render.film));
         return 128 + render.stop_signal;
@@ -132,9 +133,19 @@ int run_render(Options options) {
         });
 
     const Crop window = render_window(options);
-    Report report{options, scene, effects, device.info, done.facts, done.bvh, done.render,
-                  make_error_report(done.render, window.x0, window.y0), done.bvh_reason, done.causes, load_seconds,
-                  done.compile_seconds, seconds_since(start)};
+    Report report{options,
+                  scene,
+                  effects,
+                  device.info,
+                  done.facts,
+                  done.bvh,
+                  done.render,
+                  make_error_report(done.render, window.x0, window.y0),
+                  done.bvh_reason,
+                  done.causes,
+                  load_seconds,
+                  done.compile_seconds,
+                  seconds_since(start)};
     write_outputs(report, files);
     files.finish();
     if (options.verbosity >= 0)

@@ -68,8 +68,10 @@ void declare(CLI::App& app, MergeOptions& options) {
     app.set_help_flag();
     app.add_flag("-h,--help", options.help);
     app.add_option("films", options.films);
-    app.add_option("-o,--output", options.outputs)->expected(1)->allow_extra_args(false)->multi_option_policy(
-        CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("-o,--output", options.outputs)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--exposure", options.exposure_ev)->check(CLI::Range(-100.0, 100.0));
     app.add_option("--tonemap", options.tonemap)->check(CLI::IsMember({"none", "reinhard", "aces"}));
     app.add_flag("-q,--quiet", options.quiet);
@@ -92,7 +94,8 @@ void merge(const MergeOptions& options) {
     std::string names = options.films.front();
     for (size_t i = 1; i < options.films.size(); ++i) {
         merge_film(sum, names, read_film_file(options.films[i]), options.films[i]);
-        names = i == 1 ? names + " and " + options.films[i] : fmt::format("{} and {} more", options.films.front(), i);
+        names = i == 1 ? names + " and " + options.films[i]
+                       : fmt::format("{} and {} more", options.films.front(), i);
     }
     const Film& film = sum.render.film;
     for (size_t i = 1; i < film.ranges.size(); ++i)
@@ -110,8 +113,8 @@ void merge(const MergeOptions& options) {
     files.finish();
     if (options.quiet)
         return;
-    fmt::print("{} x {}, {} spp of {} films, {} s of rendering\n", film.width, film.height, film_samples(film),
-               options.films.size(), fmt::format("{:.1f}", sum.render.seconds));
+    fmt::print("{} x {}, {} spp of {} films, {} s of rendering\n", film.width, film.height,
+               film_samples(film), options.films.size(), fmt::format("{:.1f}", sum.render.seconds));
     fmt::print("{}", format_error_report(make_error_report(sum.render, picture.x0, picture.y0)));
 }
 

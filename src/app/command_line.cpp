@@ -76,8 +76,9 @@ bool is_budget(const std::string& name) {
 /// `clrt --resume FILM` and further options: the command that the film was rendered with, overruled by them.
 /// A new budget replaces the old one as a whole.
 Arguments continue_command(const Arguments& given) {
-    const auto resume = std::find_if(given.options.begin(), given.options.end(),
-                                     [](const GivenOption& option) { return option.value.option == "--resume"; });
+    const auto resume =
+        std::find_if(given.options.begin(), given.options.end(),
+                     [](const GivenOption& option) { return option.value.option == "--resume"; });
     const FilmOrigin origin = read_film_origin(resume->value.text);
     const std::string here = std::filesystem::current_path().string();
     if (origin.folder != here)
@@ -90,7 +91,8 @@ Arguments continue_command(const Arguments& given) {
     Arguments earlier = split_arguments(int(words.size()), words.data());
     Arguments all{{}, earlier.scenes};
     for (const GivenOption& option : earlier.options)
-        if (!overruled(option, given.options) && !(is_budget(option.value.option) && has_budget(given.options)))
+        if (!overruled(option, given.options) &&
+            !(is_budget(option.value.option) && has_budget(given.options)))
             all.options.push_back(option);
     all.options.insert(all.options.end(), given.options.begin(), given.options.end());
     return all;
@@ -165,7 +167,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     }
     if (options.outputs.empty() && !options.scene_path.empty())
         options.outputs.push_back(std::filesystem::path(options.scene_path).stem().string() + ".png");
-    // A ledger's compile seconds are those of a first start; its samples are its own unless the command line says how many.
+    // A ledger's compile seconds are those of a first start; its samples are its own unless the command line
+    // says how many.
     if (options.ledger && options.cache == Toggle::AUTO)
         options.cache = Toggle::OFF;
     if (options.ledger && !is_given(arguments.options, "--spp"))

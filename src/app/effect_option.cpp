@@ -16,7 +16,8 @@ u32 known_effect(const OptionValue& value, const std::string& name) {
     std::string all;
     for (const std::string& effect : known)
         all += " " + effect;
-    const std::string nearest = name.empty() ? "" : "; the nearest to '" + name + "' is " + nearest_name(name, known);
+    const std::string nearest =
+        name.empty() ? "" : "; the nearest to '" + name + "' is " + nearest_name(name, known);
     reject_value(value, "auto, all or a list such as matte,area-lights or -refraction of" + all + nearest);
 }
 
@@ -39,7 +40,8 @@ void apply_effects(Options& options, const OptionValue& value) {
         else if (!is_start) {
             const u32 bit = known_effect(value, part);
             if (!is_first && !options.effects_list)
-                reject_value(value, "effects with a '-' after auto, all or another '-', which '" + part + "' adds nothing to");
+                reject_value(value, "effects with a '-' after auto, all or another '-', which '" + part +
+                                        "' adds nothing to");
             options.effects_list = options.effects_list.value_or(0) | bit;
         }
         is_first = false;

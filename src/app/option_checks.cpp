@@ -71,8 +71,9 @@ void check_samples(const Options& options) {
 
 void check_error_target(const Options& options) {
     if (options.error && options.replicates < FEWEST_REPLICATES_WITH_ERROR)
-        reject(options, "option --error: expected --replicates " + std::to_string(FEWEST_REPLICATES_WITH_ERROR) +
-                            " or more, whose spread is the error, found " + std::to_string(options.replicates));
+        reject(options,
+               "option --error: expected --replicates " + std::to_string(FEWEST_REPLICATES_WITH_ERROR) +
+                   " or more, whose spread is the error, found " + std::to_string(options.replicates));
 }
 
 /// Halves of the replicates decide for each other, from two samples in each replicate on.
@@ -82,19 +83,22 @@ void check_adaptive(const Options& options) {
     const int replicates = options.replicates;
     if (replicates < FEWEST_ADAPTIVE_REPLICATES || replicates % 2 != 0)
         reject(options, "option --adaptive: expected an even number of --replicates from " +
-                            std::to_string(FEWEST_ADAPTIVE_REPLICATES) + ", found " + std::to_string(replicates));
+                            std::to_string(FEWEST_ADAPTIVE_REPLICATES) + ", found " +
+                            std::to_string(replicates));
     if (options.spp && *options.spp < pilot_samples(replicates))
         reject(options, "option --adaptive: expected --spp " + std::to_string(pilot_samples(replicates)) +
                             " or more with --replicates " + std::to_string(replicates) + ", found " +
                             std::to_string(*options.spp));
     if (options.first_sample != 0)
-        reject(options, "option --adaptive: expected no --first-sample, found " + std::to_string(options.first_sample) +
+        reject(options, "option --adaptive: expected no --first-sample, found " +
+                            std::to_string(options.first_sample) +
                             "; adaptive films do not merge, --resume goes on with them");
     if (!options.path_layers.empty())
         reject(options, "option --adaptive: expected no --aov NAME=EXPR, found the layer '" +
                             options.path_layers.front().name + "', which is not summed by halves");
     if (options.ledger)
-        reject(options, "option --adaptive: expected no --ledger, found both; the ledger compares pictures of equal samples");
+        reject(options, "option --adaptive: expected no --ledger, found both; the ledger compares pictures "
+                        "of equal samples");
 }
 
 void check_written_paths(const Options& options) {
@@ -102,13 +106,16 @@ void check_written_paths(const Options& options) {
     for (const std::string& input : {options.scene_path, options.sidecar_path}) {
         if (!options.stats_path.empty() && std::filesystem::equivalent(options.stats_path, input, error))
             reject(options, "option --stats: expected a file to write, found the input " + input);
-        if (!options.checkpoint_path.empty() && std::filesystem::equivalent(options.checkpoint_path, input, error))
+        if (!options.checkpoint_path.empty() &&
+            std::filesystem::equivalent(options.checkpoint_path, input, error))
             reject(options, "option --checkpoint: expected a file to write, found the input " + input);
     }
     const std::string& film = options.checkpoint_path;
-    const bool is_output = std::find(options.outputs.begin(), options.outputs.end(), film) != options.outputs.end();
+    const bool is_output =
+        std::find(options.outputs.begin(), options.outputs.end(), film) != options.outputs.end();
     if (!film.empty() && (is_output || film == options.stats_path))
-        reject(options, "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
+        reject(options,
+               "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
 }
 
 /// --pixel and --sample name a sample of the picture.
@@ -121,15 +128,17 @@ void check_replay(const Options& options) {
     const Crop window = options.crop.value_or(Crop{0, 0, options.size.x, options.size.y});
     const glm::ivec2 p = *options.pixel;
     if (p.x < window.x0 || p.x >= window.x1 || p.y < window.y0 || p.y >= window.y1)
-        reject(options, "option --pixel: expected a pixel of the picture, from " + std::to_string(window.x0) + "," +
-                            std::to_string(window.y0) + " to " + std::to_string(window.x1 - 1) + "," +
-                            std::to_string(window.y1 - 1) + ", found " + std::to_string(p.x) + "," + std::to_string(p.y));
+        reject(options, "option --pixel: expected a pixel of the picture, from " + std::to_string(window.x0) +
+                            "," + std::to_string(window.y0) + " to " + std::to_string(window.x1 - 1) + "," +
+                            std::to_string(window.y1 - 1) + ", found " + std::to_string(p.x) + "," +
+                            std::to_string(p.y));
     if (!options.spp) // no known end
         return;
     const std::uint64_t end = std::uint64_t(options.first_sample) + *options.spp;
     if (options.sample < options.first_sample || options.sample >= end)
-        reject(options, "option --sample: expected a sample of the picture, from " + std::to_string(options.first_sample) +
-                            " to " + std::to_string(end - 1) + ", found " + std::to_string(options.sample));
+        reject(options, "option --sample: expected a sample of the picture, from " +
+                            std::to_string(options.first_sample) + " to " + std::to_string(end - 1) +
+                            ", found " + std::to_string(options.sample));
 }
 
 /// Only `path` walks the automaton; the others simulate one language each.

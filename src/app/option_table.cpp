@@ -106,23 +106,26 @@ void check_paths(const OptionValue& v, const std::string& expression) {
 }
 
 const std::vector<std::string>& fixed_layers() {
-    static const std::vector<std::string> layers = {"albedo",     "N",        "Z",       "P",    "objectId",
-                                                    "materialId", "variance", "samples", "badSamples", "alpha"};
+    static const std::vector<std::string> layers = {
+        "albedo", "N", "Z", "P", "objectId", "materialId", "variance", "samples", "badSamples", "alpha"};
     return layers;
 }
 
 /// A layer NAME=EXPR of paths.
-void add_path_layer(Options& o, const OptionValue& v, const std::string& name, const std::string& expression) {
-    static const std::string LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz", REST = "0123456789_-";
+void add_path_layer(Options& o, const OptionValue& v, const std::string& name,
+                    const std::string& expression) {
+    static const std::string LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz",
+                             REST = "0123456789_-";
     const std::vector<std::string>& fixed = fixed_layers();
     const bool is_name = !name.empty() && name.size() <= LARGEST_LAYER_NAME &&
                          LETTERS.find(name[0]) != std::string::npos &&
                          name.find_first_not_of(LETTERS + REST) == std::string::npos;
-    const bool is_taken =
-        std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
-        std::any_of(o.path_layers.begin(), o.path_layers.end(), [&](const auto& l) { return l.name == name; });
+    const bool is_taken = std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
+                          std::any_of(o.path_layers.begin(), o.path_layers.end(),
+                                      [&](const auto& l) { return l.name == name; });
     if (!is_name || is_taken)
-        reject_value(v, "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
+        reject_value(v,
+                     "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
     if (o.path_layers.size() == PATH_LAYERS_LIMIT)
         reject_value(v, "at most " + std::to_string(PATH_LAYERS_LIMIT) + " layers NAME=EXPR");
     check_paths(v, expression);
@@ -262,7 +265,8 @@ std::vector<OptionSpec> work_options() {
              o.replicates = static_cast<int>(parse_whole(v, 1, LARGEST_REPLICATES));
          }},
         {group, "", "--adaptive", "",
-         "take more samples where the picture is noisy, by tiles of 16 x 16 pixels; --spp is their mean, at least 2 for each "
+         "take more samples where the picture is noisy, by tiles of 16 x 16 pixels; --spp is their mean, at "
+         "least 2 for each "
          "of the --replicates (default: the same everywhere)",
          [](Options& o, const OptionValue&) { o.adaptive = true; }},
         {group, "", "--sampler", "NAME",
@@ -284,7 +288,8 @@ std::vector<OptionSpec> work_options() {
              o.threads = static_cast<int>(parse_whole(v, 0, LARGEST_THREADS));
          }},
         {group, "", "--bvh", "NAME",
-         "tree of boxes: layout bvh8, bvh2 or cwbvh, quality fast or high, or both as in bvh8,high; auto chooses "
+         "tree of boxes: layout bvh8, bvh2 or cwbvh, quality fast or high, or both as in bvh8,high; auto "
+         "chooses "
          "the layout by device and high where a long render pays for it (default auto)",
          apply_bvh},
     };
@@ -382,11 +387,13 @@ std::vector<OptionSpec> promise_options() {
              o.explain = v.text.empty() ? Explain::TABLE : Explain::JSON;
          }},
         {group, "", "--effects", "auto|all|LIST",
-         "simulate what the scene needs (auto), with everything compiled in (all; same picture), or only the effects "
+         "simulate what the scene needs (auto), with everything compiled in (all; same picture), or only the "
+         "effects "
          "listed, such as matte,area-lights; -NAME takes one away: --effects=-refraction (default auto)",
          apply_effects},
         {group, "", "--paths", "EXPR",
-         "path: simulate only these paths, light to eye: L light (La area, Lp point, Ld sun, Le sky), D matte, G "
+         "path: simulate only these paths, light to eye: L light (La area, Lp point, Ld sun, Le sky), D "
+         "matte, G "
          "glossy, S specular (R mirror, T refraction), . any surface, E eye, and | * + ? ( ), such as "
          "'L(D|S)*E' (default: all)",
          [](Options& o, const OptionValue& v) {
@@ -394,7 +401,8 @@ std::vector<OptionSpec> promise_options() {
              o.paths = v.text;
          }},
         {group, "", "--ledger", "",
-         "measure what every effect costs in time and gives in light, by rendering without it; --time bounds it "
+         "measure what every effect costs in time and gives in light, by rendering without it; --time bounds "
+         "it "
          "(default 60 s); writes no picture",
          [](Options& o, const OptionValue&) { o.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--stats", "FILE", "write statistics of the run as JSON, in SI units",
@@ -405,11 +413,14 @@ std::vector<OptionSpec> promise_options() {
                  v, {{"off", Check::OFF}, {"count", Check::COUNT}, {"strict", Check::STRICT}});
          }},
         {group, "", "--pixel", "X,Y",
-         "replay one sample of this pixel and print its path, in single and double precision side by side; -v adds "
+         "replay one sample of this pixel and print its path, in single and double precision side by side; "
+         "-v adds "
          "hexadecimal numbers, --stats writes JSON; no picture",
          [](Options& o, const OptionValue& v) { o.pixel = parse_pixel(v); }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--sample", "N", "which sample of --pixel (default 0)",
-         [](Options& o, const OptionValue& v) { o.sample = static_cast<std::uint32_t>(parse_whole(v, 0, LARGEST_U32 - 1)); },
+         [](Options& o, const OptionValue& v) {
+             o.sample = static_cast<std::uint32_t>(parse_whole(v, 0, LARGEST_U32 - 1));
+         },
          Repeat::NO, COMMAND_LINE_ONLY},
     };
 }
@@ -418,13 +429,16 @@ std::vector<OptionSpec> run_options() {
     const char* const group = "Runs";
     return {
         {group, "", "--checkpoint", "FILE[,TIME]",
-         "write a film file, from which --resume goes on and which clrt-merge merges, at the end and so often "
+         "write a film file, from which --resume goes on and which clrt-merge merges, at the end and so "
+         "often "
          "(default: none; every 5m)",
          apply_checkpoint},
         {group, "", "--resume", "FILE",
          "go on from a film file: with the same command, or alone with another --spp, --time or --error",
-         [](Options& o, const OptionValue& v) { o.resume_path = parse_path(v); }, Repeat::NO, COMMAND_LINE_ONLY},
-        {group, "", "--save-every", "DURATION", "write the pictures so far so often (default: at the end only)",
+         [](Options& o, const OptionValue& v) { o.resume_path = parse_path(v); }, Repeat::NO,
+         COMMAND_LINE_ONLY},
+        {group, "", "--save-every", "DURATION",
+         "write the pictures so far so often (default: at the end only)",
          [](Options& o, const OptionValue& v) { o.save_every_seconds = parse_duration(v); }},
         {group, "", "--kernels", "DIR", "take the kernels from here (default: those inside clrt)",
          [](Options& o, const OptionValue& v) { o.kernels_folder = parse_path(v); }},
@@ -473,12 +487,8 @@ const OptionSpec* find_option(const std::string& long_name) {
 
 const std::vector<std::pair<std::string, std::string>>& exclusive_options() {
     static const std::vector<std::pair<std::string, std::string>> pairs = {
-        {"--quiet", "--verbose"},
-        {"--cache", "--no-cache"},
-        {"--fov", "--focal-length"},
-        {"--fov", "--film-width"},
-        {"--pixel", "--explain"},
-        {"--pixel", "--ledger"},
+        {"--quiet", "--verbose"},  {"--cache", "--no-cache"}, {"--fov", "--focal-length"},
+        {"--fov", "--film-width"}, {"--pixel", "--explain"},  {"--pixel", "--ledger"},
     };
     return pairs;
 }

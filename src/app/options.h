@@ -79,7 +79,7 @@ struct Options {
     std::string device; ///< as given to --device; empty: CLRT_DEVICE, else the first GPU, else the CPU
     bool list_devices = false;
     Integrator integrator = Integrator::PATH;
-    std::optional<std::uint32_t> spp;   ///< 64 if none of spp, time and error is given; 65536 with error alone
+    std::optional<std::uint32_t> spp; ///< 64 if none of spp, time and error is given; 65536 with error alone
     std::optional<double> time_seconds; ///< bounds the render stage of this run
     std::optional<double> error;        ///< target of the relative error
     std::optional<int> max_depth;       ///< path segments; 64, whitted 10, raycast always 2
@@ -111,7 +111,7 @@ struct Options {
 
     // The promises
     Explain explain = Explain::NO;
-    bool ledger = false; ///< measure what every effect costs and gives; no picture
+    bool ledger = false;                       ///< measure what every effect costs and gives; no picture
     bool all_effects = false;                  ///< --effects all: the full kernel
     std::optional<std::uint32_t> effects_list; ///< --effects LIST: these and no others
     std::uint32_t effects_off = 0;             ///< --effects -NAME: taken away
@@ -122,22 +122,24 @@ struct Options {
     std::uint32_t sample = 0;        ///< which one
 
     // Runs
-    std::string checkpoint_path;              ///< film file to write; empty: none
-    double checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;        ///< between two of them
-    std::string resume_path;                  ///< film file to go on from; empty: none
-    std::optional<double> save_every_seconds; ///< between two pictures so far
-    std::string kernels_folder; ///< replaces the embedded kernels
-    std::string dump_folder;    ///< writes exactly what was compiled
+    std::string checkpoint_path;                            ///< film file to write; empty: none
+    double checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS; ///< between two of them
+    std::string resume_path;                                ///< film file to go on from; empty: none
+    std::optional<double> save_every_seconds;               ///< between two pictures so far
+    std::string kernels_folder;                             ///< replaces the embedded kernels
+    std::string dump_folder;                                ///< writes exactly what was compiled
     Toggle cache = Toggle::AUTO;
     std::string cache_folder; ///< default: the user's cache folder
     Toggle progress = Toggle::AUTO;
     int verbosity = 0; ///< -1 quiet, 0, 1 verbose
     bool no_sidecar = false;
-    std::string sidecar_path;         ///< options file that was read; empty: none
-    /// The options that were given, by their long names: "file:line" in an options file, empty on the command line.
+    std::string sidecar_path; ///< options file that was read; empty: none
+    /// The options that were given, by their long names: "file:line" in an options file, empty on the command
+    /// line.
     std::map<std::string, std::string> given;
     std::vector<std::string> command; ///< argv as given, for the metadata
-    /// The command line that a film file keeps for --resume: without --resume, with what that took from its film.
+    /// The command line that a film file keeps for --resume: without --resume, with what that took from its
+    /// film.
     std::vector<std::string> resumable_command;
 };
 

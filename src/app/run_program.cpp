@@ -30,8 +30,9 @@ int run_program(const char* name, const std::function<int()>& program) {
     } catch (const DeviceError& error) {
         return report(EXIT_DEVICE, error.what());
     } catch (const std::bad_alloc&) {
-        return report(EXIT_SCENE, "not enough memory: expected a smaller scene, smaller textures or a smaller "
-                                  "picture (--size, --crop)");
+        return report(EXIT_SCENE,
+                      "not enough memory: expected a smaller scene, smaller textures or a smaller "
+                      "picture (--size, --crop)");
     } catch (const std::exception& error) {
         return report(EXIT_SCENE, error.what());
     }

@@ -7,8 +7,8 @@
 namespace clrt {
 
 /// Runs a program and returns its exit code. What it throws becomes the line "NAME: error: ..." on stderr and
-/// the error's exit code (exit_code.h). Standard output that cannot be written, to a full disk for example, is
-/// an error as well.
+/// the error's exit code (exit_code.h). Standard output that cannot be written, to a full disk for example,
+/// is an error as well.
 int run_program(const char* name, const std::function<int()>& program);
 
 } // namespace clrt

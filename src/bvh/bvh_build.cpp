@@ -22,9 +22,10 @@ LeafCost leaf_cost(BvhLayout layout) {
     return BVH8_LEAF_COST;
 }
 
-/// A tree of high quality is kept if its cost is below this share of the fast one's. Measured with eight-wide nodes on PoCL:
-/// at 0.98 to 1.01 (a bunny, a sphere) rays take up to 10 % longer in it, for the memory that cut triangles take; at
-/// 0.88 to 0.91 (three rooms) diffuse rays gain 0 to 10 %, while camera and shadow rays gain or lose as much.
+/// A tree of high quality is kept if its cost is below this share of the fast one's. Measured with eight-wide
+/// nodes on PoCL: at 0.98 to 1.01 (a bunny, a sphere) rays take up to 10 % longer in it, for the memory that
+/// cut triangles take; at 0.88 to 0.91 (three rooms) diffuse rays gain 0 to 10 %, while camera and shadow
+/// rays gain or lose as much.
 constexpr double LARGEST_COST_SHARE = 0.95;
 
 } // namespace
@@ -76,7 +77,8 @@ Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& t
     return bvh;
 }
 
-Bvh build_better_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
+Bvh build_better_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                     BvhLayout layout) {
     Bvh fast = build_bvh(positions, triangles, layout, BvhQuality::FAST);
     Bvh high = build_bvh(positions, triangles, layout, BvhQuality::HIGH);
     const double seconds = fast.seconds + high.seconds;

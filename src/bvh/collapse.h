@@ -44,11 +44,12 @@ public:
     /// Whether the subtree becomes one leaf.
     bool is_leaf(u32 node) const;
 
-    /// The children of the wide node made from `parent`: one if that is a leaf, which only the root can be. `levels`
-    /// of wide nodes are left for `parent` and what is below: the rules' max_levels at the root, one less at each
-    /// child. Where the cheapest children would not do with that, three binary levels are taken at once.
-    /// Slots are given so that visiting them by ascending slot XOR octant is roughly front to back for a ray
-    /// whose octant has bit a set where its direction is negative along axis a (section 4.1 of the paper).
+    /// The children of the wide node made from `parent`: one if that is a leaf, which only the root can be.
+    /// `levels` of wide nodes are left for `parent` and what is below: the rules' max_levels at the root, one
+    /// less at each child. Where the cheapest children would not do with that, three binary levels are taken
+    /// at once. Slots are given so that visiting them by ascending slot XOR octant is roughly front to back
+    /// for a ray whose octant has bit a set where its direction is negative along axis a (section 4.1 of the
+    /// paper).
     WideChildren children(WideChild parent, int levels) const;
 
 private:

@@ -37,8 +37,9 @@ constexpr std::uint64_t PROGRAM_CACHE_BYTES = std::uint64_t(256) << 20;
 std::optional<CachedProgram> read_cached_program(const std::string& folder, const std::string& key);
 
 /// Writes an entry under a temporary name and renames it, so that readers never see half of one. A folder
-/// that cannot be written is a debug message. Afterwards removes the least recently used others until all entries together
-/// have at most `limit_bytes`, and files that a killed process left. Any number of processes may do so at once.
+/// that cannot be written is a debug message. Afterwards removes the least recently used others until all
+/// entries together have at most `limit_bytes`, and files that a killed process left. Any number of processes
+/// may do so at once.
 void write_cached_program(const std::string& folder, const std::string& key, const CachedProgram& program,
                           std::uint64_t limit_bytes = PROGRAM_CACHE_BYTES);
 

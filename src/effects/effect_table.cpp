@@ -9,8 +9,8 @@ namespace {
 
 constexpr u32 LOBES = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_REFRACTION;
 /// What a map can be of; all others are not loaded.
-constexpr u32 MAPPED = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION | EFFECT_AREA_LIGHT |
-                       EFFECT_CUT_OUT | EFFECT_NORMAL_MAP;
+constexpr u32 MAPPED = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION |
+                       EFFECT_AREA_LIGHT | EFFECT_CUT_OUT | EFFECT_NORMAL_MAP;
 
 std::string with_hyphens(std::string name) {
     std::replace(name.begin(), name.end(), ' ', '-');
@@ -24,7 +24,8 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_AREA_LIGHT, "area lights", 0, 0, "emissive triangles are dark"},
         {EFFECT_DELTA_LIGHT, "point lights and suns", 0, 0, "--point and --sun are not there"},
         {EFFECT_ENVIRONMENT, "environment", 0, 0, "black outside the scene"},
-        {EFFECT_ENVIRONMENT_MAP, "environment map", EFFECT_ENVIRONMENT, 0, "a constant sky of the map's mean radiance"},
+        {EFFECT_ENVIRONMENT_MAP, "environment map", EFFECT_ENVIRONMENT, 0,
+         "a constant sky of the map's mean radiance"},
         {EFFECT_MATTE, "matte", 0, 0, "no material has a matte lobe"},
         {EFFECT_GLOSSY, "glossy", 0, 0, "no material has a rough reflection"},
         {EFFECT_MIRROR, "mirror", 0, 0, "no material has a mirror reflection"},

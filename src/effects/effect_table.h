@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every effect once: its name, the effects that it is a kind of, and what a picture without it shows. Plan, --explain,
+// Every effect once: its name, the effects that it is a kind of, and what a picture without it shows. Plan,
+// --explain,
 // --effects, --ledger and the tests read this table.
 #pragma once
 
@@ -12,8 +13,8 @@
 
 namespace clrt {
 
-/// Effects that every program simulates and a run-time value switches off, because --max-depth decides it: a loop
-/// that ends costs no code. Their bits are apart from those of kernels/shared/effects.h.
+/// Effects that every program simulates and a run-time value switches off, because --max-depth decides it: a
+/// loop that ends costs no code. Their bits are apart from those of kernels/shared/effects.h.
 constexpr u32 EFFECT_INTERREFLECTION = 0x01000000u;
 /// All effects: those that decide about the program, and the others.
 constexpr u32 EVERY_EFFECT = EFFECT_ALL | EFFECT_INTERREFLECTION;
@@ -39,7 +40,8 @@ u32 without_effects(u32 effects, u32 taken);
 /// True if every effect has those that it cannot be without: some scene calls for exactly these.
 bool is_permitted(u32 effects);
 
-/// The bit of an effect by its name, blanks or hyphens between its words; nothing if there is none of this name.
+/// The bit of an effect by its name, blanks or hyphens between its words; nothing if there is none of this
+/// name.
 std::optional<u32> effect_by_name(const std::string& name);
 
 /// Names of effects in the order of the table, as --effects takes them ("rough-refraction").

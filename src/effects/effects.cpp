@@ -68,7 +68,8 @@ public:
             for (const u32 map : used_[i] ? maps_of(scene_.materials[i]) : std::vector<u32>())
                 if (map != NO_INDEX)
                     return fact(bit, true,
-                                fmt::format("{}, map \"{}\"{}", describe_material(scene_, i), scene_.texture_names[map],
+                                fmt::format("{}, map \"{}\"{}", describe_material(scene_, i),
+                                            scene_.texture_names[map],
                                             quoted_place(scene_.texture_places[map])),
                                 scene_.texture_places[map]);
         fact(bit, false, absent);
@@ -115,16 +116,19 @@ void find_environment(const Scene& scene, const Options& options, EffectFinder& 
                 : given ? option + ": radiance above 0"
                         : "white sky: radiance above 0 where nothing else gives light",
                 place);
-    finder.fact(EFFECT_ENVIRONMENT_MAP, map && bright,
-                !map ? "no map" : fmt::format("{}, {} x {} texels{}", option, sky.width, sky.height, bright ? "" : ", black"),
-                map ? place : SourcePlace{});
+    finder.fact(
+        EFFECT_ENVIRONMENT_MAP, map && bright,
+        !map ? "no map"
+             : fmt::format("{}, {} x {} texels{}", option, sky.width, sky.height, bright ? "" : ", black"),
+        map ? place : SourcePlace{});
 }
 
 void find_light_effects(const Scene& scene, const Options& options, EffectFinder& finder) {
     const bool area = !scene.emitters.empty();
     const size_t first = area ? scene.triangles[scene.emitters[0].triangle].material : 0;
     finder.fact(EFFECT_AREA_LIGHT, area,
-                area ? fmt::format("{} emissive triangles, first {}", scene.emitters.size(), describe_material(scene, first))
+                area ? fmt::format("{} emissive triangles, first {}", scene.emitters.size(),
+                                   describe_material(scene, first))
                      : "no triangle emits",
                 area ? scene.material_places[first] : SourcePlace{});
     find_delta_lights(scene, options, finder);
@@ -145,8 +149,9 @@ void find_material_effects(EffectFinder& finder) {
         return std::vector<u32>{m.map_matte,     m.map_specular, m.map_emission, m.map_coverage,
                                 m.map_roughness, m.map_metallic, m.map_normal,   m.map_bump};
     });
-    finder.map(EFFECT_NORMAL_MAP, "no material has one",
-               [](const Material& m) { return std::vector<u32>{m.map_normal, m.map_bump}; });
+    finder.map(EFFECT_NORMAL_MAP, "no material has one", [](const Material& m) {
+        return std::vector<u32>{m.map_normal, m.map_bump};
+    });
 }
 
 void find_smooth_normals(const Scene& scene, EffectFinder& finder) {
@@ -188,7 +193,7 @@ void find_interreflection(const Scene& scene, const Options& options, EffectFind
 
 /// What --effects asks for, of all effects.
 u32 chosen_effects(const Options& options, u32 needed) {
-    const u32 start = options.effects_list ? with_implied(*options.effects_list)
+    const u32 start = options.effects_list  ? with_implied(*options.effects_list)
                       : options.all_effects ? EVERY_EFFECT
                                             : needed;
     return without_effects(start, options.effects_off);
@@ -205,7 +210,8 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_filter(options, finder);
     Effects effects;
     effects.paths = plan_paths(scene, options);
-    finder.fact(EFFECT_PATH_FILTER, effects.paths.is_filter, path_summary(effects.paths), place_of(options, "--paths"));
+    finder.fact(EFFECT_PATH_FILTER, effects.paths.is_filter, path_summary(effects.paths),
+                place_of(options, "--paths"));
     find_interreflection(scene, options, finder);
 
     effects.list = std::move(finder.list);
@@ -224,9 +230,9 @@ std::string format_effects(const Effects& effects) {
     std::string text;
     for (const Effect& effect : effects.list)
         text += fmt::format("  {:<8} {:<22} {}\n",
-                            !effect.present                   ? "absent"
+                            !effect.present                 ? "absent"
                             : effects.left_out & effect.bit ? "left out"
-                                                              : "present",
+                                                            : "present",
                             effect.name, effect.witness);
     return text;
 }

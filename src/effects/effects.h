@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which effects a scene calls for under the given options, each with its witness: the proof that switches kernel
-// code on or off (kernels/shared/effects.h).
+// Which effects a scene calls for under the given options, each with its witness: the proof that switches
+// kernel code on or off (kernels/shared/effects.h).
 #pragma once
 
 #include "app/options.h"
@@ -15,8 +15,8 @@ namespace clrt {
 
 /// One effect and why it is present or absent.
 struct Effect {
-    u32 bit = 0;         ///< EFFECT_*
-    std::string name;    ///< as in messages and files, such as "rough refraction"
+    u32 bit = 0;      ///< EFFECT_*
+    std::string name; ///< as in messages and files, such as "rough refraction"
     bool present = false;
     std::string witness; ///< what calls for it, such as `material "glass" (room.mtl:12)`, or why nothing does
     SourcePlace place;   ///< the file and line that the witness names; line 0: none
@@ -27,7 +27,8 @@ struct Effects {
     std::vector<Effect> list;
     /// What the scene calls for, all effects.
     u32 needed = 0;
-    /// Bits to compile with: the needed ones, all with --effects all, or those of the list, without what is taken away.
+    /// Bits to compile with: the needed ones, all with --effects all, or those of the list, without what is
+    /// taken away.
     u32 mask = 0;
     /// What the scene calls for and --effects leaves out, with the effects that imply it: take_out.h.
     u32 left_out = 0;

@@ -58,11 +58,12 @@ std::string explain_json(const Scene& scene, const Effects& effects, const Optio
 std::string explain(const Scene& scene, const Effects& effects, const Options& options) {
     if (options.explain == Explain::JSON)
         return explain_json(scene, effects, options);
-    std::string text = fmt::format("Effects of {} ({} triangles):\n{}", options.scene_path, scene.triangles.size(),
-                                   format_effects(effects));
+    std::string text = fmt::format("Effects of {} ({} triangles):\n{}", options.scene_path,
+                                   scene.triangles.size(), format_effects(effects));
     for (const std::string& line : describe_left_out(effects))
         text += line + "\n";
-    text += fmt::format("compiled with CLRT_EFFECTS={:#x}\n\nMaterials:\n{}", effects.mask, material_table(scene));
+    text += fmt::format("compiled with CLRT_EFFECTS={:#x}\n\nMaterials:\n{}", effects.mask,
+                        material_table(scene));
     if (effects.paths.is_asked)
         text += "\nPaths:\n" + format_paths(effects.paths);
     if (!scene.notices.empty())

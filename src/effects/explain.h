@@ -10,7 +10,8 @@
 
 namespace clrt {
 
-/// Effects with their witnesses, materials as understood, and every fallback; a table, or JSON with --explain=json.
+/// Effects with their witnesses, materials as understood, and every fallback; a table, or JSON with
+/// --explain=json.
 std::string explain(const Scene& scene, const Effects& effects, const Options& options);
 
 } // namespace clrt

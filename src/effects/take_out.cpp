@@ -70,8 +70,8 @@ void set_cut_out_flag(Material& material) {
 
 void take_out_textures(Scene& scene) {
     for (Material& material : scene.materials) {
-        for (u32* map : {&material.map_matte, &material.map_specular, &material.map_emission, &material.map_coverage,
-                         &material.map_roughness, &material.map_metallic})
+        for (u32* map : {&material.map_matte, &material.map_specular, &material.map_emission,
+                         &material.map_coverage, &material.map_roughness, &material.map_metallic})
             *map = NO_INDEX;
         set_cut_out_flag(material);
     }

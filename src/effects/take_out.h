@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes effects out of a scene that calls for them: what is left is a scene that does not call for them, so that every program
-// renders it alike and no kernel meets data that it was not built for.
+// Takes effects out of a scene that calls for them: what is left is a scene that does not call for them, so
+// that every program renders it alike and no kernel meets data that it was not built for.
 #pragma once
 
 #include "app/options.h"
@@ -8,8 +8,8 @@
 
 namespace clrt {
 
-/// Changes the scene and the options to what the column `without` of the effect table says, for each of `effects`
-/// and for those that imply one of them.
+/// Changes the scene and the options to what the column `without` of the effect table says, for each of
+/// `effects` and for those that imply one of them.
 void take_out_effects(u32 effects, Scene& scene, Options& options);
 
 } // namespace clrt

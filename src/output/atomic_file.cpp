@@ -30,8 +30,8 @@ fs::path link_target(const fs::path& path) {
     return target.empty() ? path : target;
 }
 
-/// Removes what killed runs left of the same file. A run holds a lock on the file it writes; a lock that can be had
-/// has no owner any more. Where the system knows no locks, nothing is removed.
+/// Removes what killed runs left of the same file. A run holds a lock on the file it writes; a lock that can
+/// be had has no owner any more. Where the system knows no locks, nothing is removed.
 void remove_leftovers(const fs::path& target) {
     const std::string start = target.filename().string() + PARTIAL_MARK;
     std::error_code error;

@@ -14,8 +14,9 @@ namespace clrt {
 /// Errors of writing are kept until commit(), so that image encoders need not cope with them.
 class AtomicFile {
 public:
-    /// Creates NAME.partial-PID beside the file and removes those that killed runs left there; a symbolic link is
-    /// followed to its file. Throws SceneError with the system's reason, and for names of folders and devices.
+    /// Creates NAME.partial-PID beside the file and removes those that killed runs left there; a symbolic
+    /// link is followed to its file. Throws SceneError with the system's reason, and for names of folders and
+    /// devices.
     explicit AtomicFile(const std::string& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;

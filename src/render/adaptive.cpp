@@ -9,8 +9,9 @@ namespace clrt {
 
 namespace {
 
-/// Of the mean number of samples, what every tile has at least: light that nobody has seen yet is found there too, and
-/// where its noise misleads, the squared error is at most doubled. A quarter gained nothing more on any scene measured.
+/// Of the mean number of samples, what every tile has at least: light that nobody has seen yet is found there
+/// too, and where its noise misleads, the squared error is at most doubled. A quarter gained nothing more on
+/// any scene measured.
 constexpr double SMALLEST_SHARE = 0.5;
 /// A tile's samples grow by this factor a round at most, so that rounds end at every power of two.
 constexpr std::uint32_t LARGEST_GROWTH = 2;
@@ -30,10 +31,12 @@ struct Candidate {
     }
 };
 
-/// Doubles samples where that takes most away from the squared error, as long as the sum over all pixels allows.
+/// Doubles samples where that takes most away from the squared error, as long as the sum over all pixels
+/// allows.
 class Allocation {
 public:
-    Allocation(const Film& film, const std::vector<double>& noise, std::vector<std::uint32_t> samples, double mean)
+    Allocation(const Film& film, const std::vector<double>& noise, std::vector<std::uint32_t> samples,
+               double mean)
         : noise_(noise), start_(samples), samples_(std::move(samples)), pixels_(tile_pixel_counts(film)) {
         most_ = std::uint32_t(FILM_SAMPLES_PER_REPLICATE * std::uint64_t(film.replicates / 2));
         left_ = 0;
@@ -82,7 +85,8 @@ private:
     double left_; ///< samples of pixels that may still be given
 };
 
-/// Samples of a half that every tile has when the mean of both halves is `mean`: those of the first round times 2^level.
+/// Samples of a half that every tile has when the mean of both halves is `mean`: those of the first round
+/// times 2^level.
 size_t common_level(std::uint64_t mean, std::uint64_t pilot) {
     size_t level = 0;
     while (double(pilot << level) < SMALLEST_SHARE * double(mean))
@@ -167,7 +171,8 @@ std::vector<double> tile_noise(const Film& film, int half) {
     tbb::parallel_for(size_t(0), noise.size() / across, [&](size_t tile_row) {
         const size_t rows = std::min<size_t>(size_t(film.height), (tile_row + 1) * ADAPTIVE_TILE_SIZE);
         for (size_t y = tile_row * ADAPTIVE_TILE_SIZE; y < rows; ++y)
-            for (size_t value = 3 * y * size_t(film.width); value < 3 * (y + 1) * size_t(film.width); ++value) {
+            for (size_t value = 3 * y * size_t(film.width); value < 3 * (y + 1) * size_t(film.width);
+                 ++value) {
                 double mean = 0, squares = 0;
                 const std::int64_t* sums = &film.sums[size_t(half) * count * plane + value];
                 for (size_t k = 0; k < count; ++k)

@@ -18,7 +18,8 @@ constexpr double MARGIN = 2;
 // A ray costs more in larger trees, by levels and by cache misses: 250 ns in a closed mesh of a million.
 constexpr double RAY_NS_A_LEVEL = 12;
 constexpr std::uint32_t DEFAULT_SPP = 64;
-// --error without --spp or --time: nobody knows yet, but who asks for an error asks for more than the default.
+// --error without --spp or --time: nobody knows yet, but who asks for an error asks for more than the
+// default.
 constexpr std::uint32_t SPP_FOR_AN_ERROR = 1024;
 
 // Rays of a sample: each segment and its shadow ray, as long as roulette lets paths live.
@@ -34,8 +35,8 @@ double predicted_seconds(const Options& options, size_t triangles) {
     if (options.crop)
         pixels = double(options.crop->x1 - options.crop->x0) * (options.crop->y1 - options.crop->y0);
     const double ray_ns = RAY_NS_A_LEVEL * std::log2(double(triangles) + 2);
-    const double seconds =
-        pixels * options.spp.value_or(options.error ? SPP_FOR_AN_ERROR : DEFAULT_SPP) * rays_per_sample(options) * ray_ns * 1e-9;
+    const double seconds = pixels * options.spp.value_or(options.error ? SPP_FOR_AN_ERROR : DEFAULT_SPP) *
+                           rays_per_sample(options) * ray_ns * 1e-9;
     if (!options.time_seconds)
         return seconds;
     return options.spp ? std::min(seconds, *options.time_seconds) : *options.time_seconds;

@@ -22,8 +22,9 @@ RenderProgress read_resumed_film(const Options& options, const FilmIdentity& ide
     if (!difference && first != options.first_sample)
         difference = fmt::format("first_sample: expected {}, found {}", first, options.first_sample);
     if (difference)
-        throw UsageError(fmt::format("option --resume: scene and options must be those of '{}', but they differ in {}",
-                                     options.resume_path, *difference));
+        throw UsageError(
+            fmt::format("option --resume: scene and options must be those of '{}', but they differ in {}",
+                        options.resume_path, *difference));
     return std::move(film.render);
 }
 

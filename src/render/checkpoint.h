@@ -10,8 +10,8 @@ namespace clrt {
 FilmFile make_film_file(const RenderProgress& render, const FilmIdentity& identity, const Options& options,
                         const DeviceInfo& device);
 
-/// What --resume goes on from. Throws SceneError for a file that cannot be read, UsageError that names the field in
-/// which the film differs from what scene and options would make.
+/// What --resume goes on from. Throws SceneError for a file that cannot be read, UsageError that names the
+/// field in which the film differs from what scene and options would make.
 RenderProgress read_resumed_film(const Options& options, const FilmIdentity& identity);
 
 } // namespace clrt

@@ -31,8 +31,8 @@ std::string error_line(const ErrorReport& report) {
     else if (error.relative_rmse > 0)
         text += " (no interval: it takes four replicates)";
     if (report.slope)
-        text += fmt::format(", slope {:.2f} +- {:.2f} from {} to {} spp", report.slope->slope, report.slope->reach,
-                            report.slope->first_samples, report.slope->last_samples);
+        text += fmt::format(", slope {:.2f} +- {:.2f} from {} to {} spp", report.slope->slope,
+                            report.slope->reach, report.slope->first_samples, report.slope->last_samples);
     return text;
 }
 
@@ -40,9 +40,10 @@ std::string price_line(const ErrorReport& report) {
     if (!report.price)
         return "half the error: not known, more samples hardly change it";
     const ErrorPrice& price = *report.price;
-    return fmt::format("{} takes {:.1f} times the samples, {:.1f} s more (extrapolated by {} slope of {:.2f})",
-                       percent(price.relative_rmse), price.factor, price.seconds,
-                       price.measured ? "the measured" : "the usual", price.slope);
+    return fmt::format(
+        "{} takes {:.1f} times the samples, {:.1f} s more (extrapolated by {} slope of {:.2f})",
+        percent(price.relative_rmse), price.factor, price.seconds,
+        price.measured ? "the measured" : "the usual", price.slope);
 }
 
 } // namespace
@@ -72,15 +73,16 @@ std::string format_error_report(const ErrorReport& report) {
         return text;
     const ErrorSpread& spread = *report.spread;
     text += fmt::format("price    {}\n", price_line(report));
-    text += fmt::format("worst    {} of the picture's mean in the {} x {} tile at {},{}\n", percent(spread.worst_tile),
-                        ERROR_TILE_SIZE, ERROR_TILE_SIZE, report.window_x + spread.tile_x,
-                        report.window_y + spread.tile_y);
-    text += fmt::format("tails    the noisiest {} of the pixels hold {:.0f} % of the squared error; {:.0f} % was seen by one "
-                        "replicate alone, which makes it uncertain by {:.1f} %: {}\n",
-                        spread.tail_pixels == 1 ? "one" : "thousandth", 100 * spread.tail_share,
-                        100 * spread.once_share, 100 * spread.once_error,
-                        spread.usable() ? "the error can be believed"
-                                        : "do not believe the error, rare bright samples are still to come");
+    text += fmt::format("worst    {} of the picture's mean in the {} x {} tile at {},{}\n",
+                        percent(spread.worst_tile), ERROR_TILE_SIZE, ERROR_TILE_SIZE,
+                        report.window_x + spread.tile_x, report.window_y + spread.tile_y);
+    text += fmt::format(
+        "tails    the noisiest {} of the pixels hold {:.0f} % of the squared error; {:.0f} % was seen by one "
+        "replicate alone, which makes it uncertain by {:.1f} %: {}\n",
+        spread.tail_pixels == 1 ? "one" : "thousandth", 100 * spread.tail_share, 100 * spread.once_share,
+        100 * spread.once_error,
+        spread.usable() ? "the error can be believed"
+                        : "do not believe the error, rare bright samples are still to come");
     return text;
 }
 
@@ -120,7 +122,9 @@ Json error_report_json(const ErrorReport& report) {
 }
 
 void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
-    const auto add = [&](const char* name, double value) { metadata.emplace_back(name, fmt::format("{:.6g}", value)); };
+    const auto add = [&](const char* name, double value) {
+        metadata.emplace_back(name, fmt::format("{:.6g}", value));
+    };
     if (!report.error)
         return;
     add("error", report.error->relative_rmse);

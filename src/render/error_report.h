@@ -17,8 +17,8 @@ struct ErrorReport {
     std::optional<ErrorSlope> slope;
     std::optional<ErrorSpread> spread;
     std::optional<ErrorPrice> price;
-    int replicates = 0;                      ///< with samples
-    int window_x = 0, window_y = 0;          ///< the window's place in the whole picture
+    int replicates = 0;             ///< with samples
+    int window_x = 0, window_y = 0; ///< the window's place in the whole picture
 };
 
 /// Makes the report of a render; (x, y) is the window's top left pixel in the whole picture.

@@ -9,9 +9,10 @@ namespace clrt {
 namespace {
 
 constexpr double PI = 3.14159265358979323846;
-constexpr int QUANTUM_BITS = 20;       ///< the quantum is 2^-20 levels
-constexpr int LARGEST_BITS = 24;       ///< a contribution is at most 2^24 levels
-constexpr int BRIGHTEST_BITS = 20;     ///< the brightest light is at most 2^20 levels: room for path weights above 1
+constexpr int QUANTUM_BITS = 20; ///< the quantum is 2^-20 levels
+constexpr int LARGEST_BITS = 24; ///< a contribution is at most 2^24 levels
+constexpr int BRIGHTEST_BITS =
+    20; ///< the brightest light is at most 2^20 levels: room for path weights above 1
 
 double luminance(double r, double g, double b) {
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -26,8 +27,8 @@ double brightest_light(const Scene& scene) {
     }
     for (const Light& light : scene.lights)
         if (light.kind == LIGHT_SUN)
-            brightest = std::max({brightest, double(light.emission.x), double(light.emission.y),
-                                  double(light.emission.z)});
+            brightest = std::max(
+                {brightest, double(light.emission.x), double(light.emission.y), double(light.emission.z)});
     const glm::dvec3& sky = scene.environment.radiance;
     double texel = scene.environment.texels.empty() ? 1 : 0;
     for (const EnvironmentTexel& t : scene.environment.texels)
@@ -35,8 +36,8 @@ double brightest_light(const Scene& scene) {
     return std::max(brightest, texel * std::max({sky.x, sky.y, sky.z}));
 }
 
-/// The sum of value `i` over replicates [begin, end), rounded once. Full replicates take 64 bits each, so the halves of the words
-/// are added apart.
+/// The sum of value `i` over replicates [begin, end), rounded once. Full replicates take 64 bits each, so the
+/// halves of the words are added apart.
 double sum_over_replicates(const Film& film, size_t i, size_t begin, size_t end) {
     std::int64_t high = 0, low = 0;
     for (size_t r = begin; r < end; ++r) {
@@ -54,8 +55,8 @@ std::vector<float> mean_of_halves(const Film& film) {
     for (size_t i = 0; i < plane; ++i) {
         double value = 0;
         for (size_t half = 0; half < 2; ++half)
-            value += 0.5 * sum_over_replicates(film, i, half * of_half, (half + 1) * of_half) * film.scale.quantum /
-                     double(film.tile_samples[half][film_tile(film, i / 3)]);
+            value += 0.5 * sum_over_replicates(film, i, half * of_half, (half + 1) * of_half) *
+                     film.scale.quantum / double(film.tile_samples[half][film_tile(film, i / 3)]);
         mean[i] = float(value);
     }
     return mean;
@@ -133,7 +134,9 @@ std::uint64_t film_samples(const Film& film) {
 
 std::uint64_t film_replicate_samples(const Film& film, int replicate) {
     const std::uint64_t count = std::uint64_t(film.replicates);
-    const auto below = [&](std::uint64_t end) { return (end + count - 1 - std::uint64_t(replicate)) / count; };
+    const auto below = [&](std::uint64_t end) {
+        return (end + count - 1 - std::uint64_t(replicate)) / count;
+    };
     std::uint64_t samples = 0;
     for (const SampleRange& range : film.ranges)
         samples += below(range.end) - below(range.first);
@@ -203,7 +206,8 @@ std::vector<float> film_mean(const Film& film) {
     if (is_adaptive(film))
         return mean_of_halves(film);
     for (size_t i = 0; i < plane; ++i)
-        mean[i] = float(sum_over_replicates(film, i, 0, size_t(film.replicates)) * film.scale.quantum / double(samples));
+        mean[i] = float(sum_over_replicates(film, i, 0, size_t(film.replicates)) * film.scale.quantum /
+                        double(samples));
     return mean;
 }
 

@@ -13,13 +13,14 @@ namespace clrt {
 
 /// Sums are multiples of `quantum`; a single contribution may reach `largest`.
 struct FilmScale {
-    double quantum = 1;  ///< radiance; a power of two
-    double largest = 1;  ///< radiance
+    double quantum = 1; ///< radiance; a power of two
+    double largest = 1; ///< radiance
 };
 
-/// Chooses the scale from the scene alone (same for crop, effects, precision and device): 2^-20 of the power of two
-/// nearest the mean radiance level, which is the emitted power over the bounding sphere's area and pi plus the sky's
-/// mean, raised to 2^-20 of the brightest light so that a light in view stays below `largest` = 2^24 levels.
+/// Chooses the scale from the scene alone (same for crop, effects, precision and device): 2^-20 of the power
+/// of two nearest the mean radiance level, which is the emitted power over the bounding sphere's area and pi
+/// plus the sky's mean, raised to 2^-20 of the brightest light so that a light in view stays below `largest`
+/// = 2^24 levels.
 FilmScale film_scale(const Scene& scene);
 
 /// Most samples that a pixel of one replicate can hold: 2^63 / 2^44 contributions.
@@ -40,10 +41,11 @@ using TileSamples = std::array<std::vector<std::uint32_t>, 2>;
 /// Sums of a window of pixels: [replicate][pixel][rgb].
 struct Film {
     int width = 0, height = 0;
-    int replicates = 1;              ///< kept apart
+    int replicates = 1; ///< kept apart
     FilmScale scale;
-    std::vector<SampleRange> ranges; ///< the samples inside: in order, disjoint, not empty; merged films can have gaps
-    TileSamples tile_samples;        ///< of an adaptive film, whose range is their mean; empty: all tiles are equal
+    std::vector<SampleRange>
+        ranges; ///< the samples inside: in order, disjoint, not empty; merged films can have gaps
+    TileSamples tile_samples; ///< of an adaptive film, whose range is their mean; empty: all tiles are equal
     std::vector<std::int64_t> sums;
 };
 
@@ -77,8 +79,8 @@ std::vector<float> film_pixel_samples(const Film& film);
 /// Samples of all pixels together.
 std::uint64_t film_all_samples(const Film& film);
 
-/// Samples of a pixel that fell into replicate `replicate`: sample s belongs to replicate s mod replicates. For films
-/// that are not adaptive.
+/// Samples of a pixel that fell into replicate `replicate`: sample s belongs to replicate s mod replicates.
+/// For films that are not adaptive.
 std::uint64_t film_replicate_samples(const Film& film, int replicate);
 
 /// Means of the replicates that have samples, one value (pixel and channel) after the other.
@@ -89,13 +91,15 @@ public:
     size_t count() const { return first_.size(); }
     /// Their means of value `i` of a replicate's plane.
     void read(size_t i, double* means) const;
-    /// Returns the mean of their means, and how each differs from it, with the sum of the squared differences.
+    /// Returns the mean of their means, and how each differs from it, with the sum of the squared
+    /// differences.
     double read_deviations(size_t i, double* deviations, double& squares) const;
 
 private:
     const Film& film_;
-    std::vector<size_t> first_;  ///< where each replicate's plane starts
-    std::vector<double> factor_; ///< quantum / samples of each; of an adaptive film, for one tile after the other
+    std::vector<size_t> first_; ///< where each replicate's plane starts
+    std::vector<double>
+        factor_; ///< quantum / samples of each; of an adaptive film, for one tile after the other
 };
 
 /// Adds the sums of replicates together until `replicates`, a divisor of their number, are kept apart: the
@@ -109,8 +113,8 @@ bool add_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& 
 /// Mean radiance, rgb a pixel. Zero samples give black.
 std::vector<float> film_mean(const Film& film);
 
-/// Variance of the mean of each pixel and channel, from the spread of the replicates' means; empty when fewer than two
-/// replicates have samples.
+/// Variance of the mean of each pixel and channel, from the spread of the replicates' means; empty when fewer
+/// than two replicates have samples.
 std::vector<float> film_variance(const Film& film);
 
 } // namespace clrt

@@ -34,16 +34,19 @@ int fitting_replicates(const Device& device, const RenderParams& params, size_t 
     while ((size_t(replicates) + layers) * plane > most && replicates % 2 == 0)
         replicates /= 2;
     if (replicates != int(params.replicates))
-        spdlog::warn("the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
-                     params.replicates, replicates);
+        spdlog::warn(
+            "the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
+            params.replicates, replicates);
     return replicates;
 }
 
 FilmBuffers::FilmBuffers(const Device& device, const RenderParams& params, size_t layers)
     : device_(device), params_(params), slots_(film_slots(params)), layers_(layers),
-      film_(create_buffer(device, "film", slots_ * 3 * (params.film_replicates + layers) * sizeof(std::int64_t))),
-      pixel_rays_(create_buffer(device, "pixel_rays",
-                                (slots_ * PIXEL_RAYS_WORDS + params.tile_count * TILE_RANGE_WORDS) * sizeof(u32))),
+      film_(create_buffer(device, "film",
+                          slots_ * 3 * (params.film_replicates + layers) * sizeof(std::int64_t))),
+      pixel_rays_(
+          create_buffer(device, "pixel_rays",
+                        (slots_ * PIXEL_RAYS_WORDS + params.tile_count * TILE_RANGE_WORDS) * sizeof(u32))),
       counters_(create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))) {}
 
 void FilmBuffers::bind(Kernel& kernel) const {
@@ -72,7 +75,8 @@ u32 FilmBuffers::pixel_of_slot(size_t slot) const {
     return y * params_.width + x;
 }
 
-void FilmBuffers::write_tile_ranges(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to) {
+void FilmBuffers::write_tile_ranges(const std::vector<std::uint32_t>& from,
+                                    const std::vector<std::uint32_t>& to) {
     static_assert(ADAPTIVE_TILE_SIZE % TILE_SIZE == 0, "a tile of the device lies in one adaptive tile");
     const u32 ratio = ADAPTIVE_TILE_SIZE / TILE_SIZE, across = (params_.tiles_x + ratio - 1) / ratio;
     std::vector<u32> ranges(size_t(params_.tile_count) * TILE_RANGE_WORDS);
@@ -91,14 +95,16 @@ void FilmBuffers::write_sums(const RenderProgress& render) {
     const size_t replicates = params_.film_replicates;
     std::vector<std::int64_t> tiles(slots_ * 3 * (replicates + layers_), 0);
     const auto write = [&](size_t first, size_t planes, const Film& film) {
-        for_each_pixel(first, planes,
-                       [&](size_t on_device, size_t in_film) { std::copy_n(&film.sums[in_film], 3, &tiles[on_device]); });
+        for_each_pixel(first, planes, [&](size_t on_device, size_t in_film) {
+            std::copy_n(&film.sums[in_film], 3, &tiles[on_device]);
+        });
     };
     write(0, replicates, render.film);
     for (size_t i = 0; i < layers_; ++i)
         write(replicates + i, 1, render.path_layers[i]);
     check_opencl("continuing the picture", [&] {
-        device_.queue.enqueueWriteBuffer(film_, CL_TRUE, 0, tiles.size() * sizeof(std::int64_t), tiles.data());
+        device_.queue.enqueueWriteBuffer(film_, CL_TRUE, 0, tiles.size() * sizeof(std::int64_t),
+                                         tiles.data());
     });
 }
 
@@ -107,8 +113,9 @@ void FilmBuffers::read_sums(RenderProgress& render) const {
     const auto tiles = read_buffer<std::int64_t>(device_, film_, slots_ * 3 * (replicates + layers_));
     const auto read = [&](size_t first, size_t planes, Film& film) {
         film.sums.resize(planes * film_plane(film));
-        for_each_pixel(first, planes,
-                       [&](size_t on_device, size_t in_film) { std::copy_n(&tiles[on_device], 3, &film.sums[in_film]); });
+        for_each_pixel(first, planes, [&](size_t on_device, size_t in_film) {
+            std::copy_n(&tiles[on_device], 3, &film.sums[in_film]);
+        });
     };
     read(0, replicates, render.film);
     render.path_layers.resize(layers_);

@@ -9,13 +9,15 @@
 
 namespace clrt {
 
-/// Halves the number of replicates kept apart until their sums and those of `layers` layers of paths fit the device.
+/// Halves the number of replicates kept apart until their sums and those of `layers` layers of paths fit the
+/// device.
 int fitting_replicates(const Device& device, const RenderParams& params, size_t layers);
 
 /// Film, ray counts and counters on the device.
 class FilmBuffers {
 public:
-    /// Zeroed buffers for params.film_replicates replicates of the window, and behind them `layers` layers of paths.
+    /// Zeroed buffers for params.film_replicates replicates of the window, and behind them `layers` layers of
+    /// paths.
     FilmBuffers(const Device& device, const RenderParams& params, size_t layers);
     /// Binds the outputs of a render kernel.
     void bind(Kernel& kernel) const;
@@ -29,7 +31,8 @@ public:
     RenderCounts read_counts() const;
 
 private:
-    /// Calls action(index of a pixel's sums on the device, its index in the film) for `planes` planes from `first` on.
+    /// Calls action(index of a pixel's sums on the device, its index in the film) for `planes` planes from
+    /// `first` on.
     template <class Action>
     void for_each_pixel(size_t first, size_t planes, Action&& action) const;
 

@@ -11,14 +11,15 @@ namespace clrt {
 
 namespace {
 
-constexpr size_t FEWEST_FOR_INTERVAL = 4;    ///< replicates
-constexpr size_t FEWEST_FOR_SLOPE = 5;       ///< errors
-constexpr double OCTAVES_FOR_SLOPE = 16;     ///< last over first samples: four octaves
-constexpr double INDEPENDENT_SLOPE = -0.5;   ///< of the error of independent samples
-constexpr double SLOWEST_SLOPE = -0.1;       ///< half the error for 1024 times the samples
-constexpr size_t TAIL_PART = 1000;           ///< the tail is this part of the pixels
-constexpr double ALONE = 0.9;                ///< of a single event's share: 1 of 200 pixels of normal noise, 8 replicates
-constexpr size_t VALUES_AT_ONCE = 1u << 14;  ///< of a parallel sum: its order, and so its bits, follow from this
+constexpr size_t FEWEST_FOR_INTERVAL = 4;  ///< replicates
+constexpr size_t FEWEST_FOR_SLOPE = 5;     ///< errors
+constexpr double OCTAVES_FOR_SLOPE = 16;   ///< last over first samples: four octaves
+constexpr double INDEPENDENT_SLOPE = -0.5; ///< of the error of independent samples
+constexpr double SLOWEST_SLOPE = -0.1;     ///< half the error for 1024 times the samples
+constexpr size_t TAIL_PART = 1000;         ///< the tail is this part of the pixels
+constexpr double ALONE = 0.9; ///< of a single event's share: 1 of 200 pixels of normal noise, 8 replicates
+constexpr size_t VALUES_AT_ONCE =
+    1u << 14; ///< of a parallel sum: its order, and so its bits, follow from this
 
 /// Sums over values of their squared error and mean, with and without each replicate.
 struct ErrorSums {
@@ -106,13 +107,14 @@ PixelSquares pixel_squares(const ReplicateMeans& replicates, size_t pixel, std::
 
 /// Squared errors of all pixels.
 struct PixelErrors {
-    std::vector<double> variance;  ///< of each pixel's mean, summed over channels
-    double once = 0;               ///< sum of those that rest on one replicate
-    double once_squared = 0;       ///< sum of their squares
+    std::vector<double> variance; ///< of each pixel's mean, summed over channels
+    double once = 0;              ///< sum of those that rest on one replicate
+    double once_squared = 0;      ///< sum of their squares
 };
 
 /// Finds the pixels in which one replicate stands alone: of n deviations it holds nearly (n - 1) / n of the
-/// squares, which is what a single event gives. Such a pixel tells of an event that may as well have been missed.
+/// squares, which is what a single event gives. Such a pixel tells of an event that may as well have been
+/// missed.
 PixelErrors pixel_errors(const Film& film) {
     const ReplicateMeans replicates(film);
     const double n = double(replicates.count());
@@ -135,7 +137,8 @@ PixelErrors pixel_errors(const Film& film) {
 
 /// Mean over a tile's pixels; (x, y) is its top left pixel.
 double tile_mean(const std::vector<double>& pixels, const Film& film, int x, int y) {
-    const int end_x = std::min(x + ERROR_TILE_SIZE, film.width), end_y = std::min(y + ERROR_TILE_SIZE, film.height);
+    const int end_x = std::min(x + ERROR_TILE_SIZE, film.width),
+              end_y = std::min(y + ERROR_TILE_SIZE, film.height);
     double sum = 0;
     for (int row = y; row < end_y; ++row)
         for (int column = x; column < end_x; ++column)
@@ -198,7 +201,8 @@ std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history) 
     for (const SquaredError& error : history)
         if (error.without.size() != replicates || replicates == 0 || !(error.mean_squared > 0))
             return std::nullopt;
-    // Fit the errors, then those that leave out one replicate: what they share by being nested is inside the spread.
+    // Fit the errors, then those that leave out one replicate: what they share by being nested is inside the
+    // spread.
     std::vector<double> x, y, without;
     for (const SquaredError& error : history) {
         x.push_back(std::log(double(error.samples)));
@@ -225,7 +229,8 @@ std::optional<ErrorSpread> film_error_spread(const Film& film) {
     if (!(total > 0) || !(radiance > 0))
         return std::nullopt;
 
-    // Events seen once are as uncertain as a count of one: the variance of their sum is the sum of their squares.
+    // Events seen once are as uncertain as a count of one: the variance of their sum is the sum of their
+    // squares.
     ErrorSpread spread;
     spread.once_share = errors.once / total;
     spread.once_error = std::sqrt(errors.once_squared) / total;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How wrong a picture is and what a better one costs. The unit of all statistics is the replicate: the spread of the
-// replicates' means holds for every integrator, whatever neighbouring samples or pixels have in common.
+// How wrong a picture is and what a better one costs. The unit of all statistics is the replicate: the spread
+// of the replicates' means holds for every integrator, whatever neighbouring samples or pixels have in
+// common.
 #pragma once
 
 #include "render/film.h"
@@ -11,10 +12,11 @@ namespace clrt {
 
 /// The squared error of a picture at one moment of its render, as its replicates tell it.
 struct SquaredError {
-    std::uint64_t samples = 0;   ///< a pixel
-    double mean_squared = 0;     ///< mean over pixels and channels of the variance of the mean
-    double mean_radiance = 0;    ///< over pixels and channels
-    std::vector<double> without; ///< mean_squared of the pictures that leave out one replicate; empty under four
+    std::uint64_t samples = 0; ///< a pixel
+    double mean_squared = 0;   ///< mean over pixels and channels of the variance of the mean
+    double mean_radiance = 0;  ///< over pixels and channels
+    std::vector<double>
+        without; ///< mean_squared of the pictures that leave out one replicate; empty under four
 };
 
 /// None when fewer than two replicates have samples. The same film gives the same bits.
@@ -40,18 +42,18 @@ struct ErrorSlope {
     std::uint64_t first_samples = 0, last_samples = 0;
 };
 
-/// The line of least squares through a render's errors. None under four octaves of samples, five errors or four
-/// replicates, or where an error is 0.
+/// The line of least squares through a render's errors. None under four octaves of samples, five errors or
+/// four replicates, or where an error is 0.
 std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history);
 
 /// Where the error sits.
 struct ErrorSpread {
-    double worst_tile = 0;         ///< sqrt(mean squared error of a tile) / mean radiance of the picture
-    int tile_x = 0, tile_y = 0;    ///< top left pixel of that tile within the window
-    size_t tail_pixels = 0;        ///< the noisiest thousandth of the pixels
-    double tail_share = 0;         ///< their share of the sum of squared errors
-    double once_share = 0;         ///< share of the pixels in which one replicate alone saw something
-    double once_error = 0;         ///< relative standard error of the squared error, from what was seen once
+    double worst_tile = 0;      ///< sqrt(mean squared error of a tile) / mean radiance of the picture
+    int tile_x = 0, tile_y = 0; ///< top left pixel of that tile within the window
+    size_t tail_pixels = 0;     ///< the noisiest thousandth of the pixels
+    double tail_share = 0;      ///< their share of the sum of squared errors
+    double once_share = 0;      ///< share of the pixels in which one replicate alone saw something
+    double once_error = 0;      ///< relative standard error of the squared error, from what was seen once
     /// Whether the error can be believed.
     bool usable() const { return once_error <= LARGEST_ONCE_ERROR; }
 
@@ -74,8 +76,9 @@ struct ErrorPrice {
     bool measured = false;    ///< the slope; otherwise it is that of independent samples
 };
 
-/// Extrapolates by the measured slope, or by -0.5 where there is none. `seconds` is what the present samples took.
-/// None where the error is 0 or falls so slowly that no number of samples can be named.
-std::optional<ErrorPrice> price_of_half(const FilmError& error, const std::optional<ErrorSlope>& slope, double seconds);
+/// Extrapolates by the measured slope, or by -0.5 where there is none. `seconds` is what the present samples
+/// took. None where the error is 0 or falls so slowly that no number of samples can be named.
+std::optional<ErrorPrice> price_of_half(const FilmError& error, const std::optional<ErrorSlope>& slope,
+                                        double seconds);
 
 } // namespace clrt

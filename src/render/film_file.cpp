@@ -38,7 +38,8 @@ std::uint32_t read_little_endian(const std::string& bytes, size_t at) {
 }
 
 // Sums are written and read as they lie in memory.
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "film files need their sums swapped on this machine");
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+              "film files need their sums swapped on this machine");
 
 /// Checksum of all bytes of a file but the last.
 class Checksum {
@@ -63,9 +64,10 @@ private:
 constexpr size_t MOST_BAD_PIXELS = size_t(1) << 20;
 
 Json counts_json(const RenderCounts& counts) {
-    Json json = {{"primary", counts.primary},   {"secondary", counts.secondary}, {"shadow", counts.shadow},
-            {"nan", counts.nan},           {"infinite", counts.infinite},   {"negative", counts.negative},
-            {"overflow", counts.overflow}, {"bad_samples", counts.bad_samples}};
+    Json json = {{"primary", counts.primary},   {"secondary", counts.secondary},
+                 {"shadow", counts.shadow},     {"nan", counts.nan},
+                 {"infinite", counts.infinite}, {"negative", counts.negative},
+                 {"overflow", counts.overflow}, {"bad_samples", counts.bad_samples}};
     if (!counts.bad_pixels.empty() && counts.bad_pixels.size() <= MOST_BAD_PIXELS)
         json["bad_pixels"] = counts.bad_pixels; // pairs of pixel and count
     return json;
@@ -160,7 +162,8 @@ FilmFile read_header(const Json& json) {
         film.render.round = read_round(json.at("round"), sums);
     film.render.counts = read_counts(json.at("counts"));
     for (const Json& error : json.at("history"))
-        film.render.history.push_back({error.at("samples"), error.at("mean_squared"), error.at("mean_radiance"),
+        film.render.history.push_back({error.at("samples"), error.at("mean_squared"),
+                                       error.at("mean_radiance"),
                                        error.at("without").get<std::vector<double>>()});
     json.at("seconds").get_to(film.render.seconds);
     film.render.path_layers.assign(film_layer_names(film.identity).size(), film_layer(sums));
@@ -174,21 +177,24 @@ public:
         std::error_code error;
         size_ = std::filesystem::file_size(path, error);
         if (!input_ || error)
-            throw SceneError(path, 0, "expected a film file as --checkpoint writes it, found none that can be read");
+            throw SceneError(path, 0,
+                             "expected a film file as --checkpoint writes it, found none that can be read");
     }
 
     /// Checks the beginning and parses the header.
     Json header() {
         std::string start = take(START_BYTES);
         if (start.compare(0, MAGIC_BYTES, MAGIC) != 0)
-            reject("expected a film file as --checkpoint writes it, found another kind of file; pictures lack the "
+            reject("expected a film file as --checkpoint writes it, found another kind of file; pictures "
+                   "lack the "
                    "sums that --resume and clrt-merge need");
         const std::uint32_t version = read_little_endian(start, MAGIC_BYTES);
         if (version != FORMAT_VERSION)
             reject(fmt::format("expected format version {}, found {}", FORMAT_VERSION, version));
         const std::uint32_t length = read_little_endian(start, MAGIC_BYTES + 4);
         if (length > LARGEST_HEADER)
-            reject(fmt::format("damaged: expected a header of at most {} bytes, found {}", LARGEST_HEADER, length));
+            reject(fmt::format("damaged: expected a header of at most {} bytes, found {}", LARGEST_HEADER,
+                               length));
         Json json = Json::parse(take(length), nullptr, false);
         if (json.is_discarded())
             reject("damaged: the header is no JSON");
@@ -197,13 +203,14 @@ public:
 
     /// Reads the sums of film and layers and compares the checksum.
     void sums(RenderProgress& render) {
-        const std::uint64_t plane = film_plane(render.film), count = std::uint64_t(render.film.replicates) * plane;
+        const std::uint64_t plane = film_plane(render.film),
+                            count = std::uint64_t(render.film.replicates) * plane;
         const std::uint64_t tiles = render.round.start[0].size() * (1 + render.round.noise.size());
         const std::uint64_t expected =
             position_ + 8 * (count + render.path_layers.size() * plane) + 16 * tiles + CHECKSUM_BYTES;
         if (size_ != expected)
-            reject(fmt::format("{}: expected {} bytes, found {}", size_ < expected ? "truncated" : "damaged", expected,
-                               size_));
+            reject(fmt::format("{}: expected {} bytes, found {}", size_ < expected ? "truncated" : "damaged",
+                               expected, size_));
         render.film.sums.resize(count);
         take(render.film.sums.data(), 8 * count);
         for (Film& layer : render.path_layers) {
@@ -272,7 +279,9 @@ void write_film_file(const std::string& path, const FilmFile& film) {
         position += std::int64_t(count);
     };
     append(start.data(), start.size());
-    const auto append_sums = [&](const Film& part) { append(part.sums.data(), part.sums.size() * sizeof(std::int64_t)); };
+    const auto append_sums = [&](const Film& part) {
+        append(part.sums.data(), part.sums.size() * sizeof(std::int64_t));
+    };
     append_sums(film.render.film);
     for (const Film& layer : film.render.path_layers)
         append_sums(layer);

@@ -13,18 +13,19 @@
 //                  device      on which the samples were rendered
 //                  replicates  whose sums are kept apart
 //                  ranges      of sample numbers inside, [first, end), in order
-//                  round       with --adaptive: first and last mean samples a pixel of the present round, and n
-//                  counts      rays and bad samples; bad_samples lists pairs of pixel and sample,
+//                  round       with --adaptive: first and last mean samples a pixel of the present round, and
+//                  n counts      rays and bad samples; bad_samples lists pairs of pixel and sample,
 //                              bad_pixels (absent without bad samples) pairs of pixel and count
 //                  history     errors at doublings of the samples
 //                  seconds     of rendering
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:
 //                [replicate][row][column][red, green, blue]
 //   8 w h 3      of each layer of paths (identity.layers), in one replicate
-//   16 t         with --adaptive: samples a pixel of t tiles (film.h) as unsigned 32-bit integers: before the round in the
+//   16 t         with --adaptive: samples a pixel of t tiles (film.h) as unsigned 32-bit integers: before the
+//   round in the
 //                first half of the replicates, in the second half, and likewise after the round
-//   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first half, second half
-//   16           XXH3-128 of all bytes before it, canonical (most significant byte first)
+//   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first half,
+//   second half 16           XXH3-128 of all bytes before it, canonical (most significant byte first)
 //
 // Integers are little endian.
 #pragma once
@@ -51,11 +52,12 @@ struct FilmFile {
     RenderProgress render;
 };
 
-/// Writes under a temporary name and renames: a killed process leaves the older file whole. Throws SceneError.
+/// Writes under a temporary name and renames: a killed process leaves the older file whole. Throws
+/// SceneError.
 void write_film_file(const std::string& path, const FilmFile& film);
 
-/// Reads and checks it all. Throws SceneError that says what was expected and what was found: no film file, another
-/// version, truncated, damaged.
+/// Reads and checks it all. Throws SceneError that says what was expected and what was found: no film file,
+/// another version, truncated, damaged.
 FilmFile read_film_file(const std::string& path);
 
 /// Reads the header only. Throws SceneError likewise.

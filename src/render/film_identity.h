@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What decides the bits of a film, field by field: films can be continued and merged where all fields are the same.
+// What decides the bits of a film, field by field: films can be continued and merged where all fields are the
+// same.
 #pragma once
 
 #include "app/options.h"
@@ -15,8 +16,8 @@ namespace clrt {
 /// Names and values. Sample range, device, tree and effects mask are not among them: they change no bit.
 using FilmIdentity = nlohmann::ordered_json;
 
-/// XXH3 (128 bits, hexadecimal) of everything in the scene that kernels see: geometry, materials, textures, lights,
-/// environment, camera. The same for the same files, wherever they lie.
+/// XXH3 (128 bits, hexadecimal) of everything in the scene that kernels see: geometry, materials, textures,
+/// lights, environment, camera. The same for the same files, wherever they lie.
 std::string scene_hash(const Scene& scene);
 
 /// The identity of what these options make of this scene.
@@ -32,8 +33,8 @@ FilmWindow film_window(const FilmIdentity& identity);
 /// Names of the layers of paths of an identity's film.
 std::vector<std::string> film_layer_names(const FilmIdentity& identity);
 
-/// The first field in which two identities differ, with both values, as "seed: expected 0, found 1"; none when they are
-/// the same.
+/// The first field in which two identities differ, with both values, as "seed: expected 0, found 1"; none
+/// when they are the same.
 std::optional<std::string> identity_difference(const FilmIdentity& expected, const FilmIdentity& found);
 
 } // namespace clrt

@@ -17,19 +17,20 @@ bool is_hit_layer(const std::string& name) {
     return name != "variance" && name != "samples" && name != "alpha" && name != "badSamples";
 }
 
-/// Samples of a pixel that a work-item simulates side by side (kernels/integrators/pixel.h): a CPU's core fills the waits
-/// of one with the others, a GPU has other work-items for that.
+/// Samples of a pixel that a work-item simulates side by side (kernels/integrators/pixel.h): a CPU's core
+/// fills the waits of one with the others, a GPU has other work-items for that.
 int samples_at_once(const DeviceInfo& device) {
     return device.type == "CPU" ? 4 : 1;
 }
 
 KernelFiles kernel_files(const Options& options) {
-    return options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
+    return options.kernels_folder.empty() ? embedded_kernel_files()
+                                          : read_kernel_files(options.kernels_folder);
 }
 
 /// What every program of integrators/NAME.cl is built with.
-ProgramRequest make_request(const KernelFiles& files, const std::string& name, const Options& options, u32 effects,
-                            BvhLayout layout, int samples) {
+ProgramRequest make_request(const KernelFiles& files, const std::string& name, const Options& options,
+                            u32 effects, BvhLayout layout, int samples) {
     ProgramRequest request;
     request.name = name;
     request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
@@ -83,12 +84,13 @@ bool wants_layers(const Options& options) {
                        [](const std::string& name) { return is_hit_layer(name) || name == "alpha"; });
 }
 
-RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout,
-                                     const PathPlan& paths) {
+RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
+                                     BvhLayout layout, const PathPlan& paths) {
     const auto start = std::chrono::steady_clock::now();
     const KernelFiles files = kernel_files(options);
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
-        ProgramRequest request = make_request(files, name, options, effects, layout, samples_at_once(device.info));
+        ProgramRequest request =
+            make_request(files, name, options, effects, layout, samples_at_once(device.info));
         request.defines.insert(request.defines.end(), defines.begin(), defines.end());
         return build_program(device, request);
     };

@@ -25,18 +25,20 @@ const char* integrator_name(Integrator integrator);
 /// The name of a sampler, as in --sampler.
 const char* sampler_name(SamplerChoice sampler);
 
-/// The tree's layout: as chosen, else bvh8 on CPUs, where it is the fastest that was measured, and bvh2 elsewhere: the
-/// simpler of the two layouts for GPUs, until bvh2 and cwbvh have been measured on one.
+/// The tree's layout: as chosen, else bvh8 on CPUs, where it is the fastest that was measured, and bvh2
+/// elsewhere: the simpler of the two layouts for GPUs, until bvh2 and cwbvh have been measured on one.
 BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device);
 
 /// True if some output file can hold auxiliary layers and the options want one.
 bool wants_layers(const Options& options);
 
-/// Compiles what the options ask for with this effects mask and, where paths are told apart, the automaton of the plan.
-RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects, BvhLayout layout,
-                                     const PathPlan& paths = {});
+/// Compiles what the options ask for with this effects mask and, where paths are told apart, the automaton of
+/// the plan.
+RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
+                                     BvhLayout layout, const PathPlan& paths = {});
 
-/// Compiles the same integrator so that it records what single samples do (kernels/trace), in a precision of its own.
+/// Compiles the same integrator so that it records what single samples do (kernels/trace), in a precision of
+/// its own.
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths);
 

@@ -9,14 +9,14 @@ namespace clrt {
 
 namespace {
 
-/// Work-groups a row of the launch grid; keeps both grid dimensions below 65535 work-items, beyond which some drivers
-/// compile another variant.
+/// Work-groups a row of the launch grid; keeps both grid dimensions below 65535 work-items, beyond which some
+/// drivers compile another variant.
 constexpr u32 GRID_COLUMNS = 2048;
 
 } // namespace
 
-Launcher::Launcher(const Device& device, const Program& program, const std::string& name, const RenderParams& params,
-                   const SceneBuffers& buffers)
+Launcher::Launcher(const Device& device, const Program& program, const std::string& name,
+                   const RenderParams& params, const SceneBuffers& buffers)
     : device_(device), kernel_(program, name), params_(params) {
     bind_scene(buffers, kernel_);
 }

@@ -15,8 +15,8 @@ namespace clrt {
 /// One kernel with its parameters; launches tiles and samples of them.
 class Launcher {
 public:
-    Launcher(const Device& device, const Program& program, const std::string& name, const RenderParams& params,
-             const SceneBuffers& buffers);
+    Launcher(const Device& device, const Program& program, const std::string& name,
+             const RenderParams& params, const SceneBuffers& buffers);
     /// For binding the outputs.
     Kernel& kernel() { return kernel_; }
 

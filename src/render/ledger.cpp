@@ -52,12 +52,15 @@ struct Variant {
 class Bench {
 public:
     Bench(const Device& device, const Scene& scene, BvhLayout layout)
-        : device_(device), scene_(scene), layout_(layout), bvh_(build_bvh(scene.positions, scene.triangles, layout)) {}
+        : device_(device), scene_(scene), layout_(layout),
+          bvh_(build_bvh(scene.positions, scene.triangles, layout)) {}
 
     bool is_processor_time() const { return device_.info.type == "CPU"; }
 
     /// Threads that a processor second is shared by; 1 where seconds are those of the wall clock.
-    double threads() const { return is_processor_time() ? double(std::max(device_.info.compute_units, 1u)) : 1; }
+    double threads() const {
+        return is_processor_time() ? double(std::max(device_.info.compute_units, 1u)) : 1;
+    }
 
     /// Compiles a variant's programs and lets the driver finish them. Compilers work on one thread.
     void compile(Variant& variant) const {
@@ -65,7 +68,8 @@ public:
         variant.mask = effects.mask;
         variant.left_out = effects.left_out;
         const double start = processor_seconds();
-        variant.programs = build_render_programs(device_, variant.options, variant.mask, layout_, effects.paths);
+        variant.programs =
+            build_render_programs(device_, variant.options, variant.mask, layout_, effects.paths);
         const double built = processor_seconds() - start;
         variant.options.spp = 1;
         const double launched = run(variant, nullptr).first_launch_seconds;
@@ -90,8 +94,8 @@ private:
         Options options = variant.options;
         take_out_effects(variant.left_out, scene, options);
         const bool same_triangles = !(variant.left_out & EFFECT_SMOOTH_NORMALS);
-        const SceneBuffers buffers =
-            upload_scene(device_, scene, same_triangles ? bvh_ : build_bvh(scene.positions, scene.triangles, layout_));
+        const SceneBuffers buffers = upload_scene(
+            device_, scene, same_triangles ? bvh_ : build_bvh(scene.positions, scene.triangles, layout_));
         Progress silent(Toggle::OFF, true);
         const double start = processor_seconds();
         Render result = render(device_, variant.programs, buffers, scene, options, silent);
@@ -180,8 +184,8 @@ Ledger make_ledger(const Device& device, const Scene& scene, const Options& opti
     const Bench bench(device, scene, choose_layout(options.bvh, device.info));
     std::vector<Variant> variants = make_variants(scene, options);
 
-    // Compile everything, the first program twice: what the compiler does once is no program's. One sample more of the
-    // picture tells how many fit the time.
+    // Compile everything, the first program twice: what the compiler does once is no program's. One sample
+    // more of the picture tells how many fit the time.
     bench.compile(variants[0]);
     for (size_t i = 0; i < variants.size(); ++i) {
         progress.update({"compile", double(i) / double(variants.size()), 0, -1});
@@ -191,7 +195,8 @@ Ledger make_ledger(const Device& device, const Scene& scene, const Options& opti
     const double pass = std::max(variants[0].seconds[0], 1e-6) / bench.threads();
     const double once = pass * double(LEDGER_ROUNDS) * double(variants.size());
     const double fitting = options.time_seconds.value_or(DEFAULT_SECONDS) / once;
-    const auto samples = std::uint32_t(options.spp ? *options.spp : std::clamp(std::floor(fitting), 1.0, MOST_SAMPLES));
+    const auto samples =
+        std::uint32_t(options.spp ? *options.spp : std::clamp(std::floor(fitting), 1.0, MOST_SAMPLES));
     variants[0].seconds.clear();
     variants[0].light.clear();
 

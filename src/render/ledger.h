@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bill: what each effect of a scene costs in time and gives in light, and whether compiling for the scene pays.
+// The bill: what each effect of a scene costs in time and gives in light, and whether compiling for the scene
+// pays.
 #pragma once
 
 #include "app/options.h"
@@ -14,8 +15,9 @@
 
 namespace clrt {
 
-/// Rounds of a ledger. Of nine independent values, the second smallest and the second largest hold the median between them
-/// with a probability of 96.1 % (1 - 2 (1 + 9) / 2^9), whatever their distribution: no busy moment of the machine spoils it.
+/// Rounds of a ledger. Of nine independent values, the second smallest and the second largest hold the median
+/// between them with a probability of 96.1 % (1 - 2 (1 + 9) / 2^9), whatever their distribution: no busy
+/// moment of the machine spoils it.
 constexpr int LEDGER_ROUNDS = 9;
 
 /// A median with its interval.
@@ -47,15 +49,15 @@ struct Ledger {
     bool is_processor_time = false;  ///< seconds are those of all threads together, else of the wall clock
     LedgerProgram specialised, full; ///< --effects auto (or as given), and all
     LedgerValue full_extra_share;    ///< time of the full program over that of the specialised one, less 1
-    /// Samples a pixel after which the specialised program has earned its compilation, the full one being at hand; and for
-    /// the upper and the lower end of the difference. None where the difference is not above 0.
+    /// Samples a pixel after which the specialised program has earned its compilation, the full one being at
+    /// hand; and for the upper and the lower end of the difference. None where the difference is not above 0.
     std::optional<double> break_even, break_even_low, break_even_high;
     std::vector<LedgerRow> rows;
 };
 
-/// Renders the scene in rounds: each round once with all that it calls for, once by the full program, and once without
-/// each effect, in turning order and with the same random numbers. Uses --time (default a minute) for all rounds together,
-/// and at least one sample a pixel and round.
+/// Renders the scene in rounds: each round once with all that it calls for, once by the full program, and
+/// once without each effect, in turning order and with the same random numbers. Uses --time (default a
+/// minute) for all rounds together, and at least one sample a pixel and round.
 Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress);
 
 /// The table.

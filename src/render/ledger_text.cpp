@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 
 /// "12.3 (11.0 - 14.1)", all times `factor`.
 std::string text(const LedgerValue& value, double factor) {
-    return fmt::format("{:6.1f} ({:.1f} - {:.1f})", factor * value.median, factor * value.low, factor * value.high);
+    return fmt::format("{:6.1f} ({:.1f} - {:.1f})", factor * value.median, factor * value.low,
+                       factor * value.high);
 }
 
 Json json(const LedgerValue& value) {
@@ -32,28 +33,35 @@ Json optional(const std::optional<double>& value) {
 std::string break_even_text(const Ledger& ledger) {
     if (!ledger.break_even)
         return "does not pay here: the full program is not slower";
-    return fmt::format("pays after {:.0f} samples a pixel ({:.0f} - {}) where the full program is compiled already{}",
-                       *ledger.break_even, ledger.break_even_low.value_or(0),
-                       ledger.break_even_high ? fmt::format("{:.0f}", *ledger.break_even_high) : "never",
-                       ledger.specialised.compile_seconds <= ledger.full.compile_seconds ? ", at once where neither is" : "");
+    return fmt::format(
+        "pays after {:.0f} samples a pixel ({:.0f} - {}) where the full program is compiled already{}",
+        *ledger.break_even, ledger.break_even_low.value_or(0),
+        ledger.break_even_high ? fmt::format("{:.0f}", *ledger.break_even_high) : "never",
+        ledger.specialised.compile_seconds <= ledger.full.compile_seconds ? ", at once where neither is"
+                                                                          : "");
 }
 
 } // namespace
 
 std::string format_ledger(const Ledger& ledger, const Options& options, const DeviceInfo& device) {
-    std::string out = fmt::format(
-        "Ledger of {}: {} x {}, {}, on {}\n{} rounds of {} spp; {} for one sample a pixel; medians with 96 % intervals\n\n",
-        options.scene_path, ledger.width, ledger.height, integrator_name(options.integrator), device.name, LEDGER_ROUNDS,
-        ledger.samples, ledger.is_processor_time ? "milliseconds of all threads together" : "milliseconds");
+    std::string out =
+        fmt::format("Ledger of {}: {} x {}, {}, on {}\n{} rounds of {} spp; {} for one sample a pixel; "
+                    "medians with 96 % intervals\n\n",
+                    options.scene_path, ledger.width, ledger.height, integrator_name(options.integrator),
+                    device.name, LEDGER_ROUNDS, ledger.samples,
+                    ledger.is_processor_time ? "milliseconds of all threads together" : "milliseconds");
     const char* const row = "{:<22}  {:<26} {:<24} {:<24} {}\n";
-    out += fmt::format(fmt::runtime(row), "", "    ms", "     % of time", "     % of light", "compile s without it");
+    out += fmt::format(fmt::runtime(row), "", "    ms", "     % of time", "     % of light",
+                       "compile s without it");
     for (const LedgerRow& line : ledger.rows)
-        out += fmt::format(fmt::runtime(row), line.effect, text(line.seconds, 1e3), text(line.time_share, 100),
-                           text(line.light_share, 100), fmt::format("{:.2f}", line.without.compile_seconds));
+        out +=
+            fmt::format(fmt::runtime(row), line.effect, text(line.seconds, 1e3), text(line.time_share, 100),
+                        text(line.light_share, 100), fmt::format("{:.2f}", line.without.compile_seconds));
     out += fmt::format(fmt::runtime(row), "the picture", text(ledger.specialised.seconds, 1e3), "", "",
                        fmt::format("{:.2f}", ledger.specialised.compile_seconds));
     out += fmt::format(fmt::runtime(row), "by the full program", text(ledger.full.seconds, 1e3),
-                       text(ledger.full_extra_share, 100) + " more", "", fmt::format("{:.2f}", ledger.full.compile_seconds));
+                       text(ledger.full_extra_share, 100) + " more", "",
+                       fmt::format("{:.2f}", ledger.full.compile_seconds));
     out += fmt::format("\nCompiling for the scene {}.\n", break_even_text(ledger));
     return out;
 }

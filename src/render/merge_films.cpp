@@ -17,14 +17,16 @@ std::vector<SampleRange> join_ranges(const Film& a, const std::string& a_path, c
                                      const std::string& b_path) {
     std::vector<SampleRange> all = a.ranges;
     all.insert(all.end(), b.ranges.begin(), b.ranges.end());
-    std::sort(all.begin(), all.end(), [](const SampleRange& x, const SampleRange& y) { return x.first < y.first; });
+    std::sort(all.begin(), all.end(),
+              [](const SampleRange& x, const SampleRange& y) { return x.first < y.first; });
     std::vector<SampleRange> joined;
     for (const SampleRange& range : all) {
         if (!joined.empty() && range.first < joined.back().end)
-            throw SceneError(b_path, 0,
-                             fmt::format("expected samples that {} lacks, found samples {} to {} in both; render "
-                                         "disjoint ranges with --first-sample",
-                                         a_path, range.first, std::min(range.end, joined.back().end) - 1));
+            throw SceneError(
+                b_path, 0,
+                fmt::format("expected samples that {} lacks, found samples {} to {} in both; render "
+                            "disjoint ranges with --first-sample",
+                            a_path, range.first, std::min(range.end, joined.back().end) - 1));
         if (!joined.empty() && range.first == joined.back().end)
             joined.back().end = range.end;
         else
@@ -45,13 +47,14 @@ std::string ranges_text(const Film& film) {
 void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const std::string& part_path) {
     for (const auto& [film, path] : {std::pair(&sum, &sum_path), std::pair(&part, &part_path)})
         if (is_adaptive(film->render.film))
-            throw SceneError(*path, 0,
-                             "expected a film with adaptive: false, found adaptive: true; the samples of an --adaptive "
-                             "render were dealt out by its own noise and only --resume can add to them");
+            throw SceneError(
+                *path, 0,
+                "expected a film with adaptive: false, found adaptive: true; the samples of an --adaptive "
+                "render were dealt out by its own noise and only --resume can add to them");
     if (const auto difference = identity_difference(sum.identity, part.identity))
         throw SceneError(part_path, 0,
-                         fmt::format("expected a film of the same scene and options as {}, found another {}", sum_path,
-                                     *difference));
+                         fmt::format("expected a film of the same scene and options as {}, found another {}",
+                                     sum_path, *difference));
     Film& film = sum.render.film;
     std::vector<SampleRange> ranges = join_ranges(film, sum_path, part.render.film, part_path);
 
@@ -63,12 +66,14 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
     for (size_t i = 0; i < sum.render.path_layers.size(); ++i)
         fits &= add_sums(sum.render.path_layers[i].sums, part.render.path_layers[i].sums);
     if (!fits)
-        throw SceneError(part_path, 0,
-                         fmt::format("expected sums that fit 64 bits together with those of {}, found brighter ones; "
-                                     "merge fewer samples",
-                                     sum_path));
+        throw SceneError(
+            part_path, 0,
+            fmt::format("expected sums that fit 64 bits together with those of {}, found brighter ones; "
+                        "merge fewer samples",
+                        sum_path));
 
-    // The command of the first samples is the one that --resume can repeat; errors of parts are none of the whole.
+    // The command of the first samples is the one that --resume can repeat; errors of parts are none of the
+    // whole.
     if (part.render.film.ranges.front().first < film.ranges.front().first)
         sum.origin = part.origin;
     film.ranges = std::move(ranges);
@@ -92,7 +97,8 @@ Picture film_picture(const FilmFile& file) {
     picture.layers.push_back({"", {"R", "G", "B"}, film_mean(film), false});
     const std::vector<std::string> layer_names = film_layer_names(file.identity);
     for (size_t i = 0; i < layer_names.size(); ++i)
-        picture.layers.push_back({layer_names[i], {"R", "G", "B"}, film_mean(file.render.path_layers[i]), false});
+        picture.layers.push_back(
+            {layer_names[i], {"R", "G", "B"}, film_mean(file.render.path_layers[i]), false});
     if (std::vector<float> variance = film_variance(film); !variance.empty())
         picture.layers.push_back({"variance", {"R", "G", "B"}, std::move(variance), false});
     picture.layers.push_back({"", {"samples"}, film_pixel_samples(film), false});

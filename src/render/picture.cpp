@@ -15,7 +15,8 @@ enum HitOffset { ALBEDO = 0, NORMAL = 3, POSITION = 6, DEPTH = 9, HITS = 10, OBJ
 
 /// How many bad samples each pixel has.
 Layer bad_samples_layer(const Render& render, const Crop& window, int full_width) {
-    Layer layer{"", {"badSamples"}, std::vector<float>(size_t(render.film.width) * size_t(render.film.height)), true};
+    Layer layer{
+        "", {"badSamples"}, std::vector<float>(size_t(render.film.width) * size_t(render.film.height)), true};
     for (const auto& [pixel, count] : render.counts.bad_pixels) {
         const int x = int(pixel) % full_width - window.x0, y = int(pixel) / full_width - window.y0;
         if (x >= 0 && y >= 0 && x < render.film.width && y < render.film.height)
@@ -36,7 +37,8 @@ public:
     HitLayerMaker(const Render& render, const Scene& scene) : render_(render), scene_(scene) {}
 
     /// `count` sums from `offset`, over the number of hits (or of samples); 0 where nothing was hit.
-    Layer average(const char* name, std::vector<std::string> channels, int offset, bool over_samples = false) const {
+    Layer average(const char* name, std::vector<std::string> channels, int offset,
+                  bool over_samples = false) const {
         Layer layer{name, std::move(channels), {}, false};
         const int count = int(layer.channel_names.size());
         for_each_pixel([&](const float* sums) {
@@ -74,7 +76,8 @@ public:
         Layer layer = average("", {"Z"}, DEPTH);
         size_t i = 0;
         for_each_pixel([&](const float* sums) {
-            layer.values[i] = sums[HITS] > 0 ? float(double(layer.values[i]) / scene_.normalisation.scale) : INFINITY;
+            layer.values[i] =
+                sums[HITS] > 0 ? float(double(layer.values[i]) / scene_.normalisation.scale) : INFINITY;
             ++i;
         });
         return layer;

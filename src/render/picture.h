@@ -7,8 +7,8 @@
 
 namespace clrt {
 
-/// The picture with the layers that the options ask for (all that an EXR can hold by default), in world units.
-/// Metadata is left to the report.
+/// The picture with the layers that the options ask for (all that an EXR can hold by default), in world
+/// units. Metadata is left to the report.
 Picture make_picture(const Render& render, const Scene& scene, const Options& options);
 
 } // namespace clrt

@@ -65,8 +65,9 @@ private:
 /// The passes of one render.
 class Passes {
 public:
-    Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Options& options,
-           const RenderParams& params, Progress& progress, const RenderHooks& hooks, Render& result);
+    Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
+           const Options& options, const RenderParams& params, Progress& progress, const RenderHooks& hooks,
+           Render& result);
 
     /// Runs passes until a rule ends them, then reads everything back.
     void run();
@@ -101,11 +102,11 @@ private:
     Clock::time_point start_;
     RenderCounts earlier_counts_;
     double earlier_seconds_ = 0;
-    std::uint64_t first_ = 0, samples_ = 0; ///< the next sample's number; samples of the whole film
-    std::uint64_t earlier_samples_ = 0;     ///< of all pixels, from earlier runs
+    std::uint64_t first_ = 0, samples_ = 0;  ///< the next sample's number; samples of the whole film
+    std::uint64_t earlier_samples_ = 0;      ///< of all pixels, from earlier runs
     std::optional<SquaredError> last_error_; ///< as last measured
-    double launch_seconds_ = 0;             ///< of all launches of this run
-    double pass_seconds_ = 0;               ///< of one pass, by the last launch
+    double launch_seconds_ = 0;              ///< of all launches of this run
+    double pass_seconds_ = 0;                ///< of one pass, by the last launch
 };
 
 Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
@@ -136,7 +137,8 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     result.first_launch_seconds = seconds_since(start);
 }
 
-/// Samples of the next launch on all tiles: what fits the aimed time, up to the next measurement, decision or the end.
+/// Samples of the next launch on all tiles: what fits the aimed time, up to the next measurement, decision or
+/// the end.
 std::uint32_t Passes::next_samples(const RenderState& state) const {
     std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
     if (options_.adaptive)
@@ -165,8 +167,8 @@ u32 Passes::launch_tiles(double samples) const {
     return share >= 1 ? params_.tile_count : std::max(u32(share * params_.tile_count), 1u);
 }
 
-/// Calls launch(first tile, end of tiles) until all tiles have their `samples`, in several launches where they take long;
-/// `done` samples a pixel are there already.
+/// Calls launch(first tile, end of tiles) until all tiles have their `samples`, in several launches where
+/// they take long; `done` samples a pixel are there already.
 template <class Launch>
 void Passes::run_tiles(double samples, double done, Launch&& launch) {
     for (u32 tile = 0; tile < params_.tile_count;) {
@@ -179,8 +181,8 @@ void Passes::run_tiles(double samples, double done, Launch&& launch) {
         tile = end;
         const double now = done + samples * tile / params_.tile_count;
         const std::optional<FilmError> error = last_error_ ? relative_error(*last_error_) : std::nullopt;
-        progress_.update({"render", rules_.fraction(now, seconds_since(start_), last_error_), std::uint64_t(now), -1,
-                          error ? error->relative_rmse : -1});
+        progress_.update({"render", rules_.fraction(now, seconds_since(start_), last_error_),
+                          std::uint64_t(now), -1, error ? error->relative_rmse : -1});
     }
 }
 
@@ -321,11 +323,11 @@ void Passes::render_layers() {
 void check_film_capacity(const Options& options, const Film& film) {
     const std::uint64_t most = film_capacity(film, options);
     if (options.spp && *options.spp > most)
-        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with {}; "
-                                     "render disjoint ranges with --first-sample",
-                                     *options.spp, most,
-                                     options.path_layers.empty() ? fmt::format("{} replicates", film.replicates)
-                                                                 : "layers of paths"));
+        throw UsageError(fmt::format(
+            "--spp {}: the film holds at most {} samples a pixel with {}; "
+            "render disjoint ranges with --first-sample",
+            *options.spp, most,
+            options.path_layers.empty() ? fmt::format("{} replicates", film.replicates) : "layers of paths"));
 }
 
 } // namespace
@@ -341,13 +343,14 @@ void RenderCounts::add(const RenderCounts& other) {
     for (const auto& [pixel, count] : other.bad_pixels)
         bad_pixels[pixel] += count;
     bad_samples.insert(bad_samples.end(), other.bad_samples.begin(), other.bad_samples.end());
-    std::sort(bad_samples.begin(), bad_samples.end(),
-              [](const auto& a, const auto& b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
+    std::sort(bad_samples.begin(), bad_samples.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.second, a.first) < std::pair(b.second, b.first);
+    });
     bad_samples.resize(std::min<size_t>(bad_samples.size(), REPLAY_CAPACITY));
 }
 
-Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
-              const Options& options, Progress& progress, const RenderHooks& hooks) {
+Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
+              const Scene& scene, const Options& options, Progress& progress, const RenderHooks& hooks) {
     Render result;
     if (hooks.resume)
         static_cast<RenderProgress&>(result) = *hooks.resume;
@@ -365,9 +368,10 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     params.film_replicates = u32(film.replicates);
     check_film_capacity(options, film);
     if (options.adaptive && film.replicates != options.replicates)
-        throw DeviceError(fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
-                                      "a smaller --size or --crop, or fewer --replicates",
-                                      options.replicates, film.replicates));
+        throw DeviceError(
+            fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
+                        "a smaller --size or --crop, or fewer --replicates",
+                        options.replicates, film.replicates));
 
     progress.update({"compile", -1, 0, -1, -1});
     Passes passes(device, programs, buffers, options, params, progress, hooks, result);

@@ -51,27 +51,27 @@ struct RenderProgress {
 struct Render : RenderProgress {
     HitLayers layers;
     std::uint32_t layer_samples = 0;
-    std::uint64_t passes = 0;          ///< samples a pixel in this run
-    double first_launch_seconds = 0;   ///< what the driver still compiles at the first launch
-    double run_seconds = 0;            ///< of this run's render stage, first_launch_seconds not included
-    double check_seconds = 0;          ///< of them: reading the film and measuring its error
-    std::optional<FilmError> error;    ///< of the film as it is
-    StopRule stop = StopRule::SPP;     ///< what ended it
-    std::string stop_text;             ///< the same in words
-    int stop_signal = 0;               ///< the signal that ended it early, or 0
+    std::uint64_t passes = 0;        ///< samples a pixel in this run
+    double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
+    double run_seconds = 0;          ///< of this run's render stage, first_launch_seconds not included
+    double check_seconds = 0;        ///< of them: reading the film and measuring its error
+    std::optional<FilmError> error;  ///< of the film as it is
+    StopRule stop = StopRule::SPP;   ///< what ended it
+    std::string stop_text;           ///< the same in words
+    int stop_signal = 0;             ///< the signal that ended it early, or 0
 };
 
 /// What happens beside a render.
 struct RenderHooks {
-    const RenderProgress* resume = nullptr;           ///< goes on from here
-    std::function<void(const Render&)> save_picture;  ///< every --save-every seconds, at a whole pass
-    std::function<void(const Render&)> save_film;     ///< every --checkpoint seconds, at a whole pass
+    const RenderProgress* resume = nullptr;          ///< goes on from here
+    std::function<void(const Render&)> save_picture; ///< every --save-every seconds, at a whole pass
+    std::function<void(const Render&)> save_film;    ///< every --checkpoint seconds, at a whole pass
 };
 
 /// Renders until samples, time, error or a signal end it (stop_rules.h); always ends at a whole pass (one
 /// sample a pixel). Throws DeviceError, and UsageError for more samples than the film can hold.
-Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers, const Scene& scene,
-              const Options& options, Progress& progress, const RenderHooks& hooks = {});
+Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
+              const Scene& scene, const Options& options, Progress& progress, const RenderHooks& hooks = {});
 
 /// A render without a launch: the black picture of a scene in which no path is accepted.
 Render render_nothing(const Scene& scene, const Options& options);

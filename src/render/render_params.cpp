@@ -28,8 +28,8 @@ void set_camera(const Scene& scene, const Options& options, RenderParams& params
     params.look = to_vec4(look);
 }
 
-/// Shares next-event estimation evenly between the kinds of light that it can find. A constant sky is left to BSDF
-/// sampling, which follows its only feature, the cosine.
+/// Shares next-event estimation evenly between the kinds of light that it can find. A constant sky is left to
+/// BSDF sampling, which follows its only feature, the cosine.
 void set_lights(const Scene& scene, RenderParams& params) {
     const Environment& sky = scene.environment;
     params.environment = to_vec4(sky.radiance);
@@ -39,7 +39,8 @@ void set_lights(const Scene& scene, RenderParams& params) {
     params.environment_sin = float(std::sin(sky.rotation_degrees * RADIANS));
     params.emitter_count = u32(scene.emitters.size());
     params.light_count = u32(scene.lights.size());
-    const bool has_map = !sky.texels.empty() && (sky.radiance.x > 0 || sky.radiance.y > 0 || sky.radiance.z > 0);
+    const bool has_map =
+        !sky.texels.empty() && (sky.radiance.x > 0 || sky.radiance.y > 0 || sky.radiance.z > 0);
     const int kinds = int(!scene.emitters.empty()) + int(has_map) + int(!scene.lights.empty());
     const float share = kinds ? 1.0f / float(kinds) : 0.0f;
     params.choose_emitter = scene.emitters.empty() ? 0.0f : share;

@@ -38,7 +38,8 @@ std::vector<std::string> names_of_effects(const Effects& effects, bool present) 
 
 /// What ended the render; whether --error is reached, null without it.
 Json stop_json(const Report& report) {
-    Json json{{"rule", stop_rule_name(report.render.stop)}, {"error_target", nullptr}, {"error_reached", nullptr}};
+    Json json{
+        {"rule", stop_rule_name(report.render.stop)}, {"error_target", nullptr}, {"error_reached", nullptr}};
     if (report.options.error) {
         json["error_target"] = *report.options.error;
         json["error_reached"] = error_reached(report);
@@ -46,8 +47,8 @@ Json stop_json(const Report& report) {
     return json;
 }
 
-/// Whether the picture has the same bits on every device that keeps the rules. Nothing is known of a device that was not
-/// asked, nor of --precision double, whose rules are not asked.
+/// Whether the picture has the same bits on every device that keeps the rules. Nothing is known of a device
+/// that was not asked, nor of --precision double, whose rules are not asked.
 std::optional<bool> has_same_bits(const Report& report) {
     if (report.options.precision == Precision::FAST)
         return false;
@@ -139,26 +140,26 @@ std::string format_report(const Report& report) {
     const double samples = double(counts.primary);
     std::string text;
     text += fmt::format("{} x {}, {} spp, {}, seed {}, on {}\n", render.film.width, render.film.height,
-                        film_samples(render.film),
-                        integrator_name(report.options.integrator), report.options.seed, report.device.name);
+                        film_samples(render.film), integrator_name(report.options.integrator),
+                        report.options.seed, report.device.name);
     text += fmt::format("ended    {}\n", render.stop_text);
-    text += fmt::format("seconds  load {:.2f}  bvh {:.2f}  compile {:.2f} + {:.2f}  render {:.2f}  total {:.2f}\n",
-                        report.load_seconds, report.bvh.seconds, report.compile_seconds, render.first_launch_seconds,
-                        render.run_seconds, report.total_seconds);
+    text += fmt::format(
+        "seconds  load {:.2f}  bvh {:.2f}  compile {:.2f} + {:.2f}  render {:.2f}  total {:.2f}\n",
+        report.load_seconds, report.bvh.seconds, report.compile_seconds, render.first_launch_seconds,
+        render.run_seconds, report.total_seconds);
     text += fmt::format("rays     {:.2f} a sample, {:.2f} Mrays/s, {:.2f} Msamples/s\n",
                         samples > 0 ? double(counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,
                         render.seconds > 0 ? samples / render.seconds * 1e-6 : 0);
     text += fmt::format("tree     {} {} ({}), SAH cost {:.1f}\n", layout_name(report.bvh.layout),
-                        quality_name(report.bvh.quality), report.bvh_reason,
-                        report.bvh.sah_cost);
+                        quality_name(report.bvh.quality), report.bvh_reason, report.bvh.sah_cost);
     if (is_adaptive(render.film)) {
         const TileSpread spread = tile_spread(render.film);
-        text += fmt::format("adaptive {} to {} spp by tiles of {} x {}, {:.2f} on average\n", spread.fewest, spread.most,
-                            ADAPTIVE_TILE_SIZE, ADAPTIVE_TILE_SIZE, spread.mean);
+        text += fmt::format("adaptive {} to {} spp by tiles of {} x {}, {:.2f} on average\n", spread.fewest,
+                            spread.most, ADAPTIVE_TILE_SIZE, ADAPTIVE_TILE_SIZE, spread.mean);
     }
     text += format_error_report(report.error);
-    text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan, counts.infinite,
-                        counts.negative, counts.overflow);
+    text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan,
+                        counts.infinite, counts.negative, counts.overflow);
     text += format_causes(report.causes, counts.bad(), report.scene, report.options);
     if (report.effects.paths.is_asked)
         text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
@@ -183,12 +184,9 @@ std::string report_json(const Report& report) {
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = report.scene.triangles.size();
-    json["seconds"] = {{"load", report.load_seconds},
-                       {"bvh", report.bvh.seconds},
-                       {"compile", report.compile_seconds},
-                       {"first_launch", render.first_launch_seconds},
-                       {"render", render.run_seconds},
-                       {"checks", render.check_seconds},
+    json["seconds"] = {{"load", report.load_seconds},       {"bvh", report.bvh.seconds},
+                       {"compile", report.compile_seconds}, {"first_launch", render.first_launch_seconds},
+                       {"render", render.run_seconds},      {"checks", render.check_seconds},
                        {"total", report.total_seconds}};
     json["rays"] = {{"primary", counts.primary}, {"shadow", counts.shadow}, {"secondary", counts.secondary}};
     json["rays_per_second"] = rays_per_second(render);

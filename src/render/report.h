@@ -25,7 +25,7 @@ struct Report {
     const Bvh& bvh;
     const Render& render;
     ErrorReport error;
-    std::string bvh_reason; ///< why the tree has its quality
+    std::string bvh_reason;         ///< why the tree has its quality
     std::vector<CauseCount> causes; ///< of the bad samples that were replayed
     double load_seconds = 0, compile_seconds = 0, total_seconds = 0;
 };

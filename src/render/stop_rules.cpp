@@ -9,8 +9,8 @@ namespace clrt {
 
 namespace {
 
-/// The first measurement that may end a render: two samples in every replicate, so that the spread is not that of
-/// single samples.
+/// The first measurement that may end a render: two samples in every replicate, so that the spread is not
+/// that of single samples.
 constexpr std::uint64_t FEWEST_OF_A_REPLICATE = 2;
 
 /// Samples after which the options end the render, whatever the film holds.
@@ -41,7 +41,8 @@ const char* stop_rule_name(StopRule rule) {
 }
 
 StopRules::StopRules(const Options& options, std::uint64_t film_limit)
-    : options_(options), film_limit_(film_limit), last_samples_(std::min(samples_of_options(options), film_limit)) {}
+    : options_(options), film_limit_(film_limit),
+      last_samples_(std::min(samples_of_options(options), film_limit)) {}
 
 std::optional<StopRule> StopRules::ended(const RenderState& state) const {
     if (state.samples == 0)
@@ -80,7 +81,8 @@ double StopRules::fraction(double samples, double seconds, const std::optional<S
     const std::optional<FilmError> error = check ? relative_error(*check) : std::nullopt;
     if (options_.error && *options_.error > 0 && error) {
         const double doublings = std::ceil(2 * std::log2(error->relative_rmse / *options_.error));
-        fraction = std::max(fraction, samples / (double(check->samples) * std::exp2(std::max(doublings, 1.0))));
+        fraction =
+            std::max(fraction, samples / (double(check->samples) * std::exp2(std::max(doublings, 1.0))));
     }
     return std::min(fraction, 1.0);
 }
@@ -96,7 +98,8 @@ std::string StopRules::describe(StopRule rule) const {
     case StopRule::ERROR:
         return fmt::format("--error {:g} % is reached", 100 * *options_.error);
     case StopRule::FILM_FULL:
-        return fmt::format("the film is full with {} samples a pixel; more --replicates hold more", film_limit_);
+        return fmt::format("the film is full with {} samples a pixel; more --replicates hold more",
+                           film_limit_);
     case StopRule::SIGNAL:
         break;
     }

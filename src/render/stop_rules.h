@@ -18,11 +18,11 @@ const char* stop_rule_name(StopRule rule);
 
 /// How far a render is.
 struct RenderState {
-    std::uint64_t samples = 0;       ///< a pixel, those of earlier runs included
-    double seconds = 0;              ///< of this run's render stage
-    double pass_seconds = 0;         ///< of one more pass; 0: not known yet
-    std::optional<FilmError> error;  ///< as measured at `samples`; none between measurements
-    int signal = 0;                  ///< that came, or 0
+    std::uint64_t samples = 0;      ///< a pixel, those of earlier runs included
+    double seconds = 0;             ///< of this run's render stage
+    double pass_seconds = 0;        ///< of one more pass; 0: not known yet
+    std::optional<FilmError> error; ///< as measured at `samples`; none between measurements
+    int signal = 0;                 ///< that came, or 0
 };
 
 /// The rules of one render. The error is looked at when the number of samples has doubled, and at the end:
@@ -38,15 +38,16 @@ public:
 
     /// Samples a pixel after which the render ends in any case.
     std::uint64_t last_samples() const { return last_samples_; }
-    /// The next number of samples above `samples` at which the error is measured: replicates times a power of two.
+    /// The next number of samples above `samples` at which the error is measured: replicates times a power of
+    /// two.
     std::uint64_t next_check(std::uint64_t samples) const;
     /// Whether an error is measured at this number of samples.
     bool is_check(std::uint64_t samples) const;
     /// Whether this error satisfies --error.
     bool reached(const std::optional<FilmError>& error) const;
 
-    /// Progress in [0, 1] by the limit that is nearest; `check` is the last measured error, if any, and at how many
-    /// samples.
+    /// Progress in [0, 1] by the limit that is nearest; `check` is the last measured error, if any, and at
+    /// how many samples.
     double fraction(double samples, double seconds, const std::optional<SquaredError>& check) const;
     /// What ended the render, for the log and the report: "--spp 64 is complete".
     std::string describe(StopRule rule) const;

@@ -64,9 +64,8 @@ Saving::Saving(const Scene& scene, const Options& options, const DeviceInfo& dev
         save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
     };
     hooks.save_film = [&](const Render& render) {
-        save_on_the_way(progress, [&] {
-            write_film_file(options.checkpoint_path, film_file(render, options, device));
-        });
+        save_on_the_way(
+            progress, [&] { write_film_file(options.checkpoint_path, film_file(render, options, device)); });
     };
 }
 

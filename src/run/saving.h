@@ -28,8 +28,8 @@ private:
 /// Pictures and the statistics of a finished render.
 void write_outputs(const Report& report, FinalFiles& files);
 
-/// Film files and pictures beside a render, and the film that it goes on from. Refers to the arguments of its constructor. A save
-/// on the way that fails does not end the render: a full disk may have room later.
+/// Film files and pictures beside a render, and the film that it goes on from. Refers to the arguments of its
+/// constructor. A save on the way that fails does not end the render: a full disk may have room later.
 struct Saving {
     FilmIdentity identity;
     std::optional<RenderProgress> resumed;

@@ -15,8 +15,8 @@ namespace clrt {
 
 namespace {
 
-/// How the device computes, said where its pictures are its own. Not asked without a cache, where every start would pay. A
-/// device that cannot answer renders all the same.
+/// How the device computes, said where its pictures are its own. Not asked without a cache, where every start
+/// would pay. A device that cannot answer renders all the same.
 std::optional<DeviceFacts> ask_facts(const Device& device, const Options& options, Progress& progress) {
     if (options.cache == Toggle::OFF)
         return std::nullopt;
@@ -33,15 +33,16 @@ std::optional<DeviceFacts> ask_facts(const Device& device, const Options& option
         progress.finish();
     spdlog::debug("device: {}", describe_facts(*facts));
     if (is_odd)
-        spdlog::info("this device breaks rules ({}), so its pictures may differ from other devices' in their last bits",
+        spdlog::info("this device breaks rules ({}), so its pictures may differ from other devices' in their "
+                     "last bits",
                      fmt::join(broken_rules(*facts), ", "));
     return facts;
 }
 
 /// Finds out why samples are bad. The render is done: what fails here is only said.
 std::vector<CauseCount> explain_bad_samples(const Device& device, const Scene& scene, const Effects& effects,
-                                            const Options& options, const BvhLayout layout, const SceneBuffers& buffers,
-                                            const Render& render) {
+                                            const Options& options, const BvhLayout layout,
+                                            const SceneBuffers& buffers, const Render& render) {
     if (options.check == Check::OFF || render.counts.bad_samples.empty() || render.stop_signal)
         return {};
     try {

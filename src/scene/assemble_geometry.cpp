@@ -142,7 +142,8 @@ void assemble_geometry(ObjMesh& mesh, const Bounds& bounds, const Normalisation&
         scene.first_smooth = {obj_path, mesh.first_normals_line};
 
     scene.statistics.degenerate_triangles = degenerate;
-    note_count(notices, degenerate, obj_path, "triangles of zero area: they can only close seams and give no light");
+    note_count(notices, degenerate, obj_path,
+               "triangles of zero area: they can only close seams and give no light");
     note_count(notices, broken_normals, obj_path,
                "triangles with a zero, infinite or missing vn: shaded flat");
     note_count(notices, broken_uvs, obj_path,

@@ -24,7 +24,8 @@ constexpr double COVERED = 0.6;    // a face with this much wall counts as close
 constexpr int GRID = 16;           // points per side of a face
 constexpr double INSIDE = 0.9;     // of the half size: where the eye stands in a closed room
 constexpr double PARALLEL = 1e-6;  // sine of the angle below which up and look are parallel
-constexpr double RESOLVED_PITCH = 2.4e-7; // radians between rays of single precision that differ, four units of roundoff
+constexpr double RESOLVED_PITCH =
+    2.4e-7; // radians between rays of single precision that differ, four units of roundoff
 const glm::dvec3 THREE_QUARTER_VIEW(0.5, 0.35, 1);
 
 /// A face of a box: the axis it is perpendicular to and its end.
@@ -258,9 +259,10 @@ Camera fit_camera(const CameraOptions& options, glm::ivec2 size, const Bounds& b
     }
     const double pitch = 2 * std::tan(glm::radians(camera.fov_degrees) / 2) / size.y;
     if (pitch < RESOLVED_PITCH)
-        notices.add(fmt::format("camera: --fov {} puts pixels {:.1e} radians apart, rays of single precision differ from "
-                                "{:.1e} on: neighbours show the same",
-                                camera.fov_degrees, pitch, RESOLVED_PITCH));
+        notices.add(fmt::format(
+            "camera: --fov {} puts pixels {:.1e} radians apart, rays of single precision differ from "
+            "{:.1e} on: neighbours show the same",
+            camera.fov_degrees, pitch, RESOLVED_PITCH));
     if (!options.eye || !options.at)
         notices.add(fmt::format("camera: --eye {} --at {} --up {} --fov {}", triple(camera.eye),
                                 triple(camera.at), triple(camera.up), camera.fov_degrees));

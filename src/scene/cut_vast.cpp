@@ -19,9 +19,10 @@ namespace clrt {
 
 namespace {
 
-/// A triangle is vast from this many times the size of, and the way to, something small. Rays leave a triangle by
-/// u (4 M + 24 E) of its place M and extent E (surface_offset_bound): 1024 makes that 1.5e-3 of the small one. Rooms with small things keep most
-/// of their walls whole: cutting those costs time and shows nothing.
+/// A triangle is vast from this many times the size of, and the way to, something small. Rays leave a
+/// triangle by u (4 M + 24 E) of its place M and extent E (surface_offset_bound): 1024 makes that 1.5e-3 of
+/// the small one. Rooms with small things keep most of their walls whole: cutting those costs time and shows
+/// nothing.
 constexpr double VAST = 1024;
 
 /// Below this share of a triangle's largest coordinate its extent adds little to that bound.
@@ -49,7 +50,8 @@ glm::dvec3 to_dvec3(const vec4& v) {
 }
 
 Corners corners_of(const Scene& scene, const Triangle& t) {
-    return {{to_dvec3(scene.positions[t.v0]), to_dvec3(scene.positions[t.v1]), to_dvec3(scene.positions[t.v2])}};
+    return {
+        {to_dvec3(scene.positions[t.v0]), to_dvec3(scene.positions[t.v1]), to_dvec3(scene.positions[t.v2])}};
 }
 
 double largest(const glm::dvec3& v) {
@@ -204,15 +206,17 @@ private:
         return is_there(t.v0) || is_there(t.v1) || is_there(t.v2);
     }
 
-    /// Cuts the triangle's longest edge after those of neighbours that have a longer one. False where one cannot be cut.
+    /// Cuts the triangle's longest edge after those of neighbours that have a longer one. False where one
+    /// cannot be cut.
     bool cut(u32 t) {
         const Edge e = edge(scene_.triangles[t], longest_edge(t));
         for (;;) {
             const std::vector<u32> sharing = by_edge_[e];
             if (!std::all_of(sharing.begin(), sharing.end(), [&](u32 s) { return can_be_cut(s); }))
                 return false;
-            const auto longer = std::find_if(sharing.begin(), sharing.end(),
-                                             [&](u32 s) { return edge(scene_.triangles[s], longest_edge(s)) != e; });
+            const auto longer = std::find_if(sharing.begin(), sharing.end(), [&](u32 s) {
+                return edge(scene_.triangles[s], longest_edge(s)) != e;
+            });
             if (longer == sharing.end())
                 break;
             if (!cut(*longer))
@@ -221,7 +225,8 @@ private:
         const vec4 a = scene_.positions[e.first], b = scene_.positions[e.second];
         const glm::dvec3 middle = (to_dvec3(a) + to_dvec3(b)) * 0.5;
         const vec4 rounded = {float(middle.x), float(middle.y), float(middle.z), 0};
-        // No float between them, or a corner in line is there already: a half would have two equal corners, and so no edges.
+        // No float between them, or a corner in line is there already: a half would have two equal corners,
+        // and so no edges.
         for (const u32 s : by_edge_[e])
             if (has_corner_at(scene_.triangles[s], rounded))
                 return false;
@@ -245,7 +250,8 @@ private:
         if (first.t0 != NO_INDEX) {
             const u32 from = 2 * first.t0, to = 2 * first.t1;
             for (const u32 i : {0u, 1u})
-                scene_.uvs.push_back(float((double(scene_.uvs[from + i]) + double(scene_.uvs[to + i])) * 0.5));
+                scene_.uvs.push_back(
+                    float((double(scene_.uvs[from + i]) + double(scene_.uvs[to + i])) * 0.5));
             first.t1 = second.t0 = u32(scene_.uvs.size() / 2 - 1);
         }
         if (t < first_added_)

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double PI = glm::pi<double>();
 
-/// A map whose bright texels exceed its mean by less than this share of its light is constant: more is not rounding.
+/// A map whose bright texels exceed its mean by less than this share of its light is constant: more is not
+/// rounding.
 constexpr double SMALLEST_EXCESS = 1e-6;
 
 /// Counts bad texels and remembers the first, for one line in the log.
@@ -36,8 +37,8 @@ double luminance_at(const EnvironmentImage& image, int x, int y) {
     return luminance(glm::dvec3(image.texels[size_t(y) * size_t(image.width) + size_t(x)]));
 }
 
-/// MIS compensation of weights that are luminance times solid angle and add up to `sum`: leaves of each what exceeds
-/// the mean over the sphere. Where next to nothing does, they stay as they are.
+/// MIS compensation of weights that are luminance times solid angle and add up to `sum`: leaves of each what
+/// exceeds the mean over the sphere. Where next to nothing does, they stay as they are.
 void keep_above_mean(std::vector<double>& weights, int width, int height, double sum) {
     const auto above_mean = [&](int x, int y) {
         const double share = texel_solid_angle(y, width, height) / (4 * PI);

@@ -40,10 +40,10 @@ std::vector<double> cell_luminance(const EnvironmentImage& image);
 /// Solid angle of a texel in row `row` of a map: (2 pi / width)(cos theta_0 - cos theta_1).
 double texel_solid_angle(int row, int width, int height);
 
-/// The environment of a cleaned map: texels chosen in proportion to cell_luminance times solid angle. Beside BSDF
-/// sampling it is what cell_luminance exceeds its mean by (MIS compensation, Karlik et al. 2019): dimmer texels have
-/// probability 0 and are left to the BSDF. A map without bright texels keeps the table of its luminance. A black map
-/// gives a constant environment of radiance 0, with a notice.
+/// The environment of a cleaned map: texels chosen in proportion to cell_luminance times solid angle. Beside
+/// BSDF sampling it is what cell_luminance exceeds its mean by (MIS compensation, Karlik et al. 2019): dimmer
+/// texels have probability 0 and are left to the BSDF. A map without bright texels keeps the table of its
+/// luminance. A black map gives a constant environment of radiance 0, with a notice.
 Environment map_environment(const EnvironmentImage& image, double factor, double rotation_degrees,
                             SkySampling sampling, NoticeList& notices);
 

@@ -43,8 +43,8 @@ Light point_light(const PointOptions& option, const Normalisation& frame) {
     return light;
 }
 
-/// The share of a point light's power that meets the scene: all of it from within the bounding sphere, else the
-/// sphere's solid angle over 4 pi. It makes a far light's power what a sun of its irradiance has.
+/// The share of a point light's power that meets the scene: all of it from within the bounding sphere, else
+/// the sphere's solid angle over 4 pi. It makes a far light's power what a sun of its irradiance has.
 double share_that_meets_scene(const glm::dvec3& position, double radius) {
     const double distance = glm::length(position);
     if (distance <= radius)

@@ -4,8 +4,8 @@
 #include "error.h"
 #include "scene/assemble_geometry.h"
 #include "scene/camera_fit.h"
-#include "scene/cut_vast.h"
 #include "scene/colour.h"
+#include "scene/cut_vast.h"
 #include "scene/environment.h"
 #include "scene/lights.h"
 #include "scene/material_rules.h"
@@ -122,8 +122,8 @@ Scene load_all(const Options& options, Progress& progress) {
     assemble_geometry(mesh, bounds, scene.normalisation, options.scene_path, scene, notices);
     const CutTriangles cut = cut_vast_triangles(scene);
     if (cut.vast)
-        notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}", options.scene_path,
-                                     cut.vast, cut.vast + cut.added));
+        notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
+                                     options.scene_path, cut.vast, cut.vast + cut.added));
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
     const bool whole_camera = options.camera.eye && options.camera.at;
@@ -139,9 +139,10 @@ Scene load_scene(const Options& options, Progress& progress) {
     try {
         return load_all(options, progress);
     } catch (const std::bad_alloc&) {
-        throw SceneError(options.scene_path, 0,
-                         "not enough memory to load the scene: expected a smaller one, smaller textures, or a "
-                         "machine with more memory");
+        throw SceneError(
+            options.scene_path, 0,
+            "not enough memory to load the scene: expected a smaller one, smaller textures, or a "
+            "machine with more memory");
     }
 }
 

@@ -9,7 +9,8 @@
 namespace clrt {
 
 /// Loads everything a render needs: geometry, materials, textures, lights, environment, camera; normalises it
-/// (normalise.h). Every fallback is a line in `notices`. Throws SceneError (file:line) for what cannot be understood.
+/// (normalise.h). Every fallback is a line in `notices`. Throws SceneError (file:line) for what cannot be
+/// understood.
 Scene load_scene(const Options& options, Progress& progress);
 
 } // namespace clrt

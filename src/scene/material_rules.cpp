@@ -224,8 +224,8 @@ private:
             m_.fresnel = FRESNEL_SCHLICK;
     }
 
-    /// illum 4, 6, 7, 9. Ks, Kd and Ns are ignored; Pr makes the surface rough, unless the indices are equal and
-    /// nothing is bent at all.
+    /// illum 4, 6, 7, 9. Ks, Kd and Ns are ignored; Pr makes the surface rough, unless the indices are equal
+    /// and nothing is bent at all.
     void set_dielectric() {
         m_.specular = to_vec4(glm::dvec3(1), 0);
         m_.lobes = LOBE_DIELECTRIC;

@@ -85,9 +85,8 @@ std::string material_table(const Scene& scene) {
     std::string table =
         fmt::format("{:<{}}  {:<{}}  {}\n", "material", name_width, "rule", rule_width, "became");
     for (size_t i = 0; i < scene.materials.size(); ++i)
-        table +=
-            fmt::format("{:<{}}  {:<{}}  {}\n", names[i], name_width, scene.material_rules[i], rule_width,
-                        material_summary(scene, i));
+        table += fmt::format("{:<{}}  {:<{}}  {}\n", names[i], name_width, scene.material_rules[i],
+                             rule_width, material_summary(scene, i));
     return table;
 }
 

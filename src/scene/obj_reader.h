@@ -35,7 +35,7 @@ struct ObjMesh {
     std::vector<std::string> material_names; ///< by first use; "" is "no usemtl"
     std::vector<size_t> material_lines;      ///< line of the first usemtl of each that has faces; 0 for ""
     std::vector<std::string>
-        object_names; ///< of `o` and `g` statements that have faces; "" is the unnamed first
+        object_names;                  ///< of `o` and `g` statements that have faces; "" is the unnamed first
     size_t first_normals_triangle = 0; ///< the first triangle with corner normals,
     size_t first_normals_line = 0;     ///< and the line of its face; 0 where no triangle has any
     std::vector<ObjLibrary> libraries;

@@ -54,10 +54,9 @@ bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int begin, 
                void* values) {
     begin += spec.y;
     end += spec.y;
-    return spec.tile_width
-               ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
-                                  spec.nchannels, type, values)
-               : input.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, type, values);
+    return spec.tile_width ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
+                                              spec.z + 1, 0, spec.nchannels, type, values)
+                           : input.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, type, values);
 }
 
 /// Reads all pixels. Memory is filled as rows arrive, and asked for once the first have: a short file that

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene ready for the device: plain vectors of the shared structs, indices instead of pointers, no behaviour.
+// A scene ready for the device: plain vectors of the shared structs, indices instead of pointers, no
+// behaviour.
 #pragma once
 
 #include "kernels/shared/scene_types.h"
@@ -41,7 +42,7 @@ struct SourcePlace {
 /// How long the parts of loading took and how much was read.
 struct LoadStatistics {
     size_t obj_bytes = 0;
-    double obj_seconds = 0;     ///< reading and triangulating the OBJ text
+    double obj_seconds = 0; ///< reading and triangulating the OBJ text
     double texture_seconds = 0;
     size_t degenerate_triangles = 0; ///< of zero area: kept out of the lights
     size_t dropped_faces = 0;        ///< with a non-finite vertex or fewer than three corners

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a first start costs: processor seconds of the whole command, which a busy machine does not change much.
+// What a first start costs: processor seconds of the whole command, which a busy machine does not change
+// much.
 #include "clrt_command.h"
 
 #include <sys/resource.h>

@@ -63,11 +63,13 @@ TEST_F(ErrorReport, AReachedTargetIsTrueOnTheCornellBox) {
     const ReadPicture x = box("x.exr", {"--error", "10%"});
     double squared = 0, mean = 0;
     for (size_t i = 0; i < x.values.size(); ++i) {
-        squared += double(x.values[i] - a.values[i]) * double(x.values[i] - b.values[i]) / double(x.values.size());
+        squared +=
+            double(x.values[i] - a.values[i]) * double(x.values[i] - b.values[i]) / double(x.values.size());
         mean += double(x.values[i]) / double(x.values.size());
     }
     const double printed = stats()["error"]["rel_rmse"];
-    std::printf("printed %.2f %%, true over printed %.3f\n", 100 * printed, std::sqrt(squared) / mean / printed);
+    std::printf("printed %.2f %%, true over printed %.3f\n", 100 * printed,
+                std::sqrt(squared) / mean / printed);
     EXPECT_LE(printed, 0.1);
     EXPECT_NEAR(std::sqrt(squared) / mean / printed, 1, 0.15);
 }
@@ -97,10 +99,10 @@ TEST_F(ErrorReport, TheReportHasErrorPriceWorstTileAndTails) {
           "price    " + number +
               " takes [0-9.]+ times the samples, [0-9.]+ s more \\(extrapolated by the measured slope",
           "worst    " + number + " of the picture's mean in the 32 x 32 tile at 0,0\n",
-          std::string("tails    the noisiest [a-z]+ of the pixels hold [0-9]+ % of the squared error; [0-9]+ % was seen by one "
+          std::string("tails    the noisiest [a-z]+ of the pixels hold [0-9]+ % of the squared error; [0-9]+ "
+                      "% was seen by one "
                       "replicate alone, which makes it uncertain by [0-9.]+ %: the error can be believed\n"),
-          std::string("checked  NaN 0, infinite 0"),
-          std::string("absent   "), std::string("seconds  load")})
+          std::string("checked  NaN 0, infinite 0"), std::string("absent   "), std::string("seconds  load")})
         EXPECT_TRUE(std::regex_search(result.out, std::regex(line))) << line << "\n" << result.out;
 
     const nlohmann::json json = stats(), error = json["error"];
@@ -112,14 +114,16 @@ TEST_F(ErrorReport, TheReportHasErrorPriceWorstTileAndTails) {
     const double factor = std::exp2(-1 / error["slope"]["value"].get<double>());
     EXPECT_NEAR(error["half"]["samples_factor"], factor, 1e-9);
     EXPECT_NEAR(error["half"]["seconds"], json["seconds"]["render"].get<double>() * (factor - 1), 1e-6);
-    EXPECT_NEAR(error["worst_tile"]["rel_rmse"], error["rel_rmse"].get<double>(), 1e-6) << "there is one tile";
+    EXPECT_NEAR(error["worst_tile"]["rel_rmse"], error["rel_rmse"].get<double>(), 1e-6)
+        << "there is one tile";
     EXPECT_LT(error["tails"]["once_share"], 0.2);
     EXPECT_LT(error["tails"]["once_error"], 0.1);
     EXPECT_EQ(error["tails"]["usable"], true);
     EXPECT_EQ(json["stop"]["error_reached"], nullptr);
 
     const ReadPicture picture(folder.file("a.exr"));
-    for (const char* name : {"clrt.error", "clrt.error.low", "clrt.error.high", "clrt.error.slope", "clrt.error.usable", "clrt.stop"})
+    for (const char* name : {"clrt.error", "clrt.error.low", "clrt.error.high", "clrt.error.slope",
+                             "clrt.error.usable", "clrt.stop"})
         EXPECT_NE(picture.spec.find_attribute(name), nullptr) << name;
 }
 

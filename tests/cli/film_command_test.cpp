@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// --checkpoint, --resume, --save-every and clrt-merge: however a run is cut into pieces, the bits are those of one run.
+// --checkpoint, --resume, --save-every and clrt-merge: however a run is cut into pieces, the bits are those
+// of one run.
 #include "clrt_command.h"
 #include "error.h"
 #include "render/film_file.h"
@@ -20,9 +21,11 @@ protected:
         folder.write("lamp.clrt", "--eye 0,3,0.1\n--at 0,0,0\n--size 32x24\n");
     }
     /// Renders samples first .. first + count - 1 into NAME.film and, unless told otherwise, NAME.exr.
-    void render_part(const std::string& name, int first, int count, std::vector<std::string> further = {}) const {
-        std::vector<std::string> arguments{"lamp.obj", "--first-sample", std::to_string(first), "--spp",
-                                           std::to_string(count), "--checkpoint", name + ".film"};
+    void render_part(const std::string& name, int first, int count,
+                     std::vector<std::string> further = {}) const {
+        std::vector<std::string> arguments{"lamp.obj",    "--first-sample",      std::to_string(first),
+                                           "--spp",       std::to_string(count), "--checkpoint",
+                                           name + ".film"};
         if (std::find(further.begin(), further.end(), "-o") == further.end())
             further.insert(further.end(), {"-o", name + ".exr"});
         arguments.insert(arguments.end(), further.begin(), further.end());
@@ -52,12 +55,14 @@ protected:
         for (const char* channel : {"R", "G", "B", "variance.R", "variance.G", "variance.B", "samples"})
             for (int y = 0; y < 24; ++y)
                 for (int x = 0; x < 32; ++x)
-                    ASSERT_EQ(one.at(x, y, channel), other.at(x, y, channel)) << channel << " " << x << "," << y;
+                    ASSERT_EQ(one.at(x, y, channel), other.at(x, y, channel))
+                        << channel << " " << x << "," << y;
     }
 };
 
 /// Arguments that keep the device busy for a minute.
-const std::vector<std::string> LONG_RUN = {"lamp.obj", "-t", "60", "-s", "4000000", "-o", "long.exr", "--checkpoint"};
+const std::vector<std::string> LONG_RUN = {"lamp.obj", "-t", "60",       "-s",
+                                           "4000000",  "-o", "long.exr", "--checkpoint"};
 
 } // namespace
 
@@ -87,7 +92,8 @@ TEST_F(FilmCommand, LayersOfPathsGoAlong) {
     EXPECT_EQ(merge({"b.film", "a.film", "-o", "ab.film", "-o", "ab.exr"}).exit_code, 0);
     const CommandResult result = clrt({"--resume", "ab.film", "-s", "12", "-o", "resumed.exr"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    const ReadPicture whole(folder.file("whole.exr")), resumed(folder.file("resumed.exr")), ab(folder.file("ab.exr"));
+    const ReadPicture whole(folder.file("whole.exr")), resumed(folder.file("resumed.exr")),
+        ab(folder.file("ab.exr"));
     double sum = 0;
     for (int y = 0; y < 24; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -132,8 +138,9 @@ TEST_F(FilmCommand, AResumedRunIsTheSingleRun) {
     render_part("whole", 3, 29);
     render_part("a", 3, 6);
     // With the whole command, on another tree.
-    CommandResult result = clrt({"lamp.obj", "--first-sample", "3", "--spp", "17", "--resume", "a.film", "--checkpoint",
-                                 "b.film", "-o", "b.exr", "--bvh", "bvh2", "--stats", "s.json"});
+    CommandResult result =
+        clrt({"lamp.obj", "--first-sample", "3", "--spp", "17", "--resume", "a.film", "--checkpoint",
+              "b.film", "-o", "b.exr", "--bvh", "bvh2", "--stats", "s.json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(folder.read("s.json"), {"\"spp\": 17", "\"passes\": 11"}));
     // With the film alone.
@@ -158,7 +165,8 @@ TEST_F(FilmCommand, AnAdaptiveRunGoesOnButDoesNotMerge) {
     // Stop in the middle of rounds.
     render_part("a", 0, 20, adaptive);
     EXPECT_EQ(clrt({"--resume", "a.film", "-s", "43", "-o", "b.exr", "--checkpoint", "b.film"}).exit_code, 0);
-    const CommandResult result = clrt({"--resume", "b.film", "-s", "64", "-o", "c.exr", "--checkpoint", "c.film"});
+    const CommandResult result =
+        clrt({"--resume", "b.film", "-s", "64", "-o", "c.exr", "--checkpoint", "c.film"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.out, {"adaptive ", " spp by tiles of 16 x 16, "}));
     expect_same_film("c.film", "whole.film");
@@ -233,8 +241,8 @@ TEST_F(FilmCommand, AKilledRunLeavesAWholeFilm) {
 TEST_F(FilmCommand, PicturesSoFarAreSavedAtWholePasses) {
     CommandSettings settings;
     settings.signals = {{4, SIGKILL}};
-    std::vector<std::string> command{CLRT_EXECUTABLE, "lamp.obj", "-t", "60", "-s", "4000000", "-o", "so_far.exr",
-                                     "--save-every", "0.1s"};
+    std::vector<std::string> command{CLRT_EXECUTABLE, "lamp.obj", "-t",         "60",           "-s",
+                                     "4000000",       "-o",       "so_far.exr", "--save-every", "0.1s"};
     settings.folder = path();
     const char* device = std::getenv("CLRT_TEST_DEVICE");
     settings.environment["CLRT_DEVICE"] = device ? device : "pocl";

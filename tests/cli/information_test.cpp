@@ -57,7 +57,8 @@ TEST_F(Information, ExplainTellsWhatWouldBeRenderedAndWritesNothing) {
     write_square("scene", "mtllib none.mtl\n");
     const auto result = clrt({"scene.obj", "--explain"});
     EXPECT_EQ(result.exit_code, 0);
-    EXPECT_TRUE(holds(result.out, {"scene.obj (2 triangles)", "present  matte ", "absent   refraction", "Materials:", "Notices:", "none.mtl", "white sky"}));
+    EXPECT_TRUE(holds(result.out, {"scene.obj (2 triangles)", "present  matte ", "absent   refraction",
+                                   "Materials:", "Notices:", "none.mtl", "white sky"}));
     EXPECT_EQ(listing(), std::vector<std::string>{"scene.obj"});
 }
 
@@ -84,8 +85,8 @@ TEST_F(Information, TheLedgerBillsEveryEffectAndWritesNoPicture) {
     write_square("scene");
     const auto result = clrt({"scene.obj", "--ledger", "-s", "2", "-r", "16x12", "--stats", "bill.json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(holds(result.out, {"Ledger of scene.obj: 16 x 12, path", "environment", "matte", "interreflection",
-                                   "by the full program", "Compiling for the scene"}));
+    EXPECT_TRUE(holds(result.out, {"Ledger of scene.obj: 16 x 12, path", "environment", "matte",
+                                   "interreflection", "by the full program", "Compiling for the scene"}));
     EXPECT_EQ(listing(), (std::vector<std::string>{"bill.json", "scene.obj"}));
     const auto json = nlohmann::json::parse(folder.read("bill.json"));
     ASSERT_EQ(json["effects"].size(), 3u);

@@ -134,9 +134,9 @@ TEST_F(PictureFile, MetadataTellHowThePictureWasMade) {
                   .exit_code,
               0);
     const ReadPicture picture(folder.file("a.exr"));
-    for (const char* name :
-         {"version", "command", "device", "driver", "seed", "spp", "seconds.load", "seconds.bvh",
-          "seconds.compile", "seconds.render", "effects", "error", "nan", "infinite", "device.same_bits", "device.facts"})
+    for (const char* name : {"version", "command", "device", "driver", "seed", "spp", "seconds.load",
+                             "seconds.bvh", "seconds.compile", "seconds.render", "effects", "error", "nan",
+                             "infinite", "device.same_bits", "device.facts"})
         EXPECT_FALSE(picture.spec.get_string_attribute(std::string("clrt.") + name).empty()) << name;
     EXPECT_EQ(picture.spec.get_string_attribute("clrt.seed"), "7");
     EXPECT_EQ(picture.spec.get_string_attribute("clrt.spp"), "16");
@@ -145,7 +145,8 @@ TEST_F(PictureFile, MetadataTellHowThePictureWasMade) {
 
 TEST_F(PictureFile, BitsArePromisedInSingleOnlyAndWhereTheDeviceWasAsked) {
     write_square("scene");
-    const std::vector<std::string> render = {"scene.obj", "-r", "16x12", "-s", "1", "-i", "raycast", "--stats", "s.json"};
+    const std::vector<std::string> render = {"scene.obj", "-r",      "16x12",   "-s",    "1",
+                                             "-i",        "raycast", "--stats", "s.json"};
     const auto device = [&](std::initializer_list<std::string> more) {
         std::vector<std::string> arguments = render;
         arguments.insert(arguments.end(), more);

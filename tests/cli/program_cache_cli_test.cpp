@@ -36,9 +36,10 @@ TEST_F(ProgramCacheCommand, TwoRunsAtOnceShareOneEntryAndTheNextOneUsesIt) {
     settings.folder = path();
     settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
     const std::string clrt_command = std::string(CLRT_EXECUTABLE) + words;
-    const CommandResult both = run_command(
-        {"/bin/sh", "-c", clrt_command + " a.ppm & first=$!; " + clrt_command + " b.ppm; second=$?; wait $first && exit $second"},
-        settings);
+    const CommandResult both = run_command({"/bin/sh", "-c",
+                                            clrt_command + " a.ppm & first=$!; " + clrt_command +
+                                                " b.ppm; second=$?; wait $first && exit $second"},
+                                           settings);
     EXPECT_EQ(both.exit_code, 0) << both.err;
     EXPECT_EQ(folder.read("a.ppm"), folder.read("b.ppm"));
     EXPECT_EQ(entries(), 1u);

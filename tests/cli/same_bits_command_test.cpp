@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture has the same bits with any number of threads, and on every CPU device that is there and promises it. With one
-// device only, the fixed bits of the functions (real_functions_test) and the rules of the device (device_facts_test) say what
-// others give.
+// The picture has the same bits with any number of threads, and on every CPU device that is there and
+// promises it. With one device only, the fixed bits of the functions (real_functions_test) and the rules of
+// the device (device_facts_test) say what others give.
 #include "clrt_command.h"
 #include "render/film_file.h"
 
@@ -25,15 +25,28 @@ class SameBitsCommand : public ClrtCommand {
 protected:
     /// Renders the scene that has every effect; `more` are further arguments.
     RenderedBits render(const std::string& integrator, const std::vector<std::string>& more) const {
-        std::vector<std::string> arguments = {std::string(CLRT_SCENES_FOLDER) + "/every_effect/every_effect.obj",
-                                              "-i", integrator, "-r", "48x32", "-s", "8", "-o", "p.exr",
-                                              "--checkpoint", "p.film", "--stats", "p.json", "-q"};
+        std::vector<std::string> arguments = {std::string(CLRT_SCENES_FOLDER) +
+                                                  "/every_effect/every_effect.obj",
+                                              "-i",
+                                              integrator,
+                                              "-r",
+                                              "48x32",
+                                              "-s",
+                                              "8",
+                                              "-o",
+                                              "p.exr",
+                                              "--checkpoint",
+                                              "p.film",
+                                              "--stats",
+                                              "p.json",
+                                              "-q"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const CommandResult result = clrt(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         std::ifstream stats(folder.file("p.json"));
         const auto same_bits = nlohmann::json::parse(stats)["device"]["same_bits"];
-        return {ReadPicture(folder.file("p.exr")).values, read_film_file(folder.file("p.film")).render.film.sums,
+        return {ReadPicture(folder.file("p.exr")).values,
+                read_film_file(folder.file("p.film")).render.film.sums,
                 same_bits.is_boolean() && same_bits.get<bool>()};
     }
 

@@ -28,9 +28,10 @@ Film empty_adaptive_film(int width, int height) {
     return film;
 }
 
-/// Adds the samples that lie between a film's tiles and those wanted, each of which is 1 / rate by a chance of `rate` and
-/// else 0: the mean is 1, and a tile that has seen no bright sample looks free of noise.
-void add_rare_light(Film& film, const TileSamples& wanted, const std::vector<double>& rates, std::mt19937& random) {
+/// Adds the samples that lie between a film's tiles and those wanted, each of which is 1 / rate by a chance
+/// of `rate` and else 0: the mean is 1, and a tile that has seen no bright sample looks free of noise.
+void add_rare_light(Film& film, const TileSamples& wanted, const std::vector<double>& rates,
+                    std::mt19937& random) {
     const size_t pixels = size_t(film.width) * size_t(film.height), of_half = REPLICATES / 2;
     for (size_t r = 0; r < REPLICATES; ++r)
         for (size_t pixel = 0; pixel < pixels; ++pixel) {
@@ -204,8 +205,8 @@ TEST(Adaptive, HalvesWeighTheSameWhateverTheirSamples) {
     EXPECT_EQ(means[7], 3);
 }
 
-// The promise: which samples are taken says nothing about what they are. Where a half's own noise decides, tiles that have
-// seen no bright sample stay as they are, and the picture is too dark.
+// The promise: which samples are taken says nothing about what they are. Where a half's own noise decides,
+// tiles that have seen no bright sample stay as they are, and the picture is too dark.
 TEST(Adaptive, PicturesOfRareLightAreUnbiased) {
     const Moments fair = mean_radiances(next_round, 3000);
     const Moments selfish = mean_radiances(selfish_round, 600);

@@ -102,7 +102,8 @@ TEST(BvhLayout, RaysMeetFewNodesOfAnUnevenScene) {
         size_t nodes = 0;
         for (const Ray& ray : rays)
             traverse(bvh, ray, &nodes);
-        // Seen: 6.7, 36.2 and 10.9 nodes a ray. Medians visit 9.7 and 48, a collapse at the highest cost 13 (the first two).
+        // Seen: 6.7, 36.2 and 10.9 nodes a ray. Medians visit 9.7 and 48, a collapse at the highest cost 13
+        // (the first two).
         const double most = layout == BvhLayout::BVH8 ? 7.5 : layout == BvhLayout::BVH2 ? 40.0 : 12.0;
         EXPECT_LT(double(nodes) / double(rays.size()), most) << layout_name(layout);
     }

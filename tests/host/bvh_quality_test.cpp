@@ -63,7 +63,8 @@ TEST(BvhQuality, TimeBoundsThePrediction) {
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
 }
 
-// How long a target takes is unknown; it counts as longer than the default, unless --spp or --time says otherwise.
+// How long a target takes is unknown; it counts as longer than the default, unless --spp or --time says
+// otherwise.
 TEST(BvhQuality, AnErrorTargetCountsAsALongRender) {
     Options options;
     options.size = {512, 512};

@@ -162,8 +162,9 @@ TEST(CameraFit, AViewTooNarrowForItsPixelsIsNoticed) {
     options.fov_degrees = 0.001;
     const auto notices = fit(options).notices;
     ASSERT_EQ(notices.size(), 1u);
-    EXPECT_EQ(notices[0], "camera: --fov 0.001 puts pixels 2.9e-08 radians apart, rays of single precision differ from "
-                          "2.4e-07 on: neighbours show the same");
+    EXPECT_EQ(notices[0],
+              "camera: --fov 0.001 puts pixels 2.9e-08 radians apart, rays of single precision differ from "
+              "2.4e-07 on: neighbours show the same");
 }
 
 TEST(CameraFit, TheNoticeHoldsFlagsThatGiveTheSameCamera) {

@@ -150,12 +150,16 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
     expect({"--first-sample", "4294901760", "--error", "1%"}, "expected a sum below 4294967296");
     expect({"--error", "1%", "--replicates", "3"}, "option --error: expected --replicates 4 or more");
-    expect({"--adaptive", "--replicates", "2"}, "option --adaptive: expected an even number of --replicates from 4");
-    expect({"--adaptive", "--replicates", "5"}, "option --adaptive: expected an even number of --replicates from 4");
-    expect({"--adaptive", "--spp", "15"}, "option --adaptive: expected --spp 16 or more with --replicates 8, found 15");
+    expect({"--adaptive", "--replicates", "2"},
+           "option --adaptive: expected an even number of --replicates from 4");
+    expect({"--adaptive", "--replicates", "5"},
+           "option --adaptive: expected an even number of --replicates from 4");
+    expect({"--adaptive", "--spp", "15"},
+           "option --adaptive: expected --spp 16 or more with --replicates 8, found 15");
     expect({"--adaptive", "--first-sample", "8"}, "option --adaptive: expected no --first-sample, found 8");
-    expect({"--adaptive", "--aov", "c=LSDE", "-o", "a.exr"}, "option --adaptive: expected no --aov NAME=EXPR, found the "
-                                                             "layer 'c'");
+    expect({"--adaptive", "--aov", "c=LSDE", "-o", "a.exr"},
+           "option --adaptive: expected no --aov NAME=EXPR, found the "
+           "layer 'c'");
     expect({"--adaptive", "--ledger"}, "option --adaptive: expected no --ledger");
     expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
     EXPECT_EQ(parse({"--first-sample", "4294967231"}).first_sample, 4294967231u);

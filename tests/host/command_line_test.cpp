@@ -246,9 +246,11 @@ TEST(CommandLine, EffectsAreAListOrTakenAway) {
     EXPECT_EQ(less.effects_off, EFFECT_REFRACTION | EFFECT_INTERREFLECTION);
     EXPECT_EQ(parse({"--effects", "-matte"}).effects_off, EFFECT_MATTE);
     EXPECT_EQ(parse({"--effects", "all", "--effects", "auto"}).all_effects, false);
-    EXPECT_NE(refusal({"--effects", "mate", "s.obj"}).find("the nearest to 'mate' is matte"), std::string::npos);
+    EXPECT_NE(refusal({"--effects", "mate", "s.obj"}).find("the nearest to 'mate' is matte"),
+              std::string::npos);
     for (const char* wrong : {"matte,all", "auto,matte", "-matte,glossy", ",", "-"})
-        EXPECT_NE(refusal({std::string("--effects=") + wrong, "s.obj"}).find("--effects"), std::string::npos) << wrong;
+        EXPECT_NE(refusal({std::string("--effects=") + wrong, "s.obj"}).find("--effects"), std::string::npos)
+            << wrong;
 }
 
 TEST(CommandLine, PromisesAndRunOptionsArrive) {
@@ -297,8 +299,9 @@ TEST(CommandLine, ACheckpointMayHaveAnInterval) {
     expect("a.film,90s", "a.film", 90);
     expect("a,b.film", "a,b.film", 300);
     expect("a,b.film,1.5m", "a,b.film", 90);
-    EXPECT_NE(refusal({"--checkpoint", "a.film,5d", "s.obj"}).find("option --checkpoint: expected a duration"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal({"--checkpoint", "a.film,5d", "s.obj"}).find("option --checkpoint: expected a duration"),
+        std::string::npos);
     EXPECT_NE(refusal({"--checkpoint", ",5s", "s.obj"}).find("option --checkpoint: expected a path"),
               std::string::npos);
     EXPECT_NE(refusal({"--checkpoint", "a.png", "-o", "a.png", "s.obj"}).find("a file of its own"),
@@ -308,8 +311,8 @@ TEST(CommandLine, ACheckpointMayHaveAnInterval) {
 TEST(CommandLine, TheCommandOfAFilmLacksResume) {
     const Options o = parse({"--resume", "a.film", "-s", "16", "--checkpoint=b.film", "-v"});
     EXPECT_EQ(o.resume_path, "a.film");
-    EXPECT_EQ(o.resumable_command, (std::vector<std::string>{"clrt", "--spp=16", "--checkpoint=b.film", "--verbose",
-                                                             "--", "scene.obj"}));
+    EXPECT_EQ(o.resumable_command, (std::vector<std::string>{"clrt", "--spp=16", "--checkpoint=b.film",
+                                                             "--verbose", "--", "scene.obj"}));
 }
 
 TEST(CommandLine, ShortOptionsCanBeGlued) {

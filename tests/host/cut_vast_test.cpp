@@ -38,7 +38,8 @@ double extent(const Scene& scene, const Triangle& t) {
     double most = 0;
     for (int axis = 0; axis < 3; ++axis)
         for (int k = 0; k < 3; ++k)
-            most = std::max(most, std::abs(corner_position(scene, t, k)[axis] - corner_position(scene, t, (k + 1) % 3)[axis]));
+            most = std::max(most, std::abs(corner_position(scene, t, k)[axis] -
+                                           corner_position(scene, t, (k + 1) % 3)[axis]));
     return most;
 }
 
@@ -47,7 +48,8 @@ size_t open_edges(const Scene& scene) {
     std::map<std::array<double, 6>, int> sides;
     for (const Triangle& triangle : scene.triangles)
         for (int k = 0; k < 3; ++k) {
-            const glm::dvec3 a = corner_position(scene, triangle, k), b = corner_position(scene, triangle, (k + 1) % 3);
+            const glm::dvec3 a = corner_position(scene, triangle, k),
+                             b = corner_position(scene, triangle, (k + 1) % 3);
             ++sides[{a.x, a.y, a.z, b.x, b.y, b.z}];
             --sides[{b.x, b.y, b.z, a.x, a.y, a.z}];
         }

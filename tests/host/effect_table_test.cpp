@@ -32,7 +32,8 @@ TEST(EffectTable, ImpliedEffectsComeAndGoTogether) {
     EXPECT_EQ(with_implied(EFFECT_MATTE), u32(EFFECT_MATTE));
     EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_TEXTURES),
               EVERY_EFFECT & ~u32(EFFECT_TEXTURES | EFFECT_NORMAL_MAP));
-    EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_ENVIRONMENT_MAP), EVERY_EFFECT & ~u32(EFFECT_ENVIRONMENT_MAP));
+    EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_ENVIRONMENT_MAP),
+              EVERY_EFFECT & ~u32(EFFECT_ENVIRONMENT_MAP));
     EXPECT_FALSE(is_permitted(EFFECT_ENVIRONMENT_MAP));
     EXPECT_FALSE(is_permitted(EFFECT_TEXTURES)) << "a map of nothing";
     EXPECT_TRUE(is_permitted(EFFECT_TEXTURES | EFFECT_CUT_OUT));
@@ -62,7 +63,8 @@ TEST(EffectMaskFamilies, EverySetHasASceneThatCallsForIt) {
     for (const u32 effects : all_effect_sets()) {
         const SceneOfEffects scene(effects);
         const u32 needed = find_effects(scene.load(), scene.options).needed;
-        EXPECT_EQ(needed, effects) << describe_effects(needed) << "\ninstead of " << describe_effects(effects);
+        EXPECT_EQ(needed, effects) << describe_effects(needed) << "\ninstead of "
+                                   << describe_effects(effects);
     }
 }
 
@@ -71,7 +73,8 @@ TEST(TakeOut, ASceneWithoutAnEffectDoesNotCallForIt) {
         SceneOfEffects every(EVERY_EFFECT);
         Scene scene = every.load();
         take_out_effects(effect.bit, scene, every.options);
-        EXPECT_EQ(find_effects(scene, every.options).needed, without_effects(EVERY_EFFECT, effect.bit)) << effect.name;
+        EXPECT_EQ(find_effects(scene, every.options).needed, without_effects(EVERY_EFFECT, effect.bit))
+            << effect.name;
     }
 }
 

@@ -216,7 +216,8 @@ TEST(Effects, AListIsCompiledAndWhatItLacksIsLeftOut) {
     EXPECT_EQ(without.left_out, u32(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION));
 
     scene.options.all_effects = true;
-    EXPECT_EQ(scene.effects().mask, u32(EFFECT_ALL & ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR)));
+    EXPECT_EQ(scene.effects().mask,
+              u32(EFFECT_ALL & ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR)));
     scene.options.effects_off = 0;
     EXPECT_EQ(scene.effects().left_out, 0u);
     EXPECT_TRUE(describe_left_out(scene.effects()).empty());
@@ -226,9 +227,8 @@ TEST(Explain, TheTableNamesEffectsMaterialsAndFallbacks) {
     OneQuad scene("Kd 0.5 0.5 0.5\nmap_Kd none.png");
     scene.options.scene_path = "quad.obj";
     const std::string text = explain(scene.load(), scene.effects(), scene.options);
-    for (const char* expected :
-         {"quad.obj", "2 triangles", "present  matte ", "absent   refraction", "thing",
-          "illum 1: matte Kd", "CLRT_EFFECTS=0x10", "none.png", "camera: --eye"})
+    for (const char* expected : {"quad.obj", "2 triangles", "present  matte ", "absent   refraction", "thing",
+                                 "illum 1: matte Kd", "CLRT_EFFECTS=0x10", "none.png", "camera: --eye"})
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
 }
 

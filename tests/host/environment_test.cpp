@@ -124,7 +124,8 @@ TEST(Environment, AConstantMapIsChosenBySolidAngle) {
         NoticeList notices;
         const Environment environment = map_environment(image, 3, 25, sampling, notices);
         for (int y = 0; y < 5; ++y)
-            EXPECT_NEAR(environment.texels[size_t(y * 6)].radiance.w, texel_solid_angle(y, 6, 5) / (4 * PI), 1e-7);
+            EXPECT_NEAR(environment.texels[size_t(y * 6)].radiance.w, texel_solid_angle(y, 6, 5) / (4 * PI),
+                        1e-7);
         EXPECT_NEAR(environment.mean_radiance, 1.5, 1e-12);
         EXPECT_EQ(environment.radiance, glm::dvec3(3));
         EXPECT_EQ(environment.rotation_degrees, 25);

@@ -166,7 +166,8 @@ TEST(FilmError, TheWorstTileIsFound) {
         for (size_t y = 32; y < 40; ++y)
             for (size_t x = 64; x < 70; ++x)
                 for (size_t c = 0; c < 3; ++c)
-                    film.sums[r * plane + 3 * (y * 70 + x) + c] += std::llround(noise(random) / film.scale.quantum);
+                    film.sums[r * plane + 3 * (y * 70 + x) + c] +=
+                        std::llround(noise(random) / film.scale.quantum);
     const auto spread = film_error_spread(film);
     ASSERT_TRUE(spread);
     EXPECT_EQ(spread->tile_x, 64);
@@ -208,7 +209,8 @@ TEST(FilmError, ARareBrightEventMakesItUnusable) {
     ASSERT_TRUE(spread);
     EXPECT_GT(spread->tail_share, 0.9);
     EXPECT_GT(spread->once_share, 0.9);
-    EXPECT_NEAR(spread->once_error, spread->once_share, 0.01) << "the square of a single event is uncertain by itself";
+    EXPECT_NEAR(spread->once_error, spread->once_share, 0.01)
+        << "the square of a single event is uncertain by itself";
     EXPECT_FALSE(spread->usable());
 }
 
@@ -219,7 +221,8 @@ TEST(FilmError, ManyEventsSeenOnceMakeItUsable) {
         Film film = empty_film(50, 40, 8, 0, 64);
         fill_with_noise(film, 10, 0, random);
         for (int i = 0; i < events; ++i)
-            film.sums[size_t(i % 8) * film_plane(film) + size_t(6 * i)] += std::llround(8 * 1250 / film.scale.quantum);
+            film.sums[size_t(i % 8) * film_plane(film) + size_t(6 * i)] +=
+                std::llround(8 * 1250 / film.scale.quantum);
         const auto spread = film_error_spread(film);
         ASSERT_TRUE(spread);
         EXPECT_NEAR(spread->once_share, 1, 1e-9);
@@ -228,8 +231,8 @@ TEST(FilmError, ManyEventsSeenOnceMakeItUsable) {
     }
 }
 
-// Pictures that see rare bright events, from one to a hundred: the verdict must doubt the errors that are wrong by a fifth,
-// unless no event was seen at all, which nothing in a picture can tell.
+// Pictures that see rare bright events, from one to a hundred: the verdict must doubt the errors that are
+// wrong by a fifth, unless no event was seen at all, which nothing in a picture can tell.
 TEST(FilmError, TheVerdictDoubtsWrongErrorsAndBelievesManyEvents) {
     std::mt19937 random(10);
     constexpr double CHANCE = 1e-5, EVENT = 400; // a sample
@@ -245,13 +248,15 @@ TEST(FilmError, TheVerdictDoubtsWrongErrorsAndBelievesManyEvents) {
         for (size_t r = 0; r < 8; ++r)
             for (int left = number(random); left > 0; --left, ++seen)
                 for (size_t c = 0, pixel = where(random); c < 3; ++c)
-                    film.sums[r * film_plane(film) + 3 * pixel + c] += std::llround(EVENT / film.scale.quantum);
+                    film.sums[r * film_plane(film) + 3 * pixel + c] +=
+                        std::llround(EVENT / film.scale.quantum);
         if (seen == 0)
             continue;
         const auto squared = film_squared_error(film);
         const auto spread = film_error_spread(film);
         ASSERT_TRUE(squared && spread);
-        const double ratio = std::sqrt(squared->mean_squared * double(samples) / (1 + CHANCE * EVENT * EVENT));
+        const double ratio =
+            std::sqrt(squared->mean_squared * double(samples) / (1 + CHANCE * EVENT * EVENT));
         const bool is_wrong = ratio > 1.2 || ratio < 1 / 1.2;
         wrong += is_wrong;
         wrong_believed += is_wrong && spread->usable();

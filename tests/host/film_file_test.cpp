@@ -21,8 +21,11 @@ FilmFile make_film() {
     file.render.film.ranges.push_back({40, 44});
     fill_with_noise(file.render.film, 2, 1, random);
     file.render.film.sums[0] = INT64_MIN;
-    file.identity = {{"scene", "abc"}, {"window", {1, 2, 6, 5}}, {"size", {10, 20}},
-                     {"quantum", file.render.film.scale.quantum}, {"largest", file.render.film.scale.largest}};
+    file.identity = {{"scene", "abc"},
+                     {"window", {1, 2, 6, 5}},
+                     {"size", {10, 20}},
+                     {"quantum", file.render.film.scale.quantum},
+                     {"largest", file.render.film.scale.largest}};
     file.identity["layers"] = {{{"name", "direct"}, {"expression", "LDE"}}};
     file.render.path_layers = {film_layer(file.render.film)};
     file.render.path_layers[0].sums.assign(film_plane(file.render.film), 77);
@@ -120,9 +123,8 @@ TEST_F(FilmFileTest, EveryTruncationIsRefused) {
     const std::string file = bytes();
     for (size_t size = 0; size < file.size(); size += size < 40 ? 1 : 37)
         EXPECT_NE(refusal(file.substr(0, size)), "accepted") << size;
-    expect_refused(file.substr(0, file.size() - 1),
-                   "truncated: expected " + std::to_string(file.size()) + " bytes, found " +
-                       std::to_string(file.size() - 1));
+    expect_refused(file.substr(0, file.size() - 1), "truncated: expected " + std::to_string(file.size()) +
+                                                        " bytes, found " + std::to_string(file.size() - 1));
     expect_refused(file + "x", "damaged: expected " + std::to_string(file.size()) + " bytes");
 }
 
@@ -139,7 +141,8 @@ TEST_F(FilmFileTest, EveryFlippedBitIsRefused) {
 }
 
 TEST_F(FilmFileTest, OtherFilesAreRefusedByWhatTheyAre) {
-    expect_refused("\x76\x2f\x31\x01 is how a picture starts", "expected a film file as --checkpoint writes it");
+    expect_refused("\x76\x2f\x31\x01 is how a picture starts",
+                   "expected a film file as --checkpoint writes it");
     std::string newer = bytes();
     newer[8] = 2;
     expect_refused(newer, "expected format version 1, found 2");

@@ -17,7 +17,8 @@ class FilmIdentityTest : public testing::Test {
 protected:
     FilmIdentityTest() {
         write("s.mtl", "newmtl m\nKd 0.5 0.5 0.5\nnewmtl l\nKe 3 3 3\n");
-        write("s.obj", "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m\nf 1 2 3\nusemtl l\nf 1 2 4\n");
+        write("s.obj",
+              "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m\nf 1 2 3\nusemtl l\nf 1 2 4\n");
     }
     void write(const std::string& name, const std::string& text) const { folder.write(name, text); }
     Scene load(Options options = {}) const {
@@ -25,7 +26,9 @@ protected:
         Progress progress(Toggle::OFF, true);
         return load_scene(options, progress);
     }
-    FilmIdentity identity(const Options& options) const { return film_identity(load(options), options, {1, 2}); }
+    FilmIdentity identity(const Options& options) const {
+        return film_identity(load(options), options, {1, 2});
+    }
     /// The field that tells changed options from the default ones.
     std::string field(const std::function<void(Options&)>& change) const {
         Options options;
@@ -48,7 +51,9 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
     const Scene scene = load();
     const std::function<void(Scene&)> changes[] = {
         [](Scene& s) { s.positions[0].x += 1e-6f; },
-        [](Scene& s) { s.normals.push_back({0, 1, 0, 0}); },
+        [](Scene& s) {
+            s.normals.push_back({0, 1, 0, 0});
+        },
         [](Scene& s) { s.uvs.push_back(0); },
         [](Scene& s) { s.triangles[0].material = 1; },
         [](Scene& s) { s.triangles.pop_back(); },
@@ -99,10 +104,14 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
 
 TEST_F(FilmIdentityTest, OptionsThatChangeNoBitAreNone) {
     const std::function<void(Options&)> changes[] = {
-        [](Options& o) { o.spp = 5; },         [](Options& o) { o.first_sample = 5; },
-        [](Options& o) { o.time_seconds = 5; }, [](Options& o) { o.error = 0.5; },
-        [](Options& o) { o.all_effects = true; }, [](Options& o) { o.bvh = BvhChoice::BVH2; },
-        [](Options& o) { o.threads = 1; },     [](Options& o) { o.exposure_ev = 1; },
+        [](Options& o) { o.spp = 5; },
+        [](Options& o) { o.first_sample = 5; },
+        [](Options& o) { o.time_seconds = 5; },
+        [](Options& o) { o.error = 0.5; },
+        [](Options& o) { o.all_effects = true; },
+        [](Options& o) { o.bvh = BvhChoice::BVH2; },
+        [](Options& o) { o.threads = 1; },
+        [](Options& o) { o.exposure_ev = 1; },
         [](Options& o) { o.outputs = {"a.exr"}; },
     };
     for (size_t i = 0; i < std::size(changes); ++i)

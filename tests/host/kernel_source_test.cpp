@@ -109,7 +109,8 @@ TEST(KernelSource, EmbeddedFilesAreTheFilesOfTheKernelsFolder) {
     EXPECT_EQ(embedded_kernel_files().size(), in_folder.size());
 }
 
-// A file is expanded where it is first included. Were that under a condition that is false, it would be nowhere.
+// A file is expanded where it is first included. Were that under a condition that is false, it would be
+// nowhere.
 TEST(KernelSource, WhatIsIncludedUnderAConditionIsIncludedNowhereElse) {
     std::map<std::string, int> includes;
     std::set<std::string> conditional;

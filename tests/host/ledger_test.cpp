@@ -16,7 +16,8 @@ Ledger example() {
     ledger.full = {1.2, {0.12, 0.11, 0.13}};
     ledger.full_extra_share = {0.2, 0.1, 0.3};
     ledger.break_even = 40, ledger.break_even_low = 20;
-    ledger.rows.push_back({"refraction", {0.5, {0.06, 0.05, 0.07}}, {0.04, 0.03, 0.05}, {0.4, 0.3, 0.5}, {0.25, 0.2, 0.3}});
+    ledger.rows.push_back(
+        {"refraction", {0.5, {0.06, 0.05, 0.07}}, {0.04, 0.03, 0.05}, {0.4, 0.3, 0.5}, {0.25, 0.2, 0.3}});
     return ledger;
 }
 
@@ -31,8 +32,9 @@ TEST(Ledger, TheMedianHasTheSecondAndTheLastButOneAsItsInterval) {
 
 TEST(Ledger, TheTableHoldsEveryFigure) {
     const std::string text = format_ledger(example(), {}, {});
-    for (const char* expected : {"40 x 30, path", "9 rounds of 4 spp", "refraction", "40.0 (30.0 - 50.0)", "25.0 (20.0 - 30.0)",
-                                 "20.0 (10.0 - 30.0) more", "after 40 samples a pixel (20 - never)", "at once where neither"})
+    for (const char* expected :
+         {"40 x 30, path", "9 rounds of 4 spp", "refraction", "40.0 (30.0 - 50.0)", "25.0 (20.0 - 30.0)",
+          "20.0 (10.0 - 30.0) more", "after 40 samples a pixel (20 - never)", "at once where neither"})
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
     Ledger slower = example();
     slower.break_even.reset();

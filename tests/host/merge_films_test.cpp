@@ -108,8 +108,10 @@ TEST(MergeFilms, ThePictureHasVarianceAndSamples) {
 TEST(MergeFilms, AdaptiveFilmsAreRefused) {
     FilmFile adaptive = part(4, 4);
     adaptive.render.film.tile_samples = {std::vector<std::uint32_t>{8}, std::vector<std::uint32_t>{8}};
-    EXPECT_NE(refusal(part(0, 4), adaptive).find("b.film: expected a film with adaptive: false"), std::string::npos);
-    EXPECT_NE(refusal(adaptive, part(0, 4)).find("a.film: expected a film with adaptive: false"), std::string::npos);
+    EXPECT_NE(refusal(part(0, 4), adaptive).find("b.film: expected a film with adaptive: false"),
+              std::string::npos);
+    EXPECT_NE(refusal(adaptive, part(0, 4)).find("a.film: expected a film with adaptive: false"),
+              std::string::npos);
 }
 
 TEST(MergeFilms, SumsThatDoNotFitAreRefused) {

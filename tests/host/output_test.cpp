@@ -209,8 +209,8 @@ TEST(Output, ExrHoldsRadianceBeyondTheRangeOfHalf) {
     ASSERT_EQ(spec.nchannels, 6);
     for (int channel = 0; channel < spec.nchannels; ++channel)
         EXPECT_EQ(spec.channelformat(channel), OIIO::TypeFloat) << spec.channelnames[size_t(channel)];
-    EXPECT_EQ(read, (std::vector<float>{65504.0f, 7e4f, 1e6f, 65504.0f, 7e4f, 1e6f, 3.4e38f, 1e-7f, 1e-40f, 3.4e38f,
-                                        1e-7f, 1e-40f}));
+    EXPECT_EQ(read, (std::vector<float>{65504.0f, 7e4f, 1e6f, 65504.0f, 7e4f, 1e6f, 3.4e38f, 1e-7f, 1e-40f,
+                                        3.4e38f, 1e-7f, 1e-40f}));
 }
 
 TEST(Output, ExrKeepsTheWindowsPlaceAndTheMetadata) {

@@ -213,7 +213,8 @@ TEST_F(ProgramCacheTest, ProcessesThatMakeRoomAtOnceDoNoHarm) {
         ASSERT_GE(writer, 0);
         if (writer == 0) {
             for (int i = 0; i < WRITES; ++i)
-                write_cached_program(folder_, key(first + i), example(static_cast<unsigned char>(i % 250 + 1)), LIMIT);
+                write_cached_program(folder_, key(first + i),
+                                     example(static_cast<unsigned char>(i % 250 + 1)), LIMIT);
             _exit(0);
         }
         writers.push_back(writer);

@@ -31,7 +31,8 @@ TEST(StabilityReport, ThePageEscapesWhatItWasGiven) {
     const std::string page = report_page(report_of(0.5));
     for (const char* raw : {"<device>", "\"<b>\"", "\" onmouseover", "<&>", "a < b"})
         EXPECT_EQ(page.find(raw), std::string::npos) << raw;
-    for (const char* kept : {"A &amp; B &lt;device&gt;", "x&quot; onmouseover=&quot;alert(1)&lt;&amp;&gt;", "|a &lt; b|"})
+    for (const char* kept :
+         {"A &amp; B &lt;device&gt;", "x&quot; onmouseover=&quot;alert(1)&lt;&amp;&gt;", "|a &lt; b|"})
         EXPECT_NE(page.find(kept), std::string::npos) << kept;
 }
 

@@ -108,7 +108,8 @@ TEST(StopRules, ProgressFollowsTheNearestLimit) {
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(50, 8, std::nullopt), 0.8);
     options = Options();
     options.error = 0.01;
-    const SquaredError check{16, 0.0009, 1, {}}; // three times the target: nine times the samples, 256 is next
+    const SquaredError check{
+        16, 0.0009, 1, {}}; // three times the target: nine times the samples, 256 is next
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(64, 8, check), 0.25);
 }
 

@@ -272,7 +272,8 @@ TEST(Bsdf, AMirrorBesideAMatteLobeSharesTheSamples) {
         const BsdfSamples samples = probe().sample(set, wo, u);
         for (size_t i = 0; i < COUNT; ++i) {
             const dvec3 color = reflection_color(set, wo[i].z);
-            const double choose_matte = glm::length(set.matte) / (glm::length(set.matte) + glm::length(color));
+            const double choose_matte =
+                glm::length(set.matte) / (glm::length(set.matte) + glm::length(color));
             const bool spread = samples.pdf_w[i] > 0;
             ASSERT_TRUE(std::abs(u[i].x - choose_matte) < 1e-6 || spread == (u[i].x < choose_matte)) << name;
             const dvec3 weight = spread ? set.matte / choose_matte : color / (1 - choose_matte);

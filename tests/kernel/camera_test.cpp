@@ -17,7 +17,7 @@ using glm::dvec3;
 namespace {
 
 constexpr size_t SAMPLES = 300000;
-constexpr double GAUSSIAN_SIGMAS = 3; // the radius of the Gaussian filter
+constexpr double GAUSSIAN_SIGMAS = 3;        // the radius of the Gaussian filter
 constexpr double LARGEST_RAY_ERROR = 1.5e-7; // radians, whatever the angle of view
 constexpr double RESOLVED_PITCH = 2.4e-7;    // radians between pixels whose rays of single precision differ
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All kernels compile without a warning for every set of effects under test, as OpenCL C 1.2 and 3.0; no device is needed.
+// All kernels compile without a warning for every set of effects under test, as OpenCL C 1.2 and 3.0; no
+// device is needed.
 #include "support/effect_masks.h"
 #include "support/run_command.h"
 
@@ -22,11 +23,26 @@ std::string all_entry_points() {
 /// What clang says about the kernels built with a mask; empty if nothing.
 std::string complaints(const std::string& file, const std::string& standard, u32 mask) {
     const std::string kernels = CLRT_KERNELS_FOLDER;
-    const CommandResult result = run_command(
-        {CLRT_CLANG, "-x", "cl", "-cl-std=" + standard, "--target=spir64-unknown-unknown", "-Xclang",
-         "-finclude-default-header", "-Xclang", "-fdeclare-opencl-builtins", "-fsyntax-only", "-Wall", "-Wextra", "-Werror",
-         "-Wno-unused-parameter", "-Wno-unused-function", "-Wno-constant-logical-operand", "-I" + kernels,
-         "-I" + kernels + "/integrators", fmt::format("-DCLRT_EFFECTS={:#x}u", mask), file});
+    const CommandResult result = run_command({CLRT_CLANG,
+                                              "-x",
+                                              "cl",
+                                              "-cl-std=" + standard,
+                                              "--target=spir64-unknown-unknown",
+                                              "-Xclang",
+                                              "-finclude-default-header",
+                                              "-Xclang",
+                                              "-fdeclare-opencl-builtins",
+                                              "-fsyntax-only",
+                                              "-Wall",
+                                              "-Wextra",
+                                              "-Werror",
+                                              "-Wno-unused-parameter",
+                                              "-Wno-unused-function",
+                                              "-Wno-constant-logical-operand",
+                                              "-I" + kernels,
+                                              "-I" + kernels + "/integrators",
+                                              fmt::format("-DCLRT_EFFECTS={:#x}u", mask),
+                                              file});
     return result.exit_code == 0 && result.err.empty() ? "" : result.err + result.out + "(no success)";
 }
 
@@ -58,7 +74,8 @@ TEST(EffectSyntax, RecordingProgramsCompileToo) {
         for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
             const std::string file =
                 folder.write("replay.cl", fmt::format("#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n{}"
-                                                      "#include \"integrators/{}.cl\"\n", precision, name));
+                                                      "#include \"integrators/{}.cl\"\n",
+                                                      precision, name));
             for (const u32 mask : {u32(EFFECT_ALL), u32(EFFECT_MATTE), u32(EFFECT_MATTE | EFFECT_AREA_LIGHT)})
                 EXPECT_EQ(complaints(file, "CL1.2", mask), "") << name << precision << describe_effects(mask);
         }
@@ -66,7 +83,8 @@ TEST(EffectSyntax, RecordingProgramsCompileToo) {
 
 TEST(EffectSyntax, TheCheckSeesAnError) {
     const ScratchFolder folder;
-    const std::string file = folder.write("all.cl", all_entry_points() + "int broken(void) { return HAS(EFFECT_NONE); }\n");
+    const std::string file =
+        folder.write("all.cl", all_entry_points() + "int broken(void) { return HAS(EFFECT_NONE); }\n");
     EXPECT_NE(complaints(file, "CL1.2", EFFECT_ALL).find("EFFECT_NONE"), std::string::npos);
 }
 

@@ -197,7 +197,8 @@ std::vector<double> part_shares(const Lamps& lamps, u32 triangle, const dvec3& p
     const auto corner = [&](u32 x, u32 y) { return a + (double(x) * e1 + double(y) * e2) / double(SIDE); };
     for (u32 y = 0; y < SIDE; ++y)
         for (u32 x = 0; x + y < SIDE; ++x) {
-            shares[part_index(x, y, false)] = solid_angle(corner(x, y), corner(x + 1, y), corner(x, y + 1)) / whole;
+            shares[part_index(x, y, false)] =
+                solid_angle(corner(x, y), corner(x + 1, y), corner(x, y + 1)) / whole;
             if (x + y + 1 < SIDE)
                 shares[part_index(x, y, true)] =
                     solid_angle(corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)) / whole;
@@ -214,14 +215,16 @@ double points_p_value(const Lamps& lamps, const dvec3& position, size_t samples,
     std::vector<double> counts(size_t{triangles} * PARTS), expected;
     for (u32 triangle = 0; triangle < triangles; ++triangle) // pi area luminance, over the sum
         for (const double share : part_shares(lamps, triangle, to_dvec3(to_vec4(position))))
-            expected.push_back(double(samples) * PI * lamps.area(triangle) * lamps.exitance[triangle] / lamps.power * share);
+            expected.push_back(double(samples) * PI * lamps.area(triangle) * lamps.exitance[triangle] /
+                               lamps.power * share);
     for (size_t i = 0; i < samples; ++i) {
         const u32 triangle =
             lamps.chosen(float_to_bits(numbers.words[i].x), float_to_bits(numbers.words[i].y));
         const glm::dvec2 b = lamps.weights(triangle, to_dvec3(targets[i]));
         EXPECT_TRUE(b.x > -1e-4 && b.y > -1e-4 && b.x + b.y < 1 + 1e-4) << i;
-        EXPECT_NEAR(glm::dot(to_dvec3(targets[i]) - lamps.corner(triangle, 0), glm::normalize(lamps.normal(triangle))), 0,
-                    1e-5);
+        EXPECT_NEAR(glm::dot(to_dvec3(targets[i]) - lamps.corner(triangle, 0),
+                             glm::normalize(lamps.normal(triangle))),
+                    0, 1e-5);
         if (::testing::Test::HasFailure())
             break;
         ++counts[triangle * PARTS + part_of(b)];
@@ -262,14 +265,15 @@ TEST(Emitter, PointsAreUniformInSolidAngleFromNearlyNothingToNearlyAHalfSpace) {
             const dvec3 position(at.x, at.y, height);
             EXPECT_GT(points_p_value(lamps, position, 100000, ++seed), SMALLEST_P) << at.x << " " << height;
             EXPECT_GT(points_p_value(needle, position, 100000, ++seed), SMALLEST_P) << at.x << " " << height;
-            large +=
-                looks_large(lamps.corner(0, 0) - position, lamps.corner(0, 1) - position, lamps.corner(0, 2) - position);
+            large += looks_large(lamps.corner(0, 0) - position, lamps.corner(0, 1) - position,
+                                 lamps.corner(0, 2) - position);
         }
     EXPECT_GT(large, 12u);
 }
 
 TEST(Emitter, BothTechniquesSwitchBetweenAngleAndAreaAtTheSamePoint) {
-    // Heights around those where the angle passes either limit: the same density from a sample and from a hit there.
+    // Heights around those where the angle passes either limit: the same density from a sample and from a hit
+    // there.
     const Lamps lamps = one_lamp({-0.4, -0.5, 0}, {0.8, -0.3, 0}, {-0.1, 0.9, 0});
     const auto angle_at = [&](double height) {
         const dvec3 p(0.05, -0.02, height);
@@ -297,7 +301,8 @@ TEST(Emitter, BothTechniquesSwitchBetweenAngleAndAreaAtTheSamePoint) {
             by_angle += std::abs(got.first[i].w * limit - 1) < 1e-4;
         }
         EXPECT_TRUE(by_angle > 200 && by_angle < 3800) << by_angle;
-        const std::vector<vec4> hit = probe().run("hit_pdf", lamps.scene, lamps.params(), hits, wo, from).first;
+        const std::vector<vec4> hit =
+            probe().run("hit_pdf", lamps.scene, lamps.params(), hits, wo, from).first;
         for (size_t i = 0; i < hit.size(); ++i)
             ASSERT_NEAR(hit[i].x / got.first[i].w, 1, 1e-4) << i << " " << limit;
     }
@@ -329,8 +334,8 @@ TEST(Emitter, TheDensityIsThatOfTheAreaPerSteradianOrTheReciprocalOfTheSolidAngl
             const dvec3 at = to_dvec3(numbers.positions[i]);
             const dvec3 a = p0 - at, b1 = lamps.corner(triangle, 1) - at, b2 = lamps.corner(triangle, 2) - at;
             const double angle = solid_angle(a, b1, b2);
-            const double expected =
-                looks_large(a, b1, b2) ? pdf_a * lamps.area(triangle) / angle : pdf_a * glm::dot(way, way) / cos_l;
+            const double expected = looks_large(a, b1, b2) ? pdf_a * lamps.area(triangle) / angle
+                                                           : pdf_a * glm::dot(way, way) / cos_l;
             ASSERT_NEAR(got.first[i].w / expected, 1, tolerance) << angle;
             ASSERT_LE(glm::length(to_dvec3(got.first[i]) - glm::normalize(way)), 1e-6 / glm::length(way));
             ASSERT_EQ(got.third[i].w, 0); // neither distant nor delta

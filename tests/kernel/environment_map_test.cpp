@@ -237,7 +237,8 @@ TEST(EnvironmentMap, SampledTexelsHaveTheirProbabilityAndAreFilledUniformly) {
     expect_stored_probabilities(bright);
     EXPECT_GT(std::count_if(bright.texels.begin(), bright.texels.end(),
                             [](const EnvironmentTexel& texel) { return texel.radiance.w == 0; }),
-              20) << "dim texels are never chosen";
+              20)
+        << "dim texels are never chosen";
 }
 
 TEST(EnvironmentMap, SamplesCarryThePdfAndTheRadianceOfTheirDirection) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// path/mis.h: where only one technique finds a direction. What two of them weigh is case L09 of the catalogue.
+// path/mis.h: where only one technique finds a direction. What two of them weigh is case L09 of the
+// catalogue.
 #include "support/kernel_probe.h"
 
 #include <gtest/gtest.h>

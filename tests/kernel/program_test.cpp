@@ -8,8 +8,8 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <numeric>
 #include <iterator>
+#include <numeric>
 #include <regex>
 
 using namespace clrt;

@@ -30,8 +30,10 @@ KernelProbe& probe() {
         made.add<u32(u32, u32, u32, u32, u32, u32)>("word", make + "sampler_word(&s, e, f);");
         made.add<u32(u32, u32, u32, u32, u32, u32)>("pair_x", make + "sampler_pair_words(&s, e, f).x;");
         made.add<u32(u32, u32, u32, u32, u32, u32)>("pair_y", make + "sampler_pair_words(&s, e, f).y;");
-        made.add<u32(u32, u32, u32, u32, u32, u32)>("white_x", make + "sampler_independent_words(&s, e, f).x;");
-        made.add<u32(u32, u32, u32, u32, u32, u32)>("white_y", make + "sampler_independent_words(&s, e, f).y;");
+        made.add<u32(u32, u32, u32, u32, u32, u32)>("white_x",
+                                                    make + "sampler_independent_words(&s, e, f).x;");
+        made.add<u32(u32, u32, u32, u32, u32, u32)>("white_y",
+                                                    make + "sampler_independent_words(&s, e, f).y;");
         made.add<float(u32, u32, u32, u32, u32, u32)>("number", make + "sampler_number(&s, e, f);");
         made.add<float(u32, u32, u32, u32, u32, u32)>("unit_x", make + "sampler_pair(&s, e, f).x;");
         made.add<float(u32, u32, u32, u32, u32, u32)>("unit_y", make + "sampler_pair(&s, e, f).y;");
@@ -334,7 +336,8 @@ TEST(Sampler, IndependentPairsAreWhiteNoise) {
         sets[2].add(0, 7, 0, 3, i / PURPOSES, i % PURPOSES);
     }
     for (const Addresses& set : sets) {
-        const std::vector<u32> x = set.run<u32>("white_x"), y = set.run<u32>("white_y"), word = set.run<u32>("word");
+        const std::vector<u32> x = set.run<u32>("white_x"), y = set.run<u32>("white_y"),
+                               word = set.run<u32>("word");
         EXPECT_GT(independence_p_value(x, y), SMALLEST_P);
         EXPECT_GT(normal_p_value(correlation_z(x, y)), SMALLEST_P);
         EXPECT_GT(independence_p_value(x, word), SMALLEST_P);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray-triangle test against exact arithmetic: signs, equal bits in both widths. How exact its hits are is in the catalogue
-// (tools/stability/cases/intersection_accuracy_cases.cpp).
+// The ray-triangle test against exact arithmetic: signs, equal bits in both widths. How exact its hits are is
+// in the catalogue (tools/stability/cases/intersection_accuracy_cases.cpp).
 #include "support/kernel_probe.h"
 #include "support/random_inputs.h"
 #include "support/ray_device.h"

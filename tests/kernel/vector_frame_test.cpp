@@ -242,7 +242,8 @@ TEST(Frame, TangentFramesTurnXToTheTangentWhateverItsLength) {
     for (size_t i = 0; i < normals.size(); ++i) {
         const dvec3 t = glm::normalize(to_dvec3(tangents[i]));
         const dvec3 n = to_dvec3(normals[i]);
-        ASSERT_LE(glm::length(to_dvec3(axes.x[i]) - glm::normalize(t - n * glm::dot(t, n) / glm::dot(n, n))), ORTHONORMAL)
+        ASSERT_LE(glm::length(to_dvec3(axes.x[i]) - glm::normalize(t - n * glm::dot(t, n) / glm::dot(n, n))),
+                  ORTHONORMAL)
             << i;
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive renders: no bias against uniform ones, less error for the same samples, and the same samples to begin with.
+// Adaptive renders: no bias against uniform ones, less error for the same samples, and the same samples to
+// begin with.
 #include "render/film_error.h"
 #include "support/render_scene.h"
 #include "support/statistics.h"
@@ -19,10 +20,12 @@ constexpr double LARGEST_T = 6;
 
 /// A floor with a lamp in view, whose edges are noisy, and a mirror that throws light which is rarely found.
 void make_floor(TestScene& scene) {
-    scene.build.material("white", "Kd 0.7 0.7 0.7").material("mirror", "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.8\nillum 3");
+    scene.build.material("white", "Kd 0.7 0.7 0.7")
+        .material("mirror", "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.8\nillum 3");
     scene.build.material("lamp", "Kd 0 0 0\nKe 80 70 50");
     scene.build.use("white").floor(3);
-    scene.build.use("lamp").polygon({{-0.1, 1.7, -0.5}, {0.1, 1.7, -0.5}, {0.1, 1.7, -0.3}, {-0.1, 1.7, -0.3}});
+    scene.build.use("lamp").polygon(
+        {{-0.1, 1.7, -0.5}, {0.1, 1.7, -0.5}, {0.1, 1.7, -0.3}, {-0.1, 1.7, -0.3}});
     scene.build.use("mirror").box({0.2, 0.01, -0.7}, {0.7, 1.1, -0.2});
     scene.look({0.2, 1, 1.4}, {0, 0.9, -1}, 70);
     scene.options.size = {64, 48}; // 4 x 3 tiles
@@ -100,8 +103,10 @@ TEST(AdaptiveRender, OfManySeedsIsTheUniformPictureWithLessError) {
     const Seeds uniform = render_seeds(scene, false, 1000), adaptive = render_seeds(scene, true, 0);
     double worst = 0;
     for (size_t tile = 0; tile < uniform.means.size(); ++tile)
-        worst = std::max(worst, std::abs(welch_test(moments_of(adaptive.means[tile]), moments_of(uniform.means[tile])).t));
-    std::printf("picture %.5f, uniform %.5f, largest t of its tiles %.2f, squared error of adaptive over uniform %.3f\n",
+        worst = std::max(
+            worst, std::abs(welch_test(moments_of(adaptive.means[tile]), moments_of(uniform.means[tile])).t));
+    std::printf("picture %.5f, uniform %.5f, largest t of its tiles %.2f, squared error of adaptive over "
+                "uniform %.3f\n",
                 moments_of(adaptive.means.back()).mean, moments_of(uniform.means.back()).mean, worst,
                 adaptive.mean_squared / uniform.mean_squared);
     EXPECT_LE(worst, LARGEST_T);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene rendered by a program that has just the effects it calls for has the bits of the full program's picture: for every
-// effect alone and for a covering array of their combinations. With the variable CLRT_TEST_LONG set, also for all effects but
-// one, by every integrator.
+// A scene rendered by a program that has just the effects it calls for has the bits of the full program's
+// picture: for every effect alone and for a covering array of their combinations. With the variable
+// CLRT_TEST_LONG set, also for all effects but one, by every integrator.
 #include "app/command_line.h"
 #include "app/progress.h"
 #include "effects/effects.h"
@@ -62,7 +62,8 @@ void expect_same_bits(u32 effects) {
         const u32 needed = find_effects(scene, small.options).needed;
         const u32 expected = effects & ~(integrator == Integrator::RAYCAST ? EFFECT_INTERREFLECTION : 0u) &
                              ~(integrator != Integrator::PATH ? EFFECT_PATH_FILTER : 0u);
-        EXPECT_EQ(needed, expected) << describe_effects(needed) << "\ninstead of " << describe_effects(expected);
+        EXPECT_EQ(needed, expected) << describe_effects(needed) << "\ninstead of "
+                                    << describe_effects(expected);
         expect_same_bits(scene, small.options,
                          std::string(integrator_name(integrator)) + ", " + describe_effects(effects));
     }
@@ -157,8 +158,9 @@ TEST(EffectMasks, ALeftOutEffectIsASceneWithoutIt) {
 
 TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
     const ScratchFolder cache;
-    const u32 sets[] = {with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT),
-                        with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT | EFFECT_REFRACTION | EFFECT_DELTA_LIGHT)};
+    const u32 sets[] = {
+        with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT),
+        with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT | EFFECT_REFRACTION | EFFECT_DELTA_LIGHT)};
     for (int round = 0; round < 2; ++round)
         for (const u32 effects : sets) {
             SceneOfEffects small(effects);

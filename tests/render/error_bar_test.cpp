@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the printed error is the error: many renders of a small scene with different seeds against a long run.
+// Whether the printed error is the error: many renders of a small scene with different seeds against a long
+// run.
 #include "render/film_error.h"
 #include "render/kernels.h"
 #include "support/render_scene.h"
@@ -22,7 +23,8 @@ constexpr double LARGEST_Z = 3;
 /// A room with a lamp, a block that throws soft shadows, and a mirror.
 void make_room(TestScene& scene) {
     scene.build.material("white", "Kd 0.7 0.7 0.7").material("red", "Kd 0.6 0.1 0.1");
-    scene.build.material("mirror", "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.8\nillum 3").material("lamp", "Kd 0 0 0\nKe 8 7 5");
+    scene.build.material("mirror", "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.8\nillum 3")
+        .material("lamp", "Kd 0 0 0\nKe 8 7 5");
     scene.build.use("white").box({-1, 0, -1}, {1, 2, 1}, Facing::INWARD);
     scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
     scene.build.use("red").box({-0.6, 0.01, -0.5}, {0, 0.8, 0.1});
@@ -33,7 +35,8 @@ void make_room(TestScene& scene) {
 }
 
 /// mean((x - a)(x - b)): the squared error of x without the noise of two independent references.
-double realised_squared_error(const std::vector<float>& x, const std::vector<float>& a, const std::vector<float>& b) {
+double realised_squared_error(const std::vector<float>& x, const std::vector<float>& a,
+                              const std::vector<float>& b) {
     double sum = 0;
     for (size_t i = 0; i < x.size(); ++i)
         sum += (double(x[i]) - double(a[i])) * (double(x[i]) - double(b[i])) / double(x.size());
@@ -89,16 +92,18 @@ TEST_P(ErrorBar, HoldsTheErrorThatOtherSeedsHave) {
         ratios.push_back(estimate.mean_squared / truth);
     }
     const Moments ratio = moments_of(ratios);
-    std::printf("%-8s error %.2f %%, squared error estimated over true %.3f +- %.3f, interval holds it in %d of %d\n",
-                GetParam().name, 100 * std::sqrt(truth) / estimates[0].mean_radiance, ratio.mean,
-                std::sqrt(ratio.variance_of_mean()), covered, SEEDS);
+    std::printf(
+        "%-8s error %.2f %%, squared error estimated over true %.3f +- %.3f, interval holds it in %d of %d\n",
+        GetParam().name, 100 * std::sqrt(truth) / estimates[0].mean_radiance, ratio.mean,
+        std::sqrt(ratio.variance_of_mean()), covered, SEEDS);
     EXPECT_GT(truth, 0);
     EXPECT_GE(covered, FEWEST_COVERED);
     EXPECT_LE(std::abs(z_of_mean(moments_of(differences), 0)), LARGEST_Z);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, ErrorBar,
-                         testing::Values(Case{"path", Integrator::PATH, false}, Case{"adaptive", Integrator::PATH, true},
+                         testing::Values(Case{"path", Integrator::PATH, false},
+                                         Case{"adaptive", Integrator::PATH, true},
                                          Case{"whitted", Integrator::WHITTED, false},
                                          Case{"raycast", Integrator::RAYCAST, false}),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film does not depend on how its samples are dealt out to launches: at once, one by one, tiles last to first.
+// The film does not depend on how its samples are dealt out to launches: at once, one by one, tiles last to
+// first.
 #include "bvh/bvh.h"
 #include "effects/effects.h"
 #include "render/film_buffers.h"
@@ -25,7 +26,8 @@ struct Launch {
 /// Glass, a rough ball, a sky and a lamp: all kinds of light, long and short paths side by side.
 void make_scene(TestScene& scene) {
     scene.build.material("white", "Kd 0.7 0.7 0.7").material("glass", "Ni 1.5\nillum 7");
-    scene.build.material("rough", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2").material("lamp", "Ke 8 7 5");
+    scene.build.material("rough", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2")
+        .material("lamp", "Ke 8 7 5");
     scene.build.use("white").floor(4);
     scene.build.use("glass").icosphere({-0.5, 0.6, 0}, 0.5, 1, Facing::OUTWARD, Shading::SMOOTH);
     scene.build.use("rough").icosphere({0.6, 0.5, 0.2}, 0.4, 1);
@@ -59,7 +61,8 @@ public:
     std::vector<std::int64_t> sums(const std::vector<Launch>& launches) const {
         FilmBuffers film(test_device(), params_, 0);
         Launcher launcher(test_device(), programs_.picture,
-                          std::string("render_") + integrator_name(test_.options.integrator), params_, buffers_);
+                          std::string("render_") + integrator_name(test_.options.integrator), params_,
+                          buffers_);
         film.bind(launcher.kernel());
         for (const Launch& launch : launches)
             launcher.run(launch.first, launch.count, launch.tile, launch.end);

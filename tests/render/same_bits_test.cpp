@@ -115,8 +115,10 @@ TEST(SameBits, AMapOfRoughnessDoesNotMakeSmoothGlassOrAMirrorRough) {
         scene.build.material("floor", "Kd 0.6 0.5 0.4\nmap_Kd half.png");
         scene.build.material("glass", "Ni 1.5\nillum 7\nPr 0.009\nmap_Pr half.png");
         scene.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3\nPr 0.009\nmap_Pr half.png");
-        scene.build.use("floor").floor(3).use("glass").textured_quad({{-1, 0.5, 1}, {1, 0.5, 1}, {1, 0.8, -1}, {-1, 0.8, -1}});
-        scene.build.use("mirror").textured_quad({{-1, 0.1, -1.2}, {1, 0.1, -1.2}, {1, 2, -1.4}, {-1, 2, -1.4}});
+        scene.build.use("floor").floor(3).use("glass").textured_quad(
+            {{-1, 0.5, 1}, {1, 0.5, 1}, {1, 0.8, -1}, {-1, 0.8, -1}});
+        scene.build.use("mirror").textured_quad(
+            {{-1, 0.1, -1.2}, {1, 0.1, -1.2}, {1, 2, -1.4}, {-1, 2, -1.4}});
         scene.options.light.suns.push_back({{1, 2, 1}, {3, 3, 2}, 3});
         scene.options.integrator = integrator;
         scene.options.spp = 64;

@@ -187,8 +187,8 @@ TEST(SkyLight, AMapOfOneValueIsAConstantSky) {
     scene.expect_irradiance(0.75 * PI, 3e-3);
 }
 
-/// A map that is bright on the side of +Z and dim on the other, so that its table beside BSDF sampling holds the bright
-/// half alone.
+/// A map that is bright on the side of +Z and dim on the other, so that its table beside BSDF sampling holds
+/// the bright half alone.
 GreyMap half_bright_map() {
     GreyMap map(32, 16);
     for (int y = 0; y < 16; ++y)
@@ -204,7 +204,8 @@ TEST(SkyLight, TheDimHalfOfAMapLightsAFloorWhateverEndsThePaths) {
     for (const char* paths : {"", "LDE", "L(D|G)E", "L.*E"})
         for (const int depth : {2, 8})
             for (const int roulette : {1, 4}) {
-                SCOPED_TRACE(fmt::format("--paths '{}' --max-depth {} --roulette-depth {}", paths, depth, roulette));
+                SCOPED_TRACE(
+                    fmt::format("--paths '{}' --max-depth {} --roulette-depth {}", paths, depth, roulette));
                 scene.options.paths = paths;
                 scene.options.max_depth = depth;
                 scene.options.roulette_depth = roulette;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every case of the catalogue (tools/stability/cases) holds, in its quick tier. The texts of a case say what its figures mean.
+// Every case of the catalogue (tools/stability/cases) holds, in its quick tier. The texts of a case say what
+// its figures mean.
 #include "stability/report.h"
 
 #include <cmath>
@@ -18,9 +19,8 @@ TEST_P(Catalogue, Holds) {
     RecordProperty("figures", format_case(result));
 }
 
-INSTANTIATE_TEST_SUITE_P(Case, Catalogue, testing::ValuesIn(runnable_cases()), [](const auto& of) {
-    return std::string(of.param->id) + "_" + of.param->name;
-});
+INSTANTIATE_TEST_SUITE_P(Case, Catalogue, testing::ValuesIn(runnable_cases()),
+                         [](const auto& of) { return std::string(of.param->id) + "_" + of.param->name; });
 
 TEST(CatalogueTable, EveryCaseRunsOrSaysWhatItWaitsFor) {
     std::set<std::string> ids;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that break builders and traversals: corners on a line, coordinates that are not finite, needles. More is in the catalogue
-// (tools/stability/cases/degenerate_cases.cpp).
+// Meshes that break builders and traversals: corners on a line, coordinates that are not finite, needles.
+// More is in the catalogue (tools/stability/cases/degenerate_cases.cpp).
 #include "support/aimed_rays.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of unusual length and from afar. More is in the catalogue (tools/stability/cases/intersection_cases.cpp).
+// Rays of unusual length and from afar. More is in the catalogue
+// (tools/stability/cases/intersection_cases.cpp).
 #include "support/aimed_rays.h"
 
 #include <algorithm>

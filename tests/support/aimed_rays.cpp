@@ -78,7 +78,8 @@ std::vector<TestRay> rays_at_flat_grid(const Scene& grid, int cells, size_t coun
     while (rays.size() < count) {
         const Triangle& triangle = grid.triangles[random.word() % grid.triangles.size()];
         const glm::dvec3 corner = corner_position(grid, triangle, int(random.word() % 3));
-        const glm::dvec3 target = corner + (rays.size() % 2 ? glm::dvec3(0) : glm::dvec3(random.unit() / cells, 0, 0));
+        const glm::dvec3 target =
+            corner + (rays.size() % 2 ? glm::dvec3(0) : glm::dvec3(random.unit() / cells, 0, 0));
         if (std::max(std::abs(target.x), std::abs(target.z)) >= 1)
             continue; // on the rim a rounded ray may pass outside
         glm::dvec3 origin = random.in_cube(1);
@@ -94,11 +95,13 @@ glm::dvec3 point_on(const Scene& scene, const Triangle& triangle, Random& random
     if (u + v > 1)
         u = 1 - u, v = 1 - v;
     const glm::dvec3 p0 = corner_position(scene, triangle, 0);
-    return p0 + u * (corner_position(scene, triangle, 1) - p0) + v * (corner_position(scene, triangle, 2) - p0);
+    return p0 + u * (corner_position(scene, triangle, 1) - p0) +
+           v * (corner_position(scene, triangle, 2) - p0);
 }
 
 size_t count_misses(const std::vector<TestHit>& hits) {
-    return size_t(std::count_if(hits.begin(), hits.end(), [](const TestHit& h) { return h.triangle == NO_INDEX; }));
+    return size_t(
+        std::count_if(hits.begin(), hits.end(), [](const TestHit& h) { return h.triangle == NO_INDEX; }));
 }
 
 size_t count_differences(const std::vector<TestHit>& a, const std::vector<TestHit>& b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays where tracing is hard: aimed at vertices and edges, near the origin and far away. Random rays prove nothing about
-// watertightness: they never come near an edge.
+// Rays where tracing is hard: aimed at vertices and edges, near the origin and far away. Random rays prove
+// nothing about watertightness: they never come near an edge.
 #pragma once
 
 #include "support/meshes.h"
@@ -40,7 +40,8 @@ std::vector<TestRay> rays_in_lattice_planes(size_t count, u32 seed);
 /// Cubes with corners on the lattice of quarters: their faces share planes, and so do the boxes of the tree.
 Scene make_cubes();
 
-/// Rays down on the flat grid y = 0 in cells of 2 / `cells`, at its corners and edges; a quarter exactly from above.
+/// Rays down on the flat grid y = 0 in cells of 2 / `cells`, at its corners and edges; a quarter exactly from
+/// above.
 std::vector<TestRay> rays_at_flat_grid(const Scene& grid, int cells, size_t count, u32 seed);
 
 /// A random point of a triangle.

@@ -118,7 +118,8 @@ void SceneOfEffects::add_materials() {
     std::vector<unsigned char> colour;
     std::vector<float> normal;
     for (int i = 0; i < 64; ++i) {
-        colour.insert(colour.end(), {(unsigned char)(i * 97), (unsigned char)(i * 31), (unsigned char)(200 - i)});
+        colour.insert(colour.end(),
+                      {(unsigned char)(i * 97), (unsigned char)(i * 31), (unsigned char)(200 - i)});
         normal.insert(normal.end(), {0.5f + 0.1f * float(i % 3), 0.5f - 0.1f * float(i % 2), 0.95f});
     }
     texture8(COLOUR, 8, 8, 3, colour);
@@ -148,14 +149,16 @@ void SceneOfEffects::add_bodies() {
     build.use("plain").box({-0.2, 0.01, -1.2}, {0.2, 0.5, -0.9});
     if (has(EFFECT_GLOSSY)) {
         build.use("gloss").icosphere({0.6, 0.35, -0.3}, 0.3, 1);
-        build.use("brushed").textured_quad({{-1.6, 0.1, -0.8}, {-0.9, 0.1, -1}, {-0.9, 1, -1.1}, {-1.6, 1, -0.9}});
+        build.use("brushed").textured_quad(
+            {{-1.6, 0.1, -0.8}, {-0.9, 0.1, -1}, {-0.9, 1, -1.1}, {-1.6, 1, -0.9}});
     }
     if (has(EFFECT_MIRROR))
         build.use("mirror").box({0.9, 0.01, -0.9}, {1.5, 0.9, -0.4});
     if (has(EFFECT_REFRACTION))
         build.use("glass").icosphere({-0.4, 0.4, 0.3}, 0.3, 1);
     if (has(EFFECT_ROUGH_REFRACTION))
-        build.use("frosted").textured_quad({{0.3, 0.1, 0.6}, {0.9, 0.1, 0.6}, {0.9, 0.7, 0.5}, {0.3, 0.7, 0.5}});
+        build.use("frosted").textured_quad(
+            {{0.3, 0.1, 0.6}, {0.9, 0.1, 0.6}, {0.9, 0.7, 0.5}, {0.3, 0.7, 0.5}});
     if (has(EFFECT_SMOOTH_NORMALS))
         build.use(has(EFFECT_REFRACTION) ? "glass" : "plain")
             .icosphere({0.1, 0.9, -0.4}, 0.25, 1, Facing::OUTWARD, Shading::SMOOTH);

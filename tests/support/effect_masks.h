@@ -16,8 +16,8 @@ std::vector<u32> single_effects();
 /// All effects but one and those that imply it, for every effect.
 std::vector<u32> all_but_one_effect();
 
-/// A covering array: for every two effects, each of "both", "one", "the other" and "neither" that a scene can call for
-/// occurs in some set. Found greedily, always the same.
+/// A covering array: for every two effects, each of "both", "one", "the other" and "neither" that a scene can
+/// call for occurs in some set. Found greedily, always the same.
 std::vector<u32> pairwise_effects();
 
 /// The three families together, each set once.
@@ -26,7 +26,8 @@ std::vector<u32> all_effect_sets();
 /// Names for messages.
 std::string describe_effects(u32 effects);
 
-/// A scene that calls for exactly these effects, each of which shows where light and lobes allow; 16 x 16 pixels.
+/// A scene that calls for exactly these effects, each of which shows where light and lobes allow; 16 x 16
+/// pixels.
 class SceneOfEffects : public TestScene {
 public:
     explicit SceneOfEffects(u32 effects);

@@ -36,11 +36,12 @@ double any_cosine(Random& random) {
     return random.word() % 4 ? random.unit() : std::abs(random.signed_log(1e-7, 1e-3));
 }
 
-std::vector<TestRay> leave_at_random(const Scene& scene, const RayDevice& device, const Arrivals& from, Random& random) {
+std::vector<TestRay> leave_at_random(const Scene& scene, const RayDevice& device, const Arrivals& from,
+                                     Random& random) {
     std::vector<glm::dvec3> directions;
     for (size_t i = 0; i < from.rays.size(); ++i)
-        directions.push_back(leaving_direction(triangle_normal(scene, scene.triangles[from.hits[i].triangle]), from.rays[i],
-                                               any_cosine(random), random));
+        directions.push_back(leaving_direction(triangle_normal(scene, scene.triangles[from.hits[i].triangle]),
+                                               from.rays[i], any_cosine(random), random));
     return device.leaving(from.rays, from.hits, directions);
 }
 

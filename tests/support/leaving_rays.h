@@ -22,7 +22,8 @@ glm::dvec3 leaving_direction(const glm::dvec3& normal, const TestRay& ray, doubl
 double any_cosine(Random& random);
 
 /// The arrivals' rays as they leave at random on the side that they came from.
-std::vector<TestRay> leave_at_random(const Scene& scene, const RayDevice& device, const Arrivals& from, Random& random);
+std::vector<TestRay> leave_at_random(const Scene& scene, const RayDevice& device, const Arrivals& from,
+                                     Random& random);
 
 /// A tetrahedron with corners in its own positions.
 Scene make_tetrahedron(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);

@@ -23,7 +23,8 @@ inline Film empty_film(int width, int height, int replicates, std::uint32_t firs
 }
 
 /// Continues a film that starts at sample 0 up to `samples` samples of these moments.
-inline void add_noise(Film& film, std::uint64_t samples, double mean, double deviation, std::mt19937& random) {
+inline void add_noise(Film& film, std::uint64_t samples, double mean, double deviation,
+                      std::mt19937& random) {
     Film before = film;
     film.ranges = {{0, samples}};
     for (int r = 0; r < film.replicates; ++r) {

@@ -34,7 +34,8 @@ PatchedKernels::PatchedKernels(const std::vector<KernelPatch>& patches) {
         std::string& text = files[patch.file];
         const size_t place = text.find(patch.from);
         if (place == std::string::npos)
-            throw std::runtime_error("kernels/" + patch.file + " has no text \"" + patch.from + "\" to replace");
+            throw std::runtime_error("kernels/" + patch.file + " has no text \"" + patch.from +
+                                     "\" to replace");
         text.replace(place, patch.from.size(), patch.to);
     }
     path_ = std::filesystem::path(folder_.file("x")).parent_path().string();
@@ -47,7 +48,8 @@ PatchedKernels::PatchedKernels(const std::vector<KernelPatch>& patches) {
 PreparedRender::PreparedRender(Scene scene, Options options, const Device& device)
     : device_(device), scene_(std::move(scene)), options_(with_kernels(std::move(options))),
       effects_(take_out_unwanted(scene_, options_)),
-      programs_(build_render_programs(device, options_, effects_.mask, choose_layout(options_.bvh, device.info), effects_.paths)),
+      programs_(build_render_programs(device, options_, effects_.mask,
+                                      choose_layout(options_.bvh, device.info), effects_.paths)),
       bvh_(build_bvh(scene_.positions, scene_.triangles, choose_layout(options_.bvh, device.info),
                      choose_bvh_quality(options_, scene_.triangles.size()).quality)),
       buffers_(upload_scene(device, scene_, bvh_)) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loaded scene with programs and buffers of its own, to be rendered again and again: on any device, by kernels whose text
-// was changed.
+// A loaded scene with programs and buffers of its own, to be rendered again and again: on any device, by
+// kernels whose text was changed.
 #pragma once
 
 #include "support/kernel_probe.h"

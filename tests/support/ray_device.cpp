@@ -279,7 +279,8 @@ Kernel RayDevice::make_surface_kernel(const std::string& name, const std::vector
             float_hits.push_back({float(hit.t), float(hit.b1), float(hit.b2), hit.triangle});
     }
     Kernel kernel = make_kernel(name, rays, out);
-    kernel.set("hits", precision_ == Precision::DOUBLE ? probe_.upload(double_hits) : probe_.upload(float_hits));
+    kernel.set("hits",
+               precision_ == Precision::DOUBLE ? probe_.upload(double_hits) : probe_.upload(float_hits));
     kernel.set("in", probe_.upload(in));
     return kernel;
 }
@@ -310,7 +311,8 @@ std::vector<vec4> RayDevice::normals(const std::vector<TestRay>& rays,
     return at_surfaces<vec4>("surface_normal", rays, hits, std::vector<vec4>(rays.size()));
 }
 
-std::vector<TestPoint> RayDevice::points(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const {
+std::vector<TestPoint> RayDevice::points(const std::vector<TestRay>& rays,
+                                         const std::vector<TestHit>& hits) const {
     std::vector<TestPoint> points;
     const auto keep = [&](const auto& found) {
         for (const auto& p : found)
@@ -329,7 +331,8 @@ std::vector<u32> RayDevice::lights_seen(const std::vector<TestRay>& rays, const 
     return at_surfaces<u32>("surface_light", rays, hits, numbers);
 }
 
-std::function<void()> RayDevice::leaver(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const {
+std::function<void()> RayDevice::leaver(const std::vector<TestRay>& rays,
+                                        const std::vector<TestHit>& hits) const {
     std::vector<vec4> back;
     for (const TestRay& ray : rays)
         back.push_back({-ray.direction.x, -ray.direction.y, -ray.direction.z, 0});
@@ -341,7 +344,9 @@ std::function<void()> RayDevice::leaver(const std::vector<TestRay>& rays, const 
 
 std::function<void()> RayDevice::tracer(const std::vector<TestRay>& rays) const {
     const cl::Buffer out = create_buffer(test_device(), "traced", rays.size() * sizeof(DoubleHit));
-    return [this, count = rays.size(), kernel = make_kernel("trace_closest", rays, out)] { probe_.launch(kernel, count); };
+    return [this, count = rays.size(), kernel = make_kernel("trace_closest", rays, out)] {
+        probe_.launch(kernel, count);
+    };
 }
 
 std::vector<std::vector<u32>> RayDevice::layers(const std::vector<TestRay>& rays) const {

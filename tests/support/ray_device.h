@@ -100,12 +100,13 @@ public:
     /// The position of surface_at for every hit, in the kernels' precision.
     std::vector<TestPoint> points(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
 
-    /// For every hit, whether the point of the emitters that the numbers in `numbers` (x, y in [0, 1)) choose is seen.
+    /// For every hit, whether the point of the emitters that the numbers in `numbers` (x, y in [0, 1)) choose
+    /// is seen.
     std::vector<u32> lights_seen(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
                                  const std::vector<vec4>& numbers) const;
 
-    /// Computes at every call, without copying anything, the surfaces at the hits and where rays back along their way
-    /// leave them: to be timed.
+    /// Computes at every call, without copying anything, the surfaces at the hits and where rays back along
+    /// their way leave them: to be timed.
     std::function<void()> leaver(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
 
     /// Traces the rays by scene_closest_hit at every call, without copying anything: to be timed.
@@ -130,8 +131,9 @@ private:
     std::vector<Out> trace(const std::string& kernel, const std::vector<TestRay>& rays,
                            size_t per_ray = 1) const;
     std::vector<TestHit> trace_hits(const std::string& kernel, const std::vector<TestRay>& rays) const;
-    Kernel make_surface_kernel(const std::string& name, const std::vector<TestRay>& rays, const std::vector<TestHit>& hits,
-                               const std::vector<vec4>& in, const cl::Buffer& out) const;
+    Kernel make_surface_kernel(const std::string& name, const std::vector<TestRay>& rays,
+                               const std::vector<TestHit>& hits, const std::vector<vec4>& in,
+                               const cl::Buffer& out) const;
     template <class Out>
     std::vector<Out> at_surfaces(const std::string& kernel, const std::vector<TestRay>& rays,
                                  const std::vector<TestHit>& hits, const std::vector<vec4>& in) const;

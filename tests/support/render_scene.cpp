@@ -47,9 +47,8 @@ const RenderPrograms& programs_for(const Options& options, const Effects& effect
                            std::string>;
     // Never freed: at exit some drivers are gone before our statics.
     static auto* const programs = new std::map<Key, RenderPrograms>;
-    const Key key{options.integrator, options.precision, options.sampler,
-                  effects.mask,       layout,            path_defines(effects.paths),
-                  options.kernels_folder};
+    const Key key{options.integrator,          options.precision,     options.sampler, effects.mask, layout,
+                  path_defines(effects.paths), options.kernels_folder};
     const auto found = programs->find(key);
     if (found != programs->end())
         return found->second;

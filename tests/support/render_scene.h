@@ -46,12 +46,13 @@ public:
     double scale = 1; ///< of positions in the OBJ file
 };
 
-/// Renders a loaded scene as the options' effects want it. Programs are compiled once a process for each integrator,
-/// mask, layout, precision and sampler. The variable CLRT_TEST_KERNELS names a folder of kernels to take instead of those inside the
-/// test.
+/// Renders a loaded scene as the options' effects want it. Programs are compiled once a process for each
+/// integrator, mask, layout, precision and sampler. The variable CLRT_TEST_KERNELS names a folder of kernels
+/// to take instead of those inside the test.
 Render render_loaded(Scene scene, Options options);
 
-/// The same by a program that is built for this call, with the options' program cache; says whether it came from there.
+/// The same by a program that is built for this call, with the options' program cache; says whether it came
+/// from there.
 Render render_afresh(Scene scene, Options options, bool* from_cache);
 
 } // namespace clrt

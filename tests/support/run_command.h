@@ -23,7 +23,8 @@ struct CommandSettings {
     std::map<std::string, std::string> environment; ///< replaces or adds variables
     std::vector<std::pair<double, int>> signals;    ///< seconds after the start, and which
     double limit_seconds = 120;                     ///< then it is killed
-    std::map<int, size_t> limits; ///< of setrlimit(): RLIMIT_FSIZE for a full disk, RLIMIT_AS for little memory; bytes
+    std::map<int, size_t>
+        limits; ///< of setrlimit(): RLIMIT_FSIZE for a full disk, RLIMIT_AS for little memory; bytes
 };
 
 /// Runs a command (its path, then its arguments) to its end.

@@ -18,7 +18,8 @@ SceneProbe::SceneProbe(std::vector<std::string> headers, const std::string& text
 
 void SceneProbe::add(const std::string& name, const std::string& statements) {
     probe_.add_text(fmt::format(
-        "CLRT_KERNEL void probe_{}(SCENE_PARAMS, const RenderParams params_value, const u32 count, global const "
+        "CLRT_KERNEL void probe_{}(SCENE_PARAMS, const RenderParams params_value, const u32 count, global "
+        "const "
         "vec4* in_a,\n"
         "                     global const vec4* in_b, global const vec4* in_c, global vec4* out_first,\n"
         "                     global vec4* out_second, global vec4* out_third)\n"

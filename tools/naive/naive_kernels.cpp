@@ -18,14 +18,16 @@ size_t find_text(const KernelFiles& files, const std::string& file, const std::s
     const auto found = files.find(file);
     const size_t at = found == files.end() ? std::string::npos : found->second.find(text);
     if (at == std::string::npos)
-        throw SceneError(file, 0,
-                         "expected '" + text +
-                             "' in this kernel file, found none; give a folder of kernels of this version to --kernels");
+        throw SceneError(
+            file, 0,
+            "expected '" + text +
+                "' in this kernel file, found none; give a folder of kernels of this version to --kernels");
     return at;
 }
 
 /// Gives a macro another value.
-void redefine(KernelFiles& files, const std::string& file, const std::string& macro, const std::string& value) {
+void redefine(KernelFiles& files, const std::string& file, const std::string& macro,
+              const std::string& value) {
     const std::string start = "#define " + macro + " ";
     const size_t at = find_text(files, file, start);
     std::string& text = files.at(file);
@@ -33,7 +35,8 @@ void redefine(KernelFiles& files, const std::string& file, const std::string& ma
 }
 
 /// Replaces a function from its return type, which follows `static inline`, to its closing brace.
-void replace_function(KernelFiles& files, const std::string& file, const std::string& head, const std::string& by) {
+void replace_function(KernelFiles& files, const std::string& file, const std::string& head,
+                      const std::string& by) {
     const std::string start = "static inline " + head, end = "\n}\n";
     const size_t at = find_text(files, file, start);
     std::string& text = files.at(file);
@@ -53,11 +56,13 @@ KernelFiles with_naive(KernelFiles files, bool triangle, bool box) {
 }
 
 KernelFiles with_naive_offset(KernelFiles files) {
-    replace_function(files, "geometry/surface.h", "real3 surface_origin(", naive_kernel_files().at("ray_offset.h"));
+    replace_function(files, "geometry/surface.h", "real3 surface_origin(",
+                     naive_kernel_files().at("ray_offset.h"));
     return files;
 }
 
-void replace_in_kernel(KernelFiles& files, const std::string& file, const std::string& from, const std::string& to) {
+void replace_in_kernel(KernelFiles& files, const std::string& file, const std::string& from,
+                       const std::string& to) {
     files.at(file).replace(find_text(files, file, from), from.size(), to);
 }
 

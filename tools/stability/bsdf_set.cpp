@@ -21,11 +21,12 @@ std::string sets_text() {
     const std::vector<LobeSet> sets = all_lobe_sets();
     for (size_t i = 0; i < sets.size(); ++i) {
         const LobeSet& s = sets[i];
-        cases += fmt::format(
-            "    case {}: bsdf.matte = {}; bsdf.specular = {}; bsdf.transmission = {};\n"
-            "        bsdf.alpha_x = {}; bsdf.alpha_y = {}; bsdf.eta = {}; bsdf.lobes = {}u; bsdf.fresnel = {}u; break;\n",
-            i, vector_text(s.matte), vector_text(s.specular), vector_text(s.transmission), real_text(s.alpha_x),
-            real_text(s.alpha_y), real_text(s.eta), s.lobes, s.fresnel);
+        cases +=
+            fmt::format("    case {}: bsdf.matte = {}; bsdf.specular = {}; bsdf.transmission = {};\n"
+                        "        bsdf.alpha_x = {}; bsdf.alpha_y = {}; bsdf.eta = {}; bsdf.lobes = {}u; "
+                        "bsdf.fresnel = {}u; break;\n",
+                        i, vector_text(s.matte), vector_text(s.specular), vector_text(s.transmission),
+                        real_text(s.alpha_x), real_text(s.alpha_y), real_text(s.eta), s.lobes, s.fresnel);
     }
     return "static CLRT_NOINLINE Bsdf set_bsdf(real set, real alpha, real3 wo)\n{\n"
            "    Bsdf bsdf;\n"
@@ -42,15 +43,18 @@ std::string sets_text() {
 
 const ProbedExpression EVAL = {
     "eval", 8, 4,
-    "const Bsdf bsdf = set_bsdf(a, b, vector_make(c, d, e)); const BsdfValue v = bsdf_eval(&bsdf, vector_make(f, g, h));"
+    "const Bsdf bsdf = set_bsdf(a, b, vector_make(c, d, e)); const BsdfValue v = bsdf_eval(&bsdf, "
+    "vector_make(f, g, h));"
     "out[0] = v.value.x; out[1] = v.value.y; out[2] = v.value.z; out[3] = v.pdf_w;",
     ""};
 
 const ProbedExpression SAMPLE = {
     "sample", 8, 12,
-    "const Bsdf bsdf = set_bsdf(a, b, vector_make(c, d, e)); const BsdfSample s = bsdf_sample(&bsdf, f, (real2)(g, h));"
+    "const Bsdf bsdf = set_bsdf(a, b, vector_make(c, d, e)); const BsdfSample s = bsdf_sample(&bsdf, f, "
+    "(real2)(g, h));"
     "const BsdfValue v = bsdf_eval(&bsdf, s.wi);"
-    "out[0] = s.wi.x; out[1] = s.wi.y; out[2] = s.wi.z; out[3] = s.weight.x; out[4] = s.weight.y; out[5] = s.weight.z;"
+    "out[0] = s.wi.x; out[1] = s.wi.y; out[2] = s.wi.z; out[3] = s.weight.x; out[4] = s.weight.y; out[5] = "
+    "s.weight.z;"
     "out[6] = s.pdf_w; out[7] = s.is_valid ? s.eta : REAL(0.0);"
     "out[8] = v.value.x; out[9] = v.value.y; out[10] = v.value.z; out[11] = v.pdf_w;",
     ""};
@@ -67,8 +71,8 @@ std::string BsdfInputs::describe(size_t i) const {
     std::string text = all_lobe_sets()[size_t(columns[0][i])].name;
     if (columns[1][i] > 0)
         text += fmt::format(", alpha {:g}", columns[1][i]);
-    return text + fmt::format(", wo {:a} {:a} {:a}, then {:a} {:a} {:a}", columns[2][i], columns[3][i], columns[4][i],
-                              columns[5][i], columns[6][i], columns[7][i]);
+    return text + fmt::format(", wo {:a} {:a} {:a}, then {:a} {:a} {:a}", columns[2][i], columns[3][i],
+                              columns[4][i], columns[5][i], columns[6][i], columns[7][i]);
 }
 
 ProbeSet& bsdf_probes(const Device& device) {
@@ -78,7 +82,8 @@ ProbeSet& bsdf_probes(const Device& device) {
 }
 
 bool is_smooth(const LobeSet& set) {
-    return (set.lobes & (LOBE_MATTE | LOBE_GLOSSY)) != 0 || ((set.lobes & LOBE_DIELECTRIC) && set.alpha_x > 0);
+    return (set.lobes & (LOBE_MATTE | LOBE_GLOSSY)) != 0 ||
+           ((set.lobes & LOBE_DIELECTRIC) && set.alpha_x > 0);
 }
 
 } // namespace clrt

@@ -16,8 +16,8 @@ struct BsdfInputs {
     Columns columns = Columns(8);
 
     size_t size() const { return columns[0].size(); }
-    /// `set`: index into all_lobe_sets(); `alpha` replaces its roughness unless 0. `rest`: wi for eval, the numbers for lobe
-    /// and direction for sample.
+    /// `set`: index into all_lobe_sets(); `alpha` replaces its roughness unless 0. `rest`: wi for eval, the
+    /// numbers for lobe and direction for sample.
     void add(size_t set, double alpha, const glm::dvec3& wo, const glm::dvec3& rest);
     /// One line for the worst input.
     std::string describe(size_t i) const;
@@ -25,8 +25,8 @@ struct BsdfInputs {
 
 /// The outputs of "eval": value (three), density.
 enum BsdfEval { EVAL_VALUE = 0, EVAL_PDF = 3 };
-/// The outputs of "sample": direction, weight, density, relative index or 0 where none was found; what eval says of the
-/// direction.
+/// The outputs of "sample": direction, weight, density, relative index or 0 where none was found; what eval
+/// says of the direction.
 enum BsdfSampled {
     SAMPLED_WI = 0,
     SAMPLED_WEIGHT = 3,

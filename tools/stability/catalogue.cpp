@@ -34,7 +34,9 @@ std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>&
     std::vector<const StabilityCase*> chosen;
     for (const CaseGroup& group : catalogue())
         for (const StabilityCase& subject : group.cases) {
-            const auto is_asked_for = [&](const std::string& id) { return std::string(subject.id).rfind(id, 0) == 0; };
+            const auto is_asked_for = [&](const std::string& id) {
+                return std::string(subject.id).rfind(id, 0) == 0;
+            };
             if (subject.run && (ids.empty() || std::any_of(ids.begin(), ids.end(), is_asked_for)))
                 chosen.push_back(&subject);
         }
@@ -43,10 +45,12 @@ std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>&
 
 const std::vector<RobustChoice>& robust_choices() {
     static const std::vector<RobustChoice> choices = {
-        {"Edge test of triangles", "Moeller-Trumbore", "sheared corners, exact signs", "I01", 0, time_edge_test},
+        {"Edge test of triangles", "Moeller-Trumbore", "sheared corners, exact signs", "I01", 0,
+         time_edge_test},
         {"Box test", "plain slabs", "padded slabs", "I05", 0, time_slab},
         {"Leaving a surface", "Waechter-Binder", "error bound of the hit", "S04", 0, time_offset},
-        {"Point of a hit", "origin + t direction", "by weights, on pieces of vast triangles", "C04", 0, time_hit_point},
+        {"Point of a hit", "origin + t direction", "by weights, on pieces of vast triangles", "C04", 0,
+         time_hit_point},
         {"Fresnel reflectance", "1 - eta^2 (1 - cos^2)", "two-product form", "T01", 0, time_fresnel},
         {"Film sum", "a float", "64-bit fixed point", "A02", 0, time_film_plain},
         {"Film sum", "blocks of 1024 floats, two-sum", "64-bit fixed point", "A02", 1, time_film_blocks},
@@ -55,7 +59,8 @@ const std::vector<RobustChoice>& robust_choices() {
         {"Distribution of normals", "by cos^2", "by local components", "R01", 0, time_ggx_d},
         {"Random number from a word", "word / 2^32", "odd multiples of 2^-24", "P05", 0, time_uniforms},
         {"Frame around a normal", "1 / (1 + z)", "1 / (|z| + 1)", "P04", 0, time_frames},
-        {"Choice among 4096 lights", "sums in float, bisection", "alias table of integers", "L07", 0, time_light_choice},
+        {"Choice among 4096 lights", "sums in float, bisection", "alias table of integers", "L07", 0,
+         time_light_choice},
         {"Point of a near lamp", "by area", "by solid angle", "L06", 0, time_solid_angle},
         {"MIS weight", "squares of densities", "square of their ratio", "L09", 0, time_mis_weight},
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The catalogue of hard cases, group by group, and what the robust choices cost. A new case goes into its group's file in cases/.
+// The catalogue of hard cases, group by group, and what the robust choices cost. A new case goes into its
+// group's file in cases/.
 #pragma once
 
 #include "stability/probe_set.h"
@@ -29,7 +30,7 @@ struct RobustChoice {
     const char* naive;
     const char* robust;
     const char* case_id; ///< the case that shows what the naive one gets wrong ...
-    int figure = 0;       ///< ... and which of its figures
+    int figure = 0;      ///< ... and which of its figures
     ProbeTime (*time)(const Device&);
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timings of naive against robust kernel functions; each stands beside the cases that use the same expressions.
+// Timings of naive against robust kernel functions; each stands beside the cases that use the same
+// expressions.
 #pragma once
 
 #include "stability/probe_set.h"
@@ -9,8 +10,8 @@ namespace clrt {
 /// Reflectance of a dielectric (cases/dielectric_cases.cpp).
 ProbeTime time_fresnel(const Device& device);
 
-/// Adding a sample to the film against a sum in float, blocks of floats joined by two-sum, a sum in double, and against
-/// the film without its look for bad samples (cases/film_cases.cpp).
+/// Adding a sample to the film against a sum in float, blocks of floats joined by two-sum, a sum in double,
+/// and against the film without its look for bad samples (cases/film_cases.cpp).
 ProbeTime time_film_plain(const Device& device);
 ProbeTime time_film_blocks(const Device& device);
 ProbeTime time_film_double(const Device& device);

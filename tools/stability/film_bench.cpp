@@ -23,7 +23,8 @@ struct SumText {
 const SumText SUM_TEXTS[] = {
     {SumKind::FILM, "film", "long", 3,
      "const uint fault = film_fault(&params, radiance);"
-     "if (fault == COUNT_WORDS) film_add(&params, film_sums(&params, film, i, replicate), &sampler, radiance);"
+     "if (fault == COUNT_WORDS) film_add(&params, film_sums(&params, film, i, replicate), &sampler, "
+     "radiance);"
      "else film_report_fault(counters, fault, i, s);"},
     {SumKind::UNGUARDED, "unguarded", "long", 3,
      "film_add(&params, film_sums(&params, film, i, replicate), &sampler, radiance);"},
@@ -42,7 +43,8 @@ const SumText SUM_TEXTS[] = {
      "sums[0] += radiance.x; sums[1] += radiance.y; sums[2] += radiance.z;"}};
 
 const SumText& text_of(SumKind kind) {
-    return *std::find_if(std::begin(SUM_TEXTS), std::end(SUM_TEXTS), [&](const SumText& t) { return t.kind == kind; });
+    return *std::find_if(std::begin(SUM_TEXTS), std::end(SUM_TEXTS),
+                         [&](const SumText& t) { return t.kind == kind; });
 }
 
 /// Two-sum of a block into the pair behind it (Knuth 1969), and sums of 64 bits where the device has them.
@@ -64,25 +66,26 @@ static inline void bench_join(global float* block)
 )";
 
 std::string kernel_text(const SumText& sum) {
-    return fmt::format(
-        "kernel void bench_{}(const RenderParams params, const u32 count, const u32 samples, const u32 end, const u32 stride,\n"
-        "                     global const float* restrict series, global {}* restrict film, global volatile uint* counters)\n"
-        "{{\n"
-        "    const uint i = (uint)get_global_id(0);\n"
-        "    if (i >= count) return;\n"
-        "    Sampler sampler = sampler_make(params.seed, i, 0u, 0u);\n"
-        "    const uint first = sampler.word_key;\n"
-        "    uint place = i * stride, replicate = 0u;\n"
-        "    for (uint s = 0; s < samples; ++s) {{\n"
-        "        const real value = (real)series[place];\n"
-        "        const real3 radiance = vector_make(value, value, value);\n"
-        "        sampler.word_key = first + s;\n"
-        "        {}\n"
-        "        place = place + 1u == end ? 0u : place + 1u;\n"
-        "        replicate = replicate + 1u == params.replicates ? 0u : replicate + 1u;\n"
-        "    }}\n"
-        "}}\n",
-        sum.name, sum.words, sum.code);
+    return fmt::format("kernel void bench_{}(const RenderParams params, const u32 count, const u32 samples, "
+                       "const u32 end, const u32 stride,\n"
+                       "                     global const float* restrict series, global {}* restrict film, "
+                       "global volatile uint* counters)\n"
+                       "{{\n"
+                       "    const uint i = (uint)get_global_id(0);\n"
+                       "    if (i >= count) return;\n"
+                       "    Sampler sampler = sampler_make(params.seed, i, 0u, 0u);\n"
+                       "    const uint first = sampler.word_key;\n"
+                       "    uint place = i * stride, replicate = 0u;\n"
+                       "    for (uint s = 0; s < samples; ++s) {{\n"
+                       "        const real value = (real)series[place];\n"
+                       "        const real3 radiance = vector_make(value, value, value);\n"
+                       "        sampler.word_key = first + s;\n"
+                       "        {}\n"
+                       "        place = place + 1u == end ? 0u : place + 1u;\n"
+                       "        replicate = replicate + 1u == params.replicates ? 0u : replicate + 1u;\n"
+                       "    }}\n"
+                       "}}\n",
+                       sum.name, sum.words, sum.code);
 }
 
 /// One program a precision and process; never freed, as all that holds drivers' objects.

@@ -9,8 +9,8 @@
 
 namespace clrt {
 
-/// Ways to add up a pixel's samples, all in memory and in three channels as the film does; only the film's keep the
-/// replicates apart.
+/// Ways to add up a pixel's samples, all in memory and in three channels as the film does; only the film's
+/// keep the replicates apart.
 enum class SumKind {
     FILM,      ///< the renderer's: 64-bit fixed point, bad samples kept out
     UNGUARDED, ///< the same without looking for bad samples
@@ -24,8 +24,9 @@ class FilmBench {
 public:
     static constexpr u32 PIXELS = 64, REPLICATES = 8;
 
-    /// Pixel i adds the series from place 8 i k on, round its end: all pixels and their replicates sum the same values
-    /// in another order. The length is a multiple of 512. The film's scale is that of a scene of this mean radiance.
+    /// Pixel i adds the series from place 8 i k on, round its end: all pixels and their replicates sum the
+    /// same values in another order. The length is a multiple of 512. The film's scale is that of a scene of
+    /// this mean radiance.
     FilmBench(const Device& device, std::vector<float> series, double mean_radiance);
 
     const std::vector<float>& series() const { return series_; }

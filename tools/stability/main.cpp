@@ -26,15 +26,16 @@ const Device& open_chosen_device(const StabilityOptions& options) {
     return test_device();
 }
 
-void measure_costs(const StabilityOptions& options, const Device& device, Progress& progress, StabilityReport& report) {
+void measure_costs(const StabilityOptions& options, const Device& device, Progress& progress,
+                   StabilityReport& report) {
     for (const RobustChoice& choice : robust_choices())
         if (options.cases.empty() || figure_of(report, choice)) {
             progress.update({fmt::format("cost: {} against {}", choice.choice, choice.naive)});
             report.costs.push_back({&choice, choice.time(device)});
         }
     if (options.cases.empty()) {
-        report.render_costs =
-            measure_render_costs(device, [&](const std::string& next) { progress.update({"cost: " + next}); });
+        report.render_costs = measure_render_costs(
+            device, [&](const std::string& next) { progress.update({"cost: " + next}); });
     }
     progress.finish();
 }
@@ -50,7 +51,8 @@ StabilityReport run_catalogue(const StabilityOptions& options, const Device& dev
     fmt::print("{}", format_case_head());
     std::fflush(stdout);
     for (const StabilityCase* subject : subjects) {
-        progress.update({fmt::format("{} {}", subject->id, subject->name), double(report.cases.size()) / double(subjects.size())});
+        progress.update({fmt::format("{} {}", subject->id, subject->name),
+                         double(report.cases.size()) / double(subjects.size())});
         report.cases.push_back(run_case(*subject, device, options.tier));
         progress.finish();
         fmt::print("{}", format_case(report.cases.back()));

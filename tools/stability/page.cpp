@@ -49,22 +49,25 @@ std::string arrow_cell(const Figure& figure) {
     const std::string naive =
         figure[Build::NAIVE].tried == 0 ? "" : value_span(figure[Build::NAIVE], figure.limit) + " &rarr; ";
     const Worst& single = figure[Build::SINGLE];
-    return "<td>" + naive + "<b>" + (single.tried == 0 ? "&ndash;" : value_span(single, figure.limit)) + "</b></td>";
+    return "<td>" + naive + "<b>" + (single.tried == 0 ? "&ndash;" : value_span(single, figure.limit)) +
+           "</b></td>";
 }
 
 std::string case_rows(const CaseResult& result) {
     const StabilityCase& subject = *result.subject;
-    std::string rows = fmt::format("<tr id=\"{0}\"><th colspan=\"7\">{0} {1}<br><span class=\"faint\">{2}; against {3}. Limit: {4}."
-                                   "</span></th></tr>\n",
-                                   subject.id, subject.name, escape(subject.set_up), escape(subject.oracle),
-                                   escape(subject.why));
+    std::string rows = fmt::format(
+        "<tr id=\"{0}\"><th colspan=\"7\">{0} {1}<br><span class=\"faint\">{2}; against {3}. Limit: {4}."
+        "</span></th></tr>\n",
+        subject.id, subject.name, escape(subject.set_up), escape(subject.oracle), escape(subject.why));
     for (const Figure& figure : result.figures)
-        rows += fmt::format("<tr><td>{}</td><td>{:.3g}</td>{}{}{}<td>{:.3g}</td><td>{}</td></tr>\n", escape(figure.quantity),
-                            double(figure[Build::SINGLE].tried), arrow_cell(figure), cell(figure[Build::FAST], figure.limit),
-                            cell(figure[Build::DOUBLE], figure.limit), figure.limit,
-                            figure.holds() ? "holds" : "<b class=\"beyond\">fails</b>");
+        rows +=
+            fmt::format("<tr><td>{}</td><td>{:.3g}</td>{}{}{}<td>{:.3g}</td><td>{}</td></tr>\n",
+                        escape(figure.quantity), double(figure[Build::SINGLE].tried), arrow_cell(figure),
+                        cell(figure[Build::FAST], figure.limit), cell(figure[Build::DOUBLE], figure.limit),
+                        figure.limit, figure.holds() ? "holds" : "<b class=\"beyond\">fails</b>");
     if (!result.error.empty())
-        rows += fmt::format("<tr><td colspan=\"7\"><b class=\"beyond\">fails</b>: {}</td></tr>\n", escape(result.error));
+        rows += fmt::format("<tr><td colspan=\"7\"><b class=\"beyond\">fails</b>: {}</td></tr>\n",
+                            escape(result.error));
     return rows;
 }
 
@@ -81,11 +84,11 @@ std::string contents(const StabilityReport& report) {
     std::string items;
     for (const CaseGroup& group : catalogue()) {
         const std::vector<const CaseResult*> results = results_of(report, group);
-        const auto holding =
-            std::count_if(results.begin(), results.end(), [](const CaseResult* result) { return result->holds(); });
+        const auto holding = std::count_if(results.begin(), results.end(),
+                                           [](const CaseResult* result) { return result->holds(); });
         if (!results.empty())
-            items += fmt::format("<li><a href=\"#group-{}\">{}</a>: {} of {}</li>\n", group.cases.front().id[0], group.title,
-                                 holding, results.size());
+            items += fmt::format("<li><a href=\"#group-{}\">{}</a>: {} of {}</li>\n",
+                                 group.cases.front().id[0], group.title, holding, results.size());
     }
     return "<ul class=\"contents\">\n" + items + "</ul>\n";
 }
@@ -97,10 +100,12 @@ std::string case_tables(const StabilityReport& report) {
         for (const CaseResult* result : results_of(report, group))
             rows += case_rows(*result);
         if (!rows.empty())
-            tables += fmt::format("<h2 id=\"group-{}\">{}</h2>\n<div class=\"scroll\"><table class=\"cases\">\n<tr><td>figure</td><td>"
-                                  "inputs</td><td>naive &rarr; <b>single</b></td><td>fast</td><td>double</td><td>limit</td>"
-                                  "<td></td></tr>\n{}</table></div>\n",
-                                  group.cases.front().id[0], group.title, rows);
+            tables += fmt::format(
+                "<h2 id=\"group-{}\">{}</h2>\n<div class=\"scroll\"><table "
+                "class=\"cases\">\n<tr><td>figure</td><td>"
+                "inputs</td><td>naive &rarr; <b>single</b></td><td>fast</td><td>double</td><td>limit</td>"
+                "<td></td></tr>\n{}</table></div>\n",
+                group.cases.front().id[0], group.title, rows);
     }
     return tables;
 }
@@ -116,17 +121,21 @@ std::string cost_table(const StabilityReport& report) {
     std::string rows;
     for (const ChoiceCost& cost : report.costs) {
         const Figure* figure = figure_of(report, *cost.choice);
-        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td>{}{}<td>{}</td></tr>\n",
-                            escape(cost.choice->choice), escape(cost.choice->naive), escape(cost.choice->robust),
-                            cost.time.naive * 1e9, cost.time.single * 1e9, ratio_cell(cost.time),
-                            figure ? arrow_cell(*figure) : "<td>&ndash;</td>",
-                            figure ? escape(fmt::format("{} {}", cost.choice->case_id, figure->quantity)) : cost.choice->case_id);
+        rows += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td>{}{}<td>{}</td></tr>\n",
+            escape(cost.choice->choice), escape(cost.choice->naive), escape(cost.choice->robust),
+            cost.time.naive * 1e9, cost.time.single * 1e9, ratio_cell(cost.time),
+            figure ? arrow_cell(*figure) : "<td>&ndash;</td>",
+            figure ? escape(fmt::format("{} {}", cost.choice->case_id, figure->quantity))
+                   : cost.choice->case_id);
     }
     return "<h2 id=\"costs\">What robustness costs</h2>\n<p>Nanoseconds an evaluation" +
            std::string(takes_cpu_seconds(report) ? " (CPU time of all threads)" : "") +
            ", taken in turns; the ratio is the median "
-           "over the rounds with its quartiles.</p>\n<div class=\"scroll\"><table>\n<tr><td>choice</td><td>naive</td><td>robust"
-           "</td><td>naive ns</td><td>ns</td><td>ratio</td><td>error, naive &rarr; <b>robust</b></td><td>of</td></tr>\n" +
+           "over the rounds with its quartiles.</p>\n<div "
+           "class=\"scroll\"><table>\n<tr><td>choice</td><td>naive</td><td>robust"
+           "</td><td>naive ns</td><td>ns</td><td>ratio</td><td>error, naive &rarr; "
+           "<b>robust</b></td><td>of</td></tr>\n" +
            rows + "</table></div>\n";
 }
 
@@ -135,15 +144,19 @@ std::string render_cost_table(const StabilityReport& report) {
         return "";
     std::string rows;
     for (const RenderCost& cost : report.render_costs)
-        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td>{}<td>{:.2g}</td><td>{:.2g}</td></tr>\n",
-                            escape(cost.choice), escape(cost.scene), cost.time.single, cost.time.naive, ratio_cell(cost.time),
-                            cost.difference, cost.noise);
-    return fmt::format("<h2>Whole pictures by other kernels</h2>\n<p>{} seconds of a picture by kernels that are built otherwise, "
-                       "in turns with clrt's own. Difference: root of the mean squared difference over the mean, with the "
-                       "same random numbers; noise: relative error of clrt's picture.</p>\n<div class=\"scroll\"><table>\n"
-                       "<tr><td>kernels</td><td>scene</td><td>s</td><td>clrt's s</td><td>ratio</td><td>difference</td><td>noise"
-                       "</td></tr>\n{}</table></div>\n",
-                       takes_cpu_seconds(report) ? "CPU" : "Wall", rows);
+        rows += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td>{}<td>{:.2g}</td><td>{:.2g}</td></tr>\n",
+            escape(cost.choice), escape(cost.scene), cost.time.single, cost.time.naive, ratio_cell(cost.time),
+            cost.difference, cost.noise);
+    return fmt::format(
+        "<h2>Whole pictures by other kernels</h2>\n<p>{} seconds of a picture by kernels that are built "
+        "otherwise, "
+        "in turns with clrt's own. Difference: root of the mean squared difference over the mean, with the "
+        "same random numbers; noise: relative error of clrt's picture.</p>\n<div class=\"scroll\"><table>\n"
+        "<tr><td>kernels</td><td>scene</td><td>s</td><td>clrt's "
+        "s</td><td>ratio</td><td>difference</td><td>noise"
+        "</td></tr>\n{}</table></div>\n",
+        takes_cpu_seconds(report) ? "CPU" : "Wall", rows);
 }
 
 std::string waiting_table() {
@@ -151,11 +164,12 @@ std::string waiting_table() {
     for (const CaseGroup& group : catalogue())
         for (const StabilityCase& subject : group.cases)
             if (subject.waits_for)
-                rows += fmt::format("<tr><td>{} {}</td><td>{}</td><td>{}</td></tr>\n", subject.id, subject.name,
-                                    escape(subject.set_up), escape(subject.waits_for));
+                rows += fmt::format("<tr><td>{} {}</td><td>{}</td><td>{}</td></tr>\n", subject.id,
+                                    subject.name, escape(subject.set_up), escape(subject.waits_for));
     if (rows.empty())
         return "";
-    return "<h2>Cases that do not apply yet</h2>\n<div class=\"scroll\"><table>\n<tr><td>case</td><td>set-up</td><td>waits for"
+    return "<h2>Cases that do not apply yet</h2>\n<div "
+           "class=\"scroll\"><table>\n<tr><td>case</td><td>set-up</td><td>waits for"
            "</td></tr>\n" +
            rows + "</table></div>\n";
 }
@@ -169,18 +183,22 @@ std::string report_page(const StabilityReport& report) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<meta name=\"color-scheme\" content=\"light dark\">\n<title>clrt: numerical stability</title>\n<style>\n{}"
+        "<meta name=\"color-scheme\" content=\"light dark\">\n<title>clrt: numerical "
+        "stability</title>\n<style>\n{}"
         ".beyond {{ color: #c33; }}\n.cases td:nth-child(n+2):nth-child(-n+6) {{ text-align: right; }}\n"
         ".cases th {{ white-space: normal; padding-top: 1em; }}\n.cases .faint {{ font-weight: normal; }}\n"
-        ".contents {{ columns: 14em; padding-left: 1.2em; }}\n</style>\n</head>\n<body>\n<h1>Numerical stability</h1>\n"
+        ".contents {{ columns: 14em; padding-left: 1.2em; }}\n</style>\n</head>\n<body>\n<h1>Numerical "
+        "stability</h1>\n"
         "<p class=\"faint\">{}: {}, driver {}, clrt {}</p>\n<p>{}</p>\n"
-        "<p>Each figure is the worst of its inputs, or how many of them failed. The limit holds for single and double; naive is the "
-        "textbook's formula in float, fast the same kernels with relaxed maths; both are shown for comparison, red where they "
-        "are beyond the limit. A cell's tip names its worst input.</p>\n{}{}{}{}{}<h2>Command</h2>\n<pre>{}</pre>\n</body>\n</html>\n",
+        "<p>Each figure is the worst of its inputs, or how many of them failed. The limit holds for single "
+        "and double; naive is the "
+        "textbook's formula in float, fast the same kernels with relaxed maths; both are shown for "
+        "comparison, red where they "
+        "are beyond the limit. A cell's tip names its worst "
+        "input.</p>\n{}{}{}{}{}<h2>Command</h2>\n<pre>{}</pre>\n</body>\n</html>\n",
         PAGE_STYLE, escape(report.device.platform), escape(report.device.name), escape(report.device.driver),
-        CLRT_VERSION, escape(format_summary(report)), contents(report), case_tables(report), cost_table(report),
-        render_cost_table(report), waiting_table(),
-        escape(command));
+        CLRT_VERSION, escape(format_summary(report)), contents(report), case_tables(report),
+        cost_table(report), render_cost_table(report), waiting_table(), escape(command));
 }
 
 } // namespace clrt

@@ -45,9 +45,11 @@ KernelProbe& probe_of(const Device& device, Build build) {
     if (!made) {
         ProbeOptions options;
         options.precision = build == Build::DOUBLE ? Precision::DOUBLE : Precision::SINGLE;
-        options.defines = {fmt::format("CLRT_EFFECTS={:#x}u", EFFECT_ALL & ~EFFECT_PATH_FILTER), "SAMPLES_AT_ONCE=1"};
-        made = std::make_unique<KernelProbe>(device, std::vector<std::string>{"integrators/path.h", "integrators/whitted.h"},
-                                             options, kernels_under_test());
+        options.defines = {fmt::format("CLRT_EFFECTS={:#x}u", EFFECT_ALL & ~EFFECT_PATH_FILTER),
+                           "SAMPLES_AT_ONCE=1"};
+        made = std::make_unique<KernelProbe>(
+            device, std::vector<std::string>{"integrators/path.h", "integrators/whitted.h"}, options,
+            kernels_under_test());
         made->add_text(TEXT);
     }
     return *made;
@@ -55,7 +57,8 @@ KernelProbe& probe_of(const Device& device, Build build) {
 
 } // namespace
 
-PathProbe::PathProbe(const Device& device, Scene scene, const Options& options) : device_(device), scene_(std::move(scene)) {
+PathProbe::PathProbe(const Device& device, Scene scene, const Options& options)
+    : device_(device), scene_(std::move(scene)) {
     params = make_render_params(scene_, options, film_scale(scene_));
     buffers_ = upload_scene(device, scene_, build_bvh(scene_.positions, scene_.triangles, BvhLayout::BVH8));
 }
@@ -65,8 +68,8 @@ TestRay PathProbe::ray(const glm::dvec3& origin, const glm::dvec3& at) const {
                        (at - scene_.normalisation.centre) * scene_.normalisation.scale);
 }
 
-std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator, const std::vector<TestRay>& rays,
-                                            size_t samples) const {
+std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator,
+                                            const std::vector<TestRay>& rays, size_t samples) const {
     KernelProbe& probe = probe_of(device_, build);
     Kernel kernel = probe.kernel(integrator == Integrator::WHITTED ? "probe_whitted" : "probe_path");
     const size_t count = rays.size() * samples;
@@ -80,8 +83,8 @@ std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator, 
     kernel.set("rays", probe.upload(words));
     kernel.set("count", u32(count));
     kernel.set("samples", u32(samples));
-    const cl::Buffer out =
-        create_buffer(device_, "radiance", 3 * count * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
+    const cl::Buffer out = create_buffer(
+        device_, "radiance", 3 * count * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
     kernel.set("out_values", out);
     probe.launch(kernel, count);
     std::vector<glm::dvec3> result(count);
@@ -97,7 +100,8 @@ std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator, 
 }
 
 std::vector<Build> path_builds(const CaseRun& run) {
-    return run.device.info.fp64 ? std::vector<Build>{Build::SINGLE, Build::DOUBLE} : std::vector<Build>{Build::SINGLE};
+    return run.device.info.fp64 ? std::vector<Build>{Build::SINGLE, Build::DOUBLE}
+                                : std::vector<Build>{Build::SINGLE};
 }
 
 } // namespace clrt

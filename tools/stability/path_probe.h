@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single light paths of a scene: the integrators' own functions, sample by sample, without camera and film, whose rounding
-// would hide the last digits.
+// Single light paths of a scene: the integrators' own functions, sample by sample, without camera and film,
+// whose rounding would hide the last digits.
 #pragma once
 
 #include "bvh/bvh.h"
@@ -18,7 +18,8 @@ namespace clrt {
 class PathProbe {
 public:
     /// Loads the scene; its camera is not used. Its options give depth, roulette and seed.
-    PathProbe(const Device& device, const TestScene& scene) : PathProbe(device, scene.load(), scene.options) {}
+    PathProbe(const Device& device, const TestScene& scene)
+        : PathProbe(device, scene.load(), scene.options) {}
     PathProbe(const Device& device, Scene scene, const Options& options);
 
     /// What the integrators get; a case may change it.
@@ -38,8 +39,8 @@ private:
     SceneBuffers buffers_;
 };
 
-/// The builds that PathProbe has: single and double. FAST is left out: it would cost the seconds of a program to show what the
-/// arithmetic cases show.
+/// The builds that PathProbe has: single and double. FAST is left out: it would cost the seconds of a program
+/// to show what the arithmetic cases show.
 std::vector<Build> path_builds(const CaseRun& run);
 
 } // namespace clrt

@@ -44,24 +44,26 @@ std::string kernel_text(const ProbedExpression& e, const std::string& code) {
         keep += fmt::format("out_values[(size_t){}u * count + i] = out[{}]; ", k, k);
     for (int k = 1; k < e.outputs; ++k)
         add += fmt::format(" + out[{}]", k);
-    return fmt::format("CLRT_KERNEL void run_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
-                       "    const u32 i = (u32)get_global_id(0);\n"
-                       "    if (i < count) {{ {2} real out[{3}]; {{ {4} }} {5} }}\n"
-                       "}}\n"
-                       "CLRT_KERNEL void time_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
-                       "    real sum = REAL(0.0);\n"
-                       "    for (u32 k = 0; k < {6}u; ++k) {{\n"
-                       "        const u32 i = (u32)get_global_id(0) * {6}u + k;\n"
-                       "        if (i < count) {{ {2} real out[{3}]; {{ {4} }} {7}; }}\n"
-                       "    }}\n"
-                       "    out_values[get_global_id(0)] = sum;\n"
-                       "}}\n",
-                       e.name, input_parameters(e), read_inputs(e), e.outputs, code, keep, TIMED_ELEMENTS, add);
+    return fmt::format(
+        "CLRT_KERNEL void run_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
+        "    const u32 i = (u32)get_global_id(0);\n"
+        "    if (i < count) {{ {2} real out[{3}]; {{ {4} }} {5} }}\n"
+        "}}\n"
+        "CLRT_KERNEL void time_{0}({1}const u32 count, __global real *restrict out_values) {{\n"
+        "    real sum = REAL(0.0);\n"
+        "    for (u32 k = 0; k < {6}u; ++k) {{\n"
+        "        const u32 i = (u32)get_global_id(0) * {6}u + k;\n"
+        "        if (i < count) {{ {2} real out[{3}]; {{ {4} }} {7}; }}\n"
+        "    }}\n"
+        "    out_values[get_global_id(0)] = sum;\n"
+        "}}\n",
+        e.name, input_parameters(e), read_inputs(e), e.outputs, code, keep, TIMED_ELEMENTS, add);
 }
 
 size_t length_of(const ProbedExpression& e, const Columns& inputs) {
     if (inputs.size() != size_t(e.inputs) || inputs.empty())
-        throw std::logic_error(fmt::format("expression {}: expected {} inputs, found {}", e.name, e.inputs, inputs.size()));
+        throw std::logic_error(
+            fmt::format("expression {}: expected {} inputs, found {}", e.name, e.inputs, inputs.size()));
     for (const std::vector<float>& column : inputs)
         if (column.size() != inputs[0].size())
             throw std::logic_error("expression " + e.name + ": inputs of different lengths");
@@ -76,13 +78,16 @@ double median(std::vector<double> values, double share = 0.5) {
 } // namespace
 
 Precision precision_of(Build build) {
-    return build == Build::DOUBLE ? Precision::DOUBLE : build == Build::FAST ? Precision::FAST : Precision::SINGLE;
+    return build == Build::DOUBLE ? Precision::DOUBLE
+           : build == Build::FAST ? Precision::FAST
+                                  : Precision::SINGLE;
 }
 
-ProbeSet::ProbeSet(const Device& device, std::vector<std::string> headers, std::vector<ProbedExpression> expressions,
-                   std::string text, std::vector<std::string> defines)
-    : device_(device), headers_(std::move(headers)), expressions_(std::move(expressions)), text_(std::move(text)),
-      defines_(std::move(defines)) {}
+ProbeSet::ProbeSet(const Device& device, std::vector<std::string> headers,
+                   std::vector<ProbedExpression> expressions, std::string text,
+                   std::vector<std::string> defines)
+    : device_(device), headers_(std::move(headers)), expressions_(std::move(expressions)),
+      text_(std::move(text)), defines_(std::move(defines)) {}
 
 const ProbedExpression& ProbeSet::find(const std::string& name) const {
     for (const ProbedExpression& expression : expressions_)
@@ -108,7 +113,8 @@ KernelProbe& ProbeSet::probe(Build build) {
     std::unique_ptr<KernelProbe>& made = probes_[build];
     if (!made) {
         made = std::make_unique<KernelProbe>(device_, headers_, ProbeOptions{precision_of(build), defines_},
-                                             build == Build::NAIVE && naive_kernels_ ? *naive_kernels_ : kernels_under_test());
+                                             build == Build::NAIVE && naive_kernels_ ? *naive_kernels_
+                                                                                     : kernels_under_test());
         made->add_text(text_);
         for (const ProbedExpression& e : expressions_)
             if (build != Build::NAIVE || !e.naive.empty())
@@ -117,18 +123,21 @@ KernelProbe& ProbeSet::probe(Build build) {
     return *made;
 }
 
-Kernel ProbeSet::prepare(Build build, const std::string& kernel, const Columns& inputs, cl::Buffer& out, size_t out_values) {
+Kernel ProbeSet::prepare(Build build, const std::string& kernel, const Columns& inputs, cl::Buffer& out,
+                         size_t out_values) {
     KernelProbe& p = probe(build);
     Kernel made = p.kernel(kernel);
     for (size_t k = 0; k < inputs.size(); ++k)
         made.set(std::string("in_") + input_letter(int(k)), p.upload(inputs[k]));
-    out = create_buffer(device_, "out", out_values * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
+    out =
+        create_buffer(device_, "out", out_values * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
     made.set("out_values", out);
     made.set("count", static_cast<u32>(inputs[0].size()));
     return made;
 }
 
-std::vector<std::vector<double>> ProbeSet::run(Build build, const std::string& expression, const Columns& inputs) {
+std::vector<std::vector<double>> ProbeSet::run(Build build, const std::string& expression,
+                                               const Columns& inputs) {
     const ProbedExpression& e = find(expression);
     const size_t count = length_of(e, inputs);
     cl::Buffer out;
@@ -156,7 +165,9 @@ ProbeTime ProbeSet::time(const std::string& expression, const Columns& inputs, i
     const Build builds[2] = {Build::NAIVE, Build::SINGLE};
     const Kernel kernels[2] = {prepare(builds[0], "time_" + e.name, inputs, outs[0], rounded_items),
                                prepare(builds[1], "time_" + e.name, inputs, outs[1], rounded_items)};
-    const auto launch = [&](int side) { return [&, side] { probe(builds[side]).launch(kernels[side], items); }; };
+    const auto launch = [&](int side) {
+        return [&, side] { probe(builds[side]).launch(kernels[side], items); };
+    };
     return time_in_turns(launch(0), launch(1), count, rounds);
 }
 
@@ -169,8 +180,8 @@ double device_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single, size_t elements,
-                        int rounds) {
+ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single,
+                        size_t elements, int rounds) {
     std::vector<double> seconds[2], ratios;
     for (int round = 0; round <= rounds; ++round) {
         double taken[2];
@@ -185,7 +196,8 @@ ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<
         seconds[1].push_back(taken[1]);
         ratios.push_back(taken[1] / taken[0]);
     }
-    return {median(seconds[0]), median(seconds[1]), median(ratios), median(ratios, 0.25), median(ratios, 0.75)};
+    return {median(seconds[0]), median(seconds[1]), median(ratios), median(ratios, 0.25),
+            median(ratios, 0.75)};
 }
 
 } // namespace clrt

@@ -41,16 +41,16 @@ double relative_difference(const std::vector<float>& a, const std::vector<float>
 }
 
 /// Renders by a variant and by clrt's own kernels in turns.
-RenderCost measure(const Device& device, const RenderVariant& variant, const PreparedRender& own, const ShippedScene& subject,
-                   const Scene& scene) {
+RenderCost measure(const Device& device, const RenderVariant& variant, const PreparedRender& own,
+                   const ShippedScene& subject, const Scene& scene) {
     Device as_told = device;
     as_told.info.correctly_rounded_division &= variant.rounds_correctly;
     Options options = subject.options;
     options.precision = variant.precision;
     std::unique_ptr<PatchedKernels> patched;
     if (variant.contracts) {
-        patched = std::make_unique<PatchedKernels>(
-            std::vector<KernelPatch>{{"numerics/real.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"}});
+        patched = std::make_unique<PatchedKernels>(std::vector<KernelPatch>{
+            {"numerics/real.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"}});
         options.kernels_folder = patched->path();
     }
     const PreparedRender other(scene, options, as_told);
@@ -72,7 +72,8 @@ RenderCost measure(const Device& device, const RenderVariant& variant, const Pre
 
 } // namespace
 
-std::vector<RenderCost> measure_render_costs(const Device& device, const std::function<void(const std::string&)>& tell) {
+std::vector<RenderCost> measure_render_costs(const Device& device,
+                                             const std::function<void(const std::string&)>& tell) {
     std::vector<RenderCost> costs;
     for (const char* name : {"cornell_box", "every_effect"}) {
         ShippedScene subject(name);

@@ -12,14 +12,16 @@ namespace clrt {
 
 /// A picture rendered by other kernels than clrt's own, against clrt's.
 struct RenderCost {
-    std::string choice;  ///< "the compiler may contract a b + c"
-    std::string scene;   ///< of those that clrt ships
-    ProbeTime time;      ///< device_seconds() of a picture: naive is clrt's, single the other one's, ratio other over clrt's
+    std::string choice; ///< "the compiler may contract a b + c"
+    std::string scene;  ///< of those that clrt ships
+    ProbeTime time; ///< device_seconds() of a picture: naive is clrt's, single the other one's, ratio other
+                    ///< over clrt's
     double difference = 0; ///< RMS difference of the pictures over clrt's mean; same random numbers
     double noise = 0;      ///< relative error of clrt's picture, to compare with
 };
 
 /// Renders all of them, a minute or two; `tell` hears which one is next.
-std::vector<RenderCost> measure_render_costs(const Device& device, const std::function<void(const std::string&)>& tell);
+std::vector<RenderCost> measure_render_costs(const Device& device,
+                                             const std::function<void(const std::string&)>& tell);
 
 } // namespace clrt

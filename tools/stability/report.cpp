@@ -31,8 +31,9 @@ Json figure_json(const Figure& figure) {
 }
 
 Json case_json(const CaseResult& result) {
-    Json json{{"id", result.subject->id},         {"name", result.subject->name}, {"set_up", result.subject->set_up},
-              {"oracle", result.subject->oracle}, {"why", result.subject->why},   {"holds", result.holds()},
+    Json json{{"id", result.subject->id},         {"name", result.subject->name},
+              {"set_up", result.subject->set_up}, {"oracle", result.subject->oracle},
+              {"why", result.subject->why},       {"holds", result.holds()},
               {"seconds", result.seconds}};
     if (!result.error.empty())
         json["error"] = result.error;
@@ -44,16 +45,18 @@ Json case_json(const CaseResult& result) {
 std::string format_choice_costs(const StabilityReport& report) {
     if (report.costs.empty())
         return "";
-    std::string lines = fmt::format("\n{:<52} {:>9} {:>9} {:>18} {:>11} {:>11}  of\n", "what robustness costs, against naive", "naive ns",
-                                    "ns", "ratio (quartiles)", "naive error", "error");
+    std::string lines =
+        fmt::format("\n{:<52} {:>9} {:>9} {:>18} {:>11} {:>11}  of\n", "what robustness costs, against naive",
+                    "naive ns", "ns", "ratio (quartiles)", "naive error", "error");
     for (const ChoiceCost& cost : report.costs) {
         const Figure* figure = figure_of(report, *cost.choice);
-        lines += fmt::format("{:<52} {:>9.2f} {:>9.2f} {:>5.2f} ({:.2f}..{:.2f}) {:>11} {:>11}  {}\n",
-                             fmt::format("{}: {}", cost.choice->choice, cost.choice->naive),
-                             cost.time.naive * 1e9, cost.time.single * 1e9, cost.time.ratio, cost.time.ratio_low,
-                             cost.time.ratio_high, figure ? format_worst((*figure)[Build::NAIVE]) : "-",
-                             figure ? format_worst((*figure)[Build::SINGLE]) : "-",
-                             figure ? fmt::format("{} {}", cost.choice->case_id, figure->quantity) : cost.choice->case_id);
+        lines += fmt::format(
+            "{:<52} {:>9.2f} {:>9.2f} {:>5.2f} ({:.2f}..{:.2f}) {:>11} {:>11}  {}\n",
+            fmt::format("{}: {}", cost.choice->choice, cost.choice->naive), cost.time.naive * 1e9,
+            cost.time.single * 1e9, cost.time.ratio, cost.time.ratio_low, cost.time.ratio_high,
+            figure ? format_worst((*figure)[Build::NAIVE]) : "-",
+            figure ? format_worst((*figure)[Build::SINGLE]) : "-",
+            figure ? fmt::format("{} {}", cost.choice->case_id, figure->quantity) : cost.choice->case_id);
     }
     return lines;
 }
@@ -61,13 +64,14 @@ std::string format_choice_costs(const StabilityReport& report) {
 std::string format_render_costs(const StabilityReport& report) {
     if (report.render_costs.empty())
         return "";
-    std::string lines = fmt::format("\n{:<30} {:<14} {:>9} {:>9} {:>18} {:>11} {:>11}\n", "what other kernels would save",
-                                    "scene", takes_cpu_seconds(report) ? "CPU s" : "s", "clrt's", "ratio (quartiles)", "difference",
-                                    "noise");
+    std::string lines = fmt::format(
+        "\n{:<30} {:<14} {:>9} {:>9} {:>18} {:>11} {:>11}\n", "what other kernels would save", "scene",
+        takes_cpu_seconds(report) ? "CPU s" : "s", "clrt's", "ratio (quartiles)", "difference", "noise");
     for (const RenderCost& cost : report.render_costs)
-        lines += fmt::format("{:<30} {:<14} {:>9.3f} {:>9.3f} {:>5.2f} ({:.2f}..{:.2f}) {:>11.2g} {:>11.2g}\n", cost.choice,
-                             cost.scene, cost.time.single, cost.time.naive, cost.time.ratio, cost.time.ratio_low,
-                             cost.time.ratio_high, cost.difference, cost.noise);
+        lines +=
+            fmt::format("{:<30} {:<14} {:>9.3f} {:>9.3f} {:>5.2f} ({:.2f}..{:.2f}) {:>11.2g} {:>11.2g}\n",
+                        cost.choice, cost.scene, cost.time.single, cost.time.naive, cost.time.ratio,
+                        cost.time.ratio_low, cost.time.ratio_high, cost.difference, cost.noise);
     return lines;
 }
 
@@ -79,7 +83,8 @@ bool takes_cpu_seconds(const StabilityReport& report) {
 
 const Figure* figure_of(const StabilityReport& report, const RobustChoice& choice) {
     for (const CaseResult& result : report.cases)
-        if (result.subject->id == std::string(choice.case_id) && size_t(choice.figure) < result.figures.size())
+        if (result.subject->id == std::string(choice.case_id) &&
+            size_t(choice.figure) < result.figures.size())
             return &result.figures[size_t(choice.figure)];
     return nullptr;
 }
@@ -90,18 +95,19 @@ size_t count_broken(const StabilityReport& report) {
 }
 
 std::string format_case_head() {
-    return fmt::format("{:<4} {:<44} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  verdict\n", "case", "figure", "inputs", "naive",
-                       "single", "fast", "double", "limit");
+    return fmt::format("{:<4} {:<44} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  verdict\n", "case", "figure",
+                       "inputs", "naive", "single", "fast", "double", "limit");
 }
 
 std::string format_case(const CaseResult& result) {
     std::string lines;
     const char* id = result.subject->id;
     for (const Figure& figure : result.figures) {
-        lines += fmt::format("{:<4} {:<44} {:>9.3g} {:>9} {:>9} {:>9} {:>9} {:>9.3g}  {}\n", id, figure.quantity,
-                             double(figure[Build::SINGLE].tried), format_worst(figure[Build::NAIVE]),
-                             format_worst(figure[Build::SINGLE]), format_worst(figure[Build::FAST]),
-                             format_worst(figure[Build::DOUBLE]), figure.limit, figure.holds() ? "holds" : "FAILS");
+        lines += fmt::format("{:<4} {:<44} {:>9.3g} {:>9} {:>9} {:>9} {:>9} {:>9.3g}  {}\n", id,
+                             figure.quantity, double(figure[Build::SINGLE].tried),
+                             format_worst(figure[Build::NAIVE]), format_worst(figure[Build::SINGLE]),
+                             format_worst(figure[Build::FAST]), format_worst(figure[Build::DOUBLE]),
+                             figure.limit, figure.holds() ? "holds" : "FAILS");
         if (!figure.holds())
             lines += fmt::format("     worst in single: {}; in double: {}\n", figure[Build::SINGLE].input,
                                  figure[Build::DOUBLE].input);
@@ -118,8 +124,9 @@ std::string format_costs(const StabilityReport& report) {
 
 std::string format_summary(const StabilityReport& report) {
     const size_t broken = count_broken(report);
-    return fmt::format("{} of {} cases hold{}, {} tier, {:.1f} s\n", report.cases.size() - broken, report.cases.size(),
-                       broken ? fmt::format(", {} FAIL", broken) : "", tier_name(report.tier), report.seconds);
+    return fmt::format("{} of {} cases hold{}, {} tier, {:.1f} s\n", report.cases.size() - broken,
+                       report.cases.size(), broken ? fmt::format(", {} FAIL", broken) : "",
+                       tier_name(report.tier), report.seconds);
 }
 
 std::string format_catalogue() {
@@ -138,7 +145,9 @@ std::string report_json(const StabilityReport& report) {
     Json json{{"version", CLRT_VERSION},
               {"command", report.command},
               {"device",
-               {{"platform", report.device.platform}, {"name", report.device.name}, {"driver", report.device.driver}}},
+               {{"platform", report.device.platform},
+                {"name", report.device.name},
+                {"driver", report.device.driver}}},
               {"tier", tier_name(report.tier)},
               {"seconds", report.seconds},
               {"holds", count_broken(report) == 0}};
@@ -166,7 +175,8 @@ std::string report_json(const StabilityReport& report) {
     for (const CaseGroup& group : catalogue())
         for (const StabilityCase& subject : group.cases)
             if (subject.waits_for)
-                json["waiting"].push_back({{"id", subject.id}, {"name", subject.name}, {"for", subject.waits_for}});
+                json["waiting"].push_back(
+                    {{"id", subject.id}, {"name", subject.name}, {"for", subject.waits_for}});
     return json.dump(2) + "\n";
 }
 

@@ -10,8 +10,8 @@
 
 namespace clrt {
 
-/// Their names, sorted: folders NAME with NAME.obj beside the installed program (../share/clrt/scenes), else in the source
-/// tree. Throws SceneError where there is neither.
+/// Their names, sorted: folders NAME with NAME.obj beside the installed program (../share/clrt/scenes), else
+/// in the source tree. Throws SceneError where there is neither.
 std::vector<std::string> shipped_scenes();
 
 /// A shipped scene with its options, as `clrt NAME.obj` would read them.

@@ -14,7 +14,8 @@ const char* build_name(Build build) {
 
 bool Figure::holds() const {
     const Figure& self = *this;
-    return self[Build::SINGLE].tried > 0 && self[Build::SINGLE].value <= limit && self[Build::DOUBLE].value <= limit;
+    return self[Build::SINGLE].tried > 0 && self[Build::SINGLE].value <= limit &&
+           self[Build::DOUBLE].value <= limit;
 }
 
 size_t CaseRun::count(double quick, double night, double at_length) const {

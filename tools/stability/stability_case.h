@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One hard case of the catalogue: what is set up, what judges it, which figure passes, and what each build of the kernels gave.
+// One hard case of the catalogue: what is set up, what judges it, which figure passes, and what each build of
+// the kernels gave.
 #pragma once
 
 #include "device/device.h"
@@ -16,7 +17,8 @@ namespace clrt {
 /// How many inputs the cases try: minutes, an hour or so, hours in all.
 enum class Tier { QUICK, NIGHT, LONG };
 
-/// What is compared: the textbook's formula in float, clrt's kernels, the same with relaxed maths, the same in double.
+/// What is compared: the textbook's formula in float, clrt's kernels, the same with relaxed maths, the same
+/// in double.
 enum class Build { NAIVE, SINGLE, FAST, DOUBLE };
 constexpr Build ALL_BUILDS[] = {Build::NAIVE, Build::SINGLE, Build::FAST, Build::DOUBLE};
 constexpr size_t BUILD_COUNT = 4;
@@ -30,7 +32,8 @@ struct Worst {
     std::uint64_t tried = 0;
     std::string input; ///< the worst one; hex floats where the bits matter
 
-    /// Takes in one deviation (>= 0, or NaN); `describe()` is asked for its input when it is the worst so far.
+    /// Takes in one deviation (>= 0, or NaN); `describe()` is asked for its input when it is the worst so
+    /// far.
     template <class Describe>
     void see(double deviation, const Describe& describe) {
         ++tried;

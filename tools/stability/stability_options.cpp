@@ -71,7 +71,9 @@ StabilityOptions parse_stability_options(int argc, const char* const* argv) {
     const auto one_value = [](CLI::Option* option) { option->expected(1)->take_last(); };
     one_value(app.add_option("--device,-d", options.device));
     one_value(app.add_option("--tier", tier));
-    app.add_option("--case", options.cases)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--case", options.cases)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     one_value(app.add_option("--output,-o", options.page_path));
     one_value(app.add_option("--stats", options.stats_path));
     one_value(app.add_option("--kernels", options.kernels_folder));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that is sampled from both ends: corners, where a connection may be as short as one likes, and what must hold once
-// there is a bidirectional integrator.
+// Light that is sampled from both ends: corners, where a connection may be as short as one likes, and what
+// must hold once there is a bidirectional integrator.
 #include "stability/catalogue.h"
 #include "stability/probe_set.h"
 
@@ -14,8 +14,8 @@ namespace clrt {
 
 namespace {
 
-/// A matte unit square under another of radiance 1, opposite or at an edge; the picture is that square, seen in plan from
-/// between the two: every pixel shows the same area, so its mean is the form factor.
+/// A matte unit square under another of radiance 1, opposite or at an edge; the picture is that square, seen
+/// in plan from between the two: every pixel shows the same area, so its mean is the form factor.
 struct LitSquare : TestScene {
     explicit LitSquare(bool opposite) {
         build.material("matte", "Kd 1 1 1").material("lamp", "Kd 0 0 0\nKe 1 1 1");
@@ -33,7 +33,8 @@ struct LitSquare : TestScene {
 /// Next-event estimation alone: no weights, and paths that hit a light by chance count nothing.
 const std::vector<KernelPatch> LIGHT_SAMPLING_ONLY = {
     {"integrators/path.h", "light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w)", "REAL(1.0)"},
-    {"integrators/path.h", "return emitted * mis_weight(pdf_w, light_pdf_w);", "return emitted * REAL(0.0) * light_pdf_w;"}};
+    {"integrators/path.h", "return emitted * mis_weight(pdf_w, light_pdf_w);",
+     "return emitted * REAL(0.0) * light_pdf_w;"}};
 
 /// The largest of single samples over their mean.
 double largest_sample(const Film& film) {
@@ -49,17 +50,21 @@ void corners(CaseRun& run) {
     const PatchedKernels light_sampling(LIGHT_SAMPLING_ONLY);
     Figure& z = run.figure("standard errors off", 6);
     Figure& contribution = run.figure("largest sample over the mean", 50);
-    for (const Arrangement& arrangement : {Arrangement{false, 0.2000437761}, Arrangement{true, 0.1998248957}}) {
+    for (const Arrangement& arrangement :
+         {Arrangement{false, 0.2000437761}, Arrangement{true, 0.1998248957}}) {
         const LitSquare subject(arrangement.opposite);
         const Scene scene = subject.load();
         for (const Build build : run.builds()) {
-            const auto describe = [&] { return std::string(arrangement.opposite ? "opposite" : "at a right angle"); };
+            const auto describe = [&] {
+                return std::string(arrangement.opposite ? "opposite" : "at a right angle");
+            };
             Options options = subject.options;
             options.precision = precision_of(build);
             options.kernels_folder = build == Build::NAIVE ? light_sampling.path() : "";
             options.spp = std::uint32_t(run.count(1024, 16384, 262144));
             const Estimate mean = film_estimate(PreparedRender(scene, options).run().film);
-            const double miss = std::abs(mean.mean - arrangement.form_factor) - RENDER_ROUNDING * arrangement.form_factor;
+            const double miss =
+                std::abs(mean.mean - arrangement.form_factor) - RENDER_ROUNDING * arrangement.form_factor;
             z[build].see(std::max(miss, 0.0) / mean.error, describe);
             options.spp = std::uint32_t(options.replicates); // every sample has sums of its own
             options.size = {128, 128};
@@ -75,15 +80,18 @@ constexpr const char* BIDIRECTIONAL = "a bidirectional integrator";
 const std::vector<StabilityCase>& bidirectional_cases() {
     static const std::vector<StabilityCase> cases = {
         {"B01", "Corners", "a unit square lit by another, opposite and at a common edge, by path tracing",
-         "form factors 0.1998248957 and 0.2000437761", "6 standard errors of 64 replicates; multiple importance sampling "
-         "bounds a sample where light sampling alone (naive) has none near the edge", corners},
-        {"B02", "CoincidentVertices", "vertices to connect at the same place", "none; counted", "", nullptr, BIDIRECTIONAL},
-        {"B03", "IntegratorsAgree", "six scenes by path tracing, light tracing, bidirectional and Metropolis", "each other", "",
-         nullptr, "integrators that trace from lights"},
-        {"B04", "WeightsSumToOne", "all strategies of paths up to 20 vertices, densities 1e-30 to 1e30", "1", "", nullptr,
+         "form factors 0.1998248957 and 0.2000437761",
+         "6 standard errors of 64 replicates; multiple importance sampling "
+         "bounds a sample where light sampling alone (naive) has none near the edge",
+         corners},
+        {"B02", "CoincidentVertices", "vertices to connect at the same place", "none; counted", "", nullptr,
          BIDIRECTIONAL},
-        {"B05", "DeltaChains", "light through glass, mirror and glass; other windows and sizes", "the same mean", "", nullptr,
-         BIDIRECTIONAL},
+        {"B03", "IntegratorsAgree", "six scenes by path tracing, light tracing, bidirectional and Metropolis",
+         "each other", "", nullptr, "integrators that trace from lights"},
+        {"B04", "WeightsSumToOne", "all strategies of paths up to 20 vertices, densities 1e-30 to 1e30", "1",
+         "", nullptr, BIDIRECTIONAL},
+        {"B05", "DeltaChains", "light through glass, mirror and glass; other windows and sizes",
+         "the same mean", "", nullptr, BIDIRECTIONAL},
         {"B06", "ShadingNormals", "smooth normals traced from lights", "path tracing", "", nullptr,
          "integrators that trace from lights"},
     };

@@ -20,8 +20,9 @@ double expected_albedo(const LobeSet& set, double cosine, double azimuth) {
         return rough_reflection_albedo(surface, [&](double c) { return fresnel_reflectance(c, set.eta); }) +
                rough_transmission_albedo(surface, set.eta);
     return set.matte.x + rough_reflection_albedo(surface, [&](double c) {
-               return set.fresnel == FRESNEL_SCHLICK ? set.specular.x + (1 - set.specular.x) * std::pow(1 - c, 5)
-                                                     : set.specular.x;
+               return set.fresnel == FRESNEL_SCHLICK
+                          ? set.specular.x + (1 - set.specular.x) * std::pow(1 - c, 5)
+                          : set.specular.x;
            });
 }
 
@@ -46,18 +47,20 @@ void bsdf_furnace(CaseRun& run) {
             if ((sets[set].lobes & LOBE_MATTE) && (sets[set].lobes & LOBE_MIRROR))
                 continue;
             const bool is_rough = is_smooth(sets[set]) && sets[set].lobes != LOBE_MATTE;
-            BsdfInputs
-                inputs; // a lattice: of squares for one lobe, else in three dimensions (Roberts' generalised golden ratio)
+            BsdfInputs inputs; // a lattice: of squares for one lobe, else in three dimensions (Roberts'
+                               // generalised golden ratio)
             const size_t side = size_t(std::sqrt(double(count)));
             for (size_t i = 0; i < (is_rough ? count : 1024); ++i) {
                 const double n = double(i) + 0.5;
                 const auto part = [&](double ratio) {
                     return std::min(n * ratio - std::floor(n * ratio), 1 - FLOAT_U) + FLOAT_U / 2;
                 };
-                const dvec3 square(0.5, (double(i % side) + 0.5) / double(side), (double(i / side) + 0.5) / double(side));
+                const dvec3 square(0.5, (double(i % side) + 0.5) / double(side),
+                                   (double(i / side) + 0.5) / double(side));
                 inputs.add(set, 0, direction_at(cosine, 0.5),
-                           sets[set].lobes == LOBE_GLOSSY ? square
-                                                          : dvec3(part(0.8191725134), part(0.6710436067), part(0.5497004779)));
+                           sets[set].lobes == LOBE_GLOSSY
+                               ? square
+                               : dvec3(part(0.8191725134), part(0.6710436067), part(0.5497004779)));
             }
             const double expected = is_rough                        ? expected_albedo(sets[set], cosine, 0.5)
                                     : sets[set].lobes == LOBE_MATTE ? sets[set].matte.x
@@ -70,7 +73,8 @@ void bsdf_furnace(CaseRun& run) {
                 for (size_t i = 0; i < inputs.size(); ++i) {
                     sum += energy(got, i);
                     if (!is_rough)
-                        lossless[build].see(std::abs(energy(got, i) - expected), [&] { return inputs.describe(i); });
+                        lossless[build].see(std::abs(energy(got, i) - expected),
+                                            [&] { return inputs.describe(i); });
                 }
                 if (is_rough)
                     (sets[set].lobes == LOBE_GLOSSY ? albedo : sums)[build].see(
@@ -81,27 +85,35 @@ void bsdf_furnace(CaseRun& run) {
 
 void coloured_lobes(CaseRun& run) {
     Figure& excess = run.figure("weight of a sample over the sum of both lobes' sizes", 1 + 8 * FLOAT_U);
-    ProbeSet probes(
-        run.device, {"scattering/bsdf.h"},
-        {{"coloured", 7, 1,
-          "Bsdf bsdf; bsdf.normal_g = vector_make(REAL(0.0), REAL(0.0), REAL(1.0)); bsdf.frame = frame_make(bsdf.normal_g);"
-          "bsdf.wo = vector_make(REAL(0.6), REAL(0.0), REAL(0.8)); bsdf.is_curved = false; bsdf.flags = 0u; bsdf.fresnel = "
-          "FRESNEL_NONE;"
-          "bsdf.lobes = LOBE_MATTE | LOBE_MIRROR; bsdf.alpha_x = bsdf.alpha_y = REAL(0.0); bsdf.eta = REAL(1.0); bsdf.exponent "
-          "= REAL(0.0);"
-          "bsdf.matte = vector_make(a, b, c); bsdf.specular = vector_make(d, e, f); bsdf.transmission = bsdf.matte;"
-          "bsdf_choose_lobes(&bsdf); const BsdfSample s = bsdf_sample(&bsdf, g, (real2)(REAL(0.3), REAL(0.4)));"
-          "out[0] = vector_max_component(s.weight) / (vector_length(bsdf.matte) + vector_length(bsdf.specular));",
-          "const real m = vector_luminance(vector_make(a, b, c)), r = vector_luminance(vector_make(d, e, f)), p = m / (m + r);"
-          "out[0] = (g < p ? vector_max_component(vector_make(a, b, c)) / p : vector_max_component(vector_make(d, e, f)) / "
-          "(REAL(1.0) - p)) /"
-          "(vector_length(vector_make(a, b, c)) + vector_length(vector_make(d, e, f)));"}});
+    ProbeSet probes(run.device, {"scattering/bsdf.h"},
+                    {{"coloured", 7, 1,
+                      "Bsdf bsdf; bsdf.normal_g = vector_make(REAL(0.0), REAL(0.0), REAL(1.0)); bsdf.frame = "
+                      "frame_make(bsdf.normal_g);"
+                      "bsdf.wo = vector_make(REAL(0.6), REAL(0.0), REAL(0.8)); bsdf.is_curved = false; "
+                      "bsdf.flags = 0u; bsdf.fresnel = "
+                      "FRESNEL_NONE;"
+                      "bsdf.lobes = LOBE_MATTE | LOBE_MIRROR; bsdf.alpha_x = bsdf.alpha_y = REAL(0.0); "
+                      "bsdf.eta = REAL(1.0); bsdf.exponent "
+                      "= REAL(0.0);"
+                      "bsdf.matte = vector_make(a, b, c); bsdf.specular = vector_make(d, e, f); "
+                      "bsdf.transmission = bsdf.matte;"
+                      "bsdf_choose_lobes(&bsdf); const BsdfSample s = bsdf_sample(&bsdf, g, "
+                      "(real2)(REAL(0.3), REAL(0.4)));"
+                      "out[0] = vector_max_component(s.weight) / (vector_length(bsdf.matte) + "
+                      "vector_length(bsdf.specular));",
+                      "const real m = vector_luminance(vector_make(a, b, c)), r = "
+                      "vector_luminance(vector_make(d, e, f)), p = m / (m + r);"
+                      "out[0] = (g < p ? vector_max_component(vector_make(a, b, c)) / p : "
+                      "vector_max_component(vector_make(d, e, f)) / "
+                      "(REAL(1.0) - p)) /"
+                      "(vector_length(vector_make(a, b, c)) + vector_length(vector_make(d, e, f)));"}});
     Columns inputs(7);
     for (int matte = 1; matte < 8; ++matte)
         for (int mirror = 1; mirror < 8; ++mirror)
             for (int k = 0; k < 64; ++k) {
-                const double row[] = {double(matte & 1),       double(matte >> 1 & 1), double(matte >> 2), double(mirror & 1),
-                                      double(mirror >> 1 & 1), double(mirror >> 2),    (k + 0.5) / 64};
+                const double row[] = {double(matte & 1),  double(matte >> 1 & 1),  double(matte >> 2),
+                                      double(mirror & 1), double(mirror >> 1 & 1), double(mirror >> 2),
+                                      (k + 0.5) / 64};
                 for (size_t c = 0; c < 7; ++c)
                     inputs[c].push_back(float(row[c]));
             }
@@ -109,8 +121,8 @@ void coloured_lobes(CaseRun& run) {
         const std::vector<double> got = probes.run(build, "coloured", inputs)[0];
         for (size_t i = 0; i < got.size(); ++i)
             excess[build].see(got[i], [&] {
-                return fmt::format("Kd {} {} {}, Ks {} {} {}", inputs[0][i], inputs[1][i], inputs[2][i], inputs[3][i],
-                                   inputs[4][i], inputs[5][i]);
+                return fmt::format("Kd {} {} {}, Ks {} {} {}", inputs[0][i], inputs[1][i], inputs[2][i],
+                                   inputs[3][i], inputs[4][i], inputs[5][i]);
             });
     }
 }

@@ -61,20 +61,26 @@ void extreme_angles(CaseRun& run) {
         options.filter_radius = 0; // the box filter of this radius is the pixel's centre
         const RenderParams params = make_render_params(scene, options, FilmScale());
         const glm::dvec3 look = glm::normalize(scene.camera.at - scene.camera.eye);
-        const glm::dvec3 right = glm::normalize(glm::cross(look, scene.camera.up)), up = glm::cross(right, look);
+        const glm::dvec3 right = glm::normalize(glm::cross(look, scene.camera.up)),
+                         up = glm::cross(right, look);
         const double pixel = 2 * std::tan(fov * PI / 360) / side;
         for (const Build build : robust_builds(run)) {
-            const std::vector<glm::dvec3> found = build == Build::DOUBLE ? directions<double>(run, Precision::DOUBLE, params)
-                                                  : directions<float>(run, build == Build::FAST ? Precision::FAST : Precision::SINGLE, params);
+            const std::vector<glm::dvec3> found =
+                build == Build::DOUBLE
+                    ? directions<double>(run, Precision::DOUBLE, params)
+                    : directions<float>(run, build == Build::FAST ? Precision::FAST : Precision::SINGLE,
+                                        params);
             std::set<std::array<double, 3>> distinct;
             for (size_t i = 0; i < found.size(); ++i) {
-                const double x = double(i % size_t(side)) + 0.5 - 0.5 * side, y = 0.5 * side - double(i / size_t(side)) - 0.5;
+                const double x = double(i % size_t(side)) + 0.5 - 0.5 * side,
+                             y = 0.5 * side - double(i / size_t(side)) - 0.5;
                 const glm::dvec3 d = glm::normalize(look + right * (x * pixel) + up * (y * pixel));
                 angle[build].see(std::atan2(glm::length(glm::cross(d, found[i])), glm::dot(d, found[i])),
                                  [&] { return fmt::format("{} degrees, pixel {}", fov, i); });
                 distinct.insert({found[i].x, found[i].y, found[i].z});
             }
-            equal[build].see(1 - double(distinct.size()) / double(found.size()), [&] { return fmt::format("{} degrees", fov); });
+            equal[build].see(1 - double(distinct.size()) / double(found.size()),
+                             [&] { return fmt::format("{} degrees", fov); });
         }
     }
 }
@@ -82,8 +88,10 @@ void extreme_angles(CaseRun& run) {
 void look_along_up(CaseRun& run) {
     Figure& orthonormal = run.figure("departure from orthonormal film vectors", 4 * FLOAT_U);
     for (const double sine : {0.0, 1e-7, 1e-6, 1e-5})
-        for (const glm::dvec3& up : {glm::dvec3(0, 1, 0), {0, -1, 0}, {1, 0, 0}, {0, 0, 1}, {0.3, -0.5, 0.8}}) {
-            const glm::dvec3 n = glm::normalize(up), aside = glm::normalize(glm::cross(n, glm::dvec3(0.4, 0.3, 0.9)));
+        for (const glm::dvec3& up :
+             {glm::dvec3(0, 1, 0), {0, -1, 0}, {1, 0, 0}, {0, 0, 1}, {0.3, -0.5, 0.8}}) {
+            const glm::dvec3 n = glm::normalize(up),
+                             aside = glm::normalize(glm::cross(n, glm::dvec3(0.4, 0.3, 0.9)));
             Options options;
             options.size = {64, 64};
             options.camera.eye = glm::dvec3(1, 2, 3);
@@ -92,13 +100,17 @@ void look_along_up(CaseRun& run) {
             options.camera.fov_degrees = 90;
             NoticeList notices;
             Scene scene;
-            scene.camera = fit_camera(options.camera, options.size, {glm::dvec3(-1), glm::dvec3(1)}, BoxCover{}, notices);
+            scene.camera = fit_camera(options.camera, options.size, {glm::dvec3(-1), glm::dvec3(1)},
+                                      BoxCover{}, notices);
             const RenderParams params = make_render_params(scene, options, FilmScale());
-            const glm::dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0, z = to_dvec3(params.look);
-            for (const double departure : {glm::dot(x, x) - 1, glm::dot(y, y) - 1, glm::dot(z, z) - 1, glm::dot(x, y),
-                                           glm::dot(y, z), glm::dot(z, x), glm::dot(glm::cross(x, y), z) - 1})
-                orthonormal[Build::SINGLE].see(std::abs(departure),
-                                               [&] { return fmt::format("up {}, {}, {}, sine {}", up.x, up.y, up.z, sine); });
+            const glm::dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0,
+                             z = to_dvec3(params.look);
+            for (const double departure :
+                 {glm::dot(x, x) - 1, glm::dot(y, y) - 1, glm::dot(z, z) - 1, glm::dot(x, y), glm::dot(y, z),
+                  glm::dot(z, x), glm::dot(glm::cross(x, y), z) - 1})
+                orthonormal[Build::SINGLE].see(std::abs(departure), [&] {
+                    return fmt::format("up {}, {}, {}, sine {}", up.x, up.y, up.z, sine);
+                });
         }
 }
 
@@ -107,15 +119,18 @@ void look_along_up(CaseRun& run) {
 const std::vector<StabilityCase>& camera_cases() {
     constexpr const char* LENS = "a thin lens";
     static const std::vector<StabilityCase> cases = {
-        {"K01", "ExtremeAngles", "angles of view of 1e-3 and 179.9 degrees, a camera away from all axes, pixel centres",
+        {"K01", "ExtremeAngles",
+         "angles of view of 1e-3 and 179.9 degrees, a camera away from all axes, pixel centres",
          "the pinhole in double", "a direction in float is good to 1e-7 rad", extreme_angles},
-        {"K02", "LookAlongUp", "an up vector along the view, and 1e-7 to 1e-5 beside it", "orthonormal film vectors",
-         "computed in double, rounded once: products of two have 4 u", look_along_up},
+        {"K02", "LookAlongUp", "an up vector along the view, and 1e-7 to 1e-5 beside it",
+         "orthonormal film vectors", "computed in double, rounded once: products of two have 4 u",
+         look_along_up},
         {"K03", "LensRadiusZero", "a lens of radius 0", "the pinhole", "", nullptr, LENS},
         {"K04", "OddFocus", "focus at 0, at infinity, at 1e7", "a message; parallel rays", "", nullptr, LENS},
-        {"K05", "BlurCircle", "a point at S2, focus at S1, aperture A", "A |S2 - S1| / S2 on the focus plane", "", nullptr, LENS},
-        {"K06", "ShutterZero", "a shutter of length 0, the ends of its time", "the static picture", "", nullptr,
-         "moving geometry and a shutter"},
+        {"K05", "BlurCircle", "a point at S2, focus at S1, aperture A", "A |S2 - S1| / S2 on the focus plane",
+         "", nullptr, LENS},
+        {"K06", "ShutterZero", "a shutter of length 0, the ends of its time", "the static picture", "",
+         nullptr, "moving geometry and a shutter"},
     };
     return cases;
 }

@@ -22,7 +22,9 @@ void count_different_sums(const Film& a, const Film& b, const std::string& name,
 
 /// A room with a lamp and a box.
 TestScene& make_room_scene(TestScene& scene) {
-    scene.build.material("white", "Kd 0.7 0.7 0.7").material("red", "Kd 0.6 0.1 0.1").material("lamp", "Kd 0 0 0\nKe 8 7 5");
+    scene.build.material("white", "Kd 0.7 0.7 0.7")
+        .material("red", "Kd 0.6 0.1 0.1")
+        .material("lamp", "Kd 0 0 0\nKe 8 7 5");
     scene.build.use("white").box({-1, 0, -1}, {1, 2, 1}, Facing::INWARD);
     scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
     scene.build.use("red").box({-0.5, 0.01, -0.5}, {0.1, 0.8, 0.2});
@@ -43,7 +45,8 @@ void zero_area(CaseRun& run) {
     for (size_t i = 0; i < count; ++i) {
         const glm::dvec3 p = random.in_cube(0.4) + glm::dvec3(0, 1, 0);
         if (i % 2) // on a line: exact, as corners are on a lattice
-            faces += fmt::format("v {0} 1 0.5\nv {1} 1 0.5\nv {2} 1 0.5\nf -3 -2 -1\n", p.x, p.x + 0.25, p.x - 0.5);
+            faces += fmt::format("v {0} 1 0.5\nv {1} 1 0.5\nv {2} 1 0.5\nf -3 -2 -1\n", p.x, p.x + 0.25,
+                                 p.x - 0.5);
         else
             faces += fmt::format("v {0} {1} {2}\nv {0} {1} {2}\nv {2} {1} {0}\nf -3 -2 -1\n", p.x, p.y, p.z);
     }
@@ -52,19 +55,22 @@ void zero_area(CaseRun& run) {
     count_different_sums(expected, render_loaded(scene, with.options).film, "room",
                          run.figure("sums of the film that differ in any bit", 0)[Build::SINGLE]);
     run.figure("triangles that are not counted", 0)[Build::SINGLE].see(
-        double(count) - double(std::min(count, scene.statistics.degenerate_triangles)), [] { return "room"; });
+        double(count) - double(std::min(count, scene.statistics.degenerate_triangles)),
+        [] { return "room"; });
 
     const Scene soup = make_soup(2000, 0.3, 1);
     Scene spoiled = soup;
     for (int i = 0; i < 10000; ++i) {
-        const u32 a = u32(random.word() % spoiled.positions.size()), b = u32(random.word() % spoiled.positions.size());
+        const u32 a = u32(random.word() % spoiled.positions.size()),
+                  b = u32(random.word() % spoiled.positions.size());
         add_triangle(spoiled, a, i % 2 == 0 ? a : b, a);
     }
     const std::vector<TestRay> rays = rays_at(spoiled, run.count(2e4, 1e5, 1e6), 1);
     Figure& hits = run.figure("rays whose hit differs in any bit", 0);
     for (const Build build : robust_builds(run))
         for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const std::vector<TestHit> a = RayDevice(soup, options).closest(rays), b = RayDevice(spoiled, options).closest(rays);
+            const std::vector<TestHit> a = RayDevice(soup, options).closest(rays),
+                                       b = RayDevice(spoiled, options).closest(rays);
             for (size_t i = 0; i < rays.size(); ++i)
                 hits[build].count(a[i] != b[i], [&] { return tree + ": " + ray_text(rays[i]); });
         });
@@ -75,17 +81,20 @@ std::string garbage_obj(Random& random, bool bad_indices) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const auto number = [&] {
         const u32 bits = random.word();
-        return bits % 4 ? fmt::format("{}", bits_to_float(random.word())) : fmt::format("{}", random.between(-1, 1));
+        return bits % 4 ? fmt::format("{}", bits_to_float(random.word()))
+                        : fmt::format("{}", random.between(-1, 1));
     };
     for (int i = 0; i < 40; ++i)
-        text += fmt::format("v {} {} {}\nvn {} {} {}\nvt {} {}\n", number(), number(), number(), number(), number(), number(),
-                            number(), number());
+        text += fmt::format("v {} {} {}\nvn {} {} {}\nvt {} {}\n", number(), number(), number(), number(),
+                            number(), number(), number(), number());
     for (int i = 0; i < 40; ++i) {
         const auto corner = [&] {
             return bad_indices && random.word() % 50 == 0 ? std::to_string(int(random.word()))
                                                           : std::to_string(random.word() % 43 + 1);
         };
-        const auto vertex = [&] { return fmt::format("{}/{}/{}", corner(), random.word() % 40 + 1, random.word() % 40 + 1); };
+        const auto vertex = [&] {
+            return fmt::format("{}/{}/{}", corner(), random.word() % 40 + 1, random.word() % 40 + 1);
+        };
         text += fmt::format("f {} {} {}\n", vertex(), vertex(), vertex());
     }
     return text;
@@ -116,7 +125,8 @@ void garbage(CaseRun& run) {
         } catch (const SceneError&) {
             unexpected[Build::SINGLE].count(false, describe);
         } catch (const std::exception& error) {
-            unexpected[Build::SINGLE].count(true, [&] { return fmt::format("scene {}: {}", k, error.what()); });
+            unexpected[Build::SINGLE].count(true,
+                                            [&] { return fmt::format("scene {}: {}", k, error.what()); });
         }
     }
     run.figure("scenes that did not become a picture, of all", 0.9)[Build::SINGLE].see(
@@ -140,7 +150,8 @@ void duplicates(CaseRun& run) {
     Random random(3);
     std::vector<TestRay> rays;
     for (int i = 0; i < 64; ++i)
-        rays.push_back(make_ray_to(random.in_cube(0.5) + glm::dvec3(0, 0, 3), {random.between(-0.2, 0.2), -0.3, 0}));
+        rays.push_back(
+            make_ray_to(random.in_cube(0.5) + glm::dvec3(0, 0, 3), {random.between(-0.2, 0.2), -0.3, 0}));
     Figure& wrong = run.figure("hits of a copy", 0);
     Figure& depth = run.figure("depth of the tree", 64);
     for (const Build build : robust_builds(run))
@@ -166,11 +177,13 @@ void needles(CaseRun& run) {
     for (const Aim aim : {Aim::VERTEX, Aim::EDGE}) {
         const std::vector<TestRay> rays = aimed_rays(ball, 0.5, aim, run.count(2e4, 1e6, 1e6), 7);
         for (const Build build : run.builds())
-            for_each_tree(build, plain_triangles(), [&](const RayDeviceOptions& options, const std::string& tree) {
-                const std::vector<TestHit> hits = RayDevice(ball, options).closest(rays);
-                for (size_t i = 0; i < rays.size(); ++i)
-                    lost[build].count(hits[i].triangle == NO_INDEX, [&] { return tree + ": " + ray_text(rays[i]); });
-            });
+            for_each_tree(build, plain_triangles(),
+                          [&](const RayDeviceOptions& options, const std::string& tree) {
+                              const std::vector<TestHit> hits = RayDevice(ball, options).closest(rays);
+                              for (size_t i = 0; i < rays.size(); ++i)
+                                  lost[build].count(hits[i].triangle == NO_INDEX,
+                                                    [&] { return tree + ": " + ray_text(rays[i]); });
+                          });
     }
 }
 
@@ -178,7 +191,8 @@ void coplanar_twins(CaseRun& run) {
     Scene scene = make_tilted_plane(16);
     const u32 count = u32(scene.triangles.size());
     Random random(4);
-    // Each triangle once more, in another order and with its corners in another order, which turns the winding too.
+    // Each triangle once more, in another order and with its corners in another order, which turns the
+    // winding too.
     std::vector<Triangle> twins = scene.triangles;
     for (u32 i = count - 1; i > 0; --i)
         std::swap(twins[i], twins[random.word() % (i + 1)]);
@@ -203,13 +217,14 @@ void nothing(CaseRun& run) {
             add_triangle(scene, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5});
         const std::vector<TestRay> rays = rays_at(scene, 10000, 5);
         for (const Build build : robust_builds(run))
-            for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-                const RayDevice device(scene, options);
-                const std::vector<u32> any = device.any(rays);
-                const std::vector<TestHit> found = device.closest(rays);
-                for (size_t i = 0; i < rays.size(); ++i)
-                    hits[build].count(any[i] || found[i].triangle != NO_INDEX, [&] { return tree; });
-            });
+            for_each_tree(
+                build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
+                    const RayDevice device(scene, options);
+                    const std::vector<u32> any = device.any(rays);
+                    const std::vector<TestHit> found = device.closest(rays);
+                    for (size_t i = 0; i < rays.size(); ++i)
+                        hits[build].count(any[i] || found[i].triangle != NO_INDEX, [&] { return tree; });
+                });
     }
     Scene triangle = make_empty_scene();
     add_triangle(triangle, {-1, -1, 0.25}, {1, -1, 0.25}, {0, 1, 0.25});
@@ -229,15 +244,17 @@ void nothing(CaseRun& run) {
     const std::vector<float> picture = film_mean(scene.render().film);
     Figure& background = run.figure("difference from the background", 0);
     for (size_t i = 0; i < picture.size(); ++i)
-        background[Build::SINGLE].see(std::abs(picture[i] - 0.25 * double(i % 3 + 1)), [&] { return fmt::format("value {}", i); });
+        background[Build::SINGLE].see(std::abs(picture[i] - 0.25 * double(i % 3 + 1)),
+                                      [&] { return fmt::format("value {}", i); });
 }
 
 /// A lit quad whose corners have this normal ("" for none).
 TestScene& make_quad_with_normal(TestScene& scene, const std::string& normal) {
     scene.build.material("matte", "Kd 0.5 0.6 0.7\nKs 0.2 0.2 0.2\nNs 10\nillum 2").use("matte");
     const std::string n = normal.empty() ? "" : "//-1";
-    scene.build.raw("v -1 0 1\nv 1 0 1\nv 1 0.5 -1\nv -1 0.5 -1\n" + (normal.empty() ? "" : "vn " + normal + "\n") + "f -4" + n +
-                    " -3" + n + " -2" + n + " -1" + n);
+    scene.build.raw("v -1 0 1\nv 1 0 1\nv 1 0.5 -1\nv -1 0.5 -1\n" +
+                    (normal.empty() ? "" : "vn " + normal + "\n") + "f -4" + n + " -3" + n + " -2" + n +
+                    " -1" + n);
     scene.options.light.environment = glm::dvec3(0.4);
     scene.options.light.suns.push_back({{0.2, 1, 0.1}, {1, 1, 1}, 0});
     scene.look({0.3, 2, 2}, {0, 0.2, 0}, 40);
@@ -253,7 +270,8 @@ void bad_normals(CaseRun& run) {
     Figure& differing = run.figure("sums that differ from the geometric normal's", 0);
     Figure& bad = run.figure("bad samples", 0);
     Figure& silent = run.figure("fallbacks without a notice", 0);
-    for (const char* normal : {"0 0 0", "nan 0 1", "inf 0 0", "1e-42 0 0", "0 -1e30 1e-30", "0 -0.970142 -0.242536"}) {
+    for (const char* normal :
+         {"0 0 0", "nan 0 1", "inf 0 0", "1e-42 0 0", "0 -1e30 1e-30", "0 -0.970142 -0.242536"}) {
         TestScene scene;
         make_quad_with_normal(scene, normal);
         const Scene loaded = scene.load();
@@ -261,10 +279,11 @@ void bad_normals(CaseRun& run) {
         bad[Build::SINGLE].see(double(render.counts.bad()), [&] { return normal; });
         if (normal[1] == 'a' || normal[0] == 'i' || std::string(normal) == "0 0 0") {
             count_different_sums(expected, render.film, normal, differing[Build::SINGLE]);
-            silent[Build::SINGLE].count(
-                std::none_of(loaded.notices.begin(), loaded.notices.end(),
-                             [](const std::string& line) { return line.find("shaded flat") != std::string::npos; }),
-                [&] { return normal; });
+            silent[Build::SINGLE].count(std::none_of(loaded.notices.begin(), loaded.notices.end(),
+                                                     [](const std::string& line) {
+                                                         return line.find("shaded flat") != std::string::npos;
+                                                     }),
+                                        [&] { return normal; });
         }
     }
 }
@@ -273,20 +292,28 @@ void bad_normals(CaseRun& run) {
 
 const std::vector<StabilityCase>& degenerate_cases() {
     static const std::vector<StabilityCase> cases = {
-        {"D01", "ZeroArea", "triangles with equal corners or corners on a line, added to a room and to a soup",
-         "film and hits without them", "they have no area: they change no bit, and the loader counts them", zero_area},
+        {"D01", "ZeroArea",
+         "triangles with equal corners or corners on a line, added to a room and to a soup",
+         "film and hits without them", "they have no area: they change no bit, and the loader counts them",
+         zero_area},
         {"D02", "Garbage", "OBJ files of random bits, words that are no numbers, indices out of range",
          "a picture without bad samples, or a scene error", "no input may end in anything else", garbage},
-        {"D03", "Duplicates", "1e5 copies of a triangle", "the lowest index is hit; a soup of as many triangles",
-         "ties are decided by the index; a depth of 64 and three times a soup's time: copies must not spoil the tree", duplicates},
+        {"D03", "Duplicates", "1e5 copies of a triangle",
+         "the lowest index is hit; a soup of as many triangles",
+         "ties are decided by the index; a depth of 64 and three times a soup's time: copies must not spoil "
+         "the tree",
+         duplicates},
         {"D04", "Needles", "a ball of meridian slivers as long as the ball, aimed at vertices and edges",
-         "a closed mesh holds every ray", "edge functions have exact signs whatever a triangle's shape", needles},
+         "a closed mesh holds every ray", "edge functions have exact signs whatever a triangle's shape",
+         needles},
         {"D05", "CoplanarTwins", "a plane of triangles, and each of them once more", "the lower index is hit",
-         "both have the same distance to the last bit: it is computed from the triangle alone", coplanar_twins},
-        {"D06", "Nothing", "no triangle, a single point, one triangle", "no hit; the background", "sums of 64 equal samples are exact",
-         nothing},
+         "both have the same distance to the last bit: it is computed from the triangle alone",
+         coplanar_twins},
+        {"D06", "Nothing", "no triangle, a single point, one triangle", "no hit; the background",
+         "sums of 64 equal samples are exact", nothing},
         {"D07", "BadShadingNormals", "corner normals that are zero, no numbers, tiny, huge, opposite",
-         "the film of the geometric normal", "a normal without a direction gives way, with a notice", bad_normals},
+         "the film of the geometric normal", "a normal without a direction gives way, with a notice",
+         bad_normals},
     };
     return cases;
 }

@@ -55,11 +55,13 @@ struct EverySample : SceneOfEffects {
 };
 
 std::string describe_sum(const Film& film, size_t i) {
-    return fmt::format("sample {}, pixel {}, channel {}", i / film_plane(film), i % film_plane(film) / 3, i % 3);
+    return fmt::format("sample {}, pixel {}, channel {}", i / film_plane(film), i % film_plane(film) / 3,
+                       i % 3);
 }
 
 /// Shares of samples and standard errors between the films of two devices.
-void compare_devices(const Device& other, const Scene& scene, const Options& options, const Film& here, CaseRun& run) {
+void compare_devices(const Device& other, const Scene& scene, const Options& options, const Film& here,
+                     CaseRun& run) {
     Figure& far = run.figure("samples off by 1e-4 on another device, %", 0.1);
     Figure& z = run.figure("standard errors between devices", 6);
     const Film there = PreparedRender(scene, options, other).run().film;
@@ -67,7 +69,8 @@ void compare_devices(const Device& other, const Scene& scene, const Options& opt
     Worst off;
     for (size_t i = 0; i < here.sums.size(); ++i) {
         const double a = double(here.sums[i]), b = double(there.sums[i]);
-        off.count(std::abs(a - b) > 1e-4 * std::max(std::max(a, b), mean), [&] { return describe_sum(here, i); });
+        off.count(std::abs(a - b) > 1e-4 * std::max(std::max(a, b), mean),
+                  [&] { return describe_sum(here, i); });
     }
     off.value *= 100 / double(off.tried);
     off.input = fmt::format("{} {}: {}", other.info.platform, other.info.driver, off.input);
@@ -84,7 +87,8 @@ void devices_agree(CaseRun& run) {
     const EverySample subject;
     const Scene scene = subject.load();
     // Without units to choose from the device is asked twice.
-    static const std::optional<Device> unit = one_unit_of(run.device); // never freed before the driver's own statics
+    static const std::optional<Device> unit =
+        one_unit_of(run.device); // never freed before the driver's own statics
     const Device& part = unit ? *unit : run.device;
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)
@@ -114,15 +118,18 @@ struct Operation {
 
 double sin_of_turn(double u, double) {
     // The period is exact in u; the rest is small, so that long double resolves the zeros.
-    return double(std::sin(2 * std::acos(-1.0L) * ((long double)(u) - std::round((long double)(u) * 2) / 2)) *
+    return double(std::sin(2 * std::acos(-1.0L) * ((long double)(u)-std::round((long double)(u)*2) / 2)) *
                   (std::fmod(std::round(u * 2), 2) != 0 ? -1 : 1));
 }
 
 const Operation OPERATIONS[] = {
     {"division", "numerics/real.h", "a / b", "", 1e-3, 1e3, 2.5, [](double a, double b) { return a / b; }},
-    {"square root", "numerics/real.h", "real_sqrt(a)", "", 1e-6, 1e6, 3, [](double a, double) { return std::sqrt(a); }},
-    {"sine of a turn", "numerics/real.h", "real_sin_cos_turn(a).x", "sin(a * (REAL(2.0) * REAL_PI))", 1e-4, 1, 2, sin_of_turn},
-    {"a b - b^2", "numerics/real.h", "real_difference_of_products(a, b, b, b)", "a * b - b * b", 1, 1.001, 1.5,
+    {"square root", "numerics/real.h", "real_sqrt(a)", "", 1e-6, 1e6, 3,
+     [](double a, double) { return std::sqrt(a); }},
+    {"sine of a turn", "numerics/real.h", "real_sin_cos_turn(a).x", "sin(a * (REAL(2.0) * REAL_PI))", 1e-4, 1,
+     2, sin_of_turn},
+    {"a b - b^2", "numerics/real.h", "real_difference_of_products(a, b, b, b)", "a * b - b * b", 1, 1.001,
+     1.5,
      [](double a, double b) { return double((long double)(b) * ((long double)(a) - (long double)(b))); }},
     {"exponential", "numerics/real_functions.h", "real_exp(-a)", "exp(-a)", 1e-3, 80, 2,
      [](double a, double) { return std::exp(-a); }},
@@ -148,14 +155,17 @@ void device_functions(CaseRun& run) {
         Columns inputs(2);
         for (size_t i = 0; i < run.count(1 << 16, 1 << 22, 1 << 26); ++i)
             for (std::vector<float>& column : inputs)
-                column.push_back(float(std::exp(random.between(std::log(operation.low), std::log(operation.high)))));
+                column.push_back(
+                    float(std::exp(random.between(std::log(operation.low), std::log(operation.high)))));
         for (const Build build : run.builds()) {
-            if (build == Build::DOUBLE || !probes.has(build, "operation")) // the reference is no better than double
+            if (build == Build::DOUBLE ||
+                !probes.has(build, "operation")) // the reference is no better than double
                 continue;
             const std::vector<double> got = probes.run(build, "operation", inputs)[0];
             for (size_t i = 0; i < got.size(); ++i)
-                ulps[build].see(ulp_distance(float(got[i]), operation.exact(double(inputs[0][i]), double(inputs[1][i]))),
-                                [&] { return fmt::format("{:a}, {:a}", inputs[0][i], inputs[1][i]); });
+                ulps[build].see(
+                    ulp_distance(float(got[i]), operation.exact(double(inputs[0][i]), double(inputs[1][i]))),
+                    [&] { return fmt::format("{:a}, {:a}", inputs[0][i], inputs[1][i]); });
         }
     }
 }
@@ -164,12 +174,17 @@ void device_functions(CaseRun& run) {
 
 const std::vector<StabilityCase>& device_cases() {
     static const std::vector<StabilityCase> cases = {
-        {"V01", "DeviceFunctions", "the operations that all kernels rest on, at random arguments", "long double",
-         "what OpenCL promises of division and root; the functions' own bounds; naive is the device's function or the plain formula",
+        {"V01", "DeviceFunctions", "the operations that all kernels rest on, at random arguments",
+         "long double",
+         "what OpenCL promises of division and root; the functions' own bounds; naive is the device's "
+         "function or the plain formula",
          device_functions},
-        {"V02", "DevicesAgree", "a scene of all effects on one compute unit, and on another platform's device where there is one",
-         "the same scene on the whole device", "sums are integers, so threads may not show; another compiler may round a "
-         "function's last bit otherwise and send one path in a thousand another way", devices_agree},
+        {"V02", "DevicesAgree",
+         "a scene of all effects on one compute unit, and on another platform's device where there is one",
+         "the same scene on the whole device",
+         "sums are integers, so threads may not show; another compiler may round a "
+         "function's last bit otherwise and send one path in a thousand another way",
+         devices_agree},
     };
     return cases;
 }

@@ -21,14 +21,17 @@ const ProbedExpression FRESNEL = {
     "const real s = (b * a - t) / (b * a + t), p = (a - b * t) / (a + b * t);"
     "out[0] = k <= REAL(0.0) ? REAL(1.0) : REAL(0.5) * (s * s + p * p);"};
 
-/// a, b, c: direction to the eye over the normal z; d: index ratio. The refracted direction, and the cosine of the incident
-/// angle where all is reflected.
+/// a, b, c: direction to the eye over the normal z; d: index ratio. The refracted direction, and the cosine
+/// of the incident angle where all is reflected.
 const ProbedExpression REFRACT = {
     "refract", 4, 4,
-    "real t; const real f = fresnel_dielectric(c, d, &t); const real3 n = vector_make(REAL(0.0), REAL(0.0), REAL(1.0));"
-    "const real3 w = fresnel_refract(vector_make(a, b, c), n, c, t, d); out[0] = w.x; out[1] = w.y; out[2] = w.z; out[3] = f;",
+    "real t; const real f = fresnel_dielectric(c, d, &t); const real3 n = vector_make(REAL(0.0), REAL(0.0), "
+    "REAL(1.0));"
+    "const real3 w = fresnel_refract(vector_make(a, b, c), n, c, t, d); out[0] = w.x; out[1] = w.y; out[2] = "
+    "w.z; out[3] = f;",
     "const real k = REAL(1.0) - d * d * (REAL(1.0) - c * c); const real t = sqrt(fmax(k, REAL(0.0)));"
-    "out[0] = -d * a; out[1] = -d * b; out[2] = d * c - t - d * c; out[3] = k <= REAL(0.0) ? REAL(1.0) : REAL(0.0);"};
+    "out[0] = -d * a; out[1] = -d * b; out[2] = d * c - t - d * c; out[3] = k <= REAL(0.0) ? REAL(1.0) : "
+    "REAL(0.0);"};
 
 /// 4096 neighbouring floats around the critical cosine.
 std::vector<float> cosines_around_critical(float eta) {
@@ -48,7 +51,8 @@ void critical_angle(CaseRun& run) {
     for (const Build build : run.builds())
         for (const float eta : {2.4f, 2.417f, 1.333f, 1.5f, 1.0001f}) {
             const std::vector<float> cosines = cosines_around_critical(eta);
-            const std::vector<double> got = probes.run(build, "fresnel", {cosines, std::vector<float>(cosines.size(), eta)})[0];
+            const std::vector<double> got =
+                probes.run(build, "fresnel", {cosines, std::vector<float>(cosines.size(), eta)})[0];
             double wrong = 0;
             for (size_t i = 0; i < cosines.size(); ++i) {
                 const double expected = reference::fresnel_dielectric(cosines[i], eta);
@@ -79,10 +83,12 @@ void snell(CaseRun& run) {
         for (size_t i = 0; i < count; ++i) {
             if (got[3][i] == 1)
                 continue;
-            const glm::dvec3 wi(got[0][i], got[1][i], got[2][i]), wo(inputs[0][i], inputs[1][i], inputs[2][i]);
+            const glm::dvec3 wi(got[0][i], got[1][i], got[2][i]),
+                wo(inputs[0][i], inputs[1][i], inputs[2][i]);
             const double eta = inputs[3][i];
             const auto describe = [&] {
-                return fmt::format("wo {:a} {:a} {:a}, index ratio {}", inputs[0][i], inputs[1][i], inputs[2][i], eta);
+                return fmt::format("wo {:a} {:a} {:a}, index ratio {}", inputs[0][i], inputs[1][i],
+                                   inputs[2][i], eta);
             };
             const glm::dvec2 along = glm::dvec2(wi) + eta * glm::dvec2(wo) / glm::length(wo);
             residual[build].see(glm::length(along) / std::max(1.0, eta * eta), describe);
@@ -91,8 +97,8 @@ void snell(CaseRun& run) {
     }
 }
 
-/// The mean of F over the hemisphere, weighted by the cosine: Gauss-Legendre on either side of the critical cosine, where the
-/// integrand is made smooth by c = c0 + (1 - c0) s^2.
+/// The mean of F over the hemisphere, weighted by the cosine: Gauss-Legendre on either side of the critical
+/// cosine, where the integrand is made smooth by c = c0 + (1 - c0) s^2.
 double hemispherical(ProbeSet& probes, Build build, double eta) {
     const std::vector<QuadraturePoint> rule = gauss_legendre(128);
     const double c0 = eta > 1 ? std::sqrt(1 - 1 / (eta * eta)) : 0;
@@ -104,7 +110,8 @@ double hemispherical(ProbeSet& probes, Build build, double eta) {
         cosines.push_back(float(c0 * q.at));
         weights.push_back(q.weight * c0 * 2 * cosines.back());
     }
-    const std::vector<double> f = probes.run(build, "fresnel", {cosines, std::vector<float>(cosines.size(), float(eta))})[0];
+    const std::vector<double> f =
+        probes.run(build, "fresnel", {cosines, std::vector<float>(cosines.size(), float(eta))})[0];
     double sum = 0;
     for (size_t i = 0; i < f.size(); ++i)
         sum += weights[i] * f[i];
@@ -115,8 +122,10 @@ void hemispherical_reflectance(CaseRun& run) {
     ProbeSet probes(run.device, {"scattering/fresnel.h"}, {FRESNEL});
     Figure& mean = run.figure("|mean of F - closed form|", 1e-6);
     for (const Build build : run.builds()) {
-        mean[build].see(std::abs(hemispherical(probes, build, 1 / 1.5) - 0.0917779594), [] { return "from outside"; });
-        mean[build].see(std::abs(hemispherical(probes, build, 1.5) - 0.5963457597), [] { return "from inside"; });
+        mean[build].see(std::abs(hemispherical(probes, build, 1 / 1.5) - 0.0917779594),
+                        [] { return "from outside"; });
+        mean[build].see(std::abs(hemispherical(probes, build, 1.5) - 0.5963457597),
+                        [] { return "from inside"; });
     }
 }
 
@@ -140,29 +149,38 @@ const std::vector<StabilityCase>& dielectric_cases() {
     static const std::vector<StabilityCase> cases = {
         {"T01", "CriticalAngle", "4096 neighbouring cosines around the critical angle of five indices",
          "Fresnel's formulas in long double",
-         "seven roundings of values up to 1; the float at the critical cosine itself may fall to either side", critical_angle},
+         "seven roundings of values up to 1; the float at the critical cosine itself may fall to either side",
+         critical_angle},
         {"T02", "SnellsLaw", "random directions, six index ratios",
          "the part along the surface of the refracted direction is eta times the incident one",
-         "the incident direction's length is off by u, which refraction magnifies by eta^2; three roundings more", snell},
+         "the incident direction's length is off by u, which refraction magnifies by eta^2; three roundings "
+         "more",
+         snell},
         {"T03", "IndexOfOne", "a ball of index 1 in front of a gradient, and F at all angles",
-         "the same without the ball; F = 0", "two directions are made unit again: 4 ULP of a radiance whose slope is about 1",
-         index_one_ball},
-        {"T04", "GlassSlab", "a slab of index 1.5 seen head-on, all internal reflections", "(1 - R) / (1 + R)",
-         "thirty roundings of terms that fall by 600 each; noise for path tracing", glass_slab},
+         "the same without the ball; F = 0",
+         "two directions are made unit again: 4 ULP of a radiance whose slope is about 1", index_one_ball},
+        {"T04", "GlassSlab", "a slab of index 1.5 seen head-on, all internal reflections",
+         "(1 - R) / (1 + R)", "thirty roundings of terms that fall by 600 each; noise for path tracing",
+         glass_slab},
         {"T05", "SlabShift", "a ray through a slab at 10 to 80 degrees", "t sin(a - b) / cos b",
          "8 u of the scene's size, and the two offsets by which the ray leaves the faces", slab_shift},
-        {"T06", "ThinSlab", "slabs of size 1: 1e-5 thick at the origin, 4 ULP of a coordinate thick 1000 away",
+        {"T06", "ThinSlab",
+         "slabs of size 1: 1e-5 thick at the origin, 4 ULP of a coordinate thick 1000 away",
          "every ray meets both faces and nothing else", "a law", thin_slab},
-        {"T07", "WaterInGlass", "coinciding, overlapping and parted boundaries", "products of Fresnel factors", "", nullptr,
+        {"T07", "WaterInGlass", "coinciding, overlapping and parted boundaries",
+         "products of Fresnel factors", "", nullptr,
          "media that know what they lie in (a stack of priorities)"},
-        {"T08", "StartInside", "the eye inside glass below a bright sky", "F and (1 - F) eta^2 by Fresnel and Snell",
+        {"T08", "StartInside", "the eye inside glass below a bright sky",
+         "F and (1 - F) eta^2 by Fresnel and Snell",
          "4e-7 of F times eta^2, and a rounding of the cosine where F is steep", start_inside},
-        {"T09", "TrappedLight", "a cube of glass whose faces glow, total reflection over 1000 segments", "1000 times the glow",
-         "one rounding of throughput and sum a segment", trapped_light},
-        {"T10", "GlassBallFurnace", "a ball of index 2.417 under a white sky", "1 for every path that gets out",
+        {"T09", "TrappedLight", "a cube of glass whose faces glow, total reflection over 1000 segments",
+         "1000 times the glow", "one rounding of throughput and sum a segment", trapped_light},
+        {"T10", "GlassBallFurnace", "a ball of index 2.417 under a white sky",
+         "1 for every path that gets out",
          "8 ULP for factors eta^2 and their reciprocals; R^depth for the rest", glass_ball},
         {"T11", "HemisphericalReflectance", "the device's F by quadrature, index 1.5 from both sides",
-         "0.0917779594 and 0.5963457597", "the cosines' rounding times the slope of F", hemispherical_reflectance},
+         "0.0917779594 and 0.5963457597", "the cosines' rounding times the slope of F",
+         hemispherical_reflectance},
     };
     return cases;
 }

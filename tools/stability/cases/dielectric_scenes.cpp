@@ -36,7 +36,8 @@ struct GradientScene : SkyScene {
         std::vector<float> texels;
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 32; ++x)
-                texels.insert(texels.end(), {1 + 0.05f * float(y), 1 + 0.02f * float(x < 16 ? x : 31 - x), 1});
+                texels.insert(texels.end(),
+                              {1 + 0.05f * float(y), 1 + 0.02f * float(x < 16 ? x : 31 - x), 1});
         texture("gradient.exr", 32, 16, 3, texels);
         options.light.environment_file = folder.file("gradient.exr");
         // Both scenes have one frame: the corners of their boxes are these.
@@ -71,7 +72,8 @@ void meet_both_faces(CaseRun& run, double place, double thickness, Figure& lost)
     const double half = 0.5 * loaded.normalisation.scale;
     for (size_t i = 0; i < count; ++i) {
         const dvec3 target(random.between(-0.99, 0.99) * half, random.between(-0.99, 0.99) * half, 0);
-        rays.push_back(make_ray_to(target + 0.01 * half * random.upper_direction() + dvec3(0, 0, 2e-3 * half), target));
+        rays.push_back(
+            make_ray_to(target + 0.01 * half * random.upper_direction() + dvec3(0, 0, 2e-3 * half), target));
     }
     const auto through = [](const std::vector<TestRay>& from) {
         std::vector<dvec3> directions;
@@ -94,7 +96,8 @@ void meet_both_faces(CaseRun& run, double place, double thickness, Figure& lost)
     }
     const std::vector<TestHit> again = slab.closest(slab.leaving(met, met_hits, through(met)));
     for (size_t i = 0; i < again.size(); ++i)
-        lost[Build::SINGLE].count(again[i].triangle != NO_INDEX, [&] { return fmt::format("ray {}: a third hit", i); });
+        lost[Build::SINGLE].count(again[i].triangle != NO_INDEX,
+                                  [&] { return fmt::format("ray {}: a third hit", i); });
 }
 
 } // namespace
@@ -106,19 +109,23 @@ void index_one_ball(CaseRun& run) {
     const size_t count = run.count(2000, 1e5, 1e6);
     for (const Build build : path_builds(run))
         for (const Integrator integrator : TREE_AND_PATH) {
-            const std::vector<dvec3> a = without.radiance(build, integrator, rays_to_origin(without, count, 0.5)),
+            const std::vector<dvec3> a = without.radiance(build, integrator,
+                                                          rays_to_origin(without, count, 0.5)),
                                      b = with.radiance(build, integrator, rays_to_origin(with, count, 0.5));
             for (size_t i = 0; i < count; ++i)
-                picture[build].see(glm::length(a[i] - b[i]) / glm::length(a[i]), [&] { return fmt::format("ray {}", i); });
+                picture[build].see(glm::length(a[i] - b[i]) / glm::length(a[i]),
+                                   [&] { return fmt::format("ray {}", i); });
         }
     std::vector<float> cosines;
     for (int i = 0; i <= 4096; ++i)
         cosines.push_back(float(i) / 4096);
     ProbeSet probes(run.device, {"scattering/fresnel.h"}, {fresnel_expression()});
     for (const Build build : run.builds()) {
-        const std::vector<double> f = probes.run(build, "fresnel", {cosines, std::vector<float>(cosines.size(), 1)})[0];
+        const std::vector<double> f =
+            probes.run(build, "fresnel", {cosines, std::vector<float>(cosines.size(), 1)})[0];
         for (size_t i = 0; i < f.size(); ++i)
-            reflectance[build].count(f[i] != 0, [&] { return fmt::format("cos {:a}: F {}", cosines[i], f[i]); });
+            reflectance[build].count(f[i] != 0,
+                                     [&] { return fmt::format("cos {:a}: F {}", cosines[i], f[i]); });
     }
 }
 
@@ -136,12 +143,14 @@ void glass_slab(CaseRun& run) {
     const double expected = (1 - 0.04) / (1 + 0.04);
     const std::vector<TestRay> rays = {probe.ray({0.3, 0.2, 5}, {0.3, 0.2, 0})};
     for (const Build build : path_builds(run)) {
-        tree[build].see(std::abs(probe.radiance(build, Integrator::WHITTED, rays)[0].x - expected), [] { return "head-on"; });
+        tree[build].see(std::abs(probe.radiance(build, Integrator::WHITTED, rays)[0].x - expected),
+                        [] { return "head-on"; });
         std::vector<double> values;
         for (const dvec3& value : probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7)))
             values.push_back(value.x);
         const Moments moments = moments_of(values);
-        paths[build].see(std::abs(z_of_mean(moments, expected)), [&] { return fmt::format("mean {}", moments.mean); });
+        paths[build].see(std::abs(z_of_mean(moments, expected)),
+                         [&] { return fmt::format("mean {}", moments.mean); });
     }
 }
 
@@ -149,20 +158,23 @@ void slab_shift(CaseRun& run) {
     constexpr double THICKNESS = 0.2, SIZE = 2;
     const double offset = FLOAT_U * (4 * SIZE / 2 + 24 * SIZE); // surface_offset_bound
     Figure& shift = run.figure("|shift - closed form|", 8 * FLOAT_U * SIZE + 2 * offset);
-    const RayDevice slab(make_room({-SIZE / 2, -SIZE / 2, -THICKNESS / 2}, {SIZE / 2, SIZE / 2, THICKNESS / 2}),
-                         BvhLayout::BVH8);
+    const RayDevice slab(
+        make_room({-SIZE / 2, -SIZE / 2, -THICKNESS / 2}, {SIZE / 2, SIZE / 2, THICKNESS / 2}),
+        BvhLayout::BVH8);
     std::vector<TestRay> rays, at;
     std::vector<dvec3> inside, outside;
     for (double degrees = 10; degrees <= 80; degrees += 0.5) {
         const double a = degrees * PI / 180, b = std::asin(std::sin(a) / 1.5);
-        rays.push_back(make_ray({-std::sin(a), 0.01, THICKNESS / 2 + std::cos(a)}, {std::sin(a), 0, -std::cos(a)}));
+        rays.push_back(
+            make_ray({-std::sin(a), 0.01, THICKNESS / 2 + std::cos(a)}, {std::sin(a), 0, -std::cos(a)}));
         inside.push_back({std::sin(b), 0, -std::cos(b)});
         outside.push_back(to_dvec3(rays.back().direction));
     }
     const std::vector<TestRay> second = slab.leaving(rays, slab.closest(rays), inside);
     const std::vector<TestRay> third = slab.leaving(second, slab.closest(second), outside);
     for (size_t i = 0; i < rays.size(); ++i) {
-        const dvec3 d = glm::normalize(to_dvec3(rays[i].direction)), way = to_dvec3(third[i].origin) - to_dvec3(rays[i].origin);
+        const dvec3 d = glm::normalize(to_dvec3(rays[i].direction)),
+                    way = to_dvec3(third[i].origin) - to_dvec3(rays[i].origin);
         const double a = std::acos(-d.z), b = std::asin(std::sin(a) / 1.5);
         const double expected = THICKNESS * std::sin(a - b) / std::cos(b);
         shift[Build::SINGLE].see(std::abs(glm::length(way - glm::dot(way, d) * d) - expected),
@@ -194,7 +206,8 @@ void start_inside(CaseRun& run) {
     for (const Build build : path_builds(run)) {
         const std::vector<dvec3> got = probe.radiance(build, Integrator::WHITTED, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
-            const double f = reference::fresnel_dielectric(glm::normalize(to_dvec3(rays[i].direction)).y, 1.5);
+            const double f =
+                reference::fresnel_dielectric(glm::normalize(to_dvec3(rays[i].direction)).y, 1.5);
             const auto describe = [&] { return fmt::format("cos {:a}", rays[i].direction.y); };
             refracted[build].see(std::abs(got[i].x - (1 - f) * 2.25), describe);
             reflected[build].see(std::abs(got[i].y - f), describe);
@@ -220,7 +233,8 @@ void trapped_light(CaseRun& run) {
     for (const Build build : path_builds(run)) {
         const std::vector<dvec3> got = probe.radiance(build, Integrator::PATH, rays);
         for (size_t i = 0; i < rays.size(); ++i)
-            loss[build].see(std::abs(got[i].x / (SEGMENTS * double(0.001f)) - 1), [&] { return fmt::format("ray {}", i); });
+            loss[build].see(std::abs(got[i].x / (SEGMENTS * double(0.001f)) - 1),
+                            [&] { return fmt::format("ray {}", i); });
     }
 }
 
@@ -240,7 +254,8 @@ void glass_ball(CaseRun& run) {
             if (got[i].x != 0)
                 error[build].see(std::abs(got[i].x - 1), [&] { return fmt::format("ray {}", i); });
         }
-        lost[build].see(inside / double(rays.size()), [&] { return fmt::format("{} of {}", inside, rays.size()); });
+        lost[build].see(inside / double(rays.size()),
+                        [&] { return fmt::format("{} of {}", inside, rays.size()); });
     }
 }
 

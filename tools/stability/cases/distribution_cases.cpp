@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reciprocity and probability: densities against samples, and the numbers and frames that all of it is made from.
+// Reciprocity and probability: densities against samples, and the numbers and frames that all of it is made
+// from.
 #include "stability/bsdf_set.h"
 #include "stability/cases/shading_expressions.h"
 #include "stability/catalogue.h"
@@ -25,8 +26,8 @@ size_t set_index(const std::string& name) {
     throw std::logic_error("no lobe set " + name);
 }
 
-/// True where float directions fix the reflectance of the microfacet to 1e-5: neither is it seen edge-on nor near the critical
-/// angle.
+/// True where float directions fix the reflectance of the microfacet to 1e-5: neither is it seen edge-on nor
+/// near the critical angle.
 bool is_well_conditioned(const LobeSet& set, const dvec3& wo, const dvec3& wi) {
     if (!(set.lobes & LOBE_DIELECTRIC))
         return true;
@@ -58,7 +59,8 @@ void reciprocity(CaseRun& run) {
     Random random(1);
     const std::vector<LobeSet> sets = all_lobe_sets();
     const size_t count = run.count(2e4, 2e5, 5e5);
-    const size_t outside = set_index("rough glass from outside"), inside = set_index("rough glass from inside");
+    const size_t outside = set_index("rough glass from outside"),
+                 inside = set_index("rough glass from inside");
     for (size_t i = 0; i < count; ++i) {
         const dvec3 a = direction_at(random.between(0.02, 1), 2 * PI * random.unit()),
                     b = direction_at(random.between(0.02, 1), 2 * PI * random.unit());
@@ -90,13 +92,14 @@ void for_each_density(const Visit& visit) {
     const std::vector<LobeSet> sets = all_lobe_sets();
     for (size_t set = 0; set < sets.size(); ++set)
         if (is_smooth(sets[set]) && !(sets[set].lobes & LOBE_MIRROR))
-            for (const dvec3& wo :
-                 {direction_at(1, 0), direction_at(0.7, 0.9), direction_at(0.3, 3.6), direction_at(0.05, -1.2)})
+            for (const dvec3& wo : {direction_at(1, 0), direction_at(0.7, 0.9), direction_at(0.3, 3.6),
+                                    direction_at(0.05, -1.2)})
                 visit(set, wo);
 }
 
 /// The density of a set at directions, by the double build where there is one.
-std::vector<double> densities(const CaseRun& run, size_t set, const dvec3& wo, const std::vector<dvec3>& directions) {
+std::vector<double> densities(const CaseRun& run, size_t set, const dvec3& wo,
+                              const std::vector<dvec3>& directions) {
     BsdfInputs inputs;
     for (const dvec3& wi : directions)
         inputs.add(set, 0, wo, wi);
@@ -163,9 +166,9 @@ void pdf_mass(CaseRun& run) {
             failed += got[SAMPLED_ETA][i] == 0;
         const double whole = total(cells.integrals(densities(run, set, wo, nodes)));
         const bool is_narrow = (all_lobe_sets()[set].lobes & LOBE_DIELECTRIC) || wo.z < 0.1;
-        (is_narrow ? narrow : mass)[Build::SINGLE].see(std::abs(whole + failed / double(inputs.size()) - 1), [&] {
-            return fmt::format("{}, cos {}", all_lobe_sets()[set].name, wo.z);
-        });
+        (is_narrow ? narrow : mass)[Build::SINGLE].see(
+            std::abs(whole + failed / double(inputs.size()) - 1),
+            [&] { return fmt::format("{}, cos {}", all_lobe_sets()[set].name, wo.z); });
     });
 }
 
@@ -173,23 +176,28 @@ void pdf_mass(CaseRun& run) {
 
 const std::vector<StabilityCase>& distribution_cases() {
     static const std::vector<StabilityCase> cases = {
-        {"P01", "Reciprocity", "every BSDF that is no delta function, both ways, off critical angles and edge-on microfacets",
+        {"P01", "Reciprocity",
+         "every BSDF that is no delta function, both ways, off critical angles and edge-on microfacets",
          "Helmholtz: f(a, b) = f(b, a), transmission over the squared index",
          "two half vectors of float directions, magnified by the slope of D", reciprocity},
         {"P02", "SamplesFollowDensity", "every BSDF with a density, four eyes, 64 x 64 cells",
-         "chi-squared against the density integrated over cells", "one false alarm in 5e8 a test", chi_squared},
-        {"P03", "DensityMass", "the same densities over the sphere", "1 less the share of samples without a direction",
-         "quadrature of 64 x 64 cells of 12 x 12 points and a lattice, for which the choice of a lobe is a jump; it converges "
+         "chi-squared against the density integrated over cells", "one false alarm in 5e8 a test",
+         chi_squared},
+        {"P03", "DensityMass", "the same densities over the sphere",
+         "1 less the share of samples without a direction",
+         "quadrature of 64 x 64 cells of 12 x 12 points and a lattice, for which the choice of a lobe is a "
+         "jump; it converges "
          "slowly over the edge at the critical angle and the peaks "
          "of grazing reflection",
          pdf_mass},
         {"P04", "Bases", "random normals, axes, -0, z = -1 + k ulp", "orthonormal, right-handed",
          "products of unit vectors of float", bases},
-        {"P05", "Uniforms", "all 2^24 numbers that words give", "0 < u < 1, 1 - u exact; the words of the host", "a law",
-         uniforms},
-        {"P06", "Streams", "the first four words of every pixel", "no two alike", "a law: keys are a bijection of pixels",
-         streams},
-        {"P07", "Nets", "pairs of 2^m samples at several addresses", "one point in each elementary interval", "a law", nets},
+        {"P05", "Uniforms", "all 2^24 numbers that words give",
+         "0 < u < 1, 1 - u exact; the words of the host", "a law", uniforms},
+        {"P06", "Streams", "the first four words of every pixel", "no two alike",
+         "a law: keys are a bijection of pixels", streams},
+        {"P07", "Nets", "pairs of 2^m samples at several addresses", "one point in each elementary interval",
+         "a law", nets},
     };
     return cases;
 }

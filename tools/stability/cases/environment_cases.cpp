@@ -38,7 +38,8 @@ PathProbe floor_under(const Device& device, const Environment& sky) {
     return PathProbe(device, std::move(loaded), scene.options);
 }
 
-/// Irradiance of a floor from a texel of radiance 1 in a black map: the bilinear tent times the cosine, by quadrature.
+/// Irradiance of a floor from a texel of radiance 1 in a black map: the bilinear tent times the cosine, by
+/// quadrature.
 double texel_irradiance(int width, int height, int row) {
     const std::vector<QuadraturePoint> rule = gauss_legendre(16);
     double sum = 0;
@@ -63,7 +64,8 @@ void one_bright_texel(CaseRun& run) {
         for (const Build build : path_builds(run)) {
             std::vector<double> values;
             double dark = 0;
-            for (const dvec3& value : probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7))) {
+            for (const dvec3& value :
+                 probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7))) {
                 values.push_back(value.x / radiance);
                 dark += value.x == 0;
                 bad[build].count(!(value.x >= 0 && std::isfinite(value.x)),
@@ -81,7 +83,8 @@ void one_bright_texel(CaseRun& run) {
 void black_sky(CaseRun& run) {
     Figure& light = run.figure("paths that see light", 0);
     const PathProbe probe = floor_under(run.device, map_of(even_image(16, 8, 0)));
-    const std::vector<TestRay> rays = {probe.ray({0.1, 0.5, 0.2}, {0.1, 0, 0.1}), probe.ray({0.1, 0.5, 0.2}, {0.1, 1, 0.1})};
+    const std::vector<TestRay> rays = {probe.ray({0.1, 0.5, 0.2}, {0.1, 0, 0.1}),
+                                       probe.ray({0.1, 0.5, 0.2}, {0.1, 1, 0.1})};
     for (const Build build : path_builds(run))
         for (const dvec3& value : probe.radiance(build, Integrator::PATH, rays, 256))
             light[build].count(value != dvec3(0), [&] { return fmt::format("{}", value.x); });
@@ -121,11 +124,13 @@ void poles(CaseRun& run) {
     Figure& bad = run.figure("densities at the poles that are no finite number > 0", 0);
     static SceneProbe& probe = *[] {
         auto* made = new SceneProbe({"lights/environment.h", "numerics/sampler.h"});
-        made->add("sample", "const LightSample s = environment_sample(scene, params, vector_make(REAL(0.0), REAL(0.0), "
-                            "REAL(1.0)), as_uint(a.x),"
-                            "as_uint(a.y), a.z); first = probe_vec4(s.wi, s.pdf_w); second = probe_vec4(s.radiance, "
-                            "environment_map_pdf_w(scene, params, s.wi));");
-        made->add("at", "first = probe_vec4(environment_eval(scene, params, vector_from(a)), environment_map_pdf_w(scene, "
+        made->add("sample",
+                  "const LightSample s = environment_sample(scene, params, vector_make(REAL(0.0), REAL(0.0), "
+                  "REAL(1.0)), as_uint(a.x),"
+                  "as_uint(a.y), a.z); first = probe_vec4(s.wi, s.pdf_w); second = probe_vec4(s.radiance, "
+                  "environment_map_pdf_w(scene, params, s.wi));");
+        made->add("at", "first = probe_vec4(environment_eval(scene, params, vector_from(a)), "
+                        "environment_map_pdf_w(scene, "
                         "params, vector_from(a)));");
         return made;
     }();
@@ -167,12 +172,14 @@ const std::vector<StabilityCase>& environment_cases() {
     static const std::vector<StabilityCase> cases = {
         {"E01", "OneBrightTexel", "one texel of 1, 1e10, 1e30 in a black map of 1024 x 512",
          "the bilinear tent times the cosine, by quadrature",
-         "its texel and neighbours are chosen always, by their share of the tent: 15/64 of that is beside it; noise",
+         "its texel and neighbours are chosen always, by their share of the tent: 15/64 of that is beside "
+         "it; noise",
          one_bright_texel},
         {"E02", "BlackSky", "a map of zeros", "0", "a law", black_sky},
-        {"E03", "BrokenTexels", "NaN, infinite and negative texels", "the map with them zeroed; number and place reported",
-         "a law", broken_texels},
-        {"E04", "Poles", "maps of ones from 2 x 1 to 1024 x 512, directions at the poles", "density 1 / (4 pi), radiance 1",
+        {"E03", "BrokenTexels", "NaN, infinite and negative texels",
+         "the map with them zeroed; number and place reported", "a law", broken_texels},
+        {"E04", "Poles", "maps of ones from 2 x 1 to 1024 x 512, directions at the poles",
+         "density 1 / (4 pi), radiance 1",
          "sines, quotient and the stored probability: eight units in the last place", poles},
     };
     return cases;

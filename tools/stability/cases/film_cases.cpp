@@ -37,7 +37,8 @@ std::string describe_pixel(size_t value) {
 void constant_sum(CaseRun& run) {
     Figure& ulps = run.figure("ULP of the mean", 1);
     for (const float constant : {0.1f, 1e-6f, 0.7e9f}) {
-        FilmBench bench(run.device, std::vector<float>(run.count(MILLION, MILLION, FULL), constant), double(constant));
+        FilmBench bench(run.device, std::vector<float>(run.count(MILLION, MILLION, FULL), constant),
+                        double(constant));
         const auto see = [&](Build build, double mean, size_t i) {
             ulps[build].see(ulp_distance(float(mean), double(constant)),
                             [&] { return fmt::format("{:a}, {}", constant, describe_pixel(i)); });
@@ -68,7 +69,8 @@ void noisy_mean(CaseRun& run) {
                 see(error, build, double(means[i]), i);
             blocks[build] = wide[build] = error[build];
         }
-    for (const auto& [figure, kind] : {std::pair{&error, SumKind::PLAIN}, {&blocks, SumKind::BLOCKS}, {&wide, SumKind::DOUBLE}}) {
+    for (const auto& [figure, kind] :
+         {std::pair{&error, SumKind::PLAIN}, {&blocks, SumKind::BLOCKS}, {&wide, SumKind::DOUBLE}}) {
         const std::vector<double> sums = bench.sums(kind);
         for (size_t i = 0; i < sums.size(); ++i)
             see(*figure, Build::NAIVE, sums[i] / samples, i);
@@ -93,7 +95,8 @@ void noisy_variance(CaseRun& run) {
         if (build != Build::NAIVE) {
             const std::vector<float> variance = film_variance(bench.film(build));
             for (size_t i = 0; i < variance.size(); ++i)
-                error[build].see(std::abs(double(variance[i]) / exact - 1), [&] { return describe_pixel(i); });
+                error[build].see(std::abs(double(variance[i]) / exact - 1),
+                                 [&] { return describe_pixel(i); });
         }
     // The textbook: a sum and a sum of squares, whose difference is the variance of one sample.
     const double n = double(bench.series().size());
@@ -132,9 +135,11 @@ Film render_in_parts(const Scene& scene, Options options, const std::vector<Crop
             const Film part = render_loaded(scene, options).film;
             const size_t row = size_t(part.width) * 3;
             for (size_t i = 0; i < part.sums.size(); ++i) {
-                const size_t line = i / row, replicate = line / size_t(part.height), y = line % size_t(part.height);
+                const size_t line = i / row, replicate = line / size_t(part.height),
+                             y = line % size_t(part.height);
                 const size_t whole_line = replicate * size_t(whole.height) + y + size_t(window.y0);
-                whole.sums[(whole_line * size_t(whole.width) + size_t(window.x0)) * 3 + i % row] += part.sums[i];
+                whole.sums[(whole_line * size_t(whole.width) + size_t(window.x0)) * 3 + i % row] +=
+                    part.sums[i];
             }
         }
     }
@@ -156,9 +161,12 @@ void partition(CaseRun& run) {
         options.precision = precision_of(build);
         const Film whole = render_loaded(scene, options).film;
         const Crop all{0, 0, 37, 29};
-        compare_films(differing[build], whole, render_in_parts(scene, options, {all}, {1, 5, 1, 10, spp - 17}), "five ranges");
         compare_films(differing[build], whole,
-                      render_in_parts(scene, options, {{0, 0, 13, 29}, {13, 0, 37, 1}, {13, 1, 37, 29}}, {spp}), "three windows");
+                      render_in_parts(scene, options, {all}, {1, 5, 1, 10, spp - 17}), "five ranges");
+        compare_films(
+            differing[build], whole,
+            render_in_parts(scene, options, {{0, 0, 13, 29}, {13, 0, 37, 1}, {13, 1, 37, 29}}, {spp}),
+            "three windows");
     }
 }
 
@@ -174,7 +182,8 @@ void full_film(CaseRun& run) {
             continue;
         const std::vector<float> means = film_mean(bench.film(build));
         for (size_t i = 0; i < means.size(); ++i)
-            error[build].see(std::abs(double(means[i]) / double(largest) - 1), [&] { return describe_pixel(i); });
+            error[build].see(std::abs(double(means[i]) / double(largest) - 1),
+                             [&] { return describe_pixel(i); });
         lost[build].see(double(bench.counts().overflow), [] { return std::string("all pixels"); });
     }
 }
@@ -184,7 +193,8 @@ void count_repeated_numbers(Figure& figure, CaseRun& run) {
     KernelProbe probe(run.device, {"numerics/sampler.h"}, {}, kernels_under_test());
     const auto add = [&](const char* name, const char* component) {
         probe.add<u32(u32)>(name, fmt::format("Sampler s = sampler_make(0u, 7u, a % 8u, a / 8u);"
-                                              "out = sampler_pair_words(&s, 0u, SAMPLE_FILM).{};", component));
+                                              "out = sampler_pair_words(&s, 0u, SAMPLE_FILM).{};",
+                                              component));
     };
     add("x", "x");
     add("y", "y");
@@ -196,7 +206,8 @@ void count_repeated_numbers(Figure& figure, CaseRun& run) {
     const std::vector<u32> x = probe.run<u32>("x", numbers), y = probe.run<u32>("y", numbers);
     std::set<std::pair<u32, u32>> met;
     for (size_t i = 0; i < numbers.size(); ++i)
-        figure[Build::SINGLE].count(!met.emplace(x[i], y[i]).second, [&] { return fmt::format("sample {}", numbers[i]); });
+        figure[Build::SINGLE].count(!met.emplace(x[i], y[i]).second,
+                                    [&] { return fmt::format("sample {}", numbers[i]); });
 }
 
 void last_samples(CaseRun& run) {
@@ -212,11 +223,13 @@ void last_samples(CaseRun& run) {
     options.spp = 40;
     const Scene scene = subject.load();
     const Film whole = render_loaded(scene, options).film;
-    compare_films(differing[Build::SINGLE], whole, render_in_parts(scene, options, {{0, 0, 16, 8}}, {7, 1, 32}), "ranges");
+    compare_films(differing[Build::SINGLE], whole,
+                  render_in_parts(scene, options, {{0, 0, 16, 8}}, {7, 1, 32}), "ranges");
     options.spp = 1000;
     const Render refused = render_loaded(scene, options);
     const std::uint64_t end = refused.film.ranges.back().end;
-    beyond[Build::SINGLE].see(end > UINT32_MAX ? double(end - UINT32_MAX) : 0, [&] { return fmt::format("ends at {}", end); });
+    beyond[Build::SINGLE].see(end > UINT32_MAX ? double(end - UINT32_MAX) : 0,
+                              [&] { return fmt::format("ends at {}", end); });
     compare_films(differing[Build::SINGLE], whole, refused.film, "run that the last number ends");
 }
 
@@ -230,30 +243,46 @@ ProbeTime time_against(const Device& device, SumKind naive) {
 
 } // namespace
 
-ProbeTime time_film_plain(const Device& device) { return time_against(device, SumKind::PLAIN); }
-ProbeTime time_film_blocks(const Device& device) { return time_against(device, SumKind::BLOCKS); }
-ProbeTime time_film_double(const Device& device) { return time_against(device, SumKind::DOUBLE); }
-ProbeTime time_film_guard(const Device& device) { return time_against(device, SumKind::UNGUARDED); }
+ProbeTime time_film_plain(const Device& device) {
+    return time_against(device, SumKind::PLAIN);
+}
+ProbeTime time_film_blocks(const Device& device) {
+    return time_against(device, SumKind::BLOCKS);
+}
+ProbeTime time_film_double(const Device& device) {
+    return time_against(device, SumKind::DOUBLE);
+}
+ProbeTime time_film_guard(const Device& device) {
+    return time_against(device, SumKind::UNGUARDED);
+}
 
 const std::vector<StabilityCase>& film_cases() {
     static const std::vector<StabilityCase> cases = {
         {"A01", "ConstantSum", "a million samples of one value, from 1e-6 to 1e9, in 64 pixels", "the value",
-         "rounding a sample to the film's quantum at random leaves a hundredth of an ULP; the picture's float half an ULP",
+         "rounding a sample to the film's quantum at random leaves a hundredth of an ULP; the picture's "
+         "float half an ULP",
          constant_sum},
         {"A02", "NoisyMean", "a million samples of 100 + u, u in (0, 1)", "the same sum in long double",
-         "two roundings: the quantum's, 4 standard errors of which are 1e-9, and that of the picture's float", noisy_mean},
-        {"A03", "NoisyVariance", "the same samples in 8 replicates", "variance of the replicates' means in long double",
-         "random rounding by a quantum of 1/8192 scatters replicates' means by 4e-4 of what the samples do; naive is the "
+         "two roundings: the quantum's, 4 standard errors of which are 1e-9, and that of the picture's float",
+         noisy_mean},
+        {"A03", "NoisyVariance", "the same samples in 8 replicates",
+         "variance of the replicates' means in long double",
+         "random rounding by a quantum of 1/8192 scatters replicates' means by 4e-4 of what the samples do; "
+         "naive is the "
          "variance of one sample from sums of values and squares",
          noisy_variance},
-        {"A04", "Partition", "a scene of all effects in five ranges of samples and in three windows", "the same render in one run",
-         "sums are integers: no order of samples, windows or launches may show", partition},
+        {"A04", "Partition", "a scene of all effects in five ranges of samples and in three windows",
+         "the same render in one run", "sums are integers: no order of samples, windows or launches may show",
+         partition},
         {"A05", "Splats", "1e8 equal splats on one pixel", "exact sum", "", nullptr,
          "an integrator that splats: light tracing, bidirectional or Metropolis"},
-        {"A06", "LastSamples", "sample numbers up to 2^32 - 2 and runs that would go on", "one run; pairs of 64 bits never repeat",
+        {"A06", "LastSamples", "sample numbers up to 2^32 - 2 and runs that would go on",
+         "one run; pairs of 64 bits never repeat",
          "numbers of samples have 32 bits; what is beyond is refused, not wrapped", last_samples},
-        {"A07", "FullFilm", "as many samples as a replicate holds, all of the largest contribution", "the contribution",
-         "2^19 contributions below 2^44 quanta stay below 2^63; one rounding to the picture's float", full_film},
+        {"A07", "FullFilm", "as many samples as a replicate holds, all of the largest contribution",
+         "the contribution",
+         "2^19 contributions below 2^44 quanta stay below 2^63; one rounding to the picture's float",
+         full_film},
     };
     return cases;
 }

@@ -68,7 +68,8 @@ void by_light_sampling(CaseRun& run) {
     const PathProbe probe(run.device, scene);
     const std::vector<TestRay> rays = rays_from_inside(probe, 16, 2);
     for (const Build build : path_builds(run)) {
-        const Moments moments = moments_of(reds(probe.radiance(build, Integrator::PATH, rays, run.count(1500, 1e5, 1e6))));
+        const Moments moments =
+            moments_of(reds(probe.radiance(build, Integrator::PATH, rays, run.count(1500, 1e5, 1e6))));
         z[build].see(std::abs(z_of_mean(moments, 1)), [&] { return fmt::format("mean {}", moments.mean); });
         error[build].see(std::abs(moments.mean - 1), [&] { return fmt::format("{} paths", moments.count); });
     }
@@ -79,7 +80,8 @@ void add_blob(SceneBuilder& build, int subdivisions) {
     for (const TestTriangle& triangle : icosphere_triangles({0, 0, 0}, 1, subdivisions)) {
         std::vector<dvec3> corners;
         for (const dvec3& c : triangle.corners)
-            corners.insert(corners.begin(), c * (1 + 0.3 * std::sin(7 * c.x) * std::sin(5 * c.y + 1) * std::cos(6 * c.z)));
+            corners.insert(corners.begin(),
+                           c * (1 + 0.3 * std::sin(7 * c.x) * std::sin(5 * c.y + 1) * std::cos(6 * c.z)));
         build.polygon(corners);
     }
 }
@@ -119,10 +121,12 @@ void facing_mirrors(CaseRun& run) {
     scene.options.roulette_depth = NO_ROULETTE;
     const PathProbe probe(run.device, scene);
     // From the gap's middle: hits half a step in from the mirrors' ends, a thousand of them.
-    const std::vector<TestRay> rays = {probe.ray({0, 0, 0.5}, {STEP / 2, 0, 1}), probe.ray({0, 0.3, 0.5}, {STEP / 2, 0.3, 0})};
+    const std::vector<TestRay> rays = {probe.ray({0, 0, 0.5}, {STEP / 2, 0, 1}),
+                                       probe.ray({0, 0.3, 0.5}, {STEP / 2, 0.3, 0})};
     for (const Build build : path_builds(run))
         for (const dvec3& value : probe.radiance(build, Integrator::PATH, rays))
-            error[build].see(std::abs(value.x / 0.3676954 - 1), [&] { return fmt::format("radiance {}", value.x); });
+            error[build].see(std::abs(value.x / 0.3676954 - 1),
+                             [&] { return fmt::format("radiance {}", value.x); });
 }
 
 void roulette(CaseRun& run) {
@@ -135,7 +139,8 @@ void roulette(CaseRun& run) {
     probe.params.choose_emitter = 0;
     const std::vector<TestRay> rays = rays_from_inside(probe, 16, 4);
     for (const Build build : path_builds(run)) {
-        const std::vector<double> got = reds(probe.radiance(build, Integrator::PATH, rays, run.count(300, 1e5, 1e6)));
+        const std::vector<double> got =
+            reds(probe.radiance(build, Integrator::PATH, rays, run.count(300, 1e5, 1e6)));
         const Moments moments = moments_of(got);
         z[build].see(std::abs(z_of_mean(moments, 1)), [&] { return fmt::format("mean {}", moments.mean); });
         for (const double value : got)
@@ -143,7 +148,8 @@ void roulette(CaseRun& run) {
     }
 }
 
-/// Radiance of a floor below a point light of intensity R^2 at height R, and of a ball of radius R around one.
+/// Radiance of a floor below a point light of intensity R^2 at height R, and of a ball of radius R around
+/// one.
 double lit(const CaseRun& run, Build build, double size, bool is_ball) {
     TestScene scene;
     scene.build.material("wall", "Kd 0.5 0.5 0.5").use("wall");
@@ -178,8 +184,10 @@ void inverse_square(CaseRun& run) {
 
 const std::vector<StabilityCase>& furnace_cases() {
     static const std::vector<StabilityCase> cases = {
-        {"F01", "BsdfSampling", "a ball that glows with 1/2 and reflects 1/2, paths of N segments without light sampling",
-         "1 - 2^-N for every path", "weights are the reflectance itself: nothing varies, nothing is rounded", by_bsdf_sampling},
+        {"F01", "BsdfSampling",
+         "a ball that glows with 1/2 and reflects 1/2, paths of N segments without light sampling",
+         "1 - 2^-N for every path", "weights are the reflectance itself: nothing varies, nothing is rounded",
+         by_bsdf_sampling},
         {"F02", "LightSampling", "the same with light sampling and multiple importance sampling", "1",
          "noise: corners of flat triangles see each other unevenly", by_light_sampling},
         {"F03", "Bidirectional", "every way to make a path of k scatterings", "Le kd^k", "", nullptr,
@@ -188,21 +196,24 @@ const std::vector<StabilityCase>& furnace_cases() {
          "a law: a path that loses light has left", shapes},
         {"F05", "EveryBsdf", "every BSDF under a white sky, a lattice of random numbers",
          "colours of lossless lobes, albedo of rough ones by quadrature in double",
-         "eight roundings; the lattice's error for rough lobes, larger where a random number chooses the lobe: a jump",
+         "eight roundings; the lattice's error for rough lobes, larger where a random number chooses the "
+         "lobe: a jump",
          bsdf_furnace},
-        {"F06", "FacingMirrors", "two mirrors of 0.999, a thousand reflections", "0.999^1000", "two roundings a reflection",
-         facing_mirrors},
+        {"F06", "FacingMirrors", "two mirrors of 0.999, a thousand reflections", "0.999^1000",
+         "two roundings a reflection", facing_mirrors},
         {"F07", "Roulette", "walls that reflect 0.99, roulette from the first vertex", "1",
          "noise; lengths have a geometric distribution of mean 100", roulette},
         {"F08", "LightTracing", "the sum of splats", "the captured flux", "", nullptr, "light tracing"},
         {"F09", "InverseSquare", "a point light of intensity R^2 at distance R, R from 1e-3 to 1e3",
          "I kd / (pi R^2), in a ball over 1 - kd",
-         "a dozen roundings under a lamp; in balls a path whose hit falls to the neighbouring facet changes; facets are nearer "
+         "a dozen roundings under a lamp; in balls a path whose hit falls to the neighbouring facet changes; "
+         "facets are nearer "
          "than their ball",
          inverse_square},
         {"F10", "ColouredLobes", "a matte lobe and a mirror of each mixture of pure red, green, blue",
          "a sample's weight is at most the sum of both sizes",
-         "lobes are chosen by the sizes of their colours; a choice by luminance exceeds it up to fivefold", coloured_lobes},
+         "lobes are chosen by the sizes of their colours; a choice by luminance exceeds it up to fivefold",
+         coloured_lobes},
     };
     return cases;
 }

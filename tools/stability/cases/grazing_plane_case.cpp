@@ -23,8 +23,10 @@ void grazed_plane(CaseRun& run) {
         std::vector<TestRay> rays;
         std::vector<double> angles;
         for (size_t i = 0; i < run.count(1e4, 1e5, 1e6); ++i) {
-            const double angle = std::pow(10.0, -decade) * random.between(0.5, 1), x = random.between(0.1, 0.9);
-            rays.push_back(make_ray({0, x * std::tan(angle), random.between(-0.5, 0.5)}, {std::cos(angle), -std::sin(angle), 0}));
+            const double angle = std::pow(10.0, -decade) * random.between(0.5, 1),
+                         x = random.between(0.1, 0.9);
+            rays.push_back(make_ray({0, x * std::tan(angle), random.between(-0.5, 0.5)},
+                                    {std::cos(angle), -std::sin(angle), 0}));
             angles.push_back(angle);
         }
         for (const Build build : run.builds()) {
@@ -38,7 +40,8 @@ void grazed_plane(CaseRun& run) {
                     found = -1 + 2 * (hits[i].b1 + hits[i].b2);
                 else if (hits[i].triangle == 1)
                     found = -1 + 2 * hits[i].b2;
-                error[build].see(std::abs(found - x) / x * angles[i] / FLOAT_U, [&] { return ray_text(rays[i]); });
+                error[build].see(std::abs(found - x) / x * angles[i] / FLOAT_U,
+                                 [&] { return ray_text(rays[i]); });
             }
         }
     }

@@ -42,8 +42,8 @@ static void probe_triangle(real3 origin, real3 direction, real3 p0, real3 p1, re
 struct Pairs {
     Columns columns = Columns(15);
 
-    void add(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& p0, const glm::dvec3& p1,
-             const glm::dvec3& p2) {
+    void add(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& p0,
+             const glm::dvec3& p1, const glm::dvec3& p2) {
         size_t column = 0;
         for (const glm::dvec3& v : {origin, direction, p0, p1, p2})
             for (int axis = 0; axis < 3; ++axis)
@@ -70,12 +70,13 @@ using Found = std::vector<std::vector<double>>;
 Found run_pairs(const CaseRun& run, Build build, const Pairs& pairs) {
     // Never freed, like the device that it refers to.
     static auto* const probes = [&] {
-        auto* made = new ProbeSet(run.device, {"geometry/triangle.h"},
-                                  {{"triangle", 15, 4,
-                                    "probe_triangle((real3)(a, b, c), (real3)(d, e, f), (real3)(g, h, j), (real3)(k, l, m), "
-                                    "(real3)(n, o, p), out);",
-                                    ""}},
-                                  TEXT);
+        auto* made = new ProbeSet(
+            run.device, {"geometry/triangle.h"},
+            {{"triangle", 15, 4,
+              "probe_triangle((real3)(a, b, c), (real3)(d, e, f), (real3)(g, h, j), (real3)(k, l, m), "
+              "(real3)(n, o, p), out);",
+              ""}},
+            TEXT);
         made->use_naive_kernels(plain_triangles().files);
         return made;
     }();
@@ -91,7 +92,8 @@ struct Seen {
 
 Seen seen_along(const Pairs& pairs, size_t i) {
     const glm::dvec3 d = glm::normalize(pairs.vector(i, 1));
-    const glm::dvec3 x = glm::normalize(glm::cross(d, std::abs(d.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 x =
+        glm::normalize(glm::cross(d, std::abs(d.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     Seen seen;
     for (size_t k = 0; k < 3; ++k) {
         const glm::dvec3 p = pairs.vector(i, 2 + k) - pairs.vector(i, 0);
@@ -138,7 +140,8 @@ Pairs needles(size_t count) {
 void false_hits(CaseRun& run) {
     const Pairs pairs = needles(run.count(2e5, 1e6, 1e7));
     const bool exact = run.device.info.correctly_rounded_division;
-    Figure& beside = run.figure("distance by which a hit is missed, of the reach", (exact ? 8.5 : 14.2) * FLOAT_U);
+    Figure& beside =
+        run.figure("distance by which a hit is missed, of the reach", (exact ? 8.5 : 14.2) * FLOAT_U);
     Figure& depth = run.figure("t outside the corners' depths, of the largest", 8 * FLOAT_U);
     for (const Build build : run.builds()) {
         const Found found = run_pairs(run, build, pairs);
@@ -150,7 +153,8 @@ void false_hits(CaseRun& run) {
             beside[build].see(passes_by(seen) / seen.reach, describe);
             const auto [low, high] = std::minmax({seen.depths[0], seen.depths[1], seen.depths[2]});
             const double t = found[1][i];
-            depth[build].see(std::max({low - t, t - high, 0.0}) / std::max(std::abs(low), std::abs(high)), describe);
+            depth[build].see(std::max({low - t, t - high, 0.0}) / std::max(std::abs(low), std::abs(high)),
+                             describe);
         }
     }
 }
@@ -162,7 +166,8 @@ void distance_and_weights(CaseRun& run) {
         double u = random.unit(), v = random.unit();
         if (u + v > 1)
             u = 1 - u, v = 1 - v;
-        const glm::dvec3 target(u, v, 0), origin = target + random.between(0.25, 1) * random.upper_direction();
+        const glm::dvec3 target(u, v, 0),
+            origin = target + random.between(0.25, 1) * random.upper_direction();
         pairs.add(origin, glm::normalize(target - origin), {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     }
     Figure& distance = run.figure("|dt|", 16 * FLOAT_U);
@@ -178,9 +183,10 @@ void distance_and_weights(CaseRun& run) {
             const double scale = std::max(1.0, 1 / std::abs(d.z) / 8);
             const auto describe = [&] { return ray_text(pairs.ray(i)); };
             distance[build].see(std::abs(found[1][i] - t) / scale, describe);
-            weights[build].see(std::max(std::abs(found[2][i] - (o.x + t * d.x)), std::abs(found[3][i] - (o.y + t * d.y))) /
-                                   scale,
-                               describe);
+            weights[build].see(
+                std::max(std::abs(found[2][i] - (o.x + t * d.x)), std::abs(found[3][i] - (o.y + t * d.y))) /
+                    scale,
+                describe);
         }
     }
 }
@@ -195,8 +201,10 @@ void depth_order(CaseRun& run) {
         float z_behind = z;
         for (int step = 0; step < k; ++step)
             z_behind = std::nextafter(z_behind, 1e30f);
-        const glm::dvec3 way = glm::normalize(glm::dvec3(random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1));
-        const glm::dvec3 corner = way / way.z * double(z) - glm::dvec3(random.between(0.2, 0.5) * z, random.between(0.2, 0.4) * z, 0);
+        const glm::dvec3 way =
+            glm::normalize(glm::dvec3(random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1));
+        const glm::dvec3 corner = way / way.z * double(z) -
+                                  glm::dvec3(random.between(0.2, 0.5) * z, random.between(0.2, 0.4) * z, 0);
         const auto add = [&](Pairs& pairs, double depth) {
             pairs.add({0, 0, 0}, way, {corner.x, corner.y, depth}, {corner.x + 1.2 * z, corner.y, depth},
                       {corner.x, corner.y + 1.2 * z, depth});
@@ -210,7 +218,8 @@ void depth_order(CaseRun& run) {
         const Found a = run_pairs(run, build, front), b = run_pairs(run, build, behind);
         for (size_t i = 0; i < steps.size(); ++i)
             if (steps[i] >= 4 && a[0][i] != 0 && b[0][i] != 0)
-                swapped[build].count(!(a[1][i] < b[1][i]), [&] { return fmt::format("k = {}: {}", steps[i], front.text(i)); });
+                swapped[build].count(!(a[1][i] < b[1][i]),
+                                     [&] { return fmt::format("k = {}: {}", steps[i], front.text(i)); });
     }
 }
 
@@ -227,12 +236,13 @@ void deep_trees(CaseRun& run) {
     for (size_t i = 0; i < run.count(1e4, 1e5, 1e6); ++i) {
         const Triangle& triangle = chain.triangles[random.word() % chain.triangles.size()];
         // From everywhere, and along the chain so that all boxes are met.
-        rays.push_back(i % 2 ? make_ray_to(random.in_cube(2), corner_position(chain, triangle, int(random.word() % 3)))
-                             : make_ray({-0.5, 0, 0}, {1, random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3)}));
+        rays.push_back(
+            i % 2 ? make_ray_to(random.in_cube(2), corner_position(chain, triangle, int(random.word() % 3)))
+                  : make_ray({-0.5, 0, 0}, {1, random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3)}));
     }
     count_tree_differences(run, chain, rays, "chain", differences);
-    // Beside each shrinking level stands a group of much larger triangles: the cheapest wide tree would have more levels than
-    // the smallest stack has entries.
+    // Beside each shrinking level stands a group of much larger triangles: the cheapest wide tree would have
+    // more levels than the smallest stack has entries.
     Scene groups = make_empty_scene();
     for (int k = 0; k < 58; ++k)
         for (int i = 0; i < 64; ++i) {
@@ -241,8 +251,9 @@ void deep_trees(CaseRun& run) {
         }
     rays.clear();
     for (size_t i = 0; i < run.count(2e3, 2e4, 2e5); ++i)
-        rays.push_back(make_ray_to({0, 0, 0}, corner_position(groups, groups.triangles[random.word() % groups.triangles.size()],
-                                                              int(i % 3))));
+        rays.push_back(make_ray_to(
+            {0, 0, 0},
+            corner_position(groups, groups.triangles[random.word() % groups.triangles.size()], int(i % 3))));
     count_tree_differences(run, groups, rays, "groups", differences);
 }
 
@@ -265,15 +276,18 @@ void far_ball(CaseRun& run) {
             expected.push_back(glm::length(target - origin));
         }
         for (const Build build : run.builds())
-            for_each_tree(build, plain_triangles(), [&](const RayDeviceOptions& options, const std::string& tree) {
-                const std::vector<TestHit> hits = RayDevice(ball, options).closest(rays);
-                for (size_t i = 0; i < rays.size(); ++i) {
-                    const auto describe = [&] { return fmt::format("from {}, {}: {}", distance, tree, ray_text(rays[i])); };
-                    lost[build].count(hits[i].triangle == NO_INDEX, describe);
-                    if (hits[i].triangle != NO_INDEX)
-                        error[build].see(std::abs(hits[i].t - expected[i]) / expected[i], describe);
-                }
-            });
+            for_each_tree(
+                build, plain_triangles(), [&](const RayDeviceOptions& options, const std::string& tree) {
+                    const std::vector<TestHit> hits = RayDevice(ball, options).closest(rays);
+                    for (size_t i = 0; i < rays.size(); ++i) {
+                        const auto describe = [&] {
+                            return fmt::format("from {}, {}: {}", distance, tree, ray_text(rays[i]));
+                        };
+                        lost[build].count(hits[i].triangle == NO_INDEX, describe);
+                        if (hits[i].triangle != NO_INDEX)
+                            error[build].see(std::abs(hits[i].t - expected[i]) / expected[i], describe);
+                    }
+                });
     }
 }
 
@@ -282,14 +296,16 @@ void planet(CaseRun& run) {
     for (const TestTriangle& triangle : icosphere_triangles({0, 0, 0}, 6.4e6, 5))
         add_triangle(scene, triangle.corners[0], triangle.corners[1], triangle.corners[2]);
     scene = normalised(scene);
-    const double unit = 1.0 / 4194304; // the loader's scale: the half-diagonal of the box is between 2^23 and 2^24
+    const double unit =
+        1.0 / 4194304; // the loader's scale: the half-diagonal of the box is between 2^23 and 2^24
     Random random(8);
     std::vector<TestRay> rays;
     for (size_t i = 0; i < run.count(2e4, 2e5, 1e6); ++i) {
         const Triangle& triangle = scene.triangles[random.word() % scene.triangles.size()];
         const glm::dvec3 n = glm::normalize(triangle_normal(scene, triangle));
         const glm::dvec3 above = point_on(scene, triangle, random) + n * (random.between(1, 100) * unit);
-        rays.push_back(make_ray(above, leaving_direction(n, make_ray({0, 0, 0}, n), random.between(0.1, 1), random)));
+        rays.push_back(
+            make_ray(above, leaving_direction(n, make_ray({0, 0, 0}, n), random.between(0.1, 1), random)));
     }
     Figure& depth = run.figure("|dt| cos, of the facet's offset bound", 1);
     Figure& again = run.figure("rays that leave the body and meet it", 0);
@@ -299,10 +315,14 @@ void planet(CaseRun& run) {
         const std::vector<TestPoint> points = device.points(from.rays, from.hits);
         for (size_t i = 0; i < from.rays.size(); ++i) {
             const Triangle& triangle = scene.triangles[from.hits[i].triangle];
-            const glm::dvec3 n = glm::normalize(triangle_normal(scene, triangle)), d = to_dvec3(from.rays[i].direction);
+            const glm::dvec3 n = glm::normalize(triangle_normal(scene, triangle)),
+                             d = to_dvec3(from.rays[i].direction);
             const double cosine = std::abs(glm::dot(n, d));
-            const double t = glm::dot(n, corner_position(scene, triangle, 0) - to_dvec3(from.rays[i].origin)) / glm::dot(n, d);
-            depth[build].see(std::abs(from.hits[i].t - t) * cosine / points[i].offset, [&] { return ray_text(from.rays[i]); });
+            const double t =
+                glm::dot(n, corner_position(scene, triangle, 0) - to_dvec3(from.rays[i].origin)) /
+                glm::dot(n, d);
+            depth[build].see(std::abs(from.hits[i].t - t) * cosine / points[i].offset,
+                             [&] { return ray_text(from.rays[i]); });
         }
         const std::vector<TestRay> away = leave_at_random(scene, device, from, random);
         const std::vector<u32> met = device.any(away);

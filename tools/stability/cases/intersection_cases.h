@@ -11,8 +11,8 @@
 namespace clrt {
 
 /// Counts rays for which a tree and a loop over all triangles find different bits, in every build and tree.
-void count_tree_differences(CaseRun& run, const Scene& scene, const std::vector<TestRay>& rays, const std::string& name,
-                            Figure& differences);
+void count_tree_differences(CaseRun& run, const Scene& scene, const std::vector<TestRay>& rays,
+                            const std::string& name, Figure& differences);
 
 // intersection_accuracy_cases.cpp
 void false_hits(CaseRun& run);

@@ -19,8 +19,9 @@ using glm::dvec3;
 const Integrator TREE_AND_PATH[] = {Integrator::WHITTED, Integrator::PATH};
 
 /// a, b: densities of both techniques. The weights of both.
-const ProbedExpression MIS = {"mis", 2, 2, "out[0] = mis_weight(a, b); out[1] = mis_weight(b, a);",
-                              "const real a2 = a * a, b2 = b * b; out[0] = a2 / (a2 + b2); out[1] = b2 / (a2 + b2);"};
+const ProbedExpression MIS = {
+    "mis", 2, 2, "out[0] = mis_weight(a, b); out[1] = mis_weight(b, a);",
+    "const real a2 = a * a, b2 = b * b; out[0] = a2 / (a2 + b2); out[1] = b2 / (a2 + b2);"};
 
 /// A matte floor of reflectance 1/2, light by one reflection.
 struct FloorScene : TestScene {
@@ -45,7 +46,8 @@ std::vector<double> reds(const std::vector<dvec3>& colours) {
 /// The last triangle of a scene.
 std::vector<dvec3> last_triangle(const Scene& scene) {
     const Triangle& t = scene.triangles.back();
-    return {to_dvec3(scene.positions[t.v0]), to_dvec3(scene.positions[t.v1]), to_dvec3(scene.positions[t.v2])};
+    return {to_dvec3(scene.positions[t.v0]), to_dvec3(scene.positions[t.v1]),
+            to_dvec3(scene.positions[t.v2])};
 }
 
 void tiny_lamp(CaseRun& run) {
@@ -58,7 +60,8 @@ void tiny_lamp(CaseRun& run) {
     // The corners as the scene holds them; the floor at the middle of its box.
     const std::vector<dvec3> c = last_triangle(probe.scene());
     const double height = probe.scene().positions[0].y;
-    const dvec3 area = 0.5 * glm::cross(c[1] - c[0], c[2] - c[0]), way = (c[0] + c[1] + c[2]) / 3.0 - dvec3(0, height, 0);
+    const dvec3 area = 0.5 * glm::cross(c[1] - c[0], c[2] - c[0]),
+                way = (c[0] + c[1] + c[2]) / 3.0 - dvec3(0, height, 0);
     const double irradiance = std::abs(glm::dot(area, way)) * way.y / std::pow(glm::dot(way, way), 2);
     const double middle = -probe.scene().normalisation.centre.x;
     const std::vector<TestRay> rays = {probe.ray({-0.4 - middle, 0.5, 0.3}, {-middle, 0, 0})};
@@ -74,13 +77,15 @@ void huge_lamp(CaseRun& run) {
     FloorScene scene;
     scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1").use("lamp");
     const double half = 5e4;
-    const std::vector<dvec3> corners = {{-half, 1, -half}, {half, 1, -half}, {half, 1, half}, {-half, 1, half}};
+    const std::vector<dvec3> corners = {
+        {-half, 1, -half}, {half, 1, -half}, {half, 1, half}, {-half, 1, half}};
     scene.build.polygon(corners);
     const PathProbe probe(run.device, scene);
     const double expected = floor_radiance(polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners));
     const std::vector<TestRay> rays = {probe.ray({0.3, 0.5, 0.2}, {0, 0, 0})};
     for (const Build build : path_builds(run)) {
-        const Moments moments = moments_of(reds(probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7))));
+        const Moments moments =
+            moments_of(reds(probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7))));
         z[build].see(std::abs(z_of_mean(moments, expected)),
                      [&] { return fmt::format("mean {}, expected {}", moments.mean, expected); });
     }
@@ -128,7 +133,8 @@ void all_powers(CaseRun& run) {
     for (int k = -20; k <= 20; k += 5) {
         const double radiance = std::pow(10, k), at = 0.03 * k;
         const std::vector<dvec3> corners = {{at, 1, 0}, {at + 0.1, 1, 0}, {at, 1, 0.2}};
-        scene.build.material(fmt::format("lamp{}", k), fmt::format("Kd 0 0 0\nKe {0:e} {0:e} {0:e}", radiance))
+        scene.build
+            .material(fmt::format("lamp{}", k), fmt::format("Kd 0 0 0\nKe {0:e} {0:e} {0:e}", radiance))
             .use(fmt::format("lamp{}", k))
             .polygon(corners);
         irradiance += radiance * polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners);
@@ -136,7 +142,8 @@ void all_powers(CaseRun& run) {
     const PathProbe probe(run.device, scene);
     const std::vector<TestRay> rays = {probe.ray({0.3, 0.5, 0.2}, {0, 0, 0})};
     for (const Build build : path_builds(run)) {
-        const std::vector<double> got = reds(probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7)));
+        const std::vector<double> got =
+            reds(probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7)));
         for (const double value : got)
             bad[build].count(!std::isfinite(value), [&] { return fmt::format("{}", value); });
         const Moments moments = moments_of(got);
@@ -179,7 +186,8 @@ void mis_grid(CaseRun& run) {
         }
         for (size_t i = 0; i < at_ends[0].size(); ++i)
             for (const double w : {at_ends[0][i], at_ends[1][i]})
-                bad[build].count(!(w >= 0 && w <= 1), [&] { return fmt::format("{} {}", ends[0][i], ends[1][i]); });
+                bad[build].count(!(w >= 0 && w <= 1),
+                                 [&] { return fmt::format("{} {}", ends[0][i], ends[1][i]); });
     }
 }
 
@@ -188,7 +196,11 @@ void light_in_a_box(CaseRun& run) {
     Figure& edges = run.figure("share of paths to edges and corners that do", 0.15);
     TestScene scene;
     scene.build.material("wall", "Kd 0.8 0.8 0.8").material("lamp", "Kd 0 0 0\nKe 1e6 1e6 1e6");
-    scene.build.use("wall").floor(4, -1.5).box({-1, -1, -1}, {1, 1, 1}).use("lamp").icosphere({0, 0, 0}, 0.5, 1);
+    scene.build.use("wall")
+        .floor(4, -1.5)
+        .box({-1, -1, -1}, {1, 1, 1})
+        .use("lamp")
+        .icosphere({0, 0, 0}, 0.5, 1);
     scene.options.light.points.push_back({{0.7, 0.7, 0.7}, dvec3(1e6)});
     scene.options.max_depth = 8;
     const PathProbe probe(run.device, scene);
@@ -241,18 +253,19 @@ void delta_lights(CaseRun& run) {
                 // Where the rounded ray meets the floor, in the scene's units.
                 const dvec3 o = to_dvec3(rays.back().origin), d = to_dvec3(rays.back().direction);
                 const double floor = probe.scene().positions[0].y;
-                const dvec3 hit =
-                    (o + d * ((floor - o.y) / d.y)) / probe.scene().normalisation.scale + probe.scene().normalisation.centre;
+                const dvec3 hit = (o + d * ((floor - o.y) / d.y)) / probe.scene().normalisation.scale +
+                                  probe.scene().normalisation.centre;
                 const dvec3 way = light - hit;
-                expected.push_back(
-                    floor_radiance(is_sun ? 3 * glm::normalize(light).y : 3 * way.y / std::pow(glm::length(way), 3)));
+                expected.push_back(floor_radiance(is_sun ? 3 * glm::normalize(light).y
+                                                         : 3 * way.y / std::pow(glm::length(way), 3)));
             }
             for (const Build build : path_builds(run))
                 for (const Integrator integrator : TREE_AND_PATH) {
                     const std::vector<dvec3> got = probe.radiance(build, integrator, rays);
                     for (size_t i = 0; i < got.size(); ++i)
-                        (is_sun ? sun : point)[build].see(std::abs(got[i].x / expected[i] - 1),
-                                                          [&] { return fmt::format("round {}, ray {}", round, i); });
+                        (is_sun ? sun : point)[build].see(std::abs(got[i].x / expected[i] - 1), [&] {
+                            return fmt::format("round {}, ray {}", round, i);
+                        });
                 }
         }
 }
@@ -272,31 +285,41 @@ ProbeTime time_mis_weight(const Device& device) {
 const std::vector<StabilityCase>& light_cases() {
     static const std::vector<StabilityCase> cases = {
         {"L01", "TinyLamp", "a triangle of side 1e-6 at distance 1 over a floor",
-         "area times both cosines over the squared distance", "its side is a few thousand roundings of its place", tiny_lamp},
-        {"L02", "HugeLamp", "a square of side 1e5 at distance 1", "Lambert's formula for polygons in double", "noise",
-         huge_lamp},
-        {"L03", "InTheLampsPlane", "a floor beside a lamp in one plane, points up to 1e-7 from edge and corner", "no light",
-         "a law; a tilted plane's corners are off it by a rounding, which lights as much as it is wide", in_the_lamps_plane},
-        {"L04", "DarkLights", "lamps without area or power among 1e4", "never chosen, by enumeration of the table", "a law",
-         dark_lights},
-        {"L05", "SphereLight", "R / d from 1e-6 to 0.999999, and from inside", "pi L (R / d)^2 cos", "", nullptr,
-         "lights that are spheres"},
-        {"L06", "SolidAngle", "triangles from 1e-10 to 6.2 sr, seen at 75 degrees at most", "van Oosterom and Strackee in double",
-         "a triangle below 3e-4 sr at a distance of 1 has edges of few roundings; the sum of the angles less pi (naive) "
-         "cancels", solid_angles},
-        {"L07", "ManyLights", "a million lights of powers over eight decades", "enumeration of the integer table",
-         "thresholds are multiples of 2^-32 of a share", many_lights},
-        {"L08", "AllPowers", "lamps of radiance 1e-20 to 1e20 in one estimate", "the sum of Lambert's formulas", "noise",
-         all_powers},
-        {"L09", "MisGrid", "densities from 1e-38 to 1e38, 0 and infinity", "w_a + w_b = 1, the power heuristic",
-         "four roundings of values up to 1", mis_grid},
+         "area times both cosines over the squared distance",
+         "its side is a few thousand roundings of its place", tiny_lamp},
+        {"L02", "HugeLamp", "a square of side 1e5 at distance 1", "Lambert's formula for polygons in double",
+         "noise", huge_lamp},
+        {"L03", "InTheLampsPlane",
+         "a floor beside a lamp in one plane, points up to 1e-7 from edge and corner", "no light",
+         "a law; a tilted plane's corners are off it by a rounding, which lights as much as it is wide",
+         in_the_lamps_plane},
+        {"L04", "DarkLights", "lamps without area or power among 1e4",
+         "never chosen, by enumeration of the table", "a law", dark_lights},
+        {"L05", "SphereLight", "R / d from 1e-6 to 0.999999, and from inside", "pi L (R / d)^2 cos", "",
+         nullptr, "lights that are spheres"},
+        {"L06", "SolidAngle", "triangles from 1e-10 to 6.2 sr, seen at 75 degrees at most",
+         "van Oosterom and Strackee in double",
+         "a triangle below 3e-4 sr at a distance of 1 has edges of few roundings; the sum of the angles less "
+         "pi (naive) "
+         "cancels",
+         solid_angles},
+        {"L07", "ManyLights", "a million lights of powers over eight decades",
+         "enumeration of the integer table", "thresholds are multiples of 2^-32 of a share", many_lights},
+        {"L08", "AllPowers", "lamps of radiance 1e-20 to 1e20 in one estimate",
+         "the sum of Lambert's formulas", "noise", all_powers},
+        {"L09", "MisGrid", "densities from 1e-38 to 1e38, 0 and infinity",
+         "w_a + w_b = 1, the power heuristic", "four roundings of values up to 1", mis_grid},
         {"L10", "LightInABox",
-         "lamps inside a closed box over a floor, seen from outside at faces, edges, corners, and on the floor", "0",
-         "a law; a ray that meets an edge exactly hits both faces at one distance, and goes on inside where the lower index is "
+         "lamps inside a closed box over a floor, seen from outside at faces, edges, corners, and on the "
+         "floor",
+         "0",
+         "a law; a ray that meets an edge exactly hits both faces at one distance, and goes on inside where "
+         "the lower index is "
          "the face seen from behind",
          light_in_a_box},
         {"L11", "DeltaLights", "points and suns over a floor", "I cos / d^2 and E cos",
-         "4 ULP, and the place of the hit: half an ULP of the floor's size changes d^3 threefold", delta_lights},
+         "4 ULP, and the place of the hit: half an ULP of the floor's size changes d^3 threefold",
+         delta_lights},
     };
     return cases;
 }

@@ -28,7 +28,8 @@ std::vector<double> enumerate(const AliasTable& table) {
     return p;
 }
 
-/// What running sums in float choose with numbers of 24 bits, which a float cannot tell apart more finely near 1.
+/// What running sums in float choose with numbers of 24 bits, which a float cannot tell apart more finely
+/// near 1.
 std::vector<double> by_float_sums(const std::vector<double>& weights) {
     const double whole = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<double> p(weights.size());
@@ -51,12 +52,13 @@ std::vector<double> powers(size_t count) {
 }
 
 /// a: a number for the naive way; b: a word's bits; c, d, e: running sums, thresholds' bits, aliases.
-const ProbedExpression CHOICE = {"choice", 5, 1,
-                                 "const u32 w = as_uint(in_b[i]), slot = warp_index(w, 4096u);"
-                                 "out[0] = sampler_hash(w) < as_uint(in_d[slot]) ? (real)slot : (real)in_e[slot];",
-                                 "u32 low = 0u, high = 4095u; while (low < high) { const u32 middle = (low + high) / 2u; if "
-                                 "(in_c[middle] > in_a[i]) high = middle;"
-                                 "else low = middle + 1u; } out[0] = (real)low;"};
+const ProbedExpression CHOICE = {
+    "choice", 5, 1,
+    "const u32 w = as_uint(in_b[i]), slot = warp_index(w, 4096u);"
+    "out[0] = sampler_hash(w) < as_uint(in_d[slot]) ? (real)slot : (real)in_e[slot];",
+    "u32 low = 0u, high = 4095u; while (low < high) { const u32 middle = (low + high) / 2u; if "
+    "(in_c[middle] > in_a[i]) high = middle;"
+    "else low = middle + 1u; } out[0] = (real)low;"};
 
 } // namespace
 
@@ -90,7 +92,8 @@ void dark_lights(CaseRun& run) {
     }
     for (size_t i = 0; i < triangles.size(); ++i) {
         dark[Build::SINGLE].count(!shines[i] && chance[i] > 0, [&] { return fmt::format("triangle {}", i); });
-        lost[Build::SINGLE].count(shines[i] && !(chance[i] > 0), [&] { return fmt::format("triangle {}", i); });
+        lost[Build::SINGLE].count(shines[i] && !(chance[i] > 0),
+                                  [&] { return fmt::format("triangle {}", i); });
     }
 }
 

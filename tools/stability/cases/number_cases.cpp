@@ -21,7 +21,8 @@ const ProbedExpression FRAME = {
     "const Frame f = frame_make(vector_make(a, b, c)); out[0] = f.x.x; out[1] = f.x.y; out[2] = f.x.z;"
     "out[3] = f.y.x; out[4] = f.y.y; out[5] = f.y.z; out[6] = f.z.x; out[7] = f.z.y; out[8] = f.z.z;",
     "const real3 n = vector_make(a, b, c); const real s = REAL(1.0) / (REAL(1.0) + c);"
-    "out[0] = REAL(1.0) - a * a * s; out[1] = -a * b * s; out[2] = -a; out[3] = -a * b * s; out[4] = REAL(1.0) - b * b * s; "
+    "out[0] = REAL(1.0) - a * a * s; out[1] = -a * b * s; out[2] = -a; out[3] = -a * b * s; out[4] = "
+    "REAL(1.0) - b * b * s; "
     "out[5] = -b;"
     "out[6] = n.x; out[7] = n.y; out[8] = n.z;"};
 
@@ -29,30 +30,38 @@ const ProbedExpression FRAME = {
 const ProbedExpression UNIT = {"unit", 1, 1, "out[0] = sampler_unit(((uint)a << 8) | 0xffu);",
                                "out[0] = (real)(((uint)a << 8) | 0xffu) * (real)2.3283064365386963e-10f;"};
 
-/// a: pixel. Halves of the key's word and of the first pair and word. Naive: a seed of 32 bits that is no bijection of the
-/// pixel.
-const ProbedExpression STREAM = {
-    "stream", 1, 8,
-    "const Sampler s = sampler_make(1u, (uint)a, 0u, 0u); const uint2 p = sampler_pair_words(&s, 0u, SAMPLE_FILM);"
-    "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_LOBE)};"
-    "for (int k = 0; k < 4; ++k) { out[2 * k] = (real)(w[k] >> 16); out[2 * k + 1] = (real)(w[k] & 0xffffu); }",
-    "const uint x = (uint)a % 3840u, y = (uint)a / 3840u; const uint h = sampler_hash(x * 0x9e3779b9u) ^ sampler_hash(y + "
-    "0x85ebca6bu);"
-    "Sampler s; s.key = h; s.index_reversed = 0u; s.word_key = sampler_hash(h); const uint2 p = sampler_pair_words(&s, 0u, "
-    "SAMPLE_FILM);"
-    "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_LOBE)};"
-    "for (int k = 0; k < 4; ++k) { out[2 * k] = (real)(w[k] >> 16); out[2 * k + 1] = (real)(w[k] & 0xffffu); }"};
+/// a: pixel. Halves of the key's word and of the first pair and word. Naive: a seed of 32 bits that is no
+/// bijection of the pixel.
+const ProbedExpression STREAM = {"stream", 1, 8,
+                                 "const Sampler s = sampler_make(1u, (uint)a, 0u, 0u); const uint2 p = "
+                                 "sampler_pair_words(&s, 0u, SAMPLE_FILM);"
+                                 "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_LOBE)};"
+                                 "for (int k = 0; k < 4; ++k) { out[2 * k] = (real)(w[k] >> 16); out[2 * k + "
+                                 "1] = (real)(w[k] & 0xffffu); }",
+                                 "const uint x = (uint)a % 3840u, y = (uint)a / 3840u; const uint h = "
+                                 "sampler_hash(x * 0x9e3779b9u) ^ sampler_hash(y + "
+                                 "0x85ebca6bu);"
+                                 "Sampler s; s.key = h; s.index_reversed = 0u; s.word_key = sampler_hash(h); "
+                                 "const uint2 p = sampler_pair_words(&s, 0u, "
+                                 "SAMPLE_FILM);"
+                                 "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_LOBE)};"
+                                 "for (int k = 0; k < 4; ++k) { out[2 * k] = (real)(w[k] >> 16); out[2 * k + "
+                                 "1] = (real)(w[k] & 0xffffu); }"};
 
 /// a: pixel, b: sample, c: bounce, d: purpose. A pair. Naive: white noise.
-const ProbedExpression PAIR = {
-    "pair", 4, 4,
-    "const Sampler s = sampler_make(7u, (uint)a, 3u, (uint)b); const uint2 p = sampler_sobol_words(&s, (uint)c, (uint)d);"
-    "out[0] = (real)(p.x >> 16); out[1] = (real)(p.x & 0xffffu); out[2] = (real)(p.y >> 16); out[3] = (real)(p.y & 0xffffu);",
-    "const Sampler s = sampler_make(7u, (uint)a, 3u, (uint)b); const uint2 p = sampler_independent_words(&s, (uint)c, (uint)d);"
-    "out[0] = (real)(p.x >> 16); out[1] = (real)(p.x & 0xffffu); out[2] = (real)(p.y >> 16); out[3] = (real)(p.y & 0xffffu);"};
+const ProbedExpression PAIR = {"pair", 4, 4,
+                               "const Sampler s = sampler_make(7u, (uint)a, 3u, (uint)b); const uint2 p = "
+                               "sampler_sobol_words(&s, (uint)c, (uint)d);"
+                               "out[0] = (real)(p.x >> 16); out[1] = (real)(p.x & 0xffffu); out[2] = "
+                               "(real)(p.y >> 16); out[3] = (real)(p.y & 0xffffu);",
+                               "const Sampler s = sampler_make(7u, (uint)a, 3u, (uint)b); const uint2 p = "
+                               "sampler_independent_words(&s, (uint)c, (uint)d);"
+                               "out[0] = (real)(p.x >> 16); out[1] = (real)(p.x & 0xffffu); out[2] = "
+                               "(real)(p.y >> 16); out[3] = (real)(p.y & 0xffffu);"};
 
 ProbeSet& number_probes(const Device& device) {
-    static auto* const probes = new ProbeSet(device, {"numerics/frame.h", "numerics/sampler.h"}, {FRAME, UNIT, STREAM, PAIR});
+    static auto* const probes =
+        new ProbeSet(device, {"numerics/frame.h", "numerics/sampler.h"}, {FRAME, UNIT, STREAM, PAIR});
     return *probes;
 }
 
@@ -119,10 +128,13 @@ void bases(CaseRun& run) {
             dvec3 axes[3];
             for (size_t k = 0; k < 3; ++k)
                 axes[k] = {got[3 * k][i], got[3 * k + 1][i], got[3 * k + 2][i]};
-            const auto describe = [&] { return fmt::format("{:a} {:a} {:a}", inputs[0][i], inputs[1][i], inputs[2][i]); };
+            const auto describe = [&] {
+                return fmt::format("{:a} {:a} {:a}", inputs[0][i], inputs[1][i], inputs[2][i]);
+            };
             double worst = 0;
             for (int k = 0; k < 3; ++k)
-                worst = std::max({worst, std::abs(glm::dot(axes[k], axes[(k + 1) % 3])), std::abs(glm::length(axes[k]) - 1)});
+                worst = std::max({worst, std::abs(glm::dot(axes[k], axes[(k + 1) % 3])),
+                                  std::abs(glm::length(axes[k]) - 1)});
             const double det = glm::dot(glm::cross(axes[0], axes[1]), axes[2]);
             error[build].see(std::isfinite(det) ? worst : det, describe);
             handed[build].count(!(det > 0), describe);
@@ -172,7 +184,8 @@ void streams(CaseRun& run) {
             words[i] = {word_of(got, 0, i), word_of(got, 2, i), word_of(got, 4, i), word_of(got, 6, i)};
         std::sort(words.begin(), words.end());
         for (size_t i = 1; i < count; ++i)
-            alike[build].count(words[i] == words[i - 1], [&] { return fmt::format("key {:#x}", words[i][0]); });
+            alike[build].count(words[i] == words[i - 1],
+                               [&] { return fmt::format("key {:#x}", words[i][0]); });
     }
 }
 

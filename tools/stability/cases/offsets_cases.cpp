@@ -18,7 +18,8 @@ namespace clrt {
 namespace {
 
 /// Calls `trace` with every layout in single, else with the eight-wide tree.
-void for_each_layout(Build build, const std::function<void(const RayDeviceOptions&, const std::string&)>& trace) {
+void for_each_layout(Build build,
+                     const std::function<void(const RayDeviceOptions&, const std::string&)>& trace) {
     for_each_tree(build, plain_offsets(), [&](const RayDeviceOptions& options, const std::string& tree) {
         if (options.quality == BvhQuality::FAST)
             trace(options, tree);
@@ -26,14 +27,15 @@ void for_each_layout(Build build, const std::function<void(const RayDeviceOption
 }
 
 /// Lets rays leave where they arrive and counts those that are stopped.
-void count_stopped(const Scene& scene, const RayDevice& device, const Arrivals& from, size_t directions_each, u32 seed,
-                   const std::string& name, Worst& stopped) {
+void count_stopped(const Scene& scene, const RayDevice& device, const Arrivals& from, size_t directions_each,
+                   u32 seed, const std::string& name, Worst& stopped) {
     Random random(seed);
     for (size_t round = 0; round < directions_each; ++round) {
         const std::vector<TestRay> rays = leave_at_random(scene, device, from, random);
         const std::vector<u32> any = device.any(rays);
         for (size_t i = 0; i < rays.size(); ++i)
-            stopped.count(any[i] != 0, [&] { return fmt::format("{}, after {}", name, ray_text(from.rays[i])); });
+            stopped.count(any[i] != 0,
+                          [&] { return fmt::format("{}, after {}", name, ray_text(from.rays[i])); });
     }
 }
 
@@ -53,7 +55,8 @@ void own_triangle(CaseRun& run) {
         const double extent = extent_of(scene);
         std::vector<TestRay> rays;
         for (int i = 0; i < 64; ++i)
-            rays.push_back(make_ray_to(random.in_cube(2 * extent), point_on(scene, scene.triangles[0], random)));
+            rays.push_back(
+                make_ray_to(random.in_cube(2 * extent), point_on(scene, scene.triangles[0], random)));
         for (const Build build : run.builds())
             for_each_layout(build, [&](const RayDeviceOptions& options, const std::string& tree) {
                 const RayDevice device(scene, options);
@@ -81,8 +84,8 @@ void tessellated_plane(CaseRun& run) {
         for (const Build build : run.builds())
             for_each_layout(build, [&](const RayDeviceOptions& options, const std::string& tree) {
                 const RayDevice device(scene, options);
-                count_stopped(scene, device, arrivals(device, rays), 2, 2, fmt::format("size {}, {}", size, tree),
-                              stopped[build]);
+                count_stopped(scene, device, arrivals(device, rays), 2, 2,
+                              fmt::format("size {}, {}", size, tree), stopped[build]);
             });
     }
 }
@@ -96,8 +99,10 @@ void convex_body(CaseRun& run) {
     std::vector<TestRay> rays;
     for (size_t i = 0; i < run.count(4e4, 4e5, 4e6); ++i) {
         const Triangle& triangle = scene.triangles[random.word() % scene.triangles.size()];
-        const glm::dvec3 target = i % 2 ? point_on(scene, triangle, random) : corner_position(scene, triangle, 0);
-        rays.push_back(make_ray_to(target + 2.0 * random.unit() * triangle_normal(scene, triangle) * 4096.0, target));
+        const glm::dvec3 target =
+            i % 2 ? point_on(scene, triangle, random) : corner_position(scene, triangle, 0);
+        rays.push_back(
+            make_ray_to(target + 2.0 * random.unit() * triangle_normal(scene, triangle) * 4096.0, target));
     }
     for (const Build build : run.builds())
         for_each_layout(build, [&](const RayDeviceOptions& options, const std::string& tree) {
@@ -109,7 +114,8 @@ void convex_body(CaseRun& run) {
 void offset_size(CaseRun& run) {
     Figure& of_size = run.figure("offset at the origin, of the size", 2e-6);
     Figure& of_place = run.figure("offset far away, units in the last place of the distance", 4);
-    for (const auto& [size, distance] : {std::pair(1.0, 0.0), {1e-6, 0.0}, {1e7, 0.0}, {1.0, 1e4}, {2.0, 2.6e5}}) {
+    for (const auto& [size, distance] :
+         {std::pair(1.0, 0.0), {1e-6, 0.0}, {1e7, 0.0}, {1.0, 1e4}, {2.0, 2.6e5}}) {
         const Scene scene = placed(make_ball(24, 24), size, glm::dvec3(0.6, 0.1, -0.8) * distance);
         std::vector<TestRay> rays;
         std::vector<TestHit> hits;
@@ -162,8 +168,9 @@ void thin_gap(CaseRun& run) {
                 const RayDevice device(scene, options);
                 const std::vector<TestHit> found = device.closest(device.leaving(rays, hits, up));
                 for (size_t i = 0; i < found.size(); ++i)
-                    lost[build].count(found[i].triangle != 2 && found[i].triangle != 3,
-                                      [&] { return fmt::format("at {}, {}, weights {}, {}", place, tree, hits[i].b1, hits[i].b2); });
+                    lost[build].count(found[i].triangle != 2 && found[i].triangle != 3, [&] {
+                        return fmt::format("at {}, {}, weights {}, {}", place, tree, hits[i].b1, hits[i].b2);
+                    });
             });
     }
 }
@@ -176,29 +183,37 @@ ProbeTime time_offset(const Device&) {
     const RayDevice naive(ball, ray_options(Build::NAIVE, plain_offsets()));
     const RayDevice single(ball, ray_options(Build::SINGLE, plain_offsets()));
     const Arrivals from = arrivals(single, rays);
-    return time_in_turns(naive.leaver(from.rays, from.hits), single.leaver(from.rays, from.hits), from.rays.size());
+    return time_in_turns(naive.leaver(from.rays, from.hits), single.leaver(from.rays, from.hits),
+                         from.rays.size());
 }
 
 const std::vector<StabilityCase>& offsets_cases() {
     static const std::vector<StabilityCase> cases = {
         {"S01", "OwnTriangle",
-         "single triangles with coordinates of 1e-8 to 1e8 in the loader's frame, 64 hits each, 16 directions, one in four "
+         "single triangles with coordinates of 1e-8 to 1e8 in the loader's frame, 64 hits each, 16 "
+         "directions, one in four "
          "grazing",
          "a plane is not met again", "the offset is a bound of all errors of that hit", own_triangle},
-        {"S02", "TessellatedPlane", "a tilted plane of 131,072 coplanar triangles: into triangles, at edges, at corners",
+        {"S02", "TessellatedPlane",
+         "a tilted plane of 131,072 coplanar triangles: into triangles, at edges, at corners",
          "a plane is not met again", "as S01; knowing the own triangle would not do", tessellated_plane},
-        {"S03", "ConvexBody", "an icosphere of 20,480 triangles, rays outward", "a convex body is not met again", "as S01",
-         convex_body},
-        {"S04", "OffsetSize", "a ball of 24 x 24 in five sizes and places", "the way from the hit to the next ray's origin",
-         "a few roundings: 2e-6 of the size, 4 units in the last place of the distance where that is larger", offset_size},
-        {"S05", "ThinGap", "two planes 8 offset bounds apart, rays that leave one towards the other, at 1 and at 1e3",
+        {"S03", "ConvexBody", "an icosphere of 20,480 triangles, rays outward",
+         "a convex body is not met again", "as S01", convex_body},
+        {"S04", "OffsetSize", "a ball of 24 x 24 in five sizes and places",
+         "the way from the hit to the next ray's origin",
+         "a few roundings: 2e-6 of the size, 4 units in the last place of the distance where that is larger",
+         offset_size},
+        {"S05", "ThinGap",
+         "two planes 8 offset bounds apart, rays that leave one towards the other, at 1 and at 1e3",
          "the other plane is met", "two bounds and the rounding of the origin are less than 8", thin_gap},
         {"S06", "ShadowRayEnds", "a triangle light, with and without a blocker 8 offset bounds before it",
-         "alone the light is seen, behind the blocker it is not", "the shadow ray ends within two bounds of the light",
-         shadow_ray_ends},
-        {"S07", "LightTightRooms", "closed rooms with walls at 90 to 5 degrees, paths of six rays, into edges and corners too",
+         "alone the light is seen, behind the blocker it is not",
+         "the shadow ray ends within two bounds of the light", shadow_ray_ends},
+        {"S07", "LightTightRooms",
+         "closed rooms with walls at 90 to 5 degrees, paths of six rays, into edges and corners too",
          "no ray gets out",
-         "hits keep two offset bounds away from edges, which is enough from 27 degrees on; between sharper walls rays start behind "
+         "hits keep two offset bounds away from edges, which is enough from 27 degrees on; between sharper "
+         "walls rays start behind "
          "the other one within a few bounds of the edge, where half of these rays are aimed",
          light_tight_rooms},
         {"S08", "ShadowTerminator", "smooth icospheres of 80 to 1280 triangles under a sun",

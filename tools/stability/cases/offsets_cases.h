@@ -12,6 +12,7 @@ void light_tight_rooms(CaseRun& run);
 void shadow_terminator(CaseRun& run);
 
 /// Follows rays around a convex room, off its walls in random directions, and counts those that get out.
-void count_escapes(const CaseRun& run, const Scene& room, size_t paths, const std::string& name, Figure& escapes);
+void count_escapes(const CaseRun& run, const Scene& room, size_t paths, const std::string& name,
+                   Figure& escapes);
 
 } // namespace clrt

@@ -12,7 +12,8 @@
 
 namespace clrt {
 
-void count_escapes(const CaseRun& run, const Scene& room, size_t paths, const std::string& name, Figure& escapes) {
+void count_escapes(const CaseRun& run, const Scene& room, size_t paths, const std::string& name,
+                   Figure& escapes) {
     constexpr int BOUNCES = 5;
     for (const Build build : run.builds())
         for_each_tree(build, plain_offsets(), [&](const RayDeviceOptions& options, const std::string& tree) {
@@ -26,7 +27,8 @@ void count_escapes(const CaseRun& run, const Scene& room, size_t paths, const st
                 Arrivals from;
                 for (size_t i = 0; i < rays.size(); ++i) {
                     const bool out = hits[i].triangle == NO_INDEX;
-                    escapes[build].count(out, [&] { return fmt::format("{}, {}: {}", name, tree, ray_text(rays[i])); });
+                    escapes[build].count(
+                        out, [&] { return fmt::format("{}, {}: {}", name, tree, ray_text(rays[i])); });
                     if (!out) {
                         from.rays.push_back(rays[i]);
                         from.hits.push_back(hits[i]);
@@ -51,21 +53,24 @@ Scene make_wedge(double degrees) {
 
 void light_tight_rooms(CaseRun& run) {
     Scene turned = make_room({-1, -0.6, -1.1}, {0.7, 0.8, 0.9});
-    const glm::dvec3 x = glm::normalize(glm::dvec3(1, 0.3, -0.2)), z = glm::normalize(glm::cross(x, {0.1, 1, 0.4}));
+    const glm::dvec3 x = glm::normalize(glm::dvec3(1, 0.3, -0.2)),
+                     z = glm::normalize(glm::cross(x, {0.1, 1, 0.4}));
     for (vec4& p : turned.positions)
         p = to_vec4(double(p.x) * x + double(p.y) * glm::cross(z, x) + double(p.z) * z);
     const size_t paths = run.count(1e4, 1e5, 2e6);
     Figure& escapes = run.figure("rays that get out, walls at 30 to 90 degrees", 0);
     count_escapes(run, make_room({-1, -1, -1}, {1, 1, 1}), paths, "upright", escapes);
     count_escapes(run, turned, paths, "turned", escapes);
-    count_escapes(run, make_tetrahedron({1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}), paths, "70 degrees", escapes);
+    count_escapes(run, make_tetrahedron({1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}), paths,
+                  "70 degrees", escapes);
     count_escapes(run, make_wedge(30), paths, "30 degrees", escapes);
     Figure counted;
     for (const double degrees : {20.0, 10.0, 5.0})
         count_escapes(run, make_wedge(degrees), paths, fmt::format("{} degrees", degrees), counted);
     Figure& sharp = run.figure("share of them, walls at 5 to 20 degrees", 0.05);
     for (const Build build : run.builds())
-        sharp[build].see(counted[build].value / double(counted[build].tried), [&] { return counted[build].input; });
+        sharp[build].see(counted[build].value / double(counted[build].tried),
+                         [&] { return counted[build].input; });
 }
 
 void shadow_ray_ends(CaseRun& run) {
@@ -74,9 +79,11 @@ void shadow_ray_ends(CaseRun& run) {
     for (const bool blocked : {false, true}) {
         TestScene text;
         text.build.material("matte", "Kd 0.5 0.5 0.5").material("lamp", "Kd 0 0 0\nKe 1 1 1");
-        const glm::dvec3 a(-0.5, 1, 0.6), b(0.7, 1.3, 0.4), c(0.1, 1.2, -0.7), n = glm::normalize(glm::cross(b - a, c - a));
+        const glm::dvec3 a(-0.5, 1, 0.6), b(0.7, 1.3, 0.4), c(0.1, 1.2, -0.7),
+            n = glm::normalize(glm::cross(b - a, c - a));
         text.build.use("lamp").polygon({a, c, b}); // its front is below
-        const glm::dvec3 middle = (a + b + c) / 3.0, down = n * (glm::dot(n, glm::dvec3(0, 1, 0)) > 0 ? -1.0 : 1.0);
+        const glm::dvec3 middle = (a + b + c) / 3.0,
+                         down = n * (glm::dot(n, glm::dvec3(0, 1, 0)) > 0 ? -1.0 : 1.0);
         const double bound = FLOAT_U * (4 * 1.3 + 24 * 1.3);
         text.build.use("matte").floor(3);
         if (blocked) {
@@ -128,7 +135,9 @@ BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, cons
     const double distance = 8, half_angle = 8.0;
     const glm::dvec3 sun = glm::normalize(glm::dvec3(1, 0.4, -0.2));
     TestScene scene;
-    scene.build.material("m", "Kd 1 1 1").use("m").icosphere({0, 0, 0}, 1, subdivisions, Facing::OUTWARD, Shading::SMOOTH);
+    scene.build.material("m", "Kd 1 1 1")
+        .use("m")
+        .icosphere({0, 0, 0}, 1, subdivisions, Facing::OUTWARD, Shading::SMOOTH);
     scene.options.light.suns = {{sun, glm::dvec3(PI), 0}};
     scene.options.size = {64, 64};
     scene.options.spp = 64;
@@ -143,7 +152,8 @@ BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, cons
         for (int x = 0; x < 64; ++x) {
             // The ray through the pixel's centre, and where it meets the sphere.
             const double pixel = 2 * std::tan(half_angle * PI / 180) / 64;
-            const glm::dvec3 eye(0, 0, distance), d = glm::normalize(glm::dvec3((x + 0.5 - 32) * pixel, (31.5 - y) * pixel, -1));
+            const glm::dvec3 eye(0, 0, distance),
+                d = glm::normalize(glm::dvec3((x + 0.5 - 32) * pixel, (31.5 - y) * pixel, -1));
             const double b = glm::dot(eye, d), under = b * b - distance * distance + 1;
             if (under < 0.1)
                 continue; // outside, or near the outline, which has corners
@@ -162,19 +172,22 @@ BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, cons
 void shadow_terminator(CaseRun& run) {
     ScratchFolder folder;
     KernelFiles flat = kernels_under_test();
-    replace_in_kernel(flat, "geometry/surface.h", "surface->bulge = -lift * side;", "surface->bulge = (real3)(REAL(0.0));");
-    replace_in_kernel(flat, "geometry/surface.h", "surface->is_curved = !vector_is_zero(lift);", "surface->is_curved = false;");
+    replace_in_kernel(flat, "geometry/surface.h", "surface->bulge = -lift * side;",
+                      "surface->bulge = (real3)(REAL(0.0));");
+    replace_in_kernel(flat, "geometry/surface.h", "surface->is_curved = !vector_is_zero(lift);",
+                      "surface->is_curved = false;");
     write_kernel_files(flat, folder.file("flat"));
     Figure& black = run.figure("black pixels with cos > 0.05", 0);
     const double limits[] = {0.05, 0.02, 0.01};
     for (int subdivisions = 1; subdivisions <= 3; ++subdivisions) {
-        Figure& rms = run.figure(fmt::format("RMS error, {} triangles", 20 << 2 * subdivisions), limits[subdivisions - 1]);
+        Figure& rms = run.figure(fmt::format("RMS error, {} triangles", 20 << 2 * subdivisions),
+                                 limits[subdivisions - 1]);
         for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED})
             for (const Build build : {Build::NAIVE, Build::SINGLE}) {
                 if (build == Build::NAIVE && integrator != Integrator::WHITTED)
                     continue; // the same geometry
-                const BallUnderTheSun ball =
-                    ball_under_the_sun(subdivisions, integrator, build == Build::NAIVE ? folder.file("flat") : "");
+                const BallUnderTheSun ball = ball_under_the_sun(
+                    subdivisions, integrator, build == Build::NAIVE ? folder.file("flat") : "");
                 const auto describe = [&] { return integrator == Integrator::PATH ? "path" : "whitted"; };
                 for (int i = 0; i < ball.pixels; ++i)
                     black[build].count(i < ball.black, describe);

@@ -18,8 +18,8 @@ const KernelVariant& plain_offsets();
 /// A build of the ray tracing kernels: `naive` are those of Build::NAIVE.
 RayDeviceOptions ray_options(Build build, const KernelVariant& naive);
 
-/// Calls `trace(options, text)` for what of a build is traced: in single every layout and quality of tree, else the fast
-/// eight-wide tree.
+/// Calls `trace(options, text)` for what of a build is traced: in single every layout and quality of tree,
+/// else the fast eight-wide tree.
 void for_each_tree(Build build, const KernelVariant& naive,
                    const std::function<void(const RayDeviceOptions&, const std::string&)>& trace);
 

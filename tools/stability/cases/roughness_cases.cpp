@@ -21,13 +21,15 @@ const ProbedExpression D = {"ggx_d", 4, 1, "out[0] = microfacet_d(vector_make(a,
                             "const real c2 = c * c, t = c2 * (d * d - REAL(1.0)) + REAL(1.0);"
                             "out[0] = d * d / (REAL_PI * t * t);"};
 
-/// a, b, c: the eye; d, e, f: normal of the microfacet; g: alpha. G1 D (wo h) / cos_o: the density of visible normals.
+/// a, b, c: the eye; d, e, f: normal of the microfacet; g: alpha. G1 D (wo h) / cos_o: the density of visible
+/// normals.
 const ProbedExpression VISIBLE = {
     "visible", 7, 1,
     "const real3 o = vector_make(a, b, c), h = vector_make(d, e, f); const real oh = vector_dot(o, h);"
     "out[0] = oh > REAL(0.0) ? microfacet_pdf_w(o, h, oh, g, g) : REAL(0.0);",
     "const real oh = a * d + b * e + c * f, f2 = f * f, t = f2 * (g * g - REAL(1.0)) + REAL(1.0);"
-    "const real tan2 = (REAL(1.0) - c * c) / (c * c), lambda = REAL(0.5) * (sqrt(REAL(1.0) + g * g * tan2) - REAL(1.0));"
+    "const real tan2 = (REAL(1.0) - c * c) / (c * c), lambda = REAL(0.5) * (sqrt(REAL(1.0) + g * g * tan2) - "
+    "REAL(1.0));"
     "out[0] = oh > REAL(0.0) ? oh / (c * (REAL(1.0) + lambda)) * (g * g / (REAL_PI * t * t)) : REAL(0.0);"};
 
 /// The normal whose slopes are `alpha` times (r cos phi, r sin phi).
@@ -57,13 +59,15 @@ void distribution(CaseRun& run) {
         for (size_t i = 0; i < got.size(); ++i) {
             const dvec3 h(inputs[0][i], inputs[1][i], inputs[2][i]);
             error[build].see(std::abs(got[i] / reference::ggx_d(h, inputs[3][i], inputs[3][i]) - 1), [&] {
-                return fmt::format("alpha {}, h {:a} {:a} {:a}", inputs[3][i], inputs[0][i], inputs[1][i], inputs[2][i]);
+                return fmt::format("alpha {}, h {:a} {:a} {:a}", inputs[3][i], inputs[0][i], inputs[1][i],
+                                   inputs[2][i]);
             });
         }
     }
 }
 
-/// The midpoint rule over slopes r = tan q: the integrand falls like the weight, so that it converges for every alpha.
+/// The midpoint rule over slopes r = tan q: the integrand falls like the weight, so that it converges for
+/// every alpha.
 void weak_furnace(CaseRun& run) {
     ProbeSet probes(run.device, {"scattering/microfacet.h"}, {VISIBLE});
     Figure& rough = run.figure("|integral - 1|, alpha >= 0.05", 1e-4);
@@ -76,19 +80,20 @@ void weak_furnace(CaseRun& run) {
             std::vector<double> weights;
             for (size_t i = 0; i < side; ++i)
                 for (size_t j = 0; j < side; ++j) {
-                    const double q = (double(i) + 0.5) / double(side) * PI / 2, phi = (double(j) + 0.5) / double(side) * 2 * PI;
+                    const double q = (double(i) + 0.5) / double(side) * PI / 2,
+                                 phi = (double(j) + 0.5) / double(side) * 2 * PI;
                     const dvec3 h = normal_at(alpha, std::tan(q), phi);
                     push(inputs, {wo.x, wo.y, wo.z, h.x, h.y, h.z, alpha});
-                    weights.push_back(alpha * alpha * std::tan(q) * std::pow(h.z, 3) / std::pow(std::cos(q), 2) * PI * PI /
-                                      double(side * side));
+                    weights.push_back(alpha * alpha * std::tan(q) * std::pow(h.z, 3) /
+                                      std::pow(std::cos(q), 2) * PI * PI / double(side * side));
                 }
             for (const Build build : run.builds()) {
                 const std::vector<double> got = probes.run(build, "visible", inputs)[0];
                 double mass = 0;
                 for (size_t i = 0; i < got.size(); ++i)
                     mass += weights[i] * got[i];
-                (alpha >= 0.05 ? rough : smooth)[build].see(std::abs(mass - 1),
-                                                            [&] { return fmt::format("alpha {}, cos {}", alpha, cosine); });
+                (alpha >= 0.05 ? rough : smooth)[build].see(
+                    std::abs(mass - 1), [&] { return fmt::format("alpha {}, cos {}", alpha, cosine); });
             }
         }
 }
@@ -111,9 +116,11 @@ void visible_weights(CaseRun& run) {
     Random random(2);
     const size_t count = run.count(2e5, 2e6, 8e6);
     for (size_t i = 0; i < count; ++i) {
-        const double alpha = std::abs(random.signed_log(1e-4, 1)), cosine = std::abs(random.signed_log(1e-6, 1));
+        const double alpha = std::abs(random.signed_log(1e-4, 1)),
+                     cosine = std::abs(random.signed_log(1e-6, 1));
         const double x = random.unit();
-        inputs.add(glossy_set(), alpha, direction_at(cosine, 2 * PI * random.unit()), {0.5, x, random.unit()});
+        inputs.add(glossy_set(), alpha, direction_at(cosine, 2 * PI * random.unit()),
+                   {0.5, x, random.unit()});
     }
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)
@@ -127,8 +134,8 @@ void visible_weights(CaseRun& run) {
     }
 }
 
-/// The share of energy that a lobe sends into a disc of half angle 0.2 rad around the mirrored direction, over what a mirror
-/// sends: the mean of the weights over a lattice of random numbers.
+/// The share of energy that a lobe sends into a disc of half angle 0.2 rad around the mirrored direction,
+/// over what a mirror sends: the mean of the weights over a lattice of random numbers.
 double share_in_disc(CaseRun& run, Build build, double alpha, double cosine) {
     const dvec3 wo = direction_at(cosine, 0.4), mirrored(-wo.x, -wo.y, wo.z);
     BsdfInputs inputs;
@@ -170,7 +177,8 @@ void full_roughness(CaseRun& run) {
             for (size_t j = 0; j < side; ++j)
                 inputs.add(glossy_set(), 1, direction_at(cosine, 0),
                            {0.5, (double(i) + 0.5) / double(side), (double(j) + 0.5) / double(side)});
-        const double expected = rough_reflection_albedo({1, 1, cosine, 0}, [](double) { return GLOSSY_COLOUR; });
+        const double expected =
+            rough_reflection_albedo({1, 1, cosine, 0}, [](double) { return GLOSSY_COLOUR; });
         for (const Build build : run.builds()) {
             if (build == Build::NAIVE)
                 continue;
@@ -178,7 +186,8 @@ void full_roughness(CaseRun& run) {
             double sum = 0;
             for (size_t i = 0; i < inputs.size(); ++i)
                 sum += got[SAMPLED_ETA][i] == 0 ? 0 : got[SAMPLED_WEIGHT][i];
-            error[build].see(std::abs(sum / double(inputs.size()) - expected), [&] { return fmt::format("cos {}", cosine); });
+            error[build].see(std::abs(sum / double(inputs.size()) - expected),
+                             [&] { return fmt::format("cos {}", cosine); });
         }
     }
 }
@@ -201,10 +210,10 @@ void corner_numbers(CaseRun& run) {
         for (size_t i = 0; i < inputs.size(); ++i) {
             const LobeSet& set = sets[size_t(inputs.columns[0][i])];
             const bool is_delta = got[SAMPLED_PDF][i] == 0 && (!is_smooth(set) || (set.lobes & LOBE_MIRROR));
-            const bool ok =
-                got[SAMPLED_ETA][i] == 0 || (std::isfinite(glm::length(output_vector(got, SAMPLED_WI, i))) &&
-                                             std::isfinite(glm::length(output_vector(got, SAMPLED_WEIGHT, i))) &&
-                                             std::isfinite(got[SAMPLED_PDF][i]) && (is_delta || got[SAMPLED_PDF][i] > 0));
+            const bool ok = got[SAMPLED_ETA][i] == 0 ||
+                            (std::isfinite(glm::length(output_vector(got, SAMPLED_WI, i))) &&
+                             std::isfinite(glm::length(output_vector(got, SAMPLED_WEIGHT, i))) &&
+                             std::isfinite(got[SAMPLED_PDF][i]) && (is_delta || got[SAMPLED_PDF][i] > 0));
             bad[build].count(!ok, [&] { return inputs.describe(i); });
         }
     }
@@ -221,8 +230,9 @@ void sample_is_eval(CaseRun& run) {
         if (is_smooth(sets[set]) && !(sets[set].lobes & LOBE_MIRROR))
             for (size_t i = 0; i < count; ++i) {
                 const double lobe = random.unit(), x = random.unit();
-                const dvec3 wo = i % 2 ? random.upper_direction()
-                                       : direction_at(std::abs(random.signed_log(1e-3, 1)), 2 * PI * random.unit());
+                const dvec3 wo =
+                    i % 2 ? random.upper_direction()
+                          : direction_at(std::abs(random.signed_log(1e-3, 1)), 2 * PI * random.unit());
                 inputs.add(set, 0, wo, {lobe, x, random.unit()});
             }
     for (const Build build : run.builds()) {
@@ -256,22 +266,25 @@ ProbeTime time_ggx_d(const Device& device) {
 
 const std::vector<StabilityCase>& roughness_cases() {
     static const std::vector<StabilityCase> cases = {
-        {"R01", "Distribution", "alpha from 1 to 1e-4, normals up to slopes of 8 alpha", "GGX by slopes in double",
-         "ten roundings of well-conditioned factors", distribution},
+        {"R01", "Distribution", "alpha from 1 to 1e-4, normals up to slopes of 8 alpha",
+         "GGX by slopes in double", "ten roundings of well-conditioned factors", distribution},
         {"R02", "WeakFurnace", "G1 D (wo h) / cos_o over all normals, alpha 1 to 1e-4, three cosines",
-         "1: no normal is seen twice (Heitz 2014)", "the quadrature's error and the roundings of R01", weak_furnace},
-        {"R03", "VisibleNormalWeights", "alpha from 1e-4 to 1, eyes down to a millionth above the horizon", "G2 / G1 <= 1",
-         "a law, but for the roundings of a quotient", visible_weights},
+         "1: no normal is seen twice (Heitz 2014)", "the quadrature's error and the roundings of R01",
+         weak_furnace},
+        {"R03", "VisibleNormalWeights", "alpha from 1e-4 to 1, eyes down to a millionth above the horizon",
+         "G2 / G1 <= 1", "a law, but for the roundings of a quotient", visible_weights},
         {"R04", "TowardsTheMirror", "light in a disc of 0.2 rad around the mirrored direction", "the mirror",
-         "the tail of D beyond the disc holds alpha^2 / (alpha^2 + 0.01); masking takes alpha tan of the angle",
+         "the tail of D beyond the disc holds alpha^2 / (alpha^2 + 0.01); masking takes alpha tan of the "
+         "angle",
          towards_mirror},
         {"R05", "FullRoughness", "alpha 1, five cosines, a lattice of random numbers",
          "directional albedo by quadrature over normals in double",
          "the lattice's error at the horizon of the reflected direction", full_roughness},
         {"R06", "CornerNumbers", "random numbers 0, 2^-24, 1/2, 1 - 2^-24 in all places, every BSDF",
          "a density above 0 or no sample", "a law", corner_numbers},
-        {"R07", "SampleIsEval", "every BSDF that is no delta function, sampled and evaluated", "the same value and density",
-         "the direction is rounded where it leaves the sampler", sample_is_eval},
+        {"R07", "SampleIsEval", "every BSDF that is no delta function, sampled and evaluated",
+         "the same value and density", "the direction is rounded where it leaves the sampler",
+         sample_is_eval},
     };
     return cases;
 }

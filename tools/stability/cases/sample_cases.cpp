@@ -37,10 +37,12 @@ const Planted PLANTED[] = {
 std::vector<KernelPatch> planting_patches() {
     const std::string include = "#include \"path/layers.h\"\n", radiance = "samples[k].radiance";
     std::string text = "#define NAN_BITS as_float(0x7fc00001u)\n#define INFINITE_BITS as_float(0x7f800000u)\n"
-                       "static inline real3 plant(const RenderParams* params, real3* radiance, uint pixel, uint sample)\n{\n";
+                       "static inline real3 plant(const RenderParams* params, real3* radiance, uint pixel, "
+                       "uint sample)\n{\n";
     for (const Planted& planted : PLANTED)
-        text += fmt::format("    if (pixel == {}u && sample == {}u)\n        *radiance = convert_real3((float3)({}));\n",
-                            planted.address.first, planted.address.second, planted.radiance);
+        text += fmt::format(
+            "    if (pixel == {}u && sample == {}u)\n        *radiance = convert_real3((float3)({}));\n",
+            planted.address.first, planted.address.second, planted.radiance);
     return {{"integrators/pixel.h", include, include + text + "    return *radiance;\n}\n"},
             {"integrators/pixel.h", "film_fault(params, " + radiance + ")",
              "film_fault(params, plant(params, (real3*)&" + radiance + ", pixel, counter->sample))"}};
@@ -49,7 +51,9 @@ std::vector<KernelPatch> planting_patches() {
 /// The inside of a shining box, every sample with sums of its own.
 struct FurnaceBox : TestScene {
     FurnaceBox() {
-        build.material("white", "Kd 0.5 0.5 0.5\nKe 1 1 1").use("white").box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+        build.material("white", "Kd 0.5 0.5 0.5\nKe 1 1 1")
+            .use("white")
+            .box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
         look({0, 0, 0}, {0, 0, -1}, 60);
         options.all_effects = false;
         options.spp = 8;
@@ -79,10 +83,12 @@ void planted_faults(CaseRun& run) {
         const std::pair<std::uint64_t, std::uint64_t> kinds[] = {
             {counts.nan, 1}, {counts.infinite, 2}, {counts.negative, 1}, {counts.overflow, 1}};
         for (const auto& [found, planted] : kinds)
-            counted[build].see(std::abs(double(found) - double(planted)), [] { return std::string("a kind"); });
+            counted[build].see(std::abs(double(found) - double(planted)),
+                               [] { return std::string("a kind"); });
         for (const Address& address : addresses)
-            listed[build].count(std::count(counts.bad_samples.begin(), counts.bad_samples.end(), address) != 1,
-                                [&] { return fmt::format("pixel {}, sample {}", address.first, address.second); });
+            listed[build].count(
+                std::count(counts.bad_samples.begin(), counts.bad_samples.end(), address) != 1,
+                [&] { return fmt::format("pixel {}, sample {}", address.first, address.second); });
         listed[build].value += std::abs(double(counts.bad_samples.size()) - double(addresses.size()));
         for (size_t i = 0; i < clean.sums.size(); ++i) {
             const size_t pixel = i / 3 % 256, sample = i / 3 / 256;
@@ -98,9 +104,10 @@ void planted_faults(CaseRun& run) {
 void see_counts(Worst& bad, const Render& render, const std::string& what) {
     bad.tried += render.counts.primary;
     if (render.counts.bad() > 0 && bad.value == 0)
-        bad.input = fmt::format("{}: {} NaN, {} infinite, {} negative, {} overflow, first at pixel {}, sample {}", what,
-                                render.counts.nan, render.counts.infinite, render.counts.negative, render.counts.overflow,
-                                render.counts.bad_samples.at(0).first, render.counts.bad_samples.at(0).second);
+        bad.input = fmt::format(
+            "{}: {} NaN, {} infinite, {} negative, {} overflow, first at pixel {}, sample {}", what,
+            render.counts.nan, render.counts.infinite, render.counts.negative, render.counts.overflow,
+            render.counts.bad_samples.at(0).first, render.counts.bad_samples.at(0).second);
     bad.value += double(render.counts.bad());
 }
 
@@ -148,23 +155,27 @@ void fireflies(CaseRun& run) {
         sum += value > largest ? 0 : value;
         clamped += std::min(value, 10.0f);
     }
-    const double exact = double(sum / (long double)(count)), textbook = double(clamped / (long double)(count));
-    error[Build::NAIVE].see(std::abs(textbook / exact - 1), [] { return std::string("clamped at ten times the mean"); });
+    const double exact = double(sum / (long double)(count)),
+                 textbook = double(clamped / (long double)(count));
+    error[Build::NAIVE].see(std::abs(textbook / exact - 1),
+                            [] { return std::string("clamped at ten times the mean"); });
     FilmBench bench(run.device, series, 1);
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)
             continue;
         for (const float mean : film_mean(bench.film(build)))
             error[build].see(std::abs(double(mean) / exact - 1), [] { return std::string("a pixel"); });
-        booked[build].see(std::abs(double(bench.counts().overflow) - double(beyond) * FilmBench::PIXELS),
-                          [&] { return fmt::format("{} counted of {} a pixel", bench.counts().overflow, beyond); });
+        booked[build].see(
+            std::abs(double(bench.counts().overflow) - double(beyond) * FilmBench::PIXELS),
+            [&] { return fmt::format("{} counted of {} a pixel", bench.counts().overflow, beyond); });
         booked[build].tried = count * FilmBench::PIXELS;
     }
 }
 
 void exr_range(CaseRun& run) {
     Figure& differing = run.figure("values that the file changes", 0);
-    const std::vector<float> values = {7e4f, 1e6f, 65504.0f, 65520.0f, 3.4e38f, 1e-7f, 5.9e-8f, 1e-30f, 1e-40f, 0.1f, 0.0f, 1.0f};
+    const std::vector<float> values = {7e4f,    1e6f,   65504.0f, 65520.0f, 3.4e38f, 1e-7f,
+                                       5.9e-8f, 1e-30f, 1e-40f,   0.1f,     0.0f,    1.0f};
     ScratchFolder folder;
     Picture picture;
     picture.width = picture.full_width = 4;
@@ -182,7 +193,8 @@ void exr_range(CaseRun& run) {
         // What a file of 16-bit floats, the textbook's choice, would hold.
         const double step = std::ldexp(1.0, std::max(std::ilogb(values[i]), -14) - 10);
         const double half = values[i] >= 65520 ? INFINITY : std::nearbyint(double(values[i]) / step) * step;
-        differing[Build::NAIVE].count(half != double(values[i]), [&] { return fmt::format("{:a} as half", values[i]); });
+        differing[Build::NAIVE].count(half != double(values[i]),
+                                      [&] { return fmt::format("{:a} as half", values[i]); });
     }
 }
 
@@ -190,13 +202,17 @@ void exr_range(CaseRun& run) {
 
 const std::vector<StabilityCase>& sample_cases() {
     static const std::vector<StabilityCase> cases = {
-        {"X01", "PlantedFaults", "NaN, both infinities, a negative and a too bright sample planted at known addresses",
-         "the plan, and the same render without them", "counting is exact, and a bad sample may touch no other", planted_faults},
-        {"X02", "NoHiding", "every shipped scene, and small scenes of every effect and every two", "none is bad",
-         "valid scenes give finite, non-negative light", no_hiding},
+        {"X01", "PlantedFaults",
+         "NaN, both infinities, a negative and a too bright sample planted at known addresses",
+         "the plan, and the same render without them",
+         "counting is exact, and a bad sample may touch no other", planted_faults},
+        {"X02", "NoHiding", "every shipped scene, and small scenes of every effect and every two",
+         "none is bad", "valid scenes give finite, non-negative light", no_hiding},
         {"X03", "Fireflies", "samples of mean about 20 with peaks to 1e6, some beyond what the film takes",
          "long double sum of all that the film takes",
-         "nothing is clamped: two roundings of the mean; what is beyond 2^24 mean levels is left out and counted", fireflies},
+         "nothing is clamped: two roundings of the mean; what is beyond 2^24 mean levels is left out and "
+         "counted",
+         fireflies},
         {"X04", "PictureRange", "radiances from 1e-40 to 3.4e38 in an EXR", "the values' bits",
          "the file holds 32-bit floats; clrt writes no 16-bit ones, which end at 65504", exr_range},
     };

@@ -22,7 +22,8 @@ namespace {
 Render render_scaled(double scale, Precision precision, std::uint32_t spp) {
     TestScene scene;
     scene.build.material("white", "Kd 0.7 0.6 0.5").material("lamp", "Kd 0 0 0\nKe 8 7 5");
-    scene.build.material("gloss", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2").material("glass", "Ni 1.5\nillum 7");
+    scene.build.material("gloss", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2")
+        .material("glass", "Ni 1.5\nillum 7");
     scene.build.use("white").floor(2).box({-0.7, 0.01, -0.9}, {-0.2, 0.8, -0.4});
     scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
     scene.build.use("gloss").icosphere({0.5, 0.4, 0.1}, 0.3, 2, Facing::OUTWARD, Shading::SMOOTH);
@@ -53,7 +54,8 @@ void compare_scales(CaseRun& run, const std::vector<int>& exponents) {
         for (const int k : exponents) {
             const Film other = render_scaled(std::ldexp(1.0, k), precision_of(build), 8).film;
             for (size_t i = 0; i < one.sums.size(); ++i)
-                differing[build].count(one.sums[i] != other.sums[i], [&] { return fmt::format("times 2^{}, sum {}", k, i); });
+                differing[build].count(one.sums[i] != other.sums[i],
+                                       [&] { return fmt::format("times 2^{}, sum {}", k, i); });
         }
     }
 }
@@ -67,7 +69,9 @@ void powers_of_two(CaseRun& run) {
     compare_scales(run, exponents);
 }
 
-void absurd_units(CaseRun& run) { compare_scales(run, {-60, 60}); }
+void absurd_units(CaseRun& run) {
+    compare_scales(run, {-60, 60});
+}
 
 void units(CaseRun& run) {
     Figure& z = run.figure("|z| of the picture's mean", 6);
@@ -85,8 +89,8 @@ void units(CaseRun& run) {
             std::vector<double> differences;
             for (size_t i = 0; i < found.size(); ++i)
                 differences.push_back(std::abs(found[i] - expected[i]) / std::max(expected[i], 1e-3f));
-            std::nth_element(differences.begin(), differences.begin() + std::ptrdiff_t(differences.size() / 2),
-                             differences.end());
+            std::nth_element(differences.begin(),
+                             differences.begin() + std::ptrdiff_t(differences.size() / 2), differences.end());
             median[build].see(differences[differences.size() / 2], describe);
         }
     }
@@ -99,7 +103,8 @@ void moved(CaseRun& run) {
     for (const double distance : {1e3, 1e4, 1e5}) {
         const Scene room = placed(make_room({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), 1, towards * distance);
         count_escapes(run, room, run.count(2e3, 5e4, 1e6), fmt::format("{} away", distance), escapes);
-        count_escapes(run, normalised(room), run.count(2e3, 5e4, 1e6), fmt::format("{} away, loaded", distance), escapes);
+        count_escapes(run, normalised(room), run.count(2e3, 5e4, 1e6),
+                      fmt::format("{} away, loaded", distance), escapes);
         TestScene text;
         text.build.material("m", "Kd 1 1 1").use("m").icosphere(towards * distance, 0.5, 2);
         const Scene scene = text.load();
@@ -107,8 +112,9 @@ void moved(CaseRun& run) {
         const double ulp = std::ldexp(1.0, std::ilogb(distance * 0.7) - 23);
         for (size_t i = 0; i < exact.size(); ++i)
             for (int corner = 0; corner < 3; ++corner) {
-                const glm::dvec3 p = corner_position(scene, scene.triangles[i], corner) / scene.normalisation.scale +
-                                     scene.normalisation.centre;
+                const glm::dvec3 p =
+                    corner_position(scene, scene.triangles[i], corner) / scene.normalisation.scale +
+                    scene.normalisation.centre;
                 const glm::dvec3 away = glm::abs(p - exact[i].corners[corner]);
                 shift[Build::SINGLE].see(std::max({away.x, away.y, away.z}) / ulp,
                                          [&] { return fmt::format("{} away, triangle {}", distance, i); });
@@ -120,7 +126,8 @@ constexpr double UNIT = 0x1p-23; ///< of the scene below, in the loader's frame
 
 /// Two triangles of 1e7 units a side, tilted, and a ball of radius 1 that touches them in the origin.
 Scene make_ball_on_vast_ground(const glm::dvec3& normal) {
-    const glm::dvec3 x = glm::normalize(glm::cross(normal, {0.2, 0.1, 1})) * (1e7 * UNIT), y = glm::cross(normal, x);
+    const glm::dvec3 x = glm::normalize(glm::cross(normal, {0.2, 0.1, 1})) * (1e7 * UNIT),
+                     y = glm::cross(normal, x);
     Scene scene = make_empty_scene();
     const u32 first = add_position(scene, -x - y);
     for (const glm::dvec3& p : {x - y, x + y, y - x})
@@ -133,7 +140,8 @@ Scene make_ball_on_vast_ground(const glm::dvec3& normal) {
 }
 
 void mixed_scale(CaseRun& run) {
-    const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, 1, 0.2)), eye = up * UNIT + glm::dvec3(1, 1.5, 2.4) * UNIT;
+    const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, 1, 0.2)),
+                     eye = up * UNIT + glm::dvec3(1, 1.5, 2.4) * UNIT;
     const Scene whole = make_ball_on_vast_ground(up);
     Scene loaded = whole;
     cut_vast_triangles(loaded);
@@ -197,19 +205,26 @@ ProbeTime time_hit_point(const Device& device) {
 
 const std::vector<StabilityCase>& scale_cases() {
     static const std::vector<StabilityCase> cases = {
-        {"C01", "PowersOfTwo", "a scene of all kinds of light and surface times 2^k, k = -20 .. 23, by the loader",
-         "the film of k = 0", "the loader divides by a power of two, exactly; the kernels are made for its frame alone", powers_of_two},
-        {"C02", "Units", "the same scene times 10^k, k = -6 .. 7", "the picture of k = 0", "the same random numbers; only corners round anew",
-         units},
-        {"C03", "Moved", "a room and a ball 1e3, 1e4, 1e5 sizes away", "no ray gets out; the corners as written",
+        {"C01", "PowersOfTwo",
+         "a scene of all kinds of light and surface times 2^k, k = -20 .. 23, by the loader",
+         "the film of k = 0",
+         "the loader divides by a power of two, exactly; the kernels are made for its frame alone",
+         powers_of_two},
+        {"C02", "Units", "the same scene times 10^k, k = -6 .. 7", "the picture of k = 0",
+         "the same random numbers; only corners round anew", units},
+        {"C03", "Moved", "a room and a ball 1e3, 1e4, 1e5 sizes away",
+         "no ray gets out; the corners as written",
          "half a unit in the last place from the file, the frame adds less", moved},
-        {"C04", "MixedScale", "a ball of radius 1 on two triangles of 1e7 a side, seen from 3 away; naive: along the ray, triangles as they are",
+        {"C04", "MixedScale",
+         "a ball of radius 1 on two triangles of 1e7 a side, seen from 3 away; naive: along the ray, "
+         "triangles as they are",
          "the plane in double", "contact within a thousandth of the ball", mixed_scale},
         {"C05", "SunAsABall", "R = 6.96e8 at 1.5e11, a scene of size 1", "E = pi L (R / d)^2", "", nullptr,
          "lights that are spheres, outside the frame of the triangles"},
-        {"C06", "AbsurdUnits", "the scene of C01 times 2^-60 and 2^60", "the film of 2^0", "as C01", absurd_units},
-        {"C07", "InstanceStress", "instances scaled by (1, 1e-3, 1e3), sheared, mirrored, singular", "the flattened mesh", "",
-         nullptr, "instances"},
+        {"C06", "AbsurdUnits", "the scene of C01 times 2^-60 and 2^60", "the film of 2^0", "as C01",
+         absurd_units},
+        {"C07", "InstanceStress", "instances scaled by (1, 1e-3, 1e3), sheared, mirrored, singular",
+         "the flattened mesh", "", nullptr, "instances"},
     };
     return cases;
 }

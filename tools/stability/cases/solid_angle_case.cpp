@@ -14,8 +14,8 @@ namespace {
 using glm::dvec3;
 
 /// Columns of the corners relative to the point, then two numbers.
-#define CORNERS                                                                                                          \
-    "const real3 p0 = vector_make(a, b, c), p1 = vector_make(d, e, f), p2 = vector_make(g, h, j);"                      \
+#define CORNERS                                                                                              \
+    "const real3 p0 = vector_make(a, b, c), p1 = vector_make(d, e, f), p2 = vector_make(g, h, j);"           \
     "const real3 normal = surface_cross(p1 - p0, p2 - p0);"
 
 /// By van Oosterom and Strackee, against the sum of the angles less pi (Girard).
@@ -23,10 +23,12 @@ const ProbedExpression ANGLE = {
     "angle", 9, 1,
     CORNERS "const SphericalTriangle seen = spherical_triangle_make(p0, p1, p2, normal);"
             "out[0] = REAL(2.0) * real_atan2(seen.volume, seen.base + seen.apex);",
-    CORNERS "const real3 ab = vector_normalize(vector_cross(p0, p1)), bc = vector_normalize(vector_cross(p1, p2)),"
-            "ca = vector_normalize(vector_cross(p2, p0));"
-            "out[0] = real_acos(-vector_dot(ab, ca)) + real_acos(-vector_dot(ab, bc)) + real_acos(-vector_dot(bc, ca)) - "
-            "REAL_PI;"};
+    CORNERS
+    "const real3 ab = vector_normalize(vector_cross(p0, p1)), bc = vector_normalize(vector_cross(p1, p2)),"
+    "ca = vector_normalize(vector_cross(p2, p0));"
+    "out[0] = real_acos(-vector_dot(ab, ca)) + real_acos(-vector_dot(ab, bc)) + real_acos(-vector_dot(bc, "
+    "ca)) - "
+    "REAL_PI;"};
 
 /// Weights and density of a point, by solid angle against by area.
 const ProbedExpression POINT = {
@@ -34,10 +36,11 @@ const ProbedExpression POINT = {
     CORNERS "const SphericalTriangle seen = spherical_triangle_make(p0, p1, p2, normal);"
             "const real2 at = spherical_triangle_sample(&seen, (real2)(k, l));"
             "out[0] = at.x; out[1] = at.y; out[2] = REAL(1.0) / seen.solid_angle;",
-    CORNERS "const real2 at = warp_triangle((real2)(k, l)); out[0] = at.x; out[1] = at.y;"
-            "const real3 way = p0 + at.x * (p1 - p0) + at.y * (p2 - p0); const real s = vector_dot(way, way);"
-            "out[2] = s * real_sqrt(s) * REAL(2.0) * SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE / fabs(vector_dot(way, "
-            "normal));"};
+    CORNERS
+    "const real2 at = warp_triangle((real2)(k, l)); out[0] = at.x; out[1] = at.y;"
+    "const real3 way = p0 + at.x * (p1 - p0) + at.y * (p2 - p0); const real s = vector_dot(way, way);"
+    "out[2] = s * real_sqrt(s) * REAL(2.0) * SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE / fabs(vector_dot(way, "
+    "normal));"};
 
 double exact_angle(const dvec3* p) {
     const double x = glm::length(p[0]), y = glm::length(p[1]), z = glm::length(p[2]);
@@ -65,7 +68,8 @@ void solid_angles(CaseRun& run) {
         const double turn = 2 * PI * random.unit();
         for (int k = 0; k < 3; ++k) {
             const double angle = turn + (k + random.between(-0.3, 0.3)) * 2 * PI / 3;
-            const dvec3 at = towards + size * random.between(0.3, 1) * (std::cos(angle) * x + std::sin(angle) * y);
+            const dvec3 at =
+                towards + size * random.between(0.3, 1) * (std::cos(angle) * x + std::sin(angle) * y);
             p[k] = {float(at.x), float(at.y), float(at.z)};
         }
         const double angle = exact_angle(p);
@@ -78,8 +82,8 @@ void solid_angles(CaseRun& run) {
     for (const Build build : run.builds()) {
         const std::vector<std::vector<double>> got = probes.run(build, "angle", inputs);
         for (size_t i = 0; i < expected.size(); ++i)
-            (expected[i] < 3e-4 ? small : large)[build].see(std::abs(got[0][i] / expected[i] - 1),
-                                                             [&] { return fmt::format("{} sr", expected[i]); });
+            (expected[i] < 3e-4 ? small : large)[build].see(
+                std::abs(got[0][i] / expected[i] - 1), [&] { return fmt::format("{} sr", expected[i]); });
     }
 }
 
