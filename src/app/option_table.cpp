@@ -3,11 +3,10 @@
 #include "app/option_table.h"
 
 #include "app/effect_option.h"
+#include "app/layer_option.h"
 #include "app/nearest_name.h"
 #include "error.h"
-#include "kernels/shared/path_types.h"
 #include "output/image.h"
-#include "paths/path_expression.h"
 
 #include <algorithm>
 #include <cctype>
@@ -92,67 +91,6 @@ void apply_filter(Options& o, const OptionValue& v) {
     radius.text = v.text.substr(colon + 1);
     o.filter_radius = parse_number(radius, "a radius in pixels above 0 and up to 100 after the ':'",
                                    [](double r) { return r > 0 && r <= LARGEST_FILTER_RADIUS; });
-}
-
-constexpr size_t LARGEST_LAYER_NAME = 60;
-
-/// Reads an expression; a message of it says where the value is from.
-void check_paths(const OptionValue& v, const std::string& expression) {
-    try {
-        parse_path_expression(expression);
-    } catch (const UsageError& error) {
-        throw UsageError(v.origin + "option " + v.option + ": " + error.what());
-    }
-}
-
-const std::vector<std::string>& fixed_layers() {
-    static const std::vector<std::string> layers = {
-        "albedo", "N", "Z", "P", "objectId", "materialId", "variance", "samples", "badSamples", "alpha"};
-    return layers;
-}
-
-/// A layer NAME=EXPR of paths.
-void add_path_layer(Options& o, const OptionValue& v, const std::string& name,
-                    const std::string& expression) {
-    static const std::string LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz",
-                             REST = "0123456789_-";
-    const std::vector<std::string>& fixed = fixed_layers();
-    const bool is_name = !name.empty() && name.size() <= LARGEST_LAYER_NAME &&
-                         LETTERS.find(name[0]) != std::string::npos &&
-                         name.find_first_not_of(LETTERS + REST) == std::string::npos;
-    const bool is_taken = std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
-                          std::any_of(o.path_layers.begin(), o.path_layers.end(),
-                                      [&](const auto& l) { return l.name == name; });
-    if (!is_name || is_taken)
-        reject_value(v,
-                     "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
-    if (o.path_layers.size() == PATH_LAYERS_LIMIT)
-        reject_value(v, "at most " + std::to_string(PATH_LAYERS_LIMIT) + " layers NAME=EXPR");
-    check_paths(v, expression);
-    o.path_layers.push_back({name, expression});
-}
-
-/// Adds to the layers that other occurrences of the option name.
-void apply_aov(Options& o, const OptionValue& v) {
-    const std::vector<std::string>& fixed = fixed_layers();
-    const bool is_first = !o.aovs;
-    if (is_first)
-        o.aovs.emplace();
-    if (v.text == "none" && is_first)
-        return;
-    for (const std::string& layer : split_list(v.text)) {
-        if (const size_t equals = layer.find('='); equals != std::string::npos) {
-            add_path_layer(o, v, layer.substr(0, equals), layer.substr(equals + 1));
-            continue;
-        }
-        const bool known = std::find(fixed.begin(), fixed.end(), layer) != fixed.end();
-        const bool repeated = std::find(o.aovs->begin(), o.aovs->end(), layer) != o.aovs->end();
-        if (!known || repeated)
-            reject_value(
-                v, "none or a list such as albedo,N of different layers out of albedo, N, Z, P, objectId, "
-                   "materialId, variance, samples, badSamples, alpha, and NAME=EXPR");
-        o.aovs->push_back(layer);
-    }
 }
 
 void apply_output(Options& o, const OptionValue& v) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/layer_option.h"
+
+#include "error.h"
+#include "kernels/shared/path_types.h"
+#include "paths/path_expression.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace clrt {
+
+namespace {
+
+constexpr size_t LARGEST_LAYER_NAME = 60;
+
+const std::vector<std::string>& fixed_layers() {
+    static const std::vector<std::string> layers = {
+        "albedo", "N", "Z", "P", "objectId", "materialId", "variance", "samples", "badSamples", "alpha"};
+    return layers;
+}
+
+/// A layer NAME=EXPR of paths.
+void add_path_layer(Options& o, const OptionValue& v, const std::string& name,
+                    const std::string& expression) {
+    static const std::string LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz",
+                             REST = "0123456789_-";
+    const std::vector<std::string>& fixed = fixed_layers();
+    const bool is_name = !name.empty() && name.size() <= LARGEST_LAYER_NAME &&
+                         LETTERS.find(name[0]) != std::string::npos &&
+                         name.find_first_not_of(LETTERS + REST) == std::string::npos;
+    const bool is_taken = std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
+                          std::any_of(o.path_layers.begin(), o.path_layers.end(),
+                                      [&](const auto& l) { return l.name == name; });
+    if (!is_name || is_taken)
+        reject_value(v,
+                     "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
+    if (o.path_layers.size() == PATH_LAYERS_LIMIT)
+        reject_value(v, "at most " + std::to_string(PATH_LAYERS_LIMIT) + " layers NAME=EXPR");
+    check_paths(v, expression);
+    o.path_layers.push_back({name, expression});
+}
+
+} // namespace
+
+void check_paths(const OptionValue& v, const std::string& expression) {
+    try {
+        parse_path_expression(expression);
+    } catch (const UsageError& error) {
+        throw UsageError(v.origin + "option " + v.option + ": " + error.what());
+    }
+}
+
+void apply_aov(Options& o, const OptionValue& v) {
+    const std::vector<std::string>& fixed = fixed_layers();
+    const bool is_first = !o.aovs;
+    if (is_first)
+        o.aovs.emplace();
+    if (v.text == "none" && is_first)
+        return;
+    for (const std::string& layer : split_list(v.text)) {
+        if (const size_t equals = layer.find('='); equals != std::string::npos) {
+            add_path_layer(o, v, layer.substr(0, equals), layer.substr(equals + 1));
+            continue;
+        }
+        const bool known = std::find(fixed.begin(), fixed.end(), layer) != fixed.end();
+        const bool repeated = std::find(o.aovs->begin(), o.aovs->end(), layer) != o.aovs->end();
+        if (!known || repeated)
+            reject_value(
+                v, "none or a list such as albedo,N of different layers out of albedo, N, Z, P, objectId, "
+                   "materialId, variance, samples, badSamples, alpha, and NAME=EXPR");
+        o.aovs->push_back(layer);
+    }
+}
+
+} // namespace clrt
