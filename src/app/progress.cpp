@@ -50,7 +50,7 @@ std::string progress_line(const ProgressState& state, double seconds) {
     if (state.rays_per_second >= 0)
         line += fmt::format("  {:.1f} Mrays/s", state.rays_per_second * 1e-6);
     if (state.error >= 0)
-        line += fmt::format("  error {:.2f} %", 100 * state.error);
+        line += fmt::format("  error about {:.1f} %", 100 * state.error);
     return line;
 }
 

@@ -15,7 +15,7 @@ struct ProgressState {
     double fraction = -1;  ///< 0..1, percentages are rounded down
     std::uint64_t spp = 0; ///< samples a pixel so far
     double rays_per_second = -1;
-    double error = -1; ///< relative, as last measured
+    double error = -1; ///< relative, about
 };
 
 /// The line for a state that its phase has reached after `seconds`, without a line end: phase, percentage,

@@ -82,6 +82,9 @@ private:
     void begin_round();
     void run_adaptive(std::uint64_t end);
     RenderState measured_state();
+    /// The error after so many samples, from the last one measured as for independent samples; -1: none was
+    /// measured.
+    double error_now(double samples) const;
     void measure();
     void read_back();
     void render_layers();
@@ -180,10 +183,14 @@ void Passes::run_tiles(double samples, double done, Launch&& launch) {
         pass_seconds_ = seconds / samples * params_.tile_count / (end - tile);
         tile = end;
         const double now = done + samples * tile / params_.tile_count;
-        const std::optional<FilmError> error = last_error_ ? relative_error(*last_error_) : std::nullopt;
         progress_.update({"render", rules_.fraction(now, seconds_since(start_), last_error_),
-                          std::uint64_t(now), -1, error ? error->relative_rmse : -1});
+                          std::uint64_t(now), -1, error_now(now)});
     }
+}
+
+double Passes::error_now(double samples) const {
+    const std::optional<FilmError> error = last_error_ ? relative_error(*last_error_) : std::nullopt;
+    return error ? error->relative_rmse * std::sqrt(double(last_error_->samples) / samples) : -1;
 }
 
 /// Decides where the next samples of an adaptive render go, when it has come to the end of a round.
