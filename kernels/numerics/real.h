@@ -49,6 +49,12 @@ typedef int8 mask8;
 /* Square root: correctly rounded, like division, where the device keeps its promises (device_facts.cl asks it). */
 #ifdef REAL_IS_FAST
 #define real_sqrt(x) native_sqrt(x)
+/* The rest of them is in real_functions.h otherwise. */
+#define real_exp(x) native_exp(x)
+#define real_log(x) native_log(x)
+#define real_pow(x, y) native_powr(x, y)
+#define real_atan2(y, x) atan2(y, x)
+#define real_acos(x) acos(x)
 #else
 #define real_sqrt(x) sqrt(x)
 #endif

@@ -18,13 +18,7 @@
 
 #include "real.h"
 
-#ifdef REAL_IS_FAST
-#define real_exp(x) native_exp(x)
-#define real_log(x) native_log(x)
-#define real_pow(x, y) native_powr(x, y)
-#define real_atan2(y, x) atan2(y, x)
-#define real_acos(x) acos(x)
-#else
+#ifndef REAL_IS_FAST /* real.h has the native ones */
 
 /* The format: bits of the mantissa, bias of the exponent, the bits of sqrt(1/2), and a power of two that makes
    subnormal numbers normal. LN2_HI has so many zeros at its end that its product with an exponent is exact, LN2_LO is what is missing. Names in _REST or
