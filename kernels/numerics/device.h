@@ -3,6 +3,16 @@
 #ifndef CLRT_NUMERICS_DEVICE_H
 #define CLRT_NUMERICS_DEVICE_H
 
+/* Clang for x86: warns where a vector that is wider than the processor's registers (double8 without AVX-512, float8 and
+   double3 without AVX) crosses a function's border, for the calling convention depends on the instruction set. That
+   is a danger to code whose parts are compiled apart. A program and its driver's functions are compiled for one
+   instruction set and linked as a whole, and OpenCL C's own functions (fma, vload8) take such vectors too. */
+#if defined(__clang__) && defined(__has_warning)
+#if __has_warning("-Wpsabi")
+#pragma clang diagnostic ignored "-Wpsabi"
+#endif
+#endif
+
 /* PoCL compiles a kernel's body several times (kernel, work-group launchers), but a function once; other CPU and
    NVIDIA compilers shorten their build alike. So every large function is kept out of line. */
 #define CLRT_NOINLINE __attribute__((noinline))

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // All kernels compile without a warning for every set of effects under test, as OpenCL C 1.2 and 3.0; no
 // device is needed.
+#include "clang_complaints.h"
 #include "support/effect_masks.h"
-#include "support/run_command.h"
+#include "support/scratch_folder.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -22,28 +23,8 @@ std::string all_entry_points() {
 
 /// What clang says about the kernels built with a mask; empty if nothing.
 std::string complaints(const std::string& file, const std::string& standard, u32 mask) {
-    const std::string kernels = CLRT_KERNELS_FOLDER;
-    const CommandResult result = run_command({CLRT_CLANG,
-                                              "-x",
-                                              "cl",
-                                              "-cl-std=" + standard,
-                                              "--target=spir64-unknown-unknown",
-                                              "-Xclang",
-                                              "-finclude-default-header",
-                                              "-Xclang",
-                                              "-fdeclare-opencl-builtins",
-                                              "-fsyntax-only",
-                                              "-Wall",
-                                              "-Wextra",
-                                              "-Werror",
-                                              "-Wno-unused-parameter",
-                                              "-Wno-unused-function",
-                                              "-Wno-constant-logical-operand",
-                                              "-I" + kernels,
-                                              "-I" + kernels + "/integrators",
-                                              fmt::format("-DCLRT_EFFECTS={:#x}u", mask),
-                                              file});
-    return result.exit_code == 0 && result.err.empty() ? "" : result.err + result.out + "(no success)";
+    return clang_complaints(file, {"-cl-std=" + standard, "--target=spir64-unknown-unknown", "-fsyntax-only",
+                                   fmt::format("-DCLRT_EFFECTS={:#x}u", mask)});
 }
 
 /// The sets of compiled effects, each once.

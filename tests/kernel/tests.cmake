@@ -3,6 +3,7 @@ clrt_test(kernel bsdf_sampling_test)
 clrt_test(kernel bsdf_test)
 clrt_test(kernel camera_test)
 clrt_test(kernel delta_light_test)
+clrt_test(kernel code_generation_test clrt_stability_core)
 clrt_test(kernel device_facts_test)
 clrt_test(kernel effect_syntax_test)
 clrt_test(kernel emitter_test)
@@ -29,5 +30,7 @@ clrt_test(kernel warp_test)
 
 # PoCL is built on this compiler, so it is always there with it.
 find_program(CLRT_CLANG NAMES clang-15 clang REQUIRED)
-target_compile_definitions(effect_syntax_test PRIVATE CLRT_CLANG="${CLRT_CLANG}"
-                                                      CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels")
+foreach(test IN ITEMS code_generation_test effect_syntax_test)
+  target_compile_definitions(${test} PRIVATE CLRT_CLANG="${CLRT_CLANG}" CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels"
+                                             CLRT_BENCH_FOLDER="${PROJECT_SOURCE_DIR}/tools/bench")
+endforeach()

@@ -51,6 +51,8 @@ public:
     /// True if connecting such a BSDF to a light can succeed.
     bool has_smooth_lobe(const LobeSet& set);
 
+    const KernelProbe& probe() const { return probe_; }
+
 private:
     Kernel prepare(const char* name, const LobeSet& set, const std::vector<glm::dvec3>& a,
                    const std::vector<glm::dvec3>& b, const glm::dvec3& normal_g);

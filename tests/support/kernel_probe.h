@@ -137,6 +137,11 @@ public:
     /// The program, built if it is not yet.
     const Program& program();
 
+    /// The text that the program is built from, as it stands.
+    std::string source() const;
+    /// How it is built.
+    const ProbeOptions& options() const { return options_; }
+
 private:
     /// One work-group size for all probes: PoCL compiles a kernel anew for every size.
     static constexpr size_t LOCAL_SIZE = 64;
@@ -162,7 +167,6 @@ private:
     void add_expression(const std::string& name, Expression expression);
     void check_run(const std::string& name, const std::string& signature, const std::vector<size_t>& sizes,
                    size_t count) const;
-    std::string source() const;
 
     const Device& device_;
     std::vector<std::string> headers_;

@@ -170,6 +170,8 @@ struct NumberPoint {
     Number x, y, z, offset;
 };
 
+} // namespace
+
 KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
     // Never freed, like the test device that they refer to.
     using Key = std::tuple<BvhLayout, Precision, u32, std::vector<std::string>, std::string>;
@@ -191,8 +193,6 @@ KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
     }
     return *probe;
 }
-
-} // namespace
 
 TestRay make_ray(const glm::dvec3& origin, const glm::dvec3& direction, float t_max) {
     const glm::dvec3 d = glm::normalize(direction);

@@ -63,6 +63,10 @@ struct RayDeviceOptions {
     const KernelVariant* variant = nullptr; ///< nullptr: the kernels under test
 };
 
+/// The program of these options, one a process. What RayDevice runs, and what a test may compile for other
+/// devices.
+KernelProbe& ray_probe(const RayDeviceOptions& options);
+
 /// What RayDevice::lights_seen gives.
 constexpr u32 NO_LIGHT = 0, LIGHT_SEEN = 1, LIGHT_HIDDEN = 2;
 

@@ -88,20 +88,6 @@ std::string kernel_text(const SumText& sum) {
                        sum.name, sum.words, sum.code);
 }
 
-/// One program a precision and process; never freed, as all that holds drivers' objects.
-KernelProbe& probe(const Device& device, Build build) {
-    static auto* const probes = new std::map<Precision, KernelProbe>;
-    const Precision precision = precision_of(build);
-    const auto found = probes->find(precision);
-    if (found != probes->end())
-        return found->second;
-    KernelProbe made(device, {"film/film.h"}, ProbeOptions{precision, {}}, kernels_under_test());
-    made.add_text(HELPERS);
-    for (const SumText& sum : SUM_TEXTS)
-        made.add_text(kernel_text(sum));
-    return probes->emplace(precision, std::move(made)).first->second;
-}
-
 FilmScale scale_of_mean(double mean_radiance) {
     Scene scene;
     scene.extent = 1;
@@ -115,6 +101,20 @@ std::vector<double> widened(const std::vector<T>& values) {
 }
 
 } // namespace
+
+KernelProbe& film_bench_probe(const Device& device, Build build) {
+    // Never freed, as all that holds drivers' objects.
+    static auto* const probes = new std::map<Precision, KernelProbe>;
+    const Precision precision = precision_of(build);
+    const auto found = probes->find(precision);
+    if (found != probes->end())
+        return found->second;
+    KernelProbe made(device, {"film/film.h"}, ProbeOptions{precision, {}}, kernels_under_test());
+    made.add_text(HELPERS);
+    for (const SumText& sum : SUM_TEXTS)
+        made.add_text(kernel_text(sum));
+    return probes->emplace(precision, std::move(made)).first->second;
+}
 
 FilmBench::FilmBench(const Device& device, std::vector<float> series, double mean_radiance)
     : device_(device), series_(std::move(series)), series_buffer_(upload_buffer(device, "series", series_)),
@@ -137,7 +137,7 @@ FilmBench::Bound FilmBench::bind(Build build, SumKind kind, u32 samples) const {
     const SumText& text = text_of(kind);
     const bool is_film = kind == SumKind::FILM || kind == SumKind::UNGUARDED;
     const size_t words = size_t(PIXELS) * text.per_pixel * (is_film ? REPLICATES : 1);
-    Bound bound{probe(device_, build).kernel(std::string("bench_") + text.name),
+    Bound bound{film_bench_probe(device_, build).kernel(std::string("bench_") + text.name),
                 create_buffer(device_, "film", words * sizeof(std::int64_t)),
                 create_buffer(device_, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))};
     bound.kernel.set("params", params());
@@ -152,7 +152,7 @@ FilmBench::Bound FilmBench::bind(Build build, SumKind kind, u32 samples) const {
 }
 
 Film FilmBench::film(Build build) {
-    KernelProbe& p = probe(device_, build);
+    KernelProbe& p = film_bench_probe(device_, build);
     const Bound bound = bind(build, SumKind::FILM, u32(series_.size()));
     p.launch(bound.kernel, PIXELS, 1);
     Film film;
@@ -172,7 +172,7 @@ Film FilmBench::film(Build build) {
 }
 
 std::vector<double> FilmBench::sums(SumKind kind) {
-    KernelProbe& p = probe(device_, Build::SINGLE);
+    KernelProbe& p = film_bench_probe(device_, Build::SINGLE);
     const Bound bound = bind(Build::SINGLE, kind, u32(series_.size()));
     p.launch(bound.kernel, PIXELS, 1);
     const size_t plane = size_t(PIXELS) * 3;
@@ -188,7 +188,7 @@ std::vector<double> FilmBench::sums(SumKind kind) {
 }
 
 ProbeTime FilmBench::time_film_against(SumKind naive, int rounds) {
-    KernelProbe& p = probe(device_, Build::SINGLE);
+    KernelProbe& p = film_bench_probe(device_, Build::SINGLE);
     const auto timed = [&](SumKind kind) {
         const Bound bound = bind(Build::SINGLE, kind, u32(series_.size()));
         return [&p, bound] { p.launch(bound.kernel, PIXELS, 1); };

@@ -20,6 +20,9 @@ enum class SumKind {
     DOUBLE     ///< a sum in double; needs fp64
 };
 
+/// The program of all ways in a build's precision, one a process.
+KernelProbe& film_bench_probe(const Device& device, Build build);
+
 class FilmBench {
 public:
     static constexpr u32 PIXELS = 64, REPLICATES = 8;

@@ -38,7 +38,9 @@ PROBE_PATHS(probe_path, path_radiance)
 PROBE_PATHS(probe_whitted, whitted_radiance)
 )";
 
-KernelProbe& probe_of(const Device& device, Build build) {
+} // namespace
+
+KernelProbe& path_probe(const Device& device, Build build) {
     // Never freed: at exit some drivers are gone before our statics.
     static auto* const probes = new std::map<Build, std::unique_ptr<KernelProbe>>;
     std::unique_ptr<KernelProbe>& made = (*probes)[build];
@@ -55,8 +57,6 @@ KernelProbe& probe_of(const Device& device, Build build) {
     return *made;
 }
 
-} // namespace
-
 PathProbe::PathProbe(const Device& device, Scene scene, const Options& options)
     : device_(device), scene_(std::move(scene)) {
     params = make_render_params(scene_, options, film_scale(scene_));
@@ -70,7 +70,7 @@ TestRay PathProbe::ray(const glm::dvec3& origin, const glm::dvec3& at) const {
 
 std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator,
                                             const std::vector<TestRay>& rays, size_t samples) const {
-    KernelProbe& probe = probe_of(device_, build);
+    KernelProbe& probe = path_probe(device_, build);
     Kernel kernel = probe.kernel(integrator == Integrator::WHITTED ? "probe_whitted" : "probe_path");
     const size_t count = rays.size() * samples;
     std::vector<vec4> words;

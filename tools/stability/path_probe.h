@@ -14,6 +14,9 @@
 
 namespace clrt {
 
+/// The program of a build, one a process.
+KernelProbe& path_probe(const Device& device, Build build);
+
 /// A scene on the device in every build but naive; the programs are made once a process.
 class PathProbe {
 public:

@@ -67,9 +67,11 @@ public:
     /// something.
     ProbeTime time(const std::string& expression, const Columns& inputs, int rounds = 15);
 
+    /// The program of a build.
+    KernelProbe& probe(Build build);
+
 private:
     const ProbedExpression& find(const std::string& name) const;
-    KernelProbe& probe(Build build);
     Kernel prepare(Build build, const std::string& kernel, const Columns& inputs, cl::Buffer& out,
                    size_t out_values);
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What clang says about OpenCL C, for tests that need no device. CLRT_CLANG is the compiler.
+#pragma once
+
+#include "support/run_command.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// All that clang writes about a file of OpenCL C, compiled with further options: nothing if it takes it
+/// without a warning. The file includes kernels by their path below kernels/.
+inline std::string clang_complaints(const std::string& file, const std::vector<std::string>& options) {
+    const std::string kernels = CLRT_KERNELS_FOLDER;
+    std::vector<std::string> command = {CLRT_CLANG,
+                                        "-x",
+                                        "cl",
+                                        "-Xclang",
+                                        "-finclude-default-header",
+                                        "-Xclang",
+                                        "-fdeclare-opencl-builtins",
+                                        "-Wall",
+                                        "-Wextra",
+                                        "-Werror",
+                                        "-Wno-unused-parameter",
+                                        "-Wno-unused-function",
+                                        "-Wno-constant-logical-operand",
+                                        "-I" + kernels,
+                                        "-I" + kernels + "/integrators"};
+    command.insert(command.end(), options.begin(), options.end());
+    command.push_back(file);
+    const CommandResult result = run_command(command);
+    return result.exit_code == 0 && result.err.empty() ? "" : result.err + result.out + "(no success)";
+}
+
+} // namespace clrt

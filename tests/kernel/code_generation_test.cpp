@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels and probes become code without a warning for the processors that drivers built on clang know, in
+// single and in double; no device of that kind is needed. Some warnings come only with the code: whether a
+// vector fits the registers is known there.
+#include "bvh/bvh.h"
+#include "clang_complaints.h"
+#include "kernels/shared/effects.h"
+#include "stability/bsdf_set.h"
+#include "stability/cases/ray_builds.h"
+#include "stability/film_bench.h"
+#include "stability/path_probe.h"
+#include "support/bsdf_probe.h"
+#include "support/ray_device.h"
+#include "support/scratch_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// What code is made for. PoCL's Debian packages make code for the first three kinds of x86, and for those
+/// between.
+struct Target {
+    const char* name;
+    std::vector<std::string> options;
+};
+
+const Target SSE2 = {"x86-64", {"--target=x86_64-unknown-linux-gnu", "-march=x86-64"}};
+const Target AVX2 = {"haswell", {"--target=x86_64-unknown-linux-gnu", "-march=haswell"}};
+const Target AVX512 = {"skylake-avx512", {"--target=x86_64-unknown-linux-gnu", "-march=skylake-avx512"}};
+
+const std::vector<Target>& targets() {
+    static const std::vector<Target> all = {
+        SSE2,
+        AVX2,
+        AVX512,
+        {"nvptx64", {"--target=nvptx64-nvidia-cuda", "-Xclang", "-target-cpu", "-Xclang", "sm_70"}},
+        {"amdgcn", {"--target=amdgcn-amd-amdhsa", "-mcpu=gfx900", "-nogpulib"}},
+        {"spir64", {"--target=spir64-unknown-unknown"}}};
+    return all;
+}
+
+/// What clang says when it makes code of a file; empty if nothing. Without optimisation, which takes a fifth
+/// of the time and keeps these warnings.
+std::string complaints(const std::string& file, const Target& target,
+                       const std::vector<std::string>& more = {}) {
+    std::vector<std::string> options = {"-cl-std=CL1.2", "-O0", "-S", "-emit-llvm", "-o", "/dev/null"};
+    options.insert(options.end(), target.options.begin(), target.options.end());
+    options.insert(options.end(), more.begin(), more.end());
+    return clang_complaints(file, options);
+}
+
+class CodeGeneration : public testing::Test {
+protected:
+    /// Compiles a text for all targets, in single and double.
+    void expect_clean(const std::string& what, const std::string& text,
+                      const std::vector<std::string>& defines) const {
+        const std::string file = folder.write("kernels.cl", text);
+        for (const Target& target : targets())
+            for (const char* precision : {"single", "double"}) {
+                std::vector<std::string> options = defines;
+                if (precision == std::string("double"))
+                    options.push_back("-DREAL_IS_DOUBLE=1");
+                EXPECT_EQ(complaints(file, target, options), "")
+                    << what << ", " << precision << ", for " << target.name;
+            }
+    }
+    /// The same with all effects and with none.
+    void expect_clean_with_and_without_effects(const std::string& what, const std::string& text,
+                                               std::vector<std::string> defines) const {
+        for (const u32 effects : {u32(EFFECT_ALL), 0u}) {
+            defines.push_back(fmt::format("-DCLRT_EFFECTS={:#x}u", effects));
+            expect_clean(fmt::format("{}, effects {:#x}", what, effects), text, defines);
+            defines.pop_back();
+        }
+    }
+    /// The same of a probe, as it is built.
+    void expect_clean(const std::string& what, const KernelProbe& probe) const {
+        std::vector<std::string> options;
+        for (const std::string& define : probe.options().defines)
+            options.push_back("-D" + define);
+        expect_clean(what, probe.source(), options);
+    }
+
+    const ScratchFolder folder;
+};
+
+std::string include(const std::vector<std::string>& files) {
+    std::string text;
+    for (const std::string& file : files)
+        text += fmt::format("#include \"{}\"\n", file);
+    return text;
+}
+
+} // namespace
+
+TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
+    const std::string text =
+        include({"integrators/path.cl", "integrators/whitted.cl", "integrators/raycast.cl",
+                 "integrators/aov.cl", "numerics/device_facts.cl"});
+    for (const BvhLayout layout : ALL_LAYOUTS)
+        expect_clean_with_and_without_effects(
+            layout_name(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout)), "-DSAMPLES_AT_ONCE=4"});
+}
+
+TEST_F(CodeGeneration, OfTheProgramsThatRecord) {
+    for (const std::string integrator : {"path", "whitted", "raycast"})
+        expect_clean_with_and_without_effects("recording " + integrator,
+                                              include({"integrators/" + integrator + ".cl"}),
+                                              {"-DCLRT_TRACE=1", "-DSAMPLES_AT_ONCE=1"});
+}
+
+TEST_F(CodeGeneration, OfTheKernelsOfClrtBench) {
+    expect_clean_with_and_without_effects(
+        "clrt-bench", include({"bench/aimed.cl", "bench/make_rays.cl", "bench/trace.cl", "bench/visits.cl"}),
+        {"-DCLRT_COUNT_VISITS=1", "-I" CLRT_BENCH_FOLDER "/kernels"});
+}
+
+TEST_F(CodeGeneration, OfTheProbesOfTestsAndClrtStability) {
+    RayDeviceOptions rays;
+    rays.effects = EFFECT_ALL;
+    for (const BvhLayout layout : ALL_LAYOUTS) {
+        rays.layout = layout;
+        expect_clean(fmt::format("rays through {}", layout_name(layout)), ray_probe(rays));
+    }
+    expect_clean("rays by Moeller and Trumbore's test",
+                 ray_probe(ray_options(Build::NAIVE, plain_triangles())));
+    expect_clean("the tests' lobes", BsdfProbe().probe());
+    expect_clean("the catalogue's lobes", bsdf_probes(test_device()).probe(Build::SINGLE));
+    expect_clean("the catalogue's paths", path_probe(test_device(), Build::SINGLE));
+    expect_clean("the catalogue's film", film_bench_probe(test_device(), Build::SINGLE));
+}
+
+TEST_F(CodeGeneration, TheCheckSeesVectorsThatCrossBordersAndTheKernelsTurnOffThatWarningAlone) {
+    const std::string crossing = "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n"
+                                 "kernel void add(global double* x) { vstore8(vload8(0, x) + 1.0, 0, x); }\n";
+    const std::string plain = folder.write("plain.cl", crossing);
+    EXPECT_NE(complaints(plain, SSE2).find("[-Werror,-Wpsabi]"), std::string::npos);
+    EXPECT_NE(complaints(plain, AVX2).find("[-Werror,-Wpsabi]"), std::string::npos);
+    EXPECT_EQ(complaints(plain, AVX512), "");
+
+    const std::string device = include({"numerics/device.h"});
+    EXPECT_EQ(complaints(folder.write("quiet.cl", device + crossing), SSE2), "");
+    const std::string unused = device + crossing + "kernel void idle(void) { int unused; }\n";
+    EXPECT_NE(complaints(folder.write("unused.cl", unused), SSE2).find("-Wunused-variable"),
+              std::string::npos);
+}
+
+} // namespace clrt
