@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture has the same bits with any number of threads, and on every CPU device that is there and
-// promises it. With one device only, the fixed bits of the functions (real_functions_test) and the rules of
-// the device (device_facts_test) say what others give.
+// The picture has the same bits with any number of threads, in every instruction set that PoCL compiles for
+// here, and on every CPU device that is there and promises it. With one device only, the fixed bits of the
+// functions (real_functions_test) and the rules of the device (device_facts_test) say what others give.
 #include "clrt_command.h"
 #include "render/film_file.h"
+#include "support/instruction_sets.h"
 
 #include <cstring>
 #include <fstream>
@@ -24,7 +25,8 @@ struct RenderedBits {
 class SameBitsCommand : public ClrtCommand {
 protected:
     /// Renders the scene that has every effect; `more` are further arguments.
-    RenderedBits render(const std::string& integrator, const std::vector<std::string>& more) const {
+    RenderedBits render(const std::string& integrator, const std::vector<std::string>& more,
+                        const CommandSettings& settings = {}) const {
         std::vector<std::string> arguments = {std::string(CLRT_SCENES_FOLDER) +
                                                   "/every_effect/every_effect.obj",
                                               "-i",
@@ -41,7 +43,7 @@ protected:
                                               "p.json",
                                               "-q"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const CommandResult result = clrt(arguments);
+        const CommandResult result = clrt(arguments, settings);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         std::ifstream stats(folder.file("p.json"));
         const auto same_bits = nlohmann::json::parse(stats)["device"]["same_bits"];
@@ -92,6 +94,17 @@ TEST_F(SameBitsCommand, ThreadsAndDevicesDoNotChangeThePicture) {
     // The comparison sees a difference.
     const RenderedBits other = render("raycast", {"--seed", "1"});
     EXPECT_NE(other.sums, render("raycast", {}).sums);
+}
+
+TEST_F(SameBitsCommand, InstructionSetsDoNotChangeThePicture) {
+    const RenderedBits widest = render("path", {});
+    for (const InstructionSet& set : instruction_sets()) {
+        CommandSettings settings;
+        settings.environment[InstructionSet::VARIABLE] = set.name;
+        const RenderedBits other = render("path", {}, settings);
+        EXPECT_TRUE(other.promised) << set.name;
+        expect_same(widest, other, set.name);
+    }
 }
 
 } // namespace clrt
