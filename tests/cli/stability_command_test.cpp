@@ -2,6 +2,7 @@
 // clrt-stability as a user runs it: its table, JSON and page, its errors, and that it finds kernels that are
 // wrong.
 #include "clrt_command.h"
+#include "stability/catalogue.h"
 
 #include <nlohmann/json.hpp>
 
@@ -92,11 +93,48 @@ TEST_F(StabilityCommand, TimesTheChoicesOfTheCases) {
     EXPECT_GT(costs[0].at("ratio"), 0);
 }
 
+TEST_F(StabilityCommand, TakesEveryTiming) {
+    const CommandResult result =
+        clrt({"--only-costs", "--rounds", "1", "--stats", "s.json", "-o", "page.html"});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_TRUE(holds(last_line(result.out), {"no case ran, quick tier, "})) << result.out;
+    const auto json = nlohmann::json::parse(folder.read("s.json"));
+    EXPECT_FALSE(json.contains("cases"));
+    ASSERT_EQ(json.at("costs").size(), robust_choices().size());
+    EXPECT_GE(json.at("render_costs").size(), 4u) << "two scenes by two ways of building, on any device";
+    const std::string page = folder.read("page.html");
+    for (const char* table : {"costs", "render_costs"})
+        for (const auto& row : json.at(table)) {
+            EXPECT_GT(row.at("ratio"), 0) << row;
+            EXPECT_NE(page.find(row.at("choice")), std::string::npos) << row;
+        }
+    EXPECT_EQ(page.find("fails"), std::string::npos);
+}
+
+TEST_F(StabilityCommand, FourForATimingThatFailsAndTheOthersAreTaken) {
+    std::filesystem::copy(CLRT_KERNELS_FOLDER, folder.file("kernels"),
+                          std::filesystem::copy_options::recursive);
+    folder.write("kernels/lights/spherical_triangle.h", "this is no kernel");
+    const CommandResult result = clrt({"--only-costs", "--case", "L06", "--case", "L09", "--rounds", "1",
+                                       "--kernels", "kernels", "--stats", "s.json", "-o", "page.html"});
+    EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+    EXPECT_TRUE(holds(result.out, {"Point of a near lamp: by area", "FAILS: The compiler"}));
+    EXPECT_TRUE(holds(last_line(result.out), {"no case ran, 1 of 2 timings FAIL"})) << result.out;
+    const auto costs = nlohmann::json::parse(folder.read("s.json")).at("costs");
+    ASSERT_EQ(costs.size(), 2u);
+    EXPECT_NE(costs[0].at("error").get<std::string>().find("spherical_triangle"), std::string::npos);
+    EXPECT_FALSE(costs[0].contains("ratio"));
+    EXPECT_GT(costs[1].at("ratio"), 0);
+    EXPECT_TRUE(holds(folder.read("page.html"), {"fails</b>: The compiler", "MIS weight"}));
+}
+
 TEST_F(StabilityCommand, TwoForWrongUsage) {
     expect_usage_error({"--case", "Q99"}, {"--case", "'Q99'", "--list"});
     expect_usage_error({"--tier", "daily"}, {"--tier", "'daily'"});
     expect_usage_error({"--no-such-option"}, {"--no-such-option", "--help"});
     expect_usage_error({"scene.obj"}, {"scene.obj"});
+    expect_usage_error({"--rounds", "0"}, {"--rounds", "from 1", "found 0"});
+    expect_usage_error({"--no-costs", "--only-costs"}, {"--no-costs", "--only-costs"});
 }
 
 TEST_F(StabilityCommand, OneAndThreeAsClrt) {

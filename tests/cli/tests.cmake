@@ -35,7 +35,7 @@ if(TARGET clrt-bench)
     CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes" CLRT_BENCH_FOLDER="${PROJECT_SOURCE_DIR}/tools/bench")
   add_dependencies(bench_command_test clrt-bench)
 endif()
-clrt_test(cli stability_command_test)
+clrt_test(cli stability_command_test clrt_stability_core)
 target_compile_definitions(stability_command_test PRIVATE
   CLRT_EXECUTABLE="$<TARGET_FILE:clrt-stability>" CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels")
 add_dependencies(stability_command_test clrt-stability)

@@ -30,16 +30,18 @@ const std::vector<CaseGroup>& catalogue() {
     return groups;
 }
 
+bool is_asked_for(const std::string& id, const std::vector<std::string>& ids) {
+    return ids.empty() || std::any_of(ids.begin(), ids.end(), [&](const std::string& beginning) {
+               return id.rfind(beginning, 0) == 0;
+           });
+}
+
 std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>& ids) {
     std::vector<const StabilityCase*> chosen;
     for (const CaseGroup& group : catalogue())
-        for (const StabilityCase& subject : group.cases) {
-            const auto is_asked_for = [&](const std::string& id) {
-                return std::string(subject.id).rfind(id, 0) == 0;
-            };
-            if (subject.run && (ids.empty() || std::any_of(ids.begin(), ids.end(), is_asked_for)))
+        for (const StabilityCase& subject : group.cases)
+            if (subject.run && is_asked_for(subject.id, ids))
                 chosen.push_back(&subject);
-        }
     return chosen;
 }
 

@@ -21,8 +21,14 @@ struct CaseGroup {
 /// All groups in the order of the report.
 const std::vector<CaseGroup>& catalogue();
 
-/// The cases that run, of all groups or those whose id begins with one of `ids`.
+/// Whether a case is asked for: its id begins with one of `ids`, or there are none.
+bool is_asked_for(const std::string& id, const std::vector<std::string>& ids);
+
+/// The cases that run, of all groups or those that are asked for.
 std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>& ids = {});
+
+/// Rounds of a timing: enough for quartiles that a disturbed round does not move.
+constexpr int CHOICE_ROUNDS = 15;
 
 /// What a robust choice costs: a naive and a robust way to the same figure, timed against each other.
 struct RobustChoice {
@@ -31,7 +37,7 @@ struct RobustChoice {
     const char* robust;
     const char* case_id; ///< the case that shows what the naive one gets wrong ...
     int figure = 0;      ///< ... and which of its figures
-    ProbeTime (*time)(const Device&);
+    ProbeTime (*time)(const Device&, int rounds);
 };
 
 /// All of them, in the order of the report.

@@ -42,7 +42,7 @@ public:
     /// The sums of all pixels, [pixel][rgb], in single precision; not for FILM and UNGUARDED.
     std::vector<double> sums(SumKind kind);
     /// Times the film against another way, for one sample of three channels.
-    ProbeTime time_film_against(SumKind naive, int rounds = 15);
+    ProbeTime time_film_against(SumKind naive, int rounds);
     /// Mean of each replicate's part of the series in long double; the mean of these is that of the series.
     std::vector<long double> replicate_means() const;
     long double mean() const;

@@ -26,27 +26,35 @@ const Device& open_chosen_device(const StabilityOptions& options) {
     return test_device();
 }
 
+/// Times a choice; what it throws becomes its error, so that one that fails does not cost the report.
+ChoiceCost measure_choice(const RobustChoice& choice, const Device& device, int rounds) {
+    ChoiceCost cost;
+    cost.choice = &choice;
+    try {
+        cost.time = choice.time(device, rounds);
+    } catch (const std::exception& error) {
+        cost.error = error.what();
+    }
+    return cost;
+}
+
 void measure_costs(const StabilityOptions& options, const Device& device, Progress& progress,
                    StabilityReport& report) {
     for (const RobustChoice& choice : robust_choices())
-        if (options.cases.empty() || figure_of(report, choice)) {
+        if (is_asked_for(choice.case_id, options.cases)) {
             progress.update({fmt::format("cost: {} against {}", choice.choice, choice.naive)});
-            report.costs.push_back({&choice, choice.time(device)});
+            report.costs.push_back(measure_choice(choice, device, options.rounds.value_or(CHOICE_ROUNDS)));
         }
-    if (options.cases.empty()) {
-        report.render_costs = measure_render_costs(
-            device, [&](const std::string& next) { progress.update({"cost: " + next}); });
-    }
+    // Whole pictures belong to no case.
+    if (options.cases.empty())
+        report.render_costs =
+            measure_render_costs(device, options.rounds.value_or(PICTURE_ROUNDS),
+                                 [&](const std::string& next) { progress.update({"cost: " + next}); });
     progress.finish();
 }
 
-StabilityReport run_catalogue(const StabilityOptions& options, const Device& device) {
-    const auto start = std::chrono::steady_clock::now();
-    StabilityReport report;
-    report.device = device.info;
-    report.tier = options.tier;
-    report.command = options.command;
-    Progress progress(Toggle::AUTO, /*quiet=*/false);
+void run_cases(const StabilityOptions& options, const Device& device, Progress& progress,
+               StabilityReport& report) {
     const std::vector<const StabilityCase*> subjects = runnable_cases(options.cases);
     fmt::print("{}", format_case_head());
     std::fflush(stdout);
@@ -58,6 +66,17 @@ StabilityReport run_catalogue(const StabilityOptions& options, const Device& dev
         fmt::print("{}", format_case(report.cases.back()));
         std::fflush(stdout);
     }
+}
+
+StabilityReport run_catalogue(const StabilityOptions& options, const Device& device) {
+    const auto start = std::chrono::steady_clock::now();
+    StabilityReport report;
+    report.device = device.info;
+    report.tier = options.tier;
+    report.command = options.command;
+    Progress progress(Toggle::AUTO, /*quiet=*/false);
+    if (options.run_cases)
+        run_cases(options, device, progress, report);
     if (options.costs)
         measure_costs(options, device, progress, report);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -78,7 +97,7 @@ int run(int argc, const char* const* argv) {
     if (!options.stats_path.empty())
         write_text_file(options.stats_path, report_json(report));
     fmt::print("{}", format_summary(report));
-    return count_broken(report) == 0 ? EXIT_DONE : EXIT_CHECK;
+    return count_broken(report) + count_failed_costs(report) == 0 ? EXIT_DONE : EXIT_CHECK;
 }
 
 } // namespace

@@ -53,6 +53,12 @@ std::string arrow_cell(const Figure& figure) {
            "</b></td>";
 }
 
+/// The end of a row whose figures are missing.
+std::string failed_cell(int columns, const std::string& error) {
+    return fmt::format("<td colspan=\"{}\"><b class=\"beyond\">fails</b>: {}</td></tr>\n", columns,
+                       escape(error));
+}
+
 std::string case_rows(const CaseResult& result) {
     const StabilityCase& subject = *result.subject;
     std::string rows = fmt::format(
@@ -66,8 +72,7 @@ std::string case_rows(const CaseResult& result) {
                         cell(figure[Build::FAST], figure.limit), cell(figure[Build::DOUBLE], figure.limit),
                         figure.limit, figure.holds() ? "holds" : "<b class=\"beyond\">fails</b>");
     if (!result.error.empty())
-        rows += fmt::format("<tr><td colspan=\"7\"><b class=\"beyond\">fails</b>: {}</td></tr>\n",
-                            escape(result.error));
+        rows += "<tr>" + failed_cell(7, result.error);
     return rows;
 }
 
@@ -90,7 +95,7 @@ std::string contents(const StabilityReport& report) {
             items += fmt::format("<li><a href=\"#group-{}\">{}</a>: {} of {}</li>\n",
                                  group.cases.front().id[0], group.title, holding, results.size());
     }
-    return "<ul class=\"contents\">\n" + items + "</ul>\n";
+    return items.empty() ? "" : "<ul class=\"contents\">\n" + items + "</ul>\n";
 }
 
 std::string case_tables(const StabilityReport& report) {
@@ -120,14 +125,18 @@ std::string cost_table(const StabilityReport& report) {
         return "";
     std::string rows;
     for (const ChoiceCost& cost : report.costs) {
+        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escape(cost.choice->choice),
+                            escape(cost.choice->naive), escape(cost.choice->robust));
+        if (!cost.error.empty()) {
+            rows += failed_cell(5, cost.error);
+            continue;
+        }
         const Figure* figure = figure_of(report, *cost.choice);
-        rows += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td>{}{}<td>{}</td></tr>\n",
-            escape(cost.choice->choice), escape(cost.choice->naive), escape(cost.choice->robust),
-            cost.time.naive * 1e9, cost.time.single * 1e9, ratio_cell(cost.time),
-            figure ? arrow_cell(*figure) : "<td>&ndash;</td>",
-            figure ? escape(fmt::format("{} {}", cost.choice->case_id, figure->quantity))
-                   : cost.choice->case_id);
+        rows += fmt::format("<td>{:.2f}</td><td>{:.2f}</td>{}{}<td>{}</td></tr>\n", cost.time.naive * 1e9,
+                            cost.time.single * 1e9, ratio_cell(cost.time),
+                            figure ? arrow_cell(*figure) : "<td>&ndash;</td>",
+                            figure ? escape(fmt::format("{} {}", cost.choice->case_id, figure->quantity))
+                                   : cost.choice->case_id);
     }
     return "<h2 id=\"costs\">What robustness costs</h2>\n<p>Nanoseconds an evaluation" +
            std::string(takes_cpu_seconds(report) ? " (CPU time of all threads)" : "") +
@@ -143,11 +152,16 @@ std::string render_cost_table(const StabilityReport& report) {
     if (report.render_costs.empty())
         return "";
     std::string rows;
-    for (const RenderCost& cost : report.render_costs)
-        rows += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td>{}<td>{:.2g}</td><td>{:.2g}</td></tr>\n",
-            escape(cost.choice), escape(cost.scene), cost.time.single, cost.time.naive, ratio_cell(cost.time),
-            cost.difference, cost.noise);
+    for (const RenderCost& cost : report.render_costs) {
+        rows += fmt::format("<tr><td>{}</td><td>{}</td>", escape(cost.choice), escape(cost.scene));
+        if (!cost.error.empty()) {
+            rows += failed_cell(5, cost.error);
+            continue;
+        }
+        rows += fmt::format("<td>{:.3f}</td><td>{:.3f}</td>{}<td>{:.2g}</td><td>{:.2g}</td></tr>\n",
+                            cost.time.single, cost.time.naive, ratio_cell(cost.time), cost.difference,
+                            cost.noise);
+    }
     return fmt::format(
         "<h2>Whole pictures by other kernels</h2>\n<p>{} seconds of a picture by kernels that are built "
         "otherwise, "

@@ -44,7 +44,7 @@ double device_seconds();
 /// Times two ways of doing the same to `elements` inputs in turns; the first round of each, in which drivers
 /// compile, does not count.
 ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single,
-                        size_t elements, int rounds = 15);
+                        size_t elements, int rounds);
 
 class ProbeSet {
 public:
@@ -65,7 +65,7 @@ public:
 
     /// Times naive against single in turns. The expression needs a naive form; at least 2^16 inputs say
     /// something.
-    ProbeTime time(const std::string& expression, const Columns& inputs, int rounds = 15);
+    ProbeTime time(const std::string& expression, const Columns& inputs, int rounds);
 
     /// The program of a build.
     KernelProbe& probe(Build build);

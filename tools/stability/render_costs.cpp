@@ -5,13 +5,13 @@
 #include "support/prepared_render.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <memory>
 
 namespace clrt {
 
 namespace {
 
-constexpr int ROUNDS = 7;
 constexpr glm::ivec2 SIZE{96, 72};
 constexpr std::uint32_t SPP = 32;
 
@@ -41,8 +41,8 @@ double relative_difference(const std::vector<float>& a, const std::vector<float>
 }
 
 /// Renders by a variant and by clrt's own kernels in turns.
-RenderCost measure(const Device& device, const RenderVariant& variant, const PreparedRender& own,
-                   const ShippedScene& subject, const Scene& scene) {
+void measure(const Device& device, const RenderVariant& variant, const PreparedRender& own,
+             const ShippedScene& subject, const Scene& scene, int rounds, RenderCost& cost) {
     Device as_told = device;
     as_told.info.correctly_rounded_division &= variant.rounds_correctly;
     Options options = subject.options;
@@ -54,8 +54,6 @@ RenderCost measure(const Device& device, const RenderVariant& variant, const Pre
         options.kernels_folder = patched->path();
     }
     const PreparedRender other(scene, options, as_told);
-    RenderCost cost;
-    cost.choice = variant.choice;
     Film films[2];
     double noise = 0;
     const auto render = [&](const PreparedRender& picture, Film& film) {
@@ -64,32 +62,61 @@ RenderCost measure(const Device& device, const RenderVariant& variant, const Pre
         if (&film == &films[0] && rendered.error)
             noise = rendered.error->relative_rmse;
     };
-    cost.time = time_in_turns([&] { render(own, films[0]); }, [&] { render(other, films[1]); }, 1, ROUNDS);
+    cost.time = time_in_turns([&] { render(own, films[0]); }, [&] { render(other, films[1]); }, 1, rounds);
     cost.difference = relative_difference(film_mean(films[1]), film_mean(films[0]));
     cost.noise = noise;
-    return cost;
+}
+
+/// What can be measured of a variant on this device.
+bool is_known(const RenderVariant& variant, const DeviceInfo& device) {
+    return (variant.precision != Precision::DOUBLE || device.fp64) &&
+           (variant.rounds_correctly || device.correctly_rounded_division);
+}
+
+/// Measures all variants on a scene. What one throws becomes the error of its row, so that it does not cost
+/// the report.
+void measure_scene(const Device& device, const char* name, int rounds,
+                   const std::function<void(const std::string&)>& tell, std::vector<RenderCost>& costs) {
+    const auto attempt = [&](const char* choice, const auto& work) {
+        tell(fmt::format("{}, {}", name, choice));
+        RenderCost cost;
+        cost.choice = choice;
+        cost.scene = name;
+        try {
+            work(cost);
+        } catch (const std::exception& error) {
+            cost.error = error.what();
+        }
+        return cost;
+    };
+    std::unique_ptr<ShippedScene> subject;
+    Scene scene;
+    std::unique_ptr<PreparedRender> own;
+    const RenderCost prepared = attempt("clrt's own", [&](RenderCost&) {
+        subject = std::make_unique<ShippedScene>(name);
+        subject->options.size = SIZE;
+        subject->options.spp = SPP;
+        scene = subject->load();
+        own = std::make_unique<PreparedRender>(scene, subject->options, device);
+    });
+    if (!own) {
+        costs.push_back(prepared);
+        return;
+    }
+    for (const RenderVariant& variant : VARIANTS)
+        if (is_known(variant, device.info))
+            costs.push_back(attempt(variant.choice, [&](RenderCost& cost) {
+                measure(device, variant, *own, *subject, scene, rounds, cost);
+            }));
 }
 
 } // namespace
 
-std::vector<RenderCost> measure_render_costs(const Device& device,
+std::vector<RenderCost> measure_render_costs(const Device& device, int rounds,
                                              const std::function<void(const std::string&)>& tell) {
     std::vector<RenderCost> costs;
-    for (const char* name : {"cornell_box", "every_effect"}) {
-        ShippedScene subject(name);
-        subject.options.size = SIZE;
-        subject.options.spp = SPP;
-        const Scene scene = subject.load();
-        const PreparedRender own(scene, subject.options, device);
-        for (const RenderVariant& variant : VARIANTS) {
-            if ((variant.precision == Precision::DOUBLE && !device.info.fp64) ||
-                (!variant.rounds_correctly && !device.info.correctly_rounded_division))
-                continue;
-            tell(std::string(name) + ", " + variant.choice);
-            costs.push_back(measure(device, variant, own, subject, scene));
-            costs.back().scene = name;
-        }
-    }
+    for (const char* name : {"cornell_box", "every_effect"})
+        measure_scene(device, name, rounds, tell, costs);
     return costs;
 }
 

@@ -18,10 +18,14 @@ struct RenderCost {
                     ///< over clrt's
     double difference = 0; ///< RMS difference of the pictures over clrt's mean; same random numbers
     double noise = 0;      ///< relative error of clrt's picture, to compare with
+    std::string error;     ///< why there are no figures; empty: there are
 };
 
-/// Renders all of them, a minute or two; `tell` hears which one is next.
-std::vector<RenderCost> measure_render_costs(const Device& device,
+/// Rounds of a timing of whole pictures.
+constexpr int PICTURE_ROUNDS = 7;
+
+/// Renders all of them, a minute or two in PICTURE_ROUNDS; `tell` hears which one is next.
+std::vector<RenderCost> measure_render_costs(const Device& device, int rounds,
                                              const std::function<void(const std::string&)>& tell);
 
 } // namespace clrt

@@ -42,6 +42,38 @@ Json case_json(const CaseResult& result) {
     return json;
 }
 
+/// Adds the figures of a timing, or why there are none; `naive` names the seconds of what it is timed
+/// against.
+void add_time(const ProbeTime& time, const std::string& error, const char* naive, Json& json) {
+    if (!error.empty()) {
+        json["error"] = error;
+        return;
+    }
+    json[naive] = time.naive;
+    json["seconds"] = time.single;
+    json["ratio"] = time.ratio;
+    json["ratio_quartiles"] = {time.ratio_low, time.ratio_high};
+}
+
+Json choice_cost_json(const ChoiceCost& cost) {
+    Json json{{"choice", cost.choice->choice},
+              {"naive", cost.choice->naive},
+              {"robust", cost.choice->robust},
+              {"case", cost.choice->case_id}};
+    add_time(cost.time, cost.error, "naive_seconds", json);
+    return json;
+}
+
+Json render_cost_json(const RenderCost& cost, bool in_cpu_seconds) {
+    Json json{{"choice", cost.choice}, {"scene", cost.scene}, {"clock", in_cpu_seconds ? "cpu" : "wall"}};
+    add_time(cost.time, cost.error, "clrt_seconds", json);
+    if (cost.error.empty()) {
+        json["rel_rms_difference"] = cost.difference;
+        json["rel_rmse_of_clrt"] = cost.noise;
+    }
+    return json;
+}
+
 std::string format_choice_costs(const StabilityReport& report) {
     if (report.costs.empty())
         return "";
@@ -49,12 +81,16 @@ std::string format_choice_costs(const StabilityReport& report) {
         fmt::format("\n{:<52} {:>9} {:>9} {:>18} {:>11} {:>11}  of\n", "what robustness costs, against naive",
                     "naive ns", "ns", "ratio (quartiles)", "naive error", "error");
     for (const ChoiceCost& cost : report.costs) {
+        const std::string row = fmt::format("{}: {}", cost.choice->choice, cost.choice->naive);
+        if (!cost.error.empty()) {
+            lines += fmt::format("{:<52} FAILS: {}\n", row, cost.error);
+            continue;
+        }
         const Figure* figure = figure_of(report, *cost.choice);
         lines += fmt::format(
-            "{:<52} {:>9.2f} {:>9.2f} {:>5.2f} ({:.2f}..{:.2f}) {:>11} {:>11}  {}\n",
-            fmt::format("{}: {}", cost.choice->choice, cost.choice->naive), cost.time.naive * 1e9,
-            cost.time.single * 1e9, cost.time.ratio, cost.time.ratio_low, cost.time.ratio_high,
-            figure ? format_worst((*figure)[Build::NAIVE]) : "-",
+            "{:<52} {:>9.2f} {:>9.2f} {:>5.2f} ({:.2f}..{:.2f}) {:>11} {:>11}  {}\n", row,
+            cost.time.naive * 1e9, cost.time.single * 1e9, cost.time.ratio, cost.time.ratio_low,
+            cost.time.ratio_high, figure ? format_worst((*figure)[Build::NAIVE]) : "-",
             figure ? format_worst((*figure)[Build::SINGLE]) : "-",
             figure ? fmt::format("{} {}", cost.choice->case_id, figure->quantity) : cost.choice->case_id);
     }
@@ -68,10 +104,12 @@ std::string format_render_costs(const StabilityReport& report) {
         "\n{:<30} {:<14} {:>9} {:>9} {:>18} {:>11} {:>11}\n", "what other kernels would save", "scene",
         takes_cpu_seconds(report) ? "CPU s" : "s", "clrt's", "ratio (quartiles)", "difference", "noise");
     for (const RenderCost& cost : report.render_costs)
-        lines +=
-            fmt::format("{:<30} {:<14} {:>9.3f} {:>9.3f} {:>5.2f} ({:.2f}..{:.2f}) {:>11.2g} {:>11.2g}\n",
-                        cost.choice, cost.scene, cost.time.single, cost.time.naive, cost.time.ratio,
-                        cost.time.ratio_low, cost.time.ratio_high, cost.difference, cost.noise);
+        lines += !cost.error.empty()
+                     ? fmt::format("{:<30} {:<14} FAILS: {}\n", cost.choice, cost.scene, cost.error)
+                     : fmt::format(
+                           "{:<30} {:<14} {:>9.3f} {:>9.3f} {:>5.2f} ({:.2f}..{:.2f}) {:>11.2g} {:>11.2g}\n",
+                           cost.choice, cost.scene, cost.time.single, cost.time.naive, cost.time.ratio,
+                           cost.time.ratio_low, cost.time.ratio_high, cost.difference, cost.noise);
     return lines;
 }
 
@@ -92,6 +130,12 @@ const Figure* figure_of(const StabilityReport& report, const RobustChoice& choic
 size_t count_broken(const StabilityReport& report) {
     return size_t(std::count_if(report.cases.begin(), report.cases.end(),
                                 [](const CaseResult& result) { return !result.holds(); }));
+}
+
+size_t count_failed_costs(const StabilityReport& report) {
+    const auto failed = [](const auto& cost) { return !cost.error.empty(); };
+    return size_t(std::count_if(report.costs.begin(), report.costs.end(), failed) +
+                  std::count_if(report.render_costs.begin(), report.render_costs.end(), failed));
 }
 
 std::string format_case_head() {
@@ -123,9 +167,14 @@ std::string format_costs(const StabilityReport& report) {
 }
 
 std::string format_summary(const StabilityReport& report) {
-    const size_t broken = count_broken(report);
-    return fmt::format("{} of {} cases hold{}, {} tier, {:.1f} s\n", report.cases.size() - broken,
-                       report.cases.size(), broken ? fmt::format(", {} FAIL", broken) : "",
+    const size_t broken = count_broken(report), failed = count_failed_costs(report);
+    const std::string cases =
+        report.cases.empty()
+            ? std::string("no case ran")
+            : fmt::format("{} of {} cases hold", report.cases.size() - broken, report.cases.size());
+    const size_t timings = report.costs.size() + report.render_costs.size();
+    return fmt::format("{}{}{}, {} tier, {:.1f} s\n", cases, broken ? fmt::format(", {} FAIL", broken) : "",
+                       failed ? fmt::format(", {} of {} timings FAIL", failed, timings) : "",
                        tier_name(report.tier), report.seconds);
 }
 
@@ -154,24 +203,9 @@ std::string report_json(const StabilityReport& report) {
     for (const CaseResult& result : report.cases)
         json["cases"].push_back(case_json(result));
     for (const ChoiceCost& cost : report.costs)
-        json["costs"].push_back({{"choice", cost.choice->choice},
-                                 {"naive", cost.choice->naive},
-                                 {"robust", cost.choice->robust},
-                                 {"case", cost.choice->case_id},
-                                 {"naive_seconds", cost.time.naive},
-                                 {"seconds", cost.time.single},
-                                 {"ratio", cost.time.ratio},
-                                 {"ratio_quartiles", {cost.time.ratio_low, cost.time.ratio_high}}});
+        json["costs"].push_back(choice_cost_json(cost));
     for (const RenderCost& cost : report.render_costs)
-        json["render_costs"].push_back({{"choice", cost.choice},
-                                        {"scene", cost.scene},
-                                        {"clock", takes_cpu_seconds(report) ? "cpu" : "wall"},
-                                        {"clrt_seconds", cost.time.naive},
-                                        {"seconds", cost.time.single},
-                                        {"ratio", cost.time.ratio},
-                                        {"ratio_quartiles", {cost.time.ratio_low, cost.time.ratio_high}},
-                                        {"rel_rms_difference", cost.difference},
-                                        {"rel_rmse_of_clrt", cost.noise}});
+        json["render_costs"].push_back(render_cost_json(cost, takes_cpu_seconds(report)));
     for (const CaseGroup& group : catalogue())
         for (const StabilityCase& subject : group.cases)
             if (subject.waits_for)

@@ -15,6 +15,7 @@ namespace clrt {
 struct ChoiceCost {
     const RobustChoice* choice = nullptr;
     ProbeTime time;
+    std::string error; ///< what it threw, and then there is no time; empty: nothing
 };
 
 struct StabilityReport {
@@ -36,6 +37,9 @@ const Figure* figure_of(const StabilityReport& report, const RobustChoice& choic
 /// Number of cases that do not hold.
 size_t count_broken(const StabilityReport& report);
 
+/// Number of timings that failed.
+size_t count_failed_costs(const StabilityReport& report);
+
 /// The head line over the lines of format_case.
 std::string format_case_head();
 
@@ -45,7 +49,7 @@ std::string format_case(const CaseResult& result);
 /// The tables of costs; empty without costs.
 std::string format_costs(const StabilityReport& report);
 
-/// "38 of 38 cases hold, quick tier, 52.1 s".
+/// "38 of 38 cases hold, quick tier, 52.1 s", with the number of timings that failed, if any.
 std::string format_summary(const StabilityReport& report);
 
 /// The catalogue with set-ups, oracles and what waits.

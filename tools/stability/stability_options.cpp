@@ -26,6 +26,8 @@ Options:
   --case ID        only cases whose id begins so, such as T or I01; repeatable
   --list           print the catalogue, and what waits for what, and exit
   --no-costs       leave out the timings
+  --only-costs     run no case, only take the timings (of those of --case, or all)
+  --rounds N       turns in which a timing is taken (default 15, for whole pictures 7)
   --output FILE    write the report as one HTML page
   --stats FILE     write all figures as JSON
   --kernels DIR    take clrt's kernels from here (default: those inside clrt-stability)
@@ -37,7 +39,7 @@ Exit codes:
   1    output file or host memory
   2    wrong command line
   3    no such device, its compiler failed, or it lacks memory
-  4    a case does not hold
+  4    a case does not hold, or a timing failed
 )";
 
 Tier parse_tier(const std::string& text) {
@@ -65,10 +67,11 @@ StabilityOptions parse_stability_options(int argc, const char* const* argv) {
     StabilityOptions options;
     options.command.assign(argv, argv + argc);
     std::string tier = tier_name(options.tier);
-    bool help = false, version = false, no_costs = false;
+    bool help = false, version = false, no_costs = false, only_costs = false;
+    int rounds = 0;
     CLI::App app;
     app.set_help_flag();
-    const auto one_value = [](CLI::Option* option) { option->expected(1)->take_last(); };
+    const auto one_value = [](CLI::Option* option) { return option->expected(1)->take_last(); };
     one_value(app.add_option("--device,-d", options.device));
     one_value(app.add_option("--tier", tier));
     app.add_option("--case", options.cases)
@@ -79,6 +82,8 @@ StabilityOptions parse_stability_options(int argc, const char* const* argv) {
     one_value(app.add_option("--kernels", options.kernels_folder));
     app.add_flag("--list", options.list);
     app.add_flag("--no-costs", no_costs);
+    app.add_flag("--only-costs", only_costs);
+    CLI::Option* const rounds_option = one_value(app.add_option("--rounds", rounds));
     app.add_flag("--help,-h", help);
     app.add_flag("--version", version);
     try {
@@ -91,7 +96,17 @@ StabilityOptions parse_stability_options(int argc, const char* const* argv) {
     else if (version)
         options.print = "clrt-stability " CLRT_VERSION "\n";
     options.tier = parse_tier(tier);
+    if (no_costs && only_costs)
+        throw UsageError(
+            "options --no-costs and --only-costs: expected one of them, for together nothing is left");
     options.costs = !no_costs;
+    options.run_cases = !only_costs;
+    if (rounds_option->count() > 0) {
+        if (rounds < 1)
+            throw UsageError(
+                fmt::format("option --rounds: expected a whole number from 1, found {}", rounds));
+        options.rounds = rounds;
+    }
     check_cases(options.cases);
     for (const std::string* path : {&options.page_path, &options.stats_path})
         if (!path->empty())

@@ -15,7 +15,8 @@ struct StabilityOptions {
     Tier tier = Tier::QUICK;
     std::vector<std::string> cases; ///< beginnings of ids; empty: all
     bool list = false;
-    bool costs = true;
+    bool run_cases = true, costs = true;
+    std::optional<int> rounds; ///< of every timing; none: CHOICE_ROUNDS and PICTURE_ROUNDS
     std::string page_path, stats_path, kernels_folder; ///< empty: none
     std::vector<std::string> command;                  ///< argv as given
     std::optional<std::string> print;                  ///< text of --help or --version, to print and exit

@@ -135,14 +135,14 @@ const ProbedExpression& fresnel_expression() {
     return FRESNEL;
 }
 
-ProbeTime time_fresnel(const Device& device) {
+ProbeTime time_fresnel(const Device& device, int rounds) {
     Random random(1);
     Columns inputs(2);
     for (int i = 0; i < 1 << 20; ++i) {
         inputs[0].push_back(float(random.unit()));
         inputs[1].push_back(float(random.between(0.5, 2)));
     }
-    return ProbeSet(device, {"scattering/fresnel.h"}, {FRESNEL}).time("fresnel", inputs);
+    return ProbeSet(device, {"scattering/fresnel.h"}, {FRESNEL}).time("fresnel", inputs, rounds);
 }
 
 const std::vector<StabilityCase>& dielectric_cases() {

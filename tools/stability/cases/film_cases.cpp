@@ -237,23 +237,23 @@ void last_samples(CaseRun& run) {
 
 namespace {
 
-ProbeTime time_against(const Device& device, SumKind naive) {
-    return FilmBench(device, noisy_series(1 << 13, 100), 100.5).time_film_against(naive);
+ProbeTime time_against(const Device& device, SumKind naive, int rounds) {
+    return FilmBench(device, noisy_series(1 << 13, 100), 100.5).time_film_against(naive, rounds);
 }
 
 } // namespace
 
-ProbeTime time_film_plain(const Device& device) {
-    return time_against(device, SumKind::PLAIN);
+ProbeTime time_film_plain(const Device& device, int rounds) {
+    return time_against(device, SumKind::PLAIN, rounds);
 }
-ProbeTime time_film_blocks(const Device& device) {
-    return time_against(device, SumKind::BLOCKS);
+ProbeTime time_film_blocks(const Device& device, int rounds) {
+    return time_against(device, SumKind::BLOCKS, rounds);
 }
-ProbeTime time_film_double(const Device& device) {
-    return time_against(device, SumKind::DOUBLE);
+ProbeTime time_film_double(const Device& device, int rounds) {
+    return time_against(device, SumKind::DOUBLE, rounds);
 }
-ProbeTime time_film_guard(const Device& device) {
-    return time_against(device, SumKind::UNGUARDED);
+ProbeTime time_film_guard(const Device& device, int rounds) {
+    return time_against(device, SumKind::UNGUARDED, rounds);
 }
 
 const std::vector<StabilityCase>& film_cases() {

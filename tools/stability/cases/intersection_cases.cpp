@@ -184,21 +184,21 @@ void count_tree_differences(CaseRun& run, const Scene& scene, const std::vector<
 namespace {
 
 /// Times the kernels of a variant against clrt's on rays through a soup.
-ProbeTime time_variant(const KernelVariant& variant) {
+ProbeTime time_variant(const KernelVariant& variant, int rounds) {
     const Scene soup = make_soup(100000, 0.05, 4);
     const std::vector<TestRay> rays = rays_at(soup, 1 << 17, 1);
     const RayDevice naive(soup, ray_options(Build::NAIVE, variant)),
         single(soup, ray_options(Build::SINGLE, variant));
-    return time_in_turns(naive.tracer(rays), single.tracer(rays), rays.size());
+    return time_in_turns(naive.tracer(rays), single.tracer(rays), rays.size(), rounds);
 }
 
 } // namespace
 
-ProbeTime time_edge_test(const Device&) {
-    return time_variant(plain_triangles());
+ProbeTime time_edge_test(const Device&, int rounds) {
+    return time_variant(plain_triangles(), rounds);
 }
-ProbeTime time_slab(const Device&) {
-    return time_variant(plain_boxes());
+ProbeTime time_slab(const Device&, int rounds) {
+    return time_variant(plain_boxes(), rounds);
 }
 
 const std::vector<StabilityCase>& intersection_cases() {

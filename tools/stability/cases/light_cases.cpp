@@ -272,14 +272,14 @@ void delta_lights(CaseRun& run) {
 
 } // namespace
 
-ProbeTime time_mis_weight(const Device& device) {
+ProbeTime time_mis_weight(const Device& device, int rounds) {
     Random random(1);
     Columns inputs(2);
     for (int i = 0; i < 1 << 20; ++i) {
         inputs[0].push_back(float(random.between(0.01, 10)));
         inputs[1].push_back(float(random.between(0.01, 10)));
     }
-    return ProbeSet(device, {"path/mis.h"}, {MIS}).time("mis", inputs);
+    return ProbeSet(device, {"path/mis.h"}, {MIS}).time("mis", inputs, rounds);
 }
 
 const std::vector<StabilityCase>& light_cases() {

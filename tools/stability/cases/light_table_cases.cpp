@@ -112,7 +112,7 @@ void many_lights(CaseRun& run) {
     }
 }
 
-ProbeTime time_light_choice(const Device& device) {
+ProbeTime time_light_choice(const Device& device, int rounds) {
     const std::vector<double> weights = powers(TABLE_SIZE);
     const AliasTable table = build_alias_table(weights);
     const double whole = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -128,7 +128,7 @@ ProbeTime time_light_choice(const Device& device) {
         inputs[3].push_back(bits_to_float(table.entries[entry].threshold));
         inputs[4].push_back(float(table.entries[entry].alias));
     }
-    return ProbeSet(device, {"numerics/warp.h"}, {CHOICE}).time("choice", inputs);
+    return ProbeSet(device, {"numerics/warp.h"}, {CHOICE}).time("choice", inputs, rounds);
 }
 
 } // namespace clrt

@@ -214,15 +214,15 @@ void nets(CaseRun& run) {
     }
 }
 
-ProbeTime time_uniforms(const Device& device) {
+ProbeTime time_uniforms(const Device& device, int rounds) {
     std::vector<float> upper(1u << 20);
     for (size_t i = 0; i < upper.size(); ++i)
         upper[i] = float(i * 16);
-    return number_probes(device).time("unit", {upper});
+    return number_probes(device).time("unit", {upper}, rounds);
 }
 
-ProbeTime time_frames(const Device& device) {
-    return number_probes(device).time("frame", normals(1u << 20));
+ProbeTime time_frames(const Device& device, int rounds) {
+    return number_probes(device).time("frame", normals(1u << 20), rounds);
 }
 
 } // namespace clrt

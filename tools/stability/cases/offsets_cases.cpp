@@ -177,14 +177,14 @@ void thin_gap(CaseRun& run) {
 
 } // namespace
 
-ProbeTime time_offset(const Device&) {
+ProbeTime time_offset(const Device&, int rounds) {
     const Scene ball = make_ball(256, 256);
     std::vector<TestRay> rays = aimed_rays(ball, BALL_INNER, Aim::EDGE, 1 << 18, 1);
     const RayDevice naive(ball, ray_options(Build::NAIVE, plain_offsets()));
     const RayDevice single(ball, ray_options(Build::SINGLE, plain_offsets()));
     const Arrivals from = arrivals(single, rays);
     return time_in_turns(naive.leaver(from.rays, from.hits), single.leaver(from.rays, from.hits),
-                         from.rays.size());
+                         from.rays.size(), rounds);
 }
 
 const std::vector<StabilityCase>& offsets_cases() {

@@ -254,14 +254,14 @@ void sample_is_eval(CaseRun& run) {
 
 } // namespace
 
-ProbeTime time_ggx_d(const Device& device) {
+ProbeTime time_ggx_d(const Device& device, int rounds) {
     Random random(1);
     Columns inputs(4);
     for (int i = 0; i < 1 << 20; ++i) {
         const dvec3 h = random.upper_direction();
         push(inputs, {h.x, h.y, h.z, random.between(0.01, 1)});
     }
-    return ProbeSet(device, {"scattering/microfacet.h"}, {D}).time("ggx_d", inputs);
+    return ProbeSet(device, {"scattering/microfacet.h"}, {D}).time("ggx_d", inputs, rounds);
 }
 
 const std::vector<StabilityCase>& roughness_cases() {

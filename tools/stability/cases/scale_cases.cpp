@@ -194,13 +194,13 @@ const ProbedExpression HIT_POINT = {
 
 } // namespace
 
-ProbeTime time_hit_point(const Device& device) {
+ProbeTime time_hit_point(const Device& device, int rounds) {
     Random random(1);
     Columns inputs(11);
     for (std::vector<float>& column : inputs)
         for (int i = 0; i < 1 << 18; ++i)
             column.push_back(float(random.unit()));
-    return ProbeSet(device, {"numerics/vector.h"}, {HIT_POINT}).time("hit_point", inputs);
+    return ProbeSet(device, {"numerics/vector.h"}, {HIT_POINT}).time("hit_point", inputs, rounds);
 }
 
 const std::vector<StabilityCase>& scale_cases() {

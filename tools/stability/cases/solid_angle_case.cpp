@@ -87,7 +87,7 @@ void solid_angles(CaseRun& run) {
     }
 }
 
-ProbeTime time_solid_angle(const Device& device) {
+ProbeTime time_solid_angle(const Device& device, int rounds) {
     Random random(7);
     Columns inputs(11);
     for (int i = 0; i < 1 << 18; ++i) {
@@ -97,7 +97,8 @@ ProbeTime time_solid_angle(const Device& device) {
         inputs[9].push_back(float(random.unit()));
         inputs[10].push_back(float(random.unit()));
     }
-    return ProbeSet(device, {"lights/spherical_triangle.h"}, {POINT}).time("point", inputs);
+    return ProbeSet(device, {"lights/spherical_triangle.h", "numerics/warp.h"}, {POINT})
+        .time("point", inputs, rounds);
 }
 
 } // namespace clrt
