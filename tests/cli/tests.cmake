@@ -42,5 +42,6 @@ add_dependencies(stability_command_test clrt-stability)
 clrt_python_test(cli man_page_test $<TARGET_FILE:clrt> $<TARGET_FILE:clrt-merge> $<TARGET_FILE:clrt-stability>
   ${PROJECT_SOURCE_DIR}/tools/clrt-compare ${PROJECT_SOURCE_DIR}/tools/clrt-study)
 clrt_python_test(cli compare_command_test)
+clrt_python_test(cli installed_tools_test ${CMAKE_COMMAND} ${CMAKE_CPACK_COMMAND} ${CMAKE_BINARY_DIR})
 clrt_python_test(cli integrator_pairs_test $<TARGET_FILE:clrt>)
 clrt_python_test(cli study_command_test $<TARGET_FILE:clrt>)
