@@ -11,12 +11,27 @@
 /* The deepest tree; every level leaves at most one ray waiting. The command line refuses more. */
 #define WHITTED_MAX_DEPTH 64
 
+/* Levels whose rays are numbered one by one: a random number's address has room for 2^28 of them (sampler_address). */
+#define WHITTED_NUMBERED_LEVELS 28u
+#define WHITTED_FIRST_HASHED (1u << (WHITTED_NUMBERED_LEVELS - 1u))
+
 typedef struct {
     Ray ray;
     real3 weight;
     uint segment; /* of the ray, from 1 */
-    uint node;    /* number of the ray in the tree: children of n are 2n and 2n + 1 */
+    uint node;    /* number of the ray in the tree, whitted_node */
 } WhittedRay;
+
+/* The number of a ray's reflected (which = 0) or refracted (1) child, by which its random numbers are addressed. The first is
+   1; children of n are 2n and 2n + 1 down to the last numbered level, then a hash of them on that level: a number that
+   overflows would be the same for all deeper rays. */
+static inline uint whitted_node(uint parent, uint which)
+{
+    const uint node = 2u * parent + which;
+    return node < 2u * WHITTED_FIRST_HASHED
+               ? node
+               : WHITTED_FIRST_HASHED | (sampler_hash(node) & (WHITTED_FIRST_HASHED - 1u));
+}
 
 /* The child of a ray: same tree, one segment on. */
 static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* surface, real3 wi, real3 weight,
@@ -26,7 +41,7 @@ static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* 
     child.ray = ray_make(surface_origin(surface, wi), wi);
     child.weight = weight;
     child.segment = parent->segment + 1u;
-    child.node = 2u * parent->node + which;
+    child.node = whitted_node(parent->node, which);
     return child;
 }
 
