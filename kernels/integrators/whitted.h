@@ -6,6 +6,7 @@
 #define CLRT_INTEGRATORS_WHITTED_H
 
 #include "direct.h"
+#include "path/nan.h"
 #include "pixel.h"
 
 /* The deepest tree; every level leaves at most one ray waiting. The command line refuses more. */
@@ -48,7 +49,7 @@ static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* 
 /* Puts a ray on the stack if it can still matter. */
 static inline uint whitted_push(const RenderParams* params, WhittedRay child, WhittedRay* stack, uint top)
 {
-    if (vector_max_component(child.weight) < (real)params->min_contribution || vector_is_zero(child.weight))
+    if (vector_is_below(child.weight, (real)params->min_contribution) || vector_is_zero(child.weight))
         return top;
     stack[top] = child;
     return top + 1u;
@@ -101,7 +102,10 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         const Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
         TRACE_HIT(scene, current.segment, current.node, &current.ray, &hit);
         TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
+        nan_carry(scene, nan_of_vector(current.weight), &radiance);
         if (hit.triangle == NO_INDEX) {
+            if (nan_carry(scene, nan_of_miss(&hit), &radiance))
+                continue;
             const real3 sky = lights_escape(scene, params, current.ray.direction, REAL(0.0), KINDS_ALL);
             radiance += current.weight * sky;
             TRACE_VECTOR(scene, TRACE_SKY, sky);
@@ -122,6 +126,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         /* Light it, then follow reflection and refraction. */
         const Bsdf bsdf = material_bsdf(scene, &surface, wo);
         TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
+        nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
         const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
         const real3 direct = direct_light(scene, params, sampler, current.node, &surface, &bsdf, highlight, rays);
         radiance += current.weight * direct;
