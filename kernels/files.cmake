@@ -44,6 +44,7 @@ set(CLRT_KERNEL_FILES
   path/filter.h
   path/layers.h
   path/mis.h
+  path/nan.h
   scattering/bsdf.h
   scattering/bsdf_dielectric.h
   scattering/bsdf_glossy.h

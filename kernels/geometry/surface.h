@@ -124,7 +124,7 @@ static inline void surface_smooth(const Scene* scene, global const Triangle* tri
     const real3 sum = b0 * n0 + b1 * n1 + b2 * n2;
     const real length_squared = vector_dot(sum, sum);
     /* Corner normals that cancel describe no direction: keep the plane's. */
-    if (!(length_squared > REAL_ROUNDING))
+    if (length_squared <= REAL_ROUNDING)
         return;
     const real side = surface->front ? REAL(1.0) : REAL(-1.0);
     surface->normal_s = sum * (side / real_sqrt(length_squared));

@@ -63,9 +63,11 @@ static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, float
     return texture->base + texture->gain * (upper + fy * (lower - upper));
 }
 
+/* A colour, not negative; a NaN stays one. */
 static inline real3 texture_color(const Scene* scene, uint index, float2 uv)
 {
-    return fmax(convert_real3(texture_lookup(scene, index, uv).xyz), (real3)(REAL(0.0)));
+    const real3 color = convert_real3(texture_lookup(scene, index, uv).xyz);
+    return color < (real3)(REAL(0.0)) ? (real3)(REAL(0.0)) : color;
 }
 
 /* The channel a scalar map asks for. */

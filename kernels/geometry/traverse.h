@@ -24,12 +24,13 @@
 #endif
 
 /* The first hit after `after` (hit_none(0) for all) within the ray; triangle NO_INDEX where there is none. At
-   equal distance the lowest triangle index comes first. Rays that are not finite or have no direction miss. */
+   equal distance the lowest triangle index comes first. Rays that are not finite or have no direction miss, at a distance
+   that is a NaN. */
 static inline Hit scene_closest_hit(const Scene* scene, const RenderParams* params, const Ray* ray, const Hit* after)
 {
-    Hit hit = hit_none(ray->t_max);
     if (!ray_is_valid(ray))
-        return hit;
+        return hit_none(REAL_NAN);
+    Hit hit = hit_none(ray->t_max);
     TRAVERSE_CLOSEST_HIT(scene, params, ray, after, &hit);
     return hit;
 }

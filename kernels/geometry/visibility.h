@@ -23,7 +23,8 @@ static inline real visibility_coverage(const Scene* scene, const Hit* hit)
 }
 
 /* The first hit that is not passed: a surface of coverage c is passed with probability 1 - c. The search goes on behind the
-   passed hit in the order of hits, so no layer is missed or met twice. */
+   passed hit in the order of hits, so no layer is missed or met twice. Where a coverage is a NaN, so is the distance of the
+   miss that it gives. */
 static inline Hit visible_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint bounce,
                               const Ray* ray)
 {
@@ -35,6 +36,8 @@ static inline Hit visible_hit(const Scene* scene, const RenderParams* params, co
         const real coverage = visibility_coverage(scene, &hit);
         if (coverage >= REAL(1.0))
             break;
+        if (real_is_nan(coverage))
+            return hit_none(REAL_NAN);
         const uint word = sampler_word(sampler, bounce, SAMPLE_COVERAGE);
         if (sampler_unit(sampler_hash(word + layer)) < coverage)
             break;
@@ -44,9 +47,12 @@ static inline Hit visible_hit(const Scene* scene, const RenderParams* params, co
     return hit;
 }
 
-/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass. */
+/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass; a NaN for a ray that is not
+   finite. */
 static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
+    if (!vector_is_finite(ray->origin) || !vector_is_finite(ray->direction))
+        return REAL_NAN;
     if (!HAS(EFFECT_CUT_OUT))
         return scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
     real share = REAL(1.0);

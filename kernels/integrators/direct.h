@@ -8,6 +8,7 @@
 #include "geometry/visibility.h"
 #include "lights/lights.h"
 #include "numerics/real_functions.h"
+#include "path/nan.h"
 #include "trace/vertex.h"
 
 /* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. */
@@ -32,9 +33,9 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
 static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* params, const Surface* surface,
                                        const Bsdf* bsdf, bool highlight, const LightSample* light, PixelRays* rays)
 {
-    const real3 nothing = (real3)(REAL(0.0));
+    real3 nothing = (real3)(REAL(0.0));
     TRACE_LIGHT(scene, light);
-    if (light->pdf_w == REAL(0.0))
+    if (nan_carry(scene, nan_of_vector(light->wi), &nothing) || light->pdf_w == REAL(0.0))
         return nothing;
     const real3 value = direct_eval(bsdf, light->wi, highlight);
     const real3 contribution = value * light->radiance;

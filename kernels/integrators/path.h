@@ -10,6 +10,7 @@
 #include "lights/lights.h"
 #include "path/filter.h"
 #include "path/layers.h"
+#include "path/nan.h"
 #include "trace/vertex.h"
 #include "pixel.h"
 
@@ -60,6 +61,7 @@ typedef struct {
     real pdf_w;            /* of the ray's direction; 0 for camera rays and delta lobes */
     Ray shadow;            /* from the vertex to a light, */
     real3 connection;      /* and what arrives if nothing is in between */
+    real3 watched;         /* sum of directions and normals, for NaNs among them */
     uint state;            /* of the automaton, behind all vertices so far */
     LayerPath layers;
     bool is_alive, is_connected;
@@ -70,6 +72,7 @@ static inline void path_begin(Path* path, const Ray* ray)
     path->ray = *ray;
     path->from = ray->origin;
     path->throughput = (real3)(REAL(1.0));
+    path->watched = (real3)(REAL(0.0));
     path->eta_squared = REAL(1.0);
     path->pdf_w = REAL(0.0);
     path->state = STATE_START;
@@ -128,6 +131,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     const LightSample light =
         lights_sample(scene, params, surface, bsdf->frame.z, path->numbers.light, path->numbers.alias);
     TRACE_LIGHT(scene, &light);
+    nan_watch(scene, light.wi, &path->watched);
     if (light.pdf_w == REAL(0.0))
         return;
     BsdfValue eval = bsdf_eval(bsdf, light.wi);
@@ -190,6 +194,8 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
 /* Adds the light from outside the scene. */
 static inline void path_escape(const Scene* scene, const RenderParams* params, const Path* path, CameraSample* sample)
 {
+    if (nan_carry(scene, nan_of_miss(&path->hit), &sample->radiance))
+        return;
     const real3 direction = path->ray.direction;
     const real3 sky = lights_escape(scene, params, direction, path->pdf_w, path_accepted(path));
     sample->radiance += path->throughput * sky;
@@ -240,6 +246,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     /* Choose the next direction, connect to a light. */
     const BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);
     TRACE_DIRECTION(scene, &next, continues);
+    nan_watch(scene, surface.normal_g + bsdf.wo + next.wi, &path->watched);
     if (bsdf_has_smooth_lobe(&bsdf) && (!HAS(EFFECT_PATH_FILTER) || filter_wants_light(&step, &bsdf)))
         path_connect(scene, params, &surface, &bsdf, &step, path);
 
@@ -306,6 +313,8 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
     uint segment = 1u;
     while (path_advance(scene, params, segment, paths, samples, count, rays) != 0u && segment < PATH_SEGMENTS)
         ++segment;
+    for (uint k = 0; k < count; ++k)
+        nan_carry(scene, nan_of_vector(paths[k].throughput + paths[k].watched), &samples[k].radiance);
 }
 
 #endif

@@ -4,6 +4,7 @@
 #define CLRT_INTEGRATORS_RAYCAST_H
 
 #include "direct.h"
+#include "path/nan.h"
 #include "pixel.h"
 
 static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
@@ -12,7 +13,10 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     const real3 wo = -ray.direction;
     const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
     TRACE_HIT(scene, 1u, 0u, &ray, &hit);
+    real3 radiance = (real3)(REAL(0.0));
     if (hit.triangle == NO_INDEX) {
+        if (nan_carry(scene, nan_of_miss(&hit), &radiance))
+            return radiance;
         const real3 sky = lights_escape(scene, params, ray.direction, REAL(0.0), KINDS_ALL);
         TRACE_VECTOR(scene, TRACE_SKY, sky);
         TRACE_VECTOR(scene, TRACE_ADDED, sky);
@@ -20,7 +24,6 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     }
     const Surface surface = surface_at(scene, &hit, wo);
     TRACE_SURFACE(scene, &surface);
-    real3 radiance = (real3)(REAL(0.0));
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         radiance = material_emitted(scene, &surface);
         TRACE_VECTOR(scene, TRACE_EMITTED, radiance);
@@ -30,6 +33,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
         return radiance;
     const Bsdf bsdf = material_bsdf(scene, &surface, wo);
     TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
+    nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
     const real3 direct = direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays);
     TRACE_VECTOR(scene, TRACE_ADDED, direct);
     return radiance + direct;

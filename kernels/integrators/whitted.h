@@ -6,17 +6,33 @@
 #define CLRT_INTEGRATORS_WHITTED_H
 
 #include "direct.h"
+#include "path/nan.h"
 #include "pixel.h"
 
 /* The deepest tree; every level leaves at most one ray waiting. The command line refuses more. */
 #define WHITTED_MAX_DEPTH 64
 
+/* Levels whose rays are numbered one by one: a random number's address has room for 2^28 of them (sampler_address). */
+#define WHITTED_NUMBERED_LEVELS 28u
+#define WHITTED_FIRST_HASHED (1u << (WHITTED_NUMBERED_LEVELS - 1u))
+
 typedef struct {
     Ray ray;
     real3 weight;
     uint segment; /* of the ray, from 1 */
-    uint node;    /* number of the ray in the tree: children of n are 2n and 2n + 1 */
+    uint node;    /* number of the ray in the tree, whitted_node */
 } WhittedRay;
+
+/* The number of a ray's reflected (which = 0) or refracted (1) child, by which its random numbers are addressed. The first is
+   1; children of n are 2n and 2n + 1 down to the last numbered level, then a hash of them on that level: a number that
+   overflows would be the same for all deeper rays. */
+static inline uint whitted_node(uint parent, uint which)
+{
+    const uint node = 2u * parent + which;
+    return node < 2u * WHITTED_FIRST_HASHED
+               ? node
+               : WHITTED_FIRST_HASHED | (sampler_hash(node) & (WHITTED_FIRST_HASHED - 1u));
+}
 
 /* The child of a ray: same tree, one segment on. */
 static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* surface, real3 wi, real3 weight,
@@ -26,14 +42,14 @@ static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* 
     child.ray = ray_make(surface_origin(surface, wi), wi);
     child.weight = weight;
     child.segment = parent->segment + 1u;
-    child.node = 2u * parent->node + which;
+    child.node = whitted_node(parent->node, which);
     return child;
 }
 
 /* Puts a ray on the stack if it can still matter. */
 static inline uint whitted_push(const RenderParams* params, WhittedRay child, WhittedRay* stack, uint top)
 {
-    if (vector_max_component(child.weight) < (real)params->min_contribution || vector_is_zero(child.weight))
+    if (vector_is_below(child.weight, (real)params->min_contribution) || vector_is_zero(child.weight))
         return top;
     stack[top] = child;
     return top + 1u;
@@ -86,7 +102,10 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         const Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
         TRACE_HIT(scene, current.segment, current.node, &current.ray, &hit);
         TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
+        nan_carry(scene, nan_of_vector(current.weight), &radiance);
         if (hit.triangle == NO_INDEX) {
+            if (nan_carry(scene, nan_of_miss(&hit), &radiance))
+                continue;
             const real3 sky = lights_escape(scene, params, current.ray.direction, REAL(0.0), KINDS_ALL);
             radiance += current.weight * sky;
             TRACE_VECTOR(scene, TRACE_SKY, sky);
@@ -107,6 +126,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         /* Light it, then follow reflection and refraction. */
         const Bsdf bsdf = material_bsdf(scene, &surface, wo);
         TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
+        nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
         const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
         const real3 direct = direct_light(scene, params, sampler, current.node, &surface, &bsdf, highlight, rays);
         radiance += current.weight * direct;

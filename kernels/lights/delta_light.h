@@ -18,7 +18,7 @@ static CLRT_NOINLINE LightSample delta_light_sample(const Scene* scene, uint ind
         const real3 way = vector - position;
         const real distance_squared = vector_dot(way, way);
         /* At the light itself the inverse square has no value. */
-        if (!(distance_squared > REAL(0.0)))
+        if (distance_squared == REAL(0.0))
             return light_sample_none();
         sample.wi = way / real_sqrt(distance_squared);
         sample.radiance /= distance_squared;

@@ -51,7 +51,8 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     const real facing = -vector_dot(way, normal);
     const bool front = (facing > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
     global const Material* material = scene->materials + triangle->material;
-    if (facing == REAL(0.0) || !material_emits(material, front))
+    const bool shines = facing != REAL(0.0) && material_emits(material, front);
+    if (!shines && !real_is_nan(facing))
         return sample;
     /* The shadow ray ends off the triangle by its error bound, or up to sqrt(3) times that. */
     const real step = surface_offset_bound(p0, p1, p2) / vector_max_abs(normal);

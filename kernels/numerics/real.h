@@ -21,6 +21,7 @@ typedef long8 mask8; /* what comparing two real8 gives */
 #define REAL_ROUNDING 1.1102230246251565e-16 /* u: half a unit in the last place of 1 */
 #define convert_real3 convert_double3
 #define convert_real8 convert_double8
+#define REAL_NAN as_double(0x7ff8000000000000ul)
 #define REAL_BITS_FINITE(x) ((as_ulong(x) & 0x7ff0000000000000ul) != 0x7ff0000000000000ul)
 #define REAL_BITS_NAN(x) ((as_ulong(x) & 0x7ffffffffffffffful) > 0x7ff0000000000000ul)
 #else
@@ -33,6 +34,7 @@ typedef int8 mask8;
 #define REAL_ROUNDING 5.9604645e-8f
 #define convert_real3 convert_float3
 #define convert_real8 convert_float8
+#define REAL_NAN as_float(0x7fc00000u)
 #define REAL_BITS_FINITE(x) ((as_uint(x) & 0x7f800000u) != 0x7f800000u)
 #define REAL_BITS_NAN(x) ((as_uint(x) & 0x7fffffffu) > 0x7f800000u)
 #endif
@@ -62,6 +64,9 @@ typedef int8 mask8;
 /* NaN and infinity by their bits: relaxed maths may delete comparisons. */
 static inline bool real_is_finite(real x) { return REAL_BITS_FINITE(x); }
 static inline bool real_is_nan(real x) { return REAL_BITS_NAN(x); }
+
+/* x in [0, 1]: clamp, but a NaN stays one, so that it reaches the film's count. */
+static inline real real_unit(real x) { return x < REAL(0.0) ? REAL(0.0) : (x > REAL(1.0) ? REAL(1.0) : x); }
 
 /* sqrt(max(x, 0)): for values that are non-negative but for rounding. */
 static inline real real_root(real x) { return real_sqrt(fmax(x, REAL(0.0))); }

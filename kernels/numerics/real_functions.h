@@ -68,7 +68,6 @@ typedef int real_bits;
 #define REAL_LN2 REAL(0.69314718055994530942)
 #define REAL_LOG2_E REAL(1.44269504088896340736)
 #define REAL_INFINITY REAL_OF_BITS((real_bits)(2 * REAL_BIAS + 1) << REAL_MANTISSA_BITS)
-#define REAL_NAN REAL_OF_BITS((((real_bits)(2 * REAL_BIAS + 1) << 1) | 1) << (REAL_MANTISSA_BITS - 1))
 
 /* 2^n for exponents of normal numbers. */
 static inline real real_power_of_two(int n) { return REAL_OF_BITS((real_bits)(n + REAL_BIAS) << REAL_MANTISSA_BITS); }

@@ -33,6 +33,9 @@ static inline real3 vector_cross(real3 a, real3 b)
 
 static inline real vector_max_component(real3 v) { return fmax(v.x, fmax(v.y, v.z)); }
 
+/* True if every component is below the limit; a NaN is not. */
+static inline bool vector_is_below(real3 v, real limit) { return v.x < limit && v.y < limit && v.z < limit; }
+
 static inline real vector_max_abs(real3 v) { return vector_max_component(fabs(v)); }
 
 /* Luminance of linear RGB with the primaries of sRGB (ITU-R BT.709). */

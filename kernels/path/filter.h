@@ -103,7 +103,7 @@ static inline bool filter_wants_light(const AutomatonStep* step, const Bsdf* bsd
 /* A component of f_c / (f P_c). */
 static inline real filter_share_component(real part, real rest, real chance)
 {
-    return part > REAL(0.0) ? part / ((part + rest) * chance) : REAL(0.0);
+    return part == REAL(0.0) ? REAL(0.0) : part / ((part + rest) * chance);
 }
 
 /* Chooses the class of a sampled direction that both lobes scatter: true for matte. Gives its share of the value over the

@@ -67,7 +67,7 @@ static inline void bsdf_choose_lobes(Bsdf* bsdf)
     const real matte = vector_color_size(bsdf->matte);
     const real reflection = vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
     const real sum = matte + reflection;
-    bsdf->choose_matte = sum > REAL(0.0) ? matte / sum : REAL(1.0);
+    bsdf->choose_matte = sum == REAL(0.0) ? REAL(1.0) : matte / sum;
     bsdf->choose_glossy = (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) - bsdf->choose_matte : REAL(0.0);
 }
 
@@ -83,7 +83,7 @@ static inline void bsdf_complete(const Bsdf* bsdf, real3 wi, BsdfSample* sample)
     }
     const BsdfValue eval = bsdf_eval_local(bsdf, wi);
     sample->pdf_w = eval.pdf_w;
-    sample->weight = eval.pdf_w > REAL(0.0) ? eval.value / eval.pdf_w : (real3)(REAL(0.0));
+    sample->weight = eval.pdf_w == REAL(0.0) ? (real3)(REAL(0.0)) : eval.value / eval.pdf_w;
 }
 
 /* Samples a direction. u_lobe chooses the lobe, u the direction. */

@@ -20,7 +20,7 @@ static inline real material_coverage(const Scene* scene, global const Material* 
     real coverage = (real)material->matte.w;
     if (HAS(EFFECT_TEXTURES) && material->map_coverage != NO_INDEX)
         coverage *= texture_scalar(scene, material->map_coverage, uv);
-    return clamp(coverage, REAL(0.0), REAL(1.0));
+    return real_unit(coverage);
 }
 
 /* Emitted radiance at uv, both sides alike; the caller knows the side. */
@@ -58,7 +58,7 @@ static inline real3 material_bump_normal(const Scene* scene, global const Materi
     const real3 tv = surface->bitangent + n * (scale * (along_v - height) / (real)dv);
     const real3 bumped = vector_cross(tu, tv);
     const real length_squared = vector_dot(bumped, bumped);
-    if (!(length_squared > REAL(0.0)))
+    if (length_squared == REAL(0.0))
         return n;
     /* Mirrored texture coordinates turn the cross product round. */
     const real side = vector_dot(bumped, n) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
@@ -76,7 +76,7 @@ static inline real3 material_mapped_normal(const Scene* scene, global const Mate
     const real handed = vector_dot(frame.y, surface->bitangent) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
     const real3 mapped = m.x * frame.x + m.y * handed * frame.y + m.z * n;
     const real length_squared = vector_dot(mapped, mapped);
-    return length_squared > REAL(0.0) ? mapped / real_sqrt(length_squared) : n;
+    return length_squared == REAL(0.0) ? n : mapped / real_sqrt(length_squared);
 }
 
 /* The shading normal: interpolated, mapped, and bent where wo would see its back. */
@@ -112,9 +112,9 @@ static inline void material_parameters(const Scene* scene, global const Material
         if (material->map_specular != NO_INDEX)
             bsdf->specular *= texture_color(scene, material->map_specular, surface->uv);
         if (material->map_metallic != NO_INDEX)
-            metallic *= clamp(texture_scalar(scene, material->map_metallic, surface->uv), REAL(0.0), REAL(1.0));
+            metallic *= real_unit(texture_scalar(scene, material->map_metallic, surface->uv));
         if (material->map_roughness != NO_INDEX)
-            roughness = clamp(texture_scalar(scene, material->map_roughness, surface->uv), REAL(0.0), REAL(1.0));
+            roughness = real_unit(texture_scalar(scene, material->map_roughness, surface->uv));
     }
     if (material->flags & MATERIAL_METALLIC_ROUGHNESS) {
         bsdf->specular = vector_mix((real3)(REAL(0.04)), bsdf->matte, metallic);
@@ -124,8 +124,8 @@ static inline void material_parameters(const Scene* scene, global const Material
     if (roughness != REAL(1.0) && material->roughness_sqrt_x > 0.0f) {
         const real x = (real)material->roughness_sqrt_x * roughness;
         const real y = (real)material->roughness_sqrt_y * roughness;
-        bsdf->alpha_x = fmax(x * x, MATERIAL_SMALLEST_ALPHA);
-        bsdf->alpha_y = fmax(y * y, MATERIAL_SMALLEST_ALPHA);
+        bsdf->alpha_x = x * x < MATERIAL_SMALLEST_ALPHA ? MATERIAL_SMALLEST_ALPHA : x * x;
+        bsdf->alpha_y = y * y < MATERIAL_SMALLEST_ALPHA ? MATERIAL_SMALLEST_ALPHA : y * y;
     }
 }
 

@@ -85,6 +85,9 @@ private:
     /// The error after so many samples, from the last one measured as for independent samples; -1: none was
     /// measured.
     double error_now(double samples) const;
+    /// Rays a second of this run after so many samples, if a sample takes as many as at the last measurement;
+    /// -1: none was made.
+    double rays_per_second_now(double samples) const;
     void measure();
     void read_back();
     void render_layers();
@@ -108,6 +111,7 @@ private:
     std::uint64_t first_ = 0, samples_ = 0;  ///< the next sample's number; samples of the whole film
     std::uint64_t earlier_samples_ = 0;      ///< of all pixels, from earlier runs
     std::optional<SquaredError> last_error_; ///< as last measured
+    double rays_per_sample_ = -1;            ///< as last measured
     double launch_seconds_ = 0;              ///< of all launches of this run
     double pass_seconds_ = 0;                ///< of one pass, by the last launch
 };
@@ -184,13 +188,21 @@ void Passes::run_tiles(double samples, double done, Launch&& launch) {
         tile = end;
         const double now = done + samples * tile / params_.tile_count;
         progress_.update({"render", rules_.fraction(now, seconds_since(start_), last_error_),
-                          std::uint64_t(now), -1, error_now(now)});
+                          std::uint64_t(now), rays_per_second_now(now), error_now(now)});
     }
 }
 
 double Passes::error_now(double samples) const {
     const std::optional<FilmError> error = last_error_ ? relative_error(*last_error_) : std::nullopt;
     return error ? error->relative_rmse * std::sqrt(double(last_error_->samples) / samples) : -1;
+}
+
+double Passes::rays_per_second_now(double samples) const {
+    if (rays_per_sample_ < 0)
+        return -1;
+    const double pixels = double(result_.film.width) * double(result_.film.height);
+    const double earlier = double(samples_) - double(result_.passes); // of earlier runs
+    return rays_per_sample_ * pixels * (samples - earlier) / seconds_since(start_);
 }
 
 /// Decides where the next samples of an adaptive render go, when it has come to the end of a round.
@@ -241,6 +253,11 @@ void Passes::measure() {
     const auto start = Clock::now();
     film_buffers_.read_sums(result_);
     last_error_ = film_squared_error(result_.film);
+    // Beside the sums of all replicates, three words a pixel are read in no time.
+    const RenderCounts counts = film_buffers_.read_counts();
+    const std::uint64_t samples = film_all_samples(result_.film) - earlier_samples_;
+    if (samples > 0)
+        rays_per_sample_ = 1 + double(counts.secondary + counts.shadow) / double(samples);
     const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
     if (last_error_ && is_new && rules_.is_check(samples_))
         result_.history.push_back(*last_error_);

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace clrt;
 
@@ -16,40 +18,78 @@ std::string variable(const char* name) {
     return value ? value : "unset";
 }
 
+/// Variables of CPU drivers that take the number of threads, and those that turn a driver's cache off, with
+/// the value that does: from the drivers' manuals.
+const std::vector<const char*> THREADS = {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT",
+                                          "POCL_MAX_COMPUTE_UNITS", "CL_CONFIG_CPU_TBB_NUM_WORKERS"};
+const std::vector<std::pair<const char*, const char*>> CACHES = {{"POCL_KERNEL_CACHE", "0"},
+                                                                 {"CUDA_CACHE_DISABLE", "1"}};
+
 class DriverQuirks : public testing::Test {
 protected:
     void SetUp() override { clear(); }
     void TearDown() override { clear(); }
 
     static void clear() {
-        for (const char* name :
-             {"POCL_MAX_PTHREAD_COUNT", "CL_CONFIG_CPU_TBB_NUM_WORKERS", "POCL_KERNEL_CACHE"})
+        for (const char* name : THREADS)
             unsetenv(name);
+        for (const auto& [name, off] : CACHES)
+            unsetenv(name);
+    }
+    static void expect_threads(const char* value) {
+        for (const char* name : THREADS)
+            EXPECT_EQ(variable(name), value) << name;
+    }
+    /// Off or untouched.
+    static void expect_caches(bool are_off) {
+        for (const auto& [name, off] : CACHES)
+            EXPECT_EQ(variable(name), are_off ? off : "unset") << name;
     }
 };
 
 } // namespace
 
-TEST_F(DriverQuirks, ThreadsAreSetForCpuDrivers) {
+TEST_F(DriverQuirks, ThreadsAreSetForEveryCpuDriver) {
     Options options;
+    set_driver_environment(options);
+    expect_threads("unset");
     options.threads = 3;
     set_driver_environment(options);
-    EXPECT_EQ(variable("POCL_MAX_PTHREAD_COUNT"), "3");
-    EXPECT_EQ(variable("CL_CONFIG_CPU_TBB_NUM_WORKERS"), "3");
-    EXPECT_EQ(variable("POCL_KERNEL_CACHE"), "unset");
+    expect_threads("3");
+    expect_caches(false);
 }
 
-TEST_F(DriverQuirks, CacheOffTurnsTheDriversCacheOff) {
+TEST_F(DriverQuirks, ThreadsAskedForReplaceThoseOfTheEnvironment) {
+    for (const char* name : THREADS)
+        setenv(name, "7", 1);
+    Options options;
+    set_driver_environment(options);
+    expect_threads("7");
+    options.threads = 2;
+    set_driver_environment(options);
+    expect_threads("2");
+}
+
+TEST_F(DriverQuirks, CacheOffTurnsEveryDriversCacheOff) {
     Options options;
     for (const Toggle kept : {Toggle::AUTO, Toggle::ON}) {
         options.cache = kept;
         set_driver_environment(options);
-        EXPECT_EQ(variable("POCL_KERNEL_CACHE"), "unset");
+        expect_caches(false);
     }
     options.cache = Toggle::OFF;
     set_driver_environment(options);
-    EXPECT_EQ(variable("POCL_KERNEL_CACHE"), "0");
-    EXPECT_EQ(variable("POCL_MAX_PTHREAD_COUNT"), "unset");
+    expect_caches(true);
+    expect_threads("unset");
+}
+
+TEST_F(DriverQuirks, OnlyPoclAndNvidiaCacheByThemselves) {
+    for (const auto& [suffix, caches] :
+         {std::pair{"POCL", true}, {"NV", true}, {"INTEL", false}, {"OCLG", false}, {"", false}}) {
+        DeviceInfo device;
+        device.icd_suffix = suffix;
+        EXPECT_EQ(driver_caches_programs(device), caches) << suffix;
+    }
 }
 
 TEST_F(DriverQuirks, ThePlatformListIsMadeWithTheThreadsAskedFor) {

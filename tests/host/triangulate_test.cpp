@@ -3,8 +3,8 @@
 #include "scene/triangulate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
@@ -184,7 +184,9 @@ TEST(Triangulate, HugeCoordinatesDoNotOverflow) {
 }
 
 TEST(Triangulate, ManyCornersTakeSeconds) {
-    const auto start = std::chrono::steady_clock::now();
+    // Processor time: other work of the machine does not count. A method whose time grows with the square of
+    // the corners would take 1e10 steps a polygon, tens of seconds; what is there takes well under one.
+    const std::clock_t start = std::clock();
     std::vector<u32> triangles;
     Polygon circle;
     for (int i = 0; i < 100000; ++i)
@@ -200,7 +202,7 @@ TEST(Triangulate, ManyCornersTakeSeconds) {
     const Polygon larger = comb(100000);
     EXPECT_FALSE(triangulate(larger, triangles));
     EXPECT_EQ(triangles.size(), 3 * (larger.size() - 2));
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+    EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 10);
 }
 
 } // namespace

@@ -64,6 +64,20 @@ TEST(RayTree, MirrorsReflectUntilTheDepthLimit) {
     EXPECT_EQ(scene.render().counts.secondary, 9 * samples(scene)) << "the default depth is 10";
 }
 
+TEST(RayTree, EveryRayOfADeepTreeHasRandomNumbersOfItsOwn) {
+    // A screen that lets 98 % pass stands between the mirrors: the ray of segment k exists with chance 0.98^k
+    // where its crossings are independent of each other, and with more where two of them share a number.
+    FacingMirrors scene("Ks 1 1 1\nKe 0.01 0.01 0.01");
+    scene.build.material("screen", "Kd 0 0 0\nd 0.02").use("screen");
+    scene.build.polygon({{-9, -9, 0.25}, {9, -9, 0.25}, {9, 9, 0.25}, {-9, 9, 0.25}});
+    scene.options.spp = 256;
+    for (const int depth : {28, 64}) {
+        scene.options.max_depth = depth;
+        const double expected = 0.01 * 0.98 * (1 - std::pow(0.98, depth)) / (1 - 0.98);
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), expected, 4e-3)) << depth;
+    }
+}
+
 TEST(RayTree, LongPathsBetweenMirrorsLoseNoLight) {
     FacingMirrors scene("Ks 0.999 0.999 0.999\nKe 0.001 0.001 0.001");
     scene.options.integrator = Integrator::PATH;

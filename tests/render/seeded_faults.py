@@ -89,7 +89,7 @@ FAULTS = [
      "params->seed, (y - params->crop_y) * params->width + x", "same_bits_test"),
     ("film rounds down", "film/film.h", "(sampler_unit(word) < quanta - whole ? 1 : 0)", "0", "direct_light_test"),
     ("rays below the minimum are followed", "integrators/whitted.h",
-     "vector_max_component(child.weight) < (real)params->min_contribution || ", "", "ray_tree_test"),
+     "vector_is_below(child.weight, (real)params->min_contribution) || ", "", "ray_tree_test"),
     ("without a filter, the film shares the lobe's number", "camera/camera.h", "sampler_pair(sampler, 0u, SAMPLE_FILM)",
      "sampler_pair(sampler, 0u, HAS(EFFECT_FILTER) ? SAMPLE_FILM : SAMPLE_DIRECTION)", "effect_masks_test"),
     ("a mirror's map forgotten without glossy lobes", "scattering/material.h", "if (material->map_specular != NO_INDEX)",

@@ -3,10 +3,10 @@
 #include "stability/cases/shading_expressions.h"
 #include "stability/catalogue.h"
 #include "stability/choices.h"
+#include "stability/mean_figure.h"
 #include "stability/path_probe.h"
 
 #include "support/random_inputs.h"
-#include "support/statistics.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +30,10 @@ struct FloorScene : TestScene {
         options.max_depth = 2;
     }
 };
+
+/// Standard error of a mean over its value: a factor of two in a density or a weight is far outside six of
+/// them, a lamp of one part in twenty just.
+constexpr double SHARPNESS = 8e-3;
 
 /// The exitant radiance of the floor for an irradiance.
 double floor_radiance(double irradiance) {
@@ -73,7 +77,7 @@ void tiny_lamp(CaseRun& run) {
 }
 
 void huge_lamp(CaseRun& run) {
-    Figure& z = run.figure("|z| of the mean", 6);
+    MeanFigure mean(run, "the mean", SHARPNESS);
     FloorScene scene;
     scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1").use("lamp");
     const double half = 5e4;
@@ -83,12 +87,9 @@ void huge_lamp(CaseRun& run) {
     const PathProbe probe(run.device, scene);
     const double expected = floor_radiance(polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners));
     const std::vector<TestRay> rays = {probe.ray({0.3, 0.5, 0.2}, {0, 0, 0})};
-    for (const Build build : path_builds(run)) {
-        const Moments moments =
-            moments_of(reds(probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7))));
-        z[build].see(std::abs(z_of_mean(moments, expected)),
-                     [&] { return fmt::format("mean {}, expected {}", moments.mean, expected); });
-    }
+    for (const Build build : path_builds(run))
+        mean.see(build, reds(probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7))),
+                 expected);
 }
 
 /// A floor and a lamp side by side in one plane, turned by a quarter turn at most; rays to points on it.
@@ -127,7 +128,7 @@ void in_the_lamps_plane(CaseRun& run) {
 
 void all_powers(CaseRun& run) {
     Figure& bad = run.figure("samples that are no finite number", 0);
-    Figure& z = run.figure("|z| of the mean", 6);
+    MeanFigure mean(run, "the mean", SHARPNESS);
     FloorScene scene;
     double irradiance = 0;
     for (int k = -20; k <= 20; k += 5) {
@@ -146,9 +147,7 @@ void all_powers(CaseRun& run) {
             reds(probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7)));
         for (const double value : got)
             bad[build].count(!std::isfinite(value), [&] { return fmt::format("{}", value); });
-        const Moments moments = moments_of(got);
-        z[build].see(std::abs(z_of_mean(moments, floor_radiance(irradiance))),
-                     [&] { return fmt::format("mean {}", moments.mean); });
+        mean.see(build, got, floor_radiance(irradiance));
     }
 }
 

@@ -5,6 +5,7 @@
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
 #include "stability/choices.h"
+#include "stability/mean_figure.h"
 #include "support/film_estimate.h"
 #include "support/leaving_rays.h"
 #include "support/render_scene.h"
@@ -74,7 +75,9 @@ void absurd_units(CaseRun& run) {
 }
 
 void units(CaseRun& run) {
-    Figure& z = run.figure("|z| of the picture's mean", 6);
+    Figure& z = run.figure("|z| of the picture's mean", MeanFigure::LARGEST_Z);
+    // Units that change the light by a twentieth are seen.
+    Figure& noise = run.figure("relative standard error of the difference", 0.01);
     Figure& median = run.figure("median relative difference of a pixel", 1e-4);
     const std::uint32_t spp = std::uint32_t(run.count(32, 256, 4096));
     for (const Build build : picture_builds(run)) {
@@ -84,7 +87,9 @@ void units(CaseRun& run) {
             const Film other = render_scaled(std::pow(10.0, k), precision_of(build), spp).film;
             const Estimate a = film_estimate(one), b = film_estimate(other);
             const auto describe = [&] { return fmt::format("times 1e{}", k); };
-            z[build].see(std::abs(a.mean - b.mean) / std::hypot(a.error, b.error), describe);
+            const double error = std::hypot(a.error, b.error);
+            z[build].see(std::abs(a.mean - b.mean) / error, describe);
+            noise[build].see(error / a.mean, describe);
             const std::vector<float> found = film_mean(other);
             std::vector<double> differences;
             for (size_t i = 0; i < found.size(); ++i)

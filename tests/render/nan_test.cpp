@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// A NaN anywhere inside a sample is counted, also where the comparison that meets it first would take it for
+// black, for a light behind the surface or for an end by roulette. NaNs are planted into a copy of the
+// kernels, by the seed.
+#include "support/render_scene.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+namespace clrt {
+
+namespace {
+
+/// Which samples come by a place of the kernels.
+enum class Reached { BY_ALL, IF_LIT, IF_CONTINUED };
+
+/// What may become NaN, and the floors whose picture depends on it.
+struct Value {
+    const char* name;
+    std::vector<std::string> floors = {"matte", "glossy", "mirror", "glass", "rough glass"};
+};
+
+/// A statement of the kernels and the values that may become NaN right behind it.
+struct Place {
+    const char* file;
+    const char* statement;
+    std::vector<Value> values;
+    Reached reached = Reached::BY_ALL;
+};
+
+std::vector<Value> surface_values() {
+    return {{"surface.position.y"}, {"surface.normal_g.x"}, {"surface.normal_s.z"}};
+}
+
+std::vector<Value> light_values() {
+    return {{"light.wi.y"}, {"light.radiance.z"}, {"light.pdf_w"}, {"light.target.x"}};
+}
+
+std::vector<Place> path_places() {
+    const char* const file = "integrators/path.h";
+    return {
+        {file, "Surface surface = surface_at(scene, &path->hit, wo);", surface_values()},
+        {file,
+         "Bsdf bsdf = material_bsdf(scene, &surface, wo);",
+         {{"bsdf.wo.z", {"glossy", "mirror", "glass", "rough glass"}},
+          {"bsdf.frame.z.y"},
+          {"bsdf.matte.x", {"matte", "glossy"}},
+          {"bsdf.specular.y", {"glossy", "mirror"}},
+          {"bsdf.alpha_x", {"glossy", "rough glass"}},
+          {"bsdf.eta", {"glass", "rough glass"}}}},
+        {file,
+         "BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);",
+         {{"next.wi.x"}}},
+        {file,
+         "if (!next.is_valid || !continues)\n        return;",
+         {{"path->throughput.y"}},
+         Reached::IF_CONTINUED},
+        {file,
+         "path->ray = ray_make(surface_origin(&surface, next.wi), next.wi);",
+         {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
+         Reached::IF_CONTINUED},
+        {file,
+         "lights_sample(scene, params, surface, bsdf->frame.z, path->numbers.light, path->numbers.alias);",
+         light_values(), Reached::IF_LIT},
+    };
+}
+
+/// Those of the integrators that light locally; `file` has the rest of the vertex.
+std::vector<Place> direct_places(const char* file) {
+    return {{"integrators/direct.h",
+             "emitter_sample(scene, params, surface->position, words.x, alias_word, sampler_unit(words.y));",
+             light_values(), Reached::IF_LIT},
+            {file, "Surface surface = surface_at(scene, &hit, wo);", surface_values()},
+            {file,
+             "Bsdf bsdf = material_bsdf(scene, &surface, wo);",
+             {{"bsdf.wo.z"},
+              {"bsdf.frame.z.y", {"matte", "glossy"}},
+              {"bsdf.matte.x", {"matte", "glossy"}},
+              {"bsdf.specular.y", {"glossy"}}}}};
+}
+
+std::vector<Place> whitted_places() {
+    std::vector<Place> places = direct_places("integrators/whitted.h");
+    places.push_back(
+        {"integrators/whitted.h",
+         "uint whitted_push(const RenderParams* params, WhittedRay child, WhittedRay* stack, uint top)\n{",
+         {{"child.weight.y"}, {"child.weight.yz = 0.0f; child.weight.x"}, {"child.ray.direction.z"}},
+         Reached::IF_CONTINUED});
+    return places;
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// A copy of the kernels into which NaNs are planted.
+class SpoiledKernels {
+public:
+    SpoiledKernels() { fs::copy(CLRT_KERNELS_FOLDER, path(), fs::copy_options::recursive); }
+    std::string path() const { return folder_.file("kernels"); }
+
+    /// Makes value k of the places NaN where the seed is k + 1.
+    explicit SpoiledKernels(const std::vector<Place>& places) : SpoiledKernels() {
+        int seed = 0;
+        for (const Place& place : places) {
+            std::string text;
+            for (const Value& value : place.values)
+                text += fmt::format("\n if (params->seed == {}u) {{ {} = REAL_NAN; }}\n", ++seed, value.name);
+            insert(place.file, place.statement, text);
+        }
+    }
+    /// Makes the value that a statement declares NaN.
+    SpoiledKernels(const char* file, const std::string& statement, const char* value) : SpoiledKernels() {
+        insert(file, statement, fmt::format(" {} = REAL_NAN;", value));
+    }
+
+private:
+    /// Puts text behind a statement, whose variable it may change.
+    void insert(const char* file, const std::string& statement, const std::string& text) const {
+        const fs::path name = fs::path(path()) / file;
+        std::string code = read_text(name);
+        const size_t at = code.find(statement);
+        if (at == std::string::npos)
+            throw std::runtime_error("the kernels have no '" + statement + "' any more");
+        code.insert(at + statement.size(), text);
+        const std::string constant = "const ";
+        const size_t found = code.rfind(constant, at);
+        if (code.find(';', found) > at)
+            code.erase(found, constant.size());
+        std::ofstream(name) << code;
+    }
+
+    ScratchFolder folder_;
+};
+
+/// A floor under a lamp, with nothing else to see; every sample sees the floor.
+class FloorUnderALamp : public TestScene {
+public:
+    explicit FloorUnderALamp(const std::string& keys) {
+        build.material("floor", keys).material("lamp", "Kd 0 0 0\nKe 1 1 1");
+        build.use("floor").textured_quad({{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}});
+        build.use("lamp").polygon({{-1, 3, -1}, {1, 3, -1}, {1, 3, 1}, {-1, 3, 1}});
+        look_at_point({1, 1, 0}, {0, 0, 0});
+        options.max_depth = 2;
+        options.spp = 8;
+        options.replicates = 8;
+    }
+    std::uint64_t samples() const {
+        return std::uint64_t(options.size.x) * std::uint64_t(options.size.y) * *options.spp;
+    }
+};
+
+/// Floors: name and keys of the material.
+constexpr std::pair<const char*, const char*> FLOORS[] = {
+    {"matte", "Kd 0.5 0.5 0.5"},
+    {"glossy", "Kd 0.3 0.3 0.3\nKs 0.4 0.4 0.4\nNs 50\nillum 2"},
+    {"mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3"},
+    {"glass", "Ni 1.5\nillum 7"},
+    {"rough glass", "Ni 1.5\nillum 7\nPr 0.4"},
+};
+
+/// Samples of a render that came by a place of their first vertex; `good` are the counts without NaNs.
+std::uint64_t samples_at(Reached place, const FloorUnderALamp& scene, const RenderCounts& counts,
+                         const RenderCounts& good) {
+    if (place == Reached::IF_LIT && good.shadow == 0)
+        return 0;
+    const bool is_path = scene.options.integrator == Integrator::PATH;
+    if (place == Reached::IF_CONTINUED && (is_path || good.secondary == 0))
+        return counts.secondary;
+    return scene.samples();
+}
+
+void expect_all_counted(Integrator integrator, const std::vector<Place>& places) {
+    const SpoiledKernels kernels(places);
+    for (const auto& [name, keys] : FLOORS) {
+        FloorUnderALamp scene(keys);
+        scene.options.integrator = integrator;
+        scene.options.kernels_folder = kernels.path();
+        const RenderCounts good = scene.render().counts;
+        EXPECT_EQ(good.nan, 0u) << name;
+        std::uint32_t seed = 0;
+        for (const Place& place : places)
+            for (const Value& value : place.values) {
+                scene.options.seed = ++seed;
+                if (std::find(value.floors.begin(), value.floors.end(), name) == value.floors.end())
+                    continue;
+                const RenderCounts counts = scene.render().counts;
+                const std::uint64_t expected = samples_at(place.reached, scene, counts, good);
+                if (expected > 0) {
+                    EXPECT_EQ(counts.nan, expected) << name << ": " << value.name << " in " << place.file;
+                }
+            }
+    }
+}
+
+/// Expects that a render with these kernels counts every sample as NaN.
+void expect_counted(const SpoiledKernels& kernels, FloorUnderALamp& scene, Integrator integrator,
+                    const std::string& what = "") {
+    scene.options.integrator = integrator;
+    scene.options.kernels_folder = kernels.path();
+    EXPECT_EQ(scene.render().counts.nan, scene.samples()) << what;
+}
+
+} // namespace
+
+TEST(Nan, PathTracingCountsItWhereverItArises) {
+    expect_all_counted(Integrator::PATH, path_places());
+}
+
+TEST(Nan, TheTreeOfRaysCountsItWhereverItArises) {
+    expect_all_counted(Integrator::WHITTED, whitted_places());
+}
+
+TEST(Nan, RayCastingCountsItWhereverItArises) {
+    expect_all_counted(Integrator::RAYCAST, direct_places("integrators/raycast.h"));
+}
+
+TEST(Nan, TheSideOfALampDoesNotHideIt) {
+    const SpoiledKernels kernels("lights/emitter.h", "const real facing = -vector_dot(way, normal);",
+                                 "facing");
+    FloorUnderALamp scene("Kd 0.5 0.5 0.5");
+    expect_counted(kernels, scene, Integrator::RAYCAST);
+}
+
+TEST(Nan, TheDistanceOfAPointLightDoesNotHideIt) {
+    const SpoiledKernels kernels("lights/delta_light.h",
+                                 "const real distance_squared = vector_dot(way, way);", "distance_squared");
+    FloorUnderALamp scene("Kd 0.5 0.5 0.5");
+    scene.options.light.points.push_back({{0, 2, 1}, glm::dvec3(1)});
+    expect_counted(kernels, scene, Integrator::RAYCAST);
+}
+
+TEST(Nan, AnInterpolatedNormalDoesNotHideIt) {
+    const SpoiledKernels kernels("geometry/surface.h", "const real length_squared = vector_dot(sum, sum);",
+                                 "length_squared");
+    FloorUnderALamp scene("Kd 0.5 0.5 0.5");
+    scene.build.use("floor").icosphere({0, 0, 0}, 0.2, 1, Facing::OUTWARD, Shading::SMOOTH);
+    expect_counted(kernels, scene, Integrator::RAYCAST);
+}
+
+TEST(Nan, NoMapHidesIt) {
+    const SpoiledKernels kernels("geometry/texture.h", "const float4 upper = a + fx * (b - a);", "upper");
+    for (const char* keys :
+         {"Kd 1 1 1\nmap_Kd grey.png", "Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nmap_Ks grey.png\nillum 3",
+          "Kd 0.5 0.5 0.5\nPm 0.5\nPr 0.5\nmap_Pr grey.png", "Kd 0.5 0.5 0.5\nPr 0.5\nPm 1\nmap_Pm grey.png",
+          "Kd 0.5 0.5 0.5\nmap_bump grey.png", "Kd 0.5 0.5 0.5\nnorm grey.png",
+          "Kd 0.5 0.5 0.5\nmap_d grey.png"}) {
+        FloorUnderALamp scene(keys);
+        scene.texture8("grey.png", 2, 2, 1, {100, 120, 140, 160});
+        expect_counted(kernels, scene, Integrator::PATH, keys);
+    }
+}
+
+} // namespace clrt
