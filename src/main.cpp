@@ -126,6 +126,10 @@ int run_render(Options options) {
                                 ? simulate_nothing(scene, effects, options)
                                 : simulate(device, scene, effects, options, progress, saving.hooks);
     progress.finish();
+    if (done.render.stop_signal && film_samples(done.render.film) == 0) {
+        spdlog::warn("stopped by a signal before the first pass was complete: there is no picture");
+        return 128 + done.render.stop_signal;
+    }
     FinalFiles files;
     if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0)
         files.write(options.checkpoint_path, [&] {
