@@ -73,7 +73,14 @@ int run_explain(const Options& options) {
     Progress progress(options.progress, options.verbosity < 0);
     const Scene scene = load_scene(options, progress);
     progress.finish();
-    fmt::print("{}", explain(scene, find_effects(scene, options), options));
+    Effects effects = find_effects(scene, options);
+    if (effects.left_out) { // materials and effects as they are, paths as they would be rendered
+        Scene reduced = scene;
+        Options reduced_options = options;
+        take_out_effects(effects.left_out, reduced, reduced_options);
+        effects.paths = plan_paths(reduced, reduced_options);
+    }
+    fmt::print("{}", explain(scene, effects, options));
     return EXIT_DONE;
 }
 
@@ -120,6 +127,10 @@ int run_render(Options options) {
     take_out_effects(effects.left_out, scene, options);
     if (effects.left_out)
         effects.paths = plan_paths(scene, options);
+    for (const BlindSpot& spot : effects.paths.blind_spots)
+        spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
+                     "with a diameter",
+                     integrator_name(options.integrator), spot.paths, spot.cause);
     const Saving saving(scene, options, device.info, progress);
 
     const Simulation done = effects.paths.is_empty
