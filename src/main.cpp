@@ -131,7 +131,7 @@ int run_render(Options options) {
         spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
                      "with a diameter",
                      integrator_name(options.integrator), spot.paths, spot.cause);
-    const Saving saving(scene, options, device.info, progress);
+    const Saving saving(scene, effects.paths, options, device.info, progress);
 
     const Simulation done = effects.paths.is_empty
                                 ? simulate_nothing(scene, effects, options)
@@ -148,19 +148,20 @@ int run_render(Options options) {
         });
 
     const Crop window = render_window(options);
-    Report report{options,
-                  scene,
-                  effects,
-                  device.info,
-                  done.facts,
-                  done.bvh,
-                  done.render,
-                  make_error_report(done.render, window.x0, window.y0),
-                  done.bvh_reason,
-                  done.causes,
-                  load_seconds,
-                  done.compile_seconds,
-                  seconds_since(start)};
+    Report report{
+        options,
+        scene,
+        effects,
+        device.info,
+        done.facts,
+        done.bvh,
+        done.render,
+        make_error_report(done.render, bias_sources(scene, effects.paths, done.render), window.x0, window.y0),
+        done.bvh_reason,
+        done.causes,
+        load_seconds,
+        done.compile_seconds,
+        seconds_since(start)};
     write_outputs(report, files);
     files.finish();
     if (options.verbosity >= 0)

@@ -369,6 +369,8 @@ void RenderCounts::add(const RenderCounts& other) {
     primary += other.primary;
     secondary += other.secondary;
     shadow += other.shadow;
+    cut_paths += other.cut_paths;
+    cut_weight += other.cut_weight;
     nan += other.nan;
     infinite += other.infinite;
     negative += other.negative;
