@@ -103,7 +103,7 @@ TEST(BlindSpots, SunsWithoutADiscToo) {
     scene.pane("glass").options.light.points.clear();
     scene.options.light.suns = {{{0, 1, 0}, glm::dvec3(1), 0}};
     EXPECT_EQ(scene.paths(), "LdS+D(D|S)*E");
-    EXPECT_NE(scene.spots()[0].cause.find("sun without a disc"), std::string::npos);
+    EXPECT_NE(scene.spots().at(0).cause.find("sun without a disc"), std::string::npos);
     scene.options.light.suns[0].diameter_degrees = 0.5;
     EXPECT_EQ(scene.paths(), "") << "rays meet its disc";
     scene.options.light.suns.push_back({{1, 1, 0}, glm::dvec3(1), 0});
