@@ -73,7 +73,14 @@ int run_explain(const Options& options) {
     Progress progress(options.progress, options.verbosity < 0);
     const Scene scene = load_scene(options, progress);
     progress.finish();
-    fmt::print("{}", explain(scene, find_effects(scene, options), options));
+    Effects effects = find_effects(scene, options);
+    if (effects.left_out) { // materials and effects as they are, paths as they would be rendered
+        Scene reduced = scene;
+        Options reduced_options = options;
+        take_out_effects(effects.left_out, reduced, reduced_options);
+        effects.paths = plan_paths(reduced, reduced_options);
+    }
+    fmt::print("{}", explain(scene, effects, options));
     return EXIT_DONE;
 }
 
@@ -120,12 +127,20 @@ int run_render(Options options) {
     take_out_effects(effects.left_out, scene, options);
     if (effects.left_out)
         effects.paths = plan_paths(scene, options);
-    const Saving saving(scene, options, device.info, progress);
+    for (const BlindSpot& spot : effects.paths.blind_spots)
+        spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
+                     "with a diameter",
+                     integrator_name(options.integrator), spot.paths, spot.cause);
+    const Saving saving(scene, effects.paths, options, device.info, progress);
 
     const Simulation done = effects.paths.is_empty
                                 ? simulate_nothing(scene, effects, options)
                                 : simulate(device, scene, effects, options, progress, saving.hooks);
     progress.finish();
+    if (done.render.stop_signal && film_samples(done.render.film) == 0) {
+        spdlog::warn("stopped by a signal before the first pass was complete: there is no picture");
+        return 128 + done.render.stop_signal;
+    }
     FinalFiles files;
     if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0)
         files.write(options.checkpoint_path, [&] {
@@ -133,19 +148,20 @@ int run_render(Options options) {
         });
 
     const Crop window = render_window(options);
-    Report report{options,
-                  scene,
-                  effects,
-                  device.info,
-                  done.facts,
-                  done.bvh,
-                  done.render,
-                  make_error_report(done.render, window.x0, window.y0),
-                  done.bvh_reason,
-                  done.causes,
-                  load_seconds,
-                  done.compile_seconds,
-                  seconds_since(start)};
+    Report report{
+        options,
+        scene,
+        effects,
+        device.info,
+        done.facts,
+        done.bvh,
+        done.render,
+        make_error_report(done.render, bias_sources(scene, effects.paths, done.render), window.x0, window.y0),
+        done.bvh_reason,
+        done.causes,
+        load_seconds,
+        done.compile_seconds,
+        seconds_since(start)};
     write_outputs(report, files);
     files.finish();
     if (options.verbosity >= 0)

@@ -115,7 +115,7 @@ void merge(const MergeOptions& options) {
         return;
     fmt::print("{} x {}, {} spp of {} films, {} s of rendering\n", film.width, film.height,
                film_samples(film), options.films.size(), fmt::format("{:.1f}", sum.render.seconds));
-    fmt::print("{}", format_error_report(make_error_report(sum.render, picture.x0, picture.y0)));
+    fmt::print("{}", format_error_report(make_error_report(sum.render, sum.bias, picture.x0, picture.y0)));
 }
 
 int run(int argc, const char* const* argv) {

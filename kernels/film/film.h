@@ -8,10 +8,34 @@
 #include "numerics/vector.h"
 #include "shared/render_types.h"
 
-/* Rays that a work-item has traced besides its primary rays. */
+/* Rays that a work-item has traced besides its primary rays, and paths that max_depth has cut. */
 typedef struct {
     uint secondary, shadow;
+    uint cut;
+    ulong cut_weight; /* sum of what the cut paths would have weighed, in units of 1 / CUT_WEIGHT_UNITS */
 } PixelRays;
+
+/* Counts a path that max_depth has cut; `weight` is that of the radiance which it would have met next. */
+static inline void film_count_cut(real3 weight, PixelRays* rays)
+{
+    const real largest = vector_max_component(weight);
+    const real counted = largest < (real)CUT_WEIGHT_LARGEST ? largest : (real)CUT_WEIGHT_LARGEST;
+    ++rays->cut;
+    rays->cut_weight += convert_ulong(ceil(counted * (real)CUT_WEIGHT_UNITS));
+}
+
+/* Adds a work-item's counts to its pixel's words. */
+static inline void film_add_counts(const PixelRays* rays, global uint* words)
+{
+    words[PIXEL_RAYS_SECONDARY] += rays->secondary;
+    words[PIXEL_RAYS_SHADOW] += rays->shadow;
+    if (rays->cut == 0u)
+        return;
+    const ulong weight = upsample(words[PIXEL_CUT_WEIGHT_HIGH], words[PIXEL_CUT_WEIGHT_LOW]) + rays->cut_weight;
+    words[PIXEL_CUT_PATHS] += rays->cut;
+    words[PIXEL_CUT_WEIGHT_LOW] = (uint)weight;
+    words[PIXEL_CUT_WEIGHT_HIGH] = (uint)(weight >> 32);
+}
 
 /* Which counter a bad sample belongs to; COUNT_WORDS for a good one. */
 static inline uint film_fault(const RenderParams* params, real3 radiance)

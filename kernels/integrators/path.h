@@ -191,6 +191,32 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
     return true;
 }
 
+/* Counts a path that would have gone on from here but for max_depth: it has a direction and survives roulette, by the same
+   random numbers as a longer path. What it would have met next counts by the weight that it has there. With --paths, only
+   the lobes that max_depth closes count. */
+static CLRT_NOINLINE void path_cut(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint segment,
+                                   const Bsdf* whole, const Path* path, PixelRays* rays)
+{
+    Bsdf bsdf = *whole;
+    Path longer = *path;
+    if (HAS(EFFECT_PATH_FILTER)) {
+        const AutomatonStep open = automaton_step(params, path->state, segment);
+        const AutomatonStep closed = automaton_cut_step(&open, path->state);
+        filter_lobes(&closed, &bsdf);
+    }
+    if (bsdf.lobes == 0u)
+        return;
+    const BsdfSample next = bsdf_sample(&bsdf, longer.numbers.lobe, longer.numbers.direction);
+    if (!next.is_valid)
+        return;
+    longer.throughput *= next.weight;
+    longer.eta_squared *= next.eta * next.eta;
+    if (!path_survives(scene, params, sampler, segment, &longer))
+        return;
+    TRACE_CHOICE(scene, TRACE_CUT, 1u);
+    film_count_cut(longer.throughput, rays);
+}
+
 /* Adds the light from outside the scene. */
 static inline void path_escape(const Scene* scene, const RenderParams* params, const Path* path, CameraSample* sample)
 {
@@ -229,14 +255,18 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
         TRACE_VECTOR(scene, TRACE_ADDED, path->throughput * emitted);
         path_add_layers(path, KIND_AREA, emitted, sample);
     }
-    if (segment >= params->max_depth)
-        return;
     Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    if (segment >= params->max_depth) {
+        path_cut(scene, params, &sample->sampler, segment, &bsdf, path, rays);
+        return;
+    }
     TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
     AutomatonStep step;
     bool continues = true;
     if (HAS(EFFECT_PATH_FILTER)) {
         step = automaton_step(params, path->state, segment);
+        if (automaton_is_cut(&step, path->state))
+            path_cut(scene, params, &sample->sampler, segment, &bsdf, path, rays);
         filter_lobes(&step, &bsdf);
         continues = filter_continues(&step, &bsdf);
     }

@@ -96,7 +96,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
                                              global long* film, global uint* pixel_rays,                      \
                                              global volatile uint* counters)                                  \
     {                                                                                                         \
-        PixelRays rays = {0u, 0u};                                                                            \
+        PixelRays rays = {0u, 0u, 0u, 0ul};                                                                   \
         const SampleRange range = tile_samples(params, pixel_rays, place.slot);                               \
         SampleCounter counter = sample_counter_make(params, range.first);                                     \
         CameraSample samples[SAMPLES_AT_ONCE];                                                                \
@@ -107,8 +107,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             RADIANCE(scene, params, samples, count, &rays);                                                   \
             pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
         }                                                                                                     \
-        pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SECONDARY] += rays.secondary;                   \
-        pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SHADOW] += rays.shadow;                         \
+        film_add_counts(&rays, pixel_rays + PIXEL_RAYS_WORDS * place.slot);                                   \
     }                                                                                                         \
                                                                                                               \
     CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \

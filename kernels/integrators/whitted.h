@@ -120,8 +120,14 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
             TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
             TRACE_VECTOR(scene, TRACE_ADDED, current.weight * emitted);
         }
-        if (current.segment >= params->max_depth)
+        if (current.segment >= params->max_depth) {
+            /* It would have been lit, at least. */
+            if (scene->materials[surface.material].lobes != 0u) {
+                film_count_cut(current.weight, rays);
+                TRACE_CHOICE(scene, TRACE_CUT, 1u);
+            }
             continue;
+        }
 
         /* Light it, then follow reflection and refraction. */
         const Bsdf bsdf = material_bsdf(scene, &surface, wo);

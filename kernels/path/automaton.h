@@ -48,6 +48,28 @@ static inline AutomatonStep automaton_step(const RenderParams* params, uint stat
     return step;
 }
 
+/* True if max_depth has closed a way that the expression leaves open. */
+static inline bool automaton_is_cut(const AutomatonStep* step, uint state)
+{
+    const uint open = step->matte << (NEXT_STATE_BITS * LETTER_MATTE) | step->glossy << (NEXT_STATE_BITS * LETTER_GLOSSY) |
+                      step->mirror << (NEXT_STATE_BITS * LETTER_MIRROR) |
+                      step->refraction << (NEXT_STATE_BITS * LETTER_REFRACTION);
+    return open != AUTOMATON_NEXT[state];
+}
+
+/* The states behind the ways that max_depth has closed; dead behind all others. */
+static inline AutomatonStep automaton_cut_step(const AutomatonStep* step, uint state)
+{
+    const uint next = AUTOMATON_NEXT[state];
+    AutomatonStep cut;
+    cut.matte = step->matte != STATE_DEAD ? STATE_DEAD : (next >> (NEXT_STATE_BITS * LETTER_MATTE)) & NEXT_STATE_MASK;
+    cut.glossy = step->glossy != STATE_DEAD ? STATE_DEAD : (next >> (NEXT_STATE_BITS * LETTER_GLOSSY)) & NEXT_STATE_MASK;
+    cut.mirror = step->mirror != STATE_DEAD ? STATE_DEAD : (next >> (NEXT_STATE_BITS * LETTER_MIRROR)) & NEXT_STATE_MASK;
+    cut.refraction =
+        step->refraction != STATE_DEAD ? STATE_DEAD : (next >> (NEXT_STATE_BITS * LETTER_REFRACTION)) & NEXT_STATE_MASK;
+    return cut;
+}
+
 /* True if light of this kind (KIND_*) ends an accepted path. */
 static inline bool automaton_accepts(uint state, uint kind) { return (AUTOMATON_STATES[state] & kind) != 0u; }
 

@@ -18,6 +18,7 @@
 #define TRACE_LIGHT_KIND 9u    /* KIND_* of the sampled light; 0: none found */
 #define TRACE_CONNECTS 10u     /* 1: the light would arrive */
 #define TRACE_VISIBLE 11u      /* 1: and does, at least in part */
+#define TRACE_CUT 12u          /* 1: only max_depth ends the path here, or the lobes that it forbids */
 #define TRACE_CHOICES_END 16u
 
 /* Quantities: real numbers, one to three. */

@@ -177,8 +177,8 @@ std::vector<OptionSpec> work_options() {
          "whichever of -s, -t and -e comes first ends the render (default: no target)",
          [](Options& o, const OptionValue& v) { o.error = parse_fraction(v); }},
         {group, "", "--max-depth", "N",
-         "longest path in segments; 1 sees emitters, 2 adds direct light (default 64; whitted 10; raycast "
-         "always 2)",
+         "longest path in segments; 1 sees emitters, 2 adds direct light (default 4096, whitted 10, raycast "
+         "always 2); what it cuts is reported",
          [](Options& o, const OptionValue& v) {
              o.max_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
          }},

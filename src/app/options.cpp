@@ -9,11 +9,11 @@ int effective_max_depth(const Options& options) {
     case Integrator::RAYCAST:
         return 2;
     case Integrator::WHITTED:
-        return options.max_depth.value_or(10);
+        return options.max_depth.value_or(DEFAULT_WHITTED_DEPTH);
     case Integrator::PATH:
         break;
     }
-    return options.max_depth.value_or(64);
+    return options.max_depth.value_or(DEFAULT_PATH_DEPTH);
 }
 
 } // namespace clrt

@@ -82,7 +82,7 @@ struct Options {
     std::optional<std::uint32_t> spp; ///< 64 if none of spp, time and error is given; 65536 with error alone
     std::optional<double> time_seconds; ///< bounds the render stage of this run
     std::optional<double> error;        ///< target of the relative error
-    std::optional<int> max_depth;       ///< path segments; 64, whitted 10, raycast always 2
+    std::optional<int> max_depth;       ///< path segments; 4096, whitted 10, raycast always 2
     int roulette_depth = 5;             ///< path: first segment that Russian roulette may end
     double min_contribution = 0.002;    ///< whitted: smallest weight worth a ray
     std::uint32_t seed = 0;
@@ -143,7 +143,13 @@ struct Options {
     std::vector<std::string> resumable_command;
 };
 
-/// The largest path length in segments for these options (INTERFACE: raycast 2, whitted 10, path 64).
+/// Segments of the longest path when --max-depth does not say: Russian roulette ends paths long before, and
+/// where nothing ends them, because surfaces reflect all light, this does within milliseconds.
+constexpr int DEFAULT_PATH_DEPTH = 4096;
+/// The same for whitted, whose trees can double with every segment.
+constexpr int DEFAULT_WHITTED_DEPTH = 10;
+
+/// The largest path length in segments for these options; raycast has always 2.
 int effective_max_depth(const Options& options);
 
 } // namespace clrt

@@ -221,8 +221,12 @@ Effects find_effects(const Scene& scene, const Options& options) {
     const u32 chosen = chosen_effects(options, effects.needed);
     effects.mask = chosen & EFFECT_ALL;
     effects.left_out = effects.needed & ~chosen;
-    if (effects.left_out & EFFECT_PATH_FILTER)
-        effects.paths = {};
+    if (effects.left_out & EFFECT_PATH_FILTER) {
+        Options every = options;
+        every.paths.clear();
+        every.path_layers.clear();
+        effects.paths = plan_paths(scene, every);
+    }
     return effects;
 }
 

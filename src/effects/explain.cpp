@@ -49,6 +49,7 @@ std::string explain_json(const Scene& scene, const Effects& effects, const Optio
     json["effects_mask"] = effects.mask;
     json["materials"] = materials_json(scene);
     json["paths"] = paths_json(effects.paths);
+    json["blind_spots"] = blind_spots_json(effects.paths.blind_spots);
     json["notices"] = scene.notices;
     return json.dump(2) + "\n";
 }
@@ -66,6 +67,10 @@ std::string explain(const Scene& scene, const Effects& effects, const Options& o
                         material_table(scene));
     if (effects.paths.is_asked)
         text += "\nPaths:\n" + format_paths(effects.paths);
+    if (!effects.paths.blind_spots.empty())
+        text += "\nNot seen:\n";
+    for (const BlindSpot& spot : effects.paths.blind_spots)
+        text += fmt::format("  {}: {}\n", spot.paths, spot.cause);
     if (!scene.notices.empty())
         text += "\nNotices:\n";
     for (const std::string& notice : scene.notices)

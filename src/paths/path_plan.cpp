@@ -18,15 +18,16 @@ const char* const EVERY_PATH = "L(D|G|S)*E";
 /// traced.
 constexpr int LARGEST_DISTANCE = 0xffff;
 
-/// The first material on a triangle that has a property; empty if there is none.
-std::string find_material(const Scene& scene, const std::function<bool(const Material&)>& has) {
+/// A letter that the first material on a triangle that has a property writes.
+PathLetter find_material(const char* symbol, const Scene& scene,
+                         const std::function<bool(const Material&)>& has) {
     std::vector<bool> is_used(scene.materials.size(), false);
     for (const Triangle& triangle : scene.triangles)
         is_used[triangle.material] = true;
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (is_used[i] && has(scene.materials[i]))
-            return describe_material(scene, i);
-    return "";
+            return {symbol, describe_material(scene, i), scene.material_places[i]};
+    return {symbol, "", {}};
 }
 
 bool is_dielectric(const Material& m) {
@@ -41,34 +42,37 @@ bool can_be_smooth(const Material& m) {
     return m.alpha_x == 0 || m.transmission.w == 1.0f;
 }
 
-std::string find_light(const Scene& scene, u32 kind, const char* option) {
+PathLetter find_light(const char* symbol, const Scene& scene, u32 kind, const char* option) {
     const auto is_kind = [&](const Light& light) { return light.kind == kind; };
     const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), is_kind);
-    return count ? fmt::format("{} by {}", count, option) : "";
+    return {symbol, count ? fmt::format("{} by {}", count, option) : "", {}};
+}
+
+PathLetter find_lamp(const Scene& scene) {
+    if (scene.emitters.empty())
+        return {"La", "", {}};
+    const size_t first = scene.triangles[scene.emitters[0].triangle].material;
+    return {"La", describe_material(scene, first), scene.material_places[first]};
 }
 
 std::vector<PathLetter> find_letters(const Scene& scene) {
     const glm::dvec3& sky = scene.environment.radiance;
     const bool is_bright = sky.x > 0 || sky.y > 0 || sky.z > 0;
-    const std::string lamp =
-        scene.emitters.empty()
-            ? ""
-            : describe_material(scene, scene.triangles[scene.emitters[0].triangle].material);
     return {
-        {"D", find_material(scene, [](const Material& m) { return (m.lobes & LOBE_MATTE) != 0; })},
-        {"G", find_material(scene,
-                            [](const Material& m) {
-                                return (m.lobes & LOBE_GLOSSY) || (is_dielectric(m) && can_be_rough(m));
-                            })},
-        {"R", find_material(scene,
-                            [](const Material& m) {
-                                return (m.lobes & LOBE_MIRROR) || (is_dielectric(m) && can_be_smooth(m));
-                            })},
-        {"T", find_material(scene, [](const Material& m) { return is_dielectric(m) && can_be_smooth(m); })},
-        {"La", lamp},
-        {"Lp", find_light(scene, LIGHT_POINT, "--point")},
-        {"Ld", find_light(scene, LIGHT_SUN, "--sun")},
-        {"Le", is_bright ? "environment above 0" : ""},
+        find_material("D", scene, [](const Material& m) { return (m.lobes & LOBE_MATTE) != 0; }),
+        find_material("G", scene,
+                      [](const Material& m) {
+                          return (m.lobes & LOBE_GLOSSY) || (is_dielectric(m) && can_be_rough(m));
+                      }),
+        find_material("R", scene,
+                      [](const Material& m) {
+                          return (m.lobes & LOBE_MIRROR) || (is_dielectric(m) && can_be_smooth(m));
+                      }),
+        find_material("T", scene, [](const Material& m) { return is_dielectric(m) && can_be_smooth(m); }),
+        find_lamp(scene),
+        find_light("Lp", scene, LIGHT_POINT, "--point"),
+        find_light("Ld", scene, LIGHT_SUN, "--sun"),
+        {"Le", is_bright ? "environment above 0" : "", {}},
     };
 }
 
@@ -86,6 +90,16 @@ unsigned find_found_by_rays(const Scene& scene) {
         return l.kind == LIGHT_SUN && l.one_minus_cos > 0;
     });
     return KIND_AREA | KIND_SKY | (has_disc ? unsigned(KIND_SUN) : 0u);
+}
+
+unsigned find_missed_by_rays(const Scene& scene) {
+    unsigned kinds = 0;
+    for (const Light& light : scene.lights)
+        if (light.kind == LIGHT_POINT)
+            kinds |= KIND_POINT;
+        else if (light.one_minus_cos == 0)
+            kinds |= KIND_SUN;
+    return kinds;
 }
 
 /// Successors, eight bits each.
@@ -114,6 +128,21 @@ u32 layer_word(const AutomatonState& state) {
     return word;
 }
 
+/// The automaton, and what follows from it.
+void plan_automaton(const PathExpression& picture, const Options& options, PathPlan& plan) {
+    std::vector<PathExpression> layers;
+    for (const PathLayerOption& layer : plan.layers)
+        layers.push_back(parse_path_expression(layer.expression));
+    plan.automaton = make_automaton(picture, layers, plan.alphabet);
+
+    // A path of n scattering events has n + 1 segments.
+    const int depth = effective_max_depth(options);
+    plan.is_empty = plan.automaton.is_empty() || plan.automaton.states[1].distance + 1 > depth;
+    if (const std::optional<int> longest = longest_path(plan.automaton))
+        plan.segments = std::min(*longest + 1, depth);
+    plan.is_filter = !layers.empty() || !accepts_everything(plan.automaton, plan.alphabet);
+}
+
 } // namespace
 
 PathPlan plan_paths(const Scene& scene, const Options& options) {
@@ -123,22 +152,13 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
     plan.letters = find_letters(scene);
     plan.alphabet = make_alphabet(plan.letters);
     plan.found_by_rays = find_found_by_rays(scene);
+    plan.missed_by_rays = find_missed_by_rays(scene);
     plan.is_asked = !plan.expression.empty() || !plan.layers.empty();
-    if (!plan.is_asked)
-        return plan;
-
-    std::vector<PathExpression> layers;
-    for (const PathLayerOption& layer : plan.layers)
-        layers.push_back(parse_path_expression(layer.expression));
-    const std::string& picture = plan.expression.empty() ? EVERY_PATH : plan.expression;
-    plan.automaton = make_automaton(parse_path_expression(picture), layers, plan.alphabet);
-
-    // A path of n scattering events has n + 1 segments.
-    const int depth = effective_max_depth(options);
-    plan.is_empty = plan.automaton.is_empty() || plan.automaton.states[1].distance + 1 > depth;
-    if (const std::optional<int> longest = longest_path(plan.automaton))
-        plan.segments = std::min(*longest + 1, depth);
-    plan.is_filter = !layers.empty() || !accepts_everything(plan.automaton, plan.alphabet);
+    const PathExpression picture =
+        parse_path_expression(plan.expression.empty() ? EVERY_PATH : plan.expression);
+    if (plan.is_asked)
+        plan_automaton(picture, options, plan);
+    plan.blind_spots = find_blind_spots(plan, picture, options.integrator, effective_max_depth(options));
     return plan;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/options.h"
 #include "paths/automaton.h"
+#include "paths/blind_spots.h"
 #include "scene/scene.h"
 
 #include <optional>
@@ -17,6 +18,7 @@ namespace clrt {
 struct PathLetter {
     std::string symbol;  ///< "D", "La", ...
     std::string witness; ///< such as `material "glass" (room.mtl:12)`; empty: nothing does
+    SourcePlace place;   ///< the file and line that the witness names; line 0: none
 };
 
 /// What the options ask of the paths of a scene.
@@ -26,12 +28,14 @@ struct PathPlan {
     std::vector<PathLetter> letters;     ///< all, in the order D G R T La Lp Ld Le
     PathAlphabet alphabet;               ///< those with a witness
     unsigned found_by_rays =
-        0;                  ///< KIND_* of lights that a ray can meet: all but points and suns without a disc
-    Automaton automaton;    ///< empty where nothing was asked for
-    bool is_asked = false;  ///< --paths or a layer was given
-    bool is_filter = false; ///< the kernel needs the automaton; else it changes nothing
-    bool is_empty = false;  ///< no path of the scene is accepted within --max-depth
-    std::optional<int> segments; ///< most that an accepted path has; none: no bound but --max-depth
+        0; ///< KIND_* of lights that a ray can meet: all but points and suns without a disc
+    unsigned missed_by_rays = 0;        ///< KIND_* of lights that no ray meets; suns can be in both
+    Automaton automaton;                ///< empty where nothing was asked for
+    bool is_asked = false;              ///< --paths or a layer was given
+    bool is_filter = false;             ///< the kernel needs the automaton; else it changes nothing
+    bool is_empty = false;              ///< no path of the scene is accepted within --max-depth
+    std::optional<int> segments;        ///< most that an accepted path has; none: no bound but --max-depth
+    std::vector<BlindSpot> blind_spots; ///< what is asked for and cannot be sampled
 };
 
 /// Examines materials on triangles and lights. Pure. Throws UsageError for expressions that are wrong or too

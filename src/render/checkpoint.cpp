@@ -8,11 +8,11 @@
 
 namespace clrt {
 
-FilmFile make_film_file(const RenderProgress& render, const FilmIdentity& identity, const Options& options,
-                        const DeviceInfo& device) {
+FilmFile make_film_file(const RenderProgress& render, const BiasSources& bias, const FilmIdentity& identity,
+                        const Options& options, const DeviceInfo& device) {
     const FilmOrigin origin{options.resumable_command, std::filesystem::current_path().string(),
                             device.platform + ": " + device.name};
-    return {identity, origin, render};
+    return {identity, origin, render, bias};
 }
 
 RenderProgress read_resumed_film(const Options& options, const FilmIdentity& identity) {

@@ -46,10 +46,26 @@ std::string price_line(const ErrorReport& report) {
         price.measured ? "the measured" : "the usual", price.slope);
 }
 
+/// What the error is worth.
+std::string verdict(const ErrorReport& report, const ErrorSpread& spread) {
+    if (!spread.usable())
+        return "do not believe the error, rare bright samples are still to come";
+    if (is_complete(report))
+        return "the error can be believed";
+    std::string text = "the error covers what was sampled";
+    if (report.cut.paths > 0)
+        text += ", not what was cut";
+    for (const BlindSpot& spot : report.blind_spots)
+        text += (&spot == &report.blind_spots.front() ? "; not seen: " : ", ") + spot.paths;
+    return text;
+}
+
 } // namespace
 
-ErrorReport make_error_report(const RenderProgress& render, int x, int y) {
+ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y) {
     ErrorReport report;
+    report.cut = cut_paths(render, bias.cut_radiance);
+    report.blind_spots = bias.blind_spots;
     report.replicates = int(ReplicateMeans(render.film).count());
     report.window_x = x;
     report.window_y = y;
@@ -67,8 +83,13 @@ ErrorReport make_error_report(const RenderProgress& render, int x, int y) {
     return report;
 }
 
+bool is_complete(const ErrorReport& report) {
+    return report.cut.paths == 0 && report.blind_spots.empty();
+}
+
 std::string format_error_report(const ErrorReport& report) {
-    std::string text = fmt::format("error    {}\n", error_line(report));
+    std::string text = fmt::format("error    {}\n", error_line(report)) + format_cut(report.cut) +
+                       format_blind_spots(report.blind_spots);
     if (!report.error || !report.spread)
         return text;
     const ErrorSpread& spread = *report.spread;
@@ -80,9 +101,7 @@ std::string format_error_report(const ErrorReport& report) {
         "tails    the noisiest {} of the pixels hold {:.0f} % of the squared error; {:.0f} % was seen by one "
         "replicate alone, which makes it uncertain by {:.1f} %: {}\n",
         spread.tail_pixels == 1 ? "one" : "thousandth", 100 * spread.tail_share, 100 * spread.once_share,
-        100 * spread.once_error,
-        spread.usable() ? "the error can be believed"
-                        : "do not believe the error, rare bright samples are still to come");
+        100 * spread.once_error, verdict(report, spread));
     return text;
 }
 
@@ -91,6 +110,7 @@ Json error_report_json(const ErrorReport& report) {
     json["rel_rmse"] = report.error ? Json(report.error->relative_rmse) : Json(nullptr);
     json["low"] = report.error ? optional_number(report.error->low) : Json(nullptr);
     json["high"] = report.error ? optional_number(report.error->high) : Json(nullptr);
+    json["complete"] = is_complete(report);
     json["slope"] = nullptr;
     if (report.slope)
         json["slope"] = {{"value", report.slope->slope},
@@ -125,6 +145,13 @@ void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
     const auto add = [&](const char* name, double value) {
         metadata.emplace_back(name, fmt::format("{:.6g}", value));
     };
+    metadata.emplace_back("cut.paths", std::to_string(report.cut.paths));
+    if (report.cut.light_bound)
+        add("cut.light_bound", *report.cut.light_bound);
+    std::vector<std::string> spots;
+    for (const BlindSpot& spot : report.blind_spots)
+        spots.push_back(spot.paths);
+    metadata.emplace_back("blind_spots", fmt::format("{}", fmt::join(spots, ", ")));
     if (!report.error)
         return;
     add("error", report.error->relative_rmse);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "output/image.h"
+#include "render/cut_paths.h"
 #include "render/render.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,14 +18,19 @@ struct ErrorReport {
     std::optional<ErrorSlope> slope;
     std::optional<ErrorSpread> spread;
     std::optional<ErrorPrice> price;
-    int replicates = 0;             ///< with samples
-    int window_x = 0, window_y = 0; ///< the window's place in the whole picture
+    CutPaths cut;                       ///< what the error does not hold: light of paths that were cut,
+    std::vector<BlindSpot> blind_spots; ///< and of paths that are never sampled
+    int replicates = 0;                 ///< with samples
+    int window_x = 0, window_y = 0;     ///< the window's place in the whole picture
 };
 
 /// Makes the report of a render; (x, y) is the window's top left pixel in the whole picture.
-ErrorReport make_error_report(const RenderProgress& render, int x, int y);
+ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y);
 
-/// Lines "error", "price", "worst" and "tails".
+/// Whether the error holds all that is wrong with the picture.
+bool is_complete(const ErrorReport& report);
+
+/// Lines "error", "cut", "not seen", "price", "worst" and "tails".
 std::string format_error_report(const ErrorReport& report);
 
 /// The JSON's "error".

@@ -139,6 +139,9 @@ RenderCounts FilmBuffers::read_counts() const {
     for (size_t i = 0; i < rays.size(); i += PIXEL_RAYS_WORDS) {
         counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
         counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
+        counts.cut_paths += rays[i + PIXEL_CUT_PATHS];
+        counts.cut_weight +=
+            std::uint64_t(rays[i + PIXEL_CUT_WEIGHT_HIGH]) << 32 | rays[i + PIXEL_CUT_WEIGHT_LOW];
         if (const u32 bad = rays[i + PIXEL_BAD_SAMPLES])
             counts.bad_pixels[pixel_of_slot(i / PIXEL_RAYS_WORDS)] = bad;
     }

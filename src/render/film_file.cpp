@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr char MAGIC[] = "CLRTFILM";
 constexpr size_t MAGIC_BYTES = 8, START_BYTES = 16, CHECKSUM_BYTES = 16;
-constexpr std::uint32_t FORMAT_VERSION = 1;
+constexpr std::uint32_t FORMAT_VERSION = 2;
 /// Larger than any header; keeps a damaged length from asking for all memory.
 constexpr std::uint32_t LARGEST_HEADER = 1u << 26;
 
@@ -64,10 +64,11 @@ private:
 constexpr size_t MOST_BAD_PIXELS = size_t(1) << 20;
 
 Json counts_json(const RenderCounts& counts) {
-    Json json = {{"primary", counts.primary},   {"secondary", counts.secondary},
-                 {"shadow", counts.shadow},     {"nan", counts.nan},
-                 {"infinite", counts.infinite}, {"negative", counts.negative},
-                 {"overflow", counts.overflow}, {"bad_samples", counts.bad_samples}};
+    Json json = {{"primary", counts.primary},       {"secondary", counts.secondary},
+                 {"shadow", counts.shadow},         {"cut_paths", counts.cut_paths},
+                 {"cut_weight", counts.cut_weight}, {"nan", counts.nan},
+                 {"infinite", counts.infinite},     {"negative", counts.negative},
+                 {"overflow", counts.overflow},     {"bad_samples", counts.bad_samples}};
     if (!counts.bad_pixels.empty() && counts.bad_pixels.size() <= MOST_BAD_PIXELS)
         json["bad_pixels"] = counts.bad_pixels; // pairs of pixel and count
     return json;
@@ -78,6 +79,8 @@ RenderCounts read_counts(const Json& json) {
     json.at("primary").get_to(counts.primary);
     json.at("secondary").get_to(counts.secondary);
     json.at("shadow").get_to(counts.shadow);
+    json.at("cut_paths").get_to(counts.cut_paths);
+    json.at("cut_weight").get_to(counts.cut_weight);
     json.at("nan").get_to(counts.nan);
     json.at("infinite").get_to(counts.infinite);
     json.at("negative").get_to(counts.negative);
@@ -102,6 +105,9 @@ Json header_json(const FilmFile& film) {
     if (is_adaptive(render.film))
         json["round"] = {render.round.first, render.round.end, render.round.noise.size()};
     json["counts"] = counts_json(render.counts);
+    const std::optional<double>& radiance = film.bias.cut_radiance;
+    json["cut_radiance"] = radiance ? Json(*radiance) : Json(nullptr);
+    json["blind_spots"] = blind_spots_json(film.bias.blind_spots);
     json["history"] = Json::array();
     for (const SquaredError& error : render.history)
         json["history"].push_back({{"samples", error.samples},
@@ -161,6 +167,9 @@ FilmFile read_header(const Json& json) {
     if (film.identity.value("adaptive", false))
         film.render.round = read_round(json.at("round"), sums);
     film.render.counts = read_counts(json.at("counts"));
+    if (const Json& radiance = json.at("cut_radiance"); !radiance.is_null())
+        film.bias.cut_radiance = radiance.get<double>();
+    film.bias.blind_spots = read_blind_spots(json.at("blind_spots"));
     for (const Json& error : json.at("history"))
         film.render.history.push_back({error.at("samples"), error.at("mean_squared"),
                                        error.at("mean_radiance"),

@@ -4,7 +4,7 @@
 //
 //   bytes        what
 //   8            "CLRTFILM"
-//   4            version of this format, 1
+//   4            version of this format, 2
 //   4            n, the length of the header
 //   n            the header, a JSON object in UTF-8:
 //                  identity    every field that decides the bits (film_identity.h)
@@ -14,8 +14,11 @@
 //                  replicates  whose sums are kept apart
 //                  ranges      of sample numbers inside, [first, end), in order
 //                  round       with --adaptive: first and last mean samples a pixel of the present round, and
-//                  n counts      rays and bad samples; bad_samples lists pairs of pixel and sample,
+//                  n counts      rays, cut paths and bad samples; bad_samples lists pairs of pixel and
+//                  sample,
 //                              bad_pixels (absent without bad samples) pairs of pixel and count
+//                  cut_radiance  what bounds the light of cut paths (cut_paths.h), or null
+//                  blind_spots  paths that no sample shows: paths, cause, where
 //                  history     errors at doublings of the samples
 //                  seconds     of rendering
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:
@@ -30,6 +33,7 @@
 // Integers are little endian.
 #pragma once
 
+#include "render/cut_paths.h"
 #include "render/film_identity.h"
 #include "render/render.h"
 
@@ -50,6 +54,7 @@ struct FilmFile {
     FilmIdentity identity;
     FilmOrigin origin;
     RenderProgress render;
+    BiasSources bias;
 };
 
 /// Writes under a temporary name and renames: a killed process leaves the older file whole. Throws

@@ -80,6 +80,8 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
     for (Film& layer : sum.render.path_layers)
         layer.ranges = film.ranges;
     sum.render.counts.add(part.render.counts);
+    if (!sum.bias.cut_radiance) // a film of which nothing was cut does not tell
+        sum.bias.cut_radiance = part.bias.cut_radiance;
     sum.render.seconds += part.render.seconds;
     sum.render.history.clear();
 }
@@ -107,7 +109,7 @@ Picture film_picture(const FilmFile& file) {
         picture.metadata.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
     picture.metadata.emplace_back("spp", std::to_string(film_samples(film)));
     picture.metadata.emplace_back("samples", ranges_text(film));
-    add_error_metadata(make_error_report(file.render, picture.x0, picture.y0), picture.metadata);
+    add_error_metadata(make_error_report(file.render, file.bias, picture.x0, picture.y0), picture.metadata);
     return picture;
 }
 

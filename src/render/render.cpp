@@ -5,6 +5,7 @@
 #include "device/opencl_error.h"
 #include "error.h"
 #include "render/film_buffers.h"
+#include "render/launch_size.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
 
@@ -19,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Launches aim at this long: short enough for progress, Ctrl-C and the watchdogs of display drivers.
-constexpr double LAUNCH_SECONDS = 0.5;
+/// A signal does not wait longer for a pass to end, seconds: it is dropped.
+constexpr double LONGEST_WAIT = 3;
 /// Launches take multiples of this many samples where they can: kernels simulate up to four at once.
 constexpr double SAMPLE_GROUP = 4;
 /// Samples a pixel that the auxiliary layers average.
@@ -74,13 +75,14 @@ public:
 
 private:
     StopRule run_until_stopped();
-    void run_launches(std::uint32_t samples);
+    bool run_launches(std::uint32_t samples);
     std::uint32_t next_samples(const RenderState& state) const;
-    u32 launch_tiles(double samples) const;
     template <class Launch>
-    void run_tiles(double samples, double done, Launch&& launch);
+    bool run_tiles(double samples, double done, Launch&& launch);
+    void keep_film(double seconds);
+    bool gives_up(double seconds_left) const;
     void begin_round();
-    void run_adaptive(std::uint64_t end);
+    bool run_adaptive(std::uint64_t end);
     RenderState measured_state();
     /// The error after so many samples, from the last one measured as for independent samples; -1: none was
     /// measured.
@@ -113,7 +115,9 @@ private:
     std::optional<SquaredError> last_error_; ///< as last measured
     double rays_per_sample_ = -1;            ///< as last measured
     double launch_seconds_ = 0;              ///< of all launches of this run
-    double pass_seconds_ = 0;                ///< of one pass, by the last launch
+    LaunchSize launch_size_;
+    bool is_kept_ = false; ///< the result holds the film as of samples_
+    bool gave_up_ = false; ///< a signal ended a pass
 };
 
 Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
@@ -126,7 +130,8 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
                 params, buffers),
       rules_(options, film_limit(result.film, options)), picture_reminder_(options.save_every_seconds),
       film_reminder_(options.checkpoint_path.empty() ? std::nullopt
-                                                     : std::optional(options.checkpoint_seconds)) {
+                                                     : std::optional(options.checkpoint_seconds)),
+      launch_size_(device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
     first_ = options.first_sample;
     if (!result.film.ranges.empty()) {
@@ -166,30 +171,39 @@ std::uint32_t Passes::next_samples(const RenderState& state) const {
     return std::uint32_t(std::min(double(end - samples_), samples));
 }
 
-/// Tiles of a launch; a cautious first share while no pass has been timed.
-u32 Passes::launch_tiles(double samples) const {
-    if (pass_seconds_ <= 0)
-        return std::max(params_.tile_count / 16, std::min(params_.tile_count, 64u));
-    const double share = LAUNCH_SECONDS / (pass_seconds_ * samples);
-    return share >= 1 ? params_.tile_count : std::max(u32(share * params_.tile_count), 1u);
+/// Before launches that take about so long: keeps the film in the result where a signal could not wait for
+/// their end.
+void Passes::keep_film(double seconds) {
+    is_kept_ = result_.passes > 0 ? seconds > LONGEST_WAIT : samples_ > 0; // a resumed film is there already
+    if (is_kept_ && result_.passes > 0)
+        read_back();
+}
+
+/// Whether a signal ends a pass that would take so much longer: all samples before it are kept.
+bool Passes::gives_up(double seconds_left) const {
+    return stop_signal() && seconds_left > LONGEST_WAIT && (is_kept_ || samples_ == 0);
 }
 
 /// Calls launch(first tile, end of tiles) until all tiles have their `samples`, in several launches where
-/// they take long; `done` samples a pixel are there already.
+/// they take long; `done` samples a pixel are there already. False where it gives up.
 template <class Launch>
-void Passes::run_tiles(double samples, double done, Launch&& launch) {
+bool Passes::run_tiles(double samples, double done, Launch&& launch) {
+    const auto begun = Clock::now();
     for (u32 tile = 0; tile < params_.tile_count;) {
-        const u32 end = std::min(params_.tile_count, tile + launch_tiles(samples));
+        const u32 end = tile + launch_size_.tiles(samples, params_.tile_count - tile);
         const auto start = Clock::now();
         launch(tile, end);
         const double seconds = seconds_since(start);
         launch_seconds_ += seconds;
-        pass_seconds_ = seconds / samples * params_.tile_count / (end - tile);
+        launch_size_.took(end - tile, samples, seconds);
         tile = end;
         const double now = done + samples * tile / params_.tile_count;
         progress_.update({"render", rules_.fraction(now, seconds_since(start_), last_error_),
                           std::uint64_t(now), rays_per_second_now(now), error_now(now)});
+        if (gives_up(seconds_since(begun) * (params_.tile_count - tile) / tile))
+            return false;
     }
+    return true;
 }
 
 double Passes::error_now(double samples) const {
@@ -219,26 +233,29 @@ void Passes::begin_round() {
 }
 
 /// Takes the tiles of both halves to where they are when the mean is `end` samples a pixel.
-void Passes::run_adaptive(std::uint64_t end) {
+bool Passes::run_adaptive(std::uint64_t end) {
     const int replicates = options_.replicates;
     const TileSamples from = samples_within(result_.round, samples_, replicates);
     const TileSamples to = samples_within(result_.round, end, replicates);
     const double samples = 0.5 * double(end - samples_);
     for (int half = 0; half < 2; ++half) {
         film_buffers_.write_tile_ranges(from[size_t(half)], to[size_t(half)]);
-        run_tiles(samples, double(samples_) + half * samples,
-                  [&](u32 tile, u32 tiles_end) { launcher_.run_half(half, tile, tiles_end); });
+        if (!run_tiles(samples, double(samples_) + half * samples,
+                       [&](u32 tile, u32 tiles_end) { launcher_.run_half(half, tile, tiles_end); }))
+            return false;
     }
     result_.film.tile_samples = to;
+    return true;
 }
 
-/// Runs whole passes.
-void Passes::run_launches(std::uint32_t samples) {
-    if (options_.adaptive)
-        run_adaptive(samples_ + samples);
-    else
-        run_tiles(samples, double(samples_),
-                  [&](u32 tile, u32 end) { launcher_.run(std::uint32_t(first_), samples, tile, end); });
+/// Runs whole passes; false where it gives them up.
+bool Passes::run_launches(std::uint32_t samples) {
+    const bool done = options_.adaptive ? run_adaptive(samples_ + samples)
+                                        : run_tiles(samples, double(samples_), [&](u32 tile, u32 end) {
+                                              launcher_.run(std::uint32_t(first_), samples, tile, end);
+                                          });
+    if (!done)
+        return false;
     samples_ += samples;
     first_ += samples;
     result_.passes += samples;
@@ -246,6 +263,7 @@ void Passes::run_launches(std::uint32_t samples) {
     if (ranges.empty())
         ranges.push_back({first_ - samples, first_});
     ranges.back().end = first_;
+    return true;
 }
 
 /// Reads the film and measures its error, for the history where the samples have doubled.
@@ -311,7 +329,12 @@ StopRule Passes::run_until_stopped() {
             return *rule;
         if (options_.adaptive)
             begin_round();
-        run_launches(next_samples(state));
+        const std::uint32_t samples = next_samples(state);
+        keep_film(state.pass_seconds * samples);
+        if (!run_launches(samples)) {
+            gave_up_ = true;
+            return StopRule::SIGNAL;
+        }
         save_when_due();
     }
 }
@@ -321,7 +344,10 @@ void Passes::run() {
     result_.stop = run_until_stopped();
     result_.stop_text = rules_.describe(result_.stop);
     result_.stop_signal = result_.stop == StopRule::SIGNAL ? stop_signal() : 0;
-    read_back();
+    if (!gave_up_)
+        read_back();
+    if (samples_ == 0)
+        return;
     result_.error = film_error(result_.film);
     render_layers();
 }
@@ -360,6 +386,8 @@ void RenderCounts::add(const RenderCounts& other) {
     primary += other.primary;
     secondary += other.secondary;
     shadow += other.shadow;
+    cut_paths += other.cut_paths;
+    cut_weight += other.cut_weight;
     nan += other.nan;
     infinite += other.infinite;
     negative += other.negative;

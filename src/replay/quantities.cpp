@@ -26,6 +26,7 @@ constexpr Quantity TABLE[] = {
     {TRACE_LIGHT_KIND, "light", "light", 1},
     {TRACE_CONNECTS, "light reflected", "light_reflected", 1},
     {TRACE_VISIBLE, "light visible", "light_visible", 1},
+    {TRACE_CUT, "max depth", "cut", 1},
     {TRACE_RAY_ORIGIN, "ray origin", "ray_origin", 3, POSITION, ANY, CARRIED},
     {TRACE_RAY_DIRECTION, "ray direction", "ray_direction", 3, NONE, ANY, CARRIED},
     {TRACE_DISTANCE, "distance", "distance", 1, LENGTH, NOT_NEGATIVE},

@@ -74,6 +74,8 @@ std::string choice_text(const TraceEvent& event, const Scene& scene) {
         return lobe_text(word);
     case TRACE_SURVIVES:
         return word ? "goes on" : "ends the path";
+    case TRACE_CUT:
+        return "cuts the path";
     case TRACE_LIGHT_KIND:
         return light_text(word);
     case TRACE_CONTINUES:

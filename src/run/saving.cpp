@@ -54,7 +54,9 @@ void write_outputs(const Report& report, FinalFiles& files) {
         files.write(options.stats_path, [&] { write_text_file(options.stats_path, report_json(report)); });
 }
 
-Saving::Saving(const Scene& scene, const Options& options, const DeviceInfo& device, Progress& progress) {
+Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,
+               Progress& progress)
+    : scene_(scene), paths_(paths) {
     if (!options.checkpoint_path.empty() || !options.resume_path.empty())
         identity = film_identity(scene, options, film_scale(scene));
     if (!options.resume_path.empty())
@@ -70,7 +72,7 @@ Saving::Saving(const Scene& scene, const Options& options, const DeviceInfo& dev
 }
 
 FilmFile Saving::film_file(const Render& render, const Options& options, const DeviceInfo& device) const {
-    return make_film_file(render, identity, options, device);
+    return make_film_file(render, bias_sources(scene_, paths_, render), identity, options, device);
 }
 
 } // namespace clrt

@@ -35,12 +35,17 @@ struct Saving {
     std::optional<RenderProgress> resumed;
     RenderHooks hooks;
 
-    Saving(const Scene& scene, const Options& options, const DeviceInfo& device, Progress& progress);
+    Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,
+           Progress& progress);
     Saving(const Saving&) = delete;
     Saving& operator=(const Saving&) = delete;
 
     /// Everything about a render that --resume and clrt-merge need.
     FilmFile film_file(const Render& render, const Options& options, const DeviceInfo& device) const;
+
+private:
+    const Scene& scene_;
+    const PathPlan& paths_;
 };
 
 } // namespace clrt

@@ -127,6 +127,107 @@ TEST_F(ErrorReport, TheReportHasErrorPriceWorstTileAndTails) {
         EXPECT_NE(picture.spec.find_attribute(name), nullptr) << name;
 }
 
+/// A closed box of walls that reflect 0.98, and so are as bright as 1 if no path is cut.
+TEST_F(ErrorReport, WhatMaxDepthCutsIsABiasBesideTheError) {
+    folder.write("box.mtl", "newmtl wall\nKd .98 .98 .98\nKe .02 .02 .02\n");
+    folder.write("box.obj",
+                 "mtllib box.mtl\nusemtl wall\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 "
+                 "1\nv 1 1 1\nv -1 1 1\nf 1 2 3 4\nf 8 7 6 5\nf 1 4 8 5\nf 2 6 7 3\nf 1 5 6 2\nf 4 3 7 8\n");
+    const auto box = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(),
+                         {"box.obj", "-r", "16x16", "--stats", "s.json", "--eye", "0,0,0", "--at", "0,0,-1"});
+        const CommandResult result = clrt(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result;
+    };
+    CommandResult result = box({"--spp", "16"});
+    EXPECT_EQ(stats()["cut"]["paths"], 0);
+    EXPECT_EQ(stats()["cut"]["light_bound"], 0.0);
+    EXPECT_EQ(stats()["error"]["complete"], true);
+    EXPECT_EQ(result.out.find("--max-depth"), std::string::npos) << result.out;
+
+    result = box({"--spp", "16", "--max-depth", "64", "--checkpoint", "whole.film", "-o", "a.exr"});
+    const nlohmann::json whole = stats();
+    EXPECT_GT(whole["cut"]["paths"], 0);
+    EXPECT_NEAR(whole["cut"]["light_bound"], std::pow(0.98, 64), 0.05);
+    EXPECT_EQ(whole["error"]["complete"], false);
+    EXPECT_TRUE(holds(result.out, {"cut      " + std::to_string(whole["cut"]["paths"].get<int>()),
+                                   " paths ended by --max-depth: beside the error, the picture lacks up to ",
+                                   "the error covers what was sampled, not what was cut"}));
+    EXPECT_EQ(ReadPicture(folder.file("a.exr")).spec.get_string_attribute("clrt.cut.paths"),
+              std::to_string(whole["cut"]["paths"].get<int>()));
+
+    // A render that is gone on with, and one in parts, know the same.
+    box({"--spp", "8", "--max-depth", "64", "--checkpoint", "half.film"});
+    EXPECT_LT(stats()["cut"]["paths"], whole["cut"]["paths"]);
+    box({"--spp", "16", "--max-depth", "64", "--resume", "half.film"});
+    EXPECT_EQ(stats()["cut"], whole["cut"]);
+    box({"--spp", "8", "--max-depth", "64", "--first-sample", "8", "--checkpoint", "rest.film"});
+    const CommandResult merged = run_command({CLRT_MERGE_EXECUTABLE, folder.file("half.film"),
+                                              folder.file("rest.film"), "-o", folder.file("m.exr")});
+    EXPECT_EQ(merged.exit_code, 0) << merged.err;
+    const size_t line = result.out.find("cut      ");
+    EXPECT_TRUE(holds(merged.out, {result.out.substr(line, result.out.find('\n', line) - line)}));
+
+    // Where walls reflect all light, there is no bound.
+    folder.write("box.mtl", "newmtl wall\nKd 1 1 1\nKe .02 .02 .02\n");
+    result = box({"--spp", "16", "--max-depth", "64"});
+    EXPECT_EQ(stats()["cut"]["paths"], 16 * 16 * 16);
+    EXPECT_EQ(stats()["cut"]["light_bound"], nullptr);
+    EXPECT_TRUE(holds(result.out, {"lacks light without a known bound"}));
+
+    // One path of them, step by step.
+    result = box({"--max-depth", "3", "--pixel", "5,5", "--sample", "1"});
+    EXPECT_TRUE(holds(result.out, {"max depth           cuts the path"}));
+}
+
+TEST_F(ErrorReport, AnAdaptiveRenderCountsWhatItCuts) {
+    write_lamp();
+    EXPECT_EQ(render({"--adaptive", "--spp", "64", "--max-depth", "1"}).exit_code, 0);
+    EXPECT_GT(stats()["cut"]["paths"], 0);
+    EXPECT_GT(stats()["cut"]["light_bound"], 0.0);
+}
+
+TEST_F(ErrorReport, WhatNoPathCanShowIsNamed) {
+    folder.write("pane.mtl", "newmtl white\nKd 0.7 0.7 0.7\n# behind it\nnewmtl glass\nillum 7\nNi 1.5\n");
+    folder.write("pane.obj", "mtllib pane.mtl\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\n"
+                             "v -3 1 3\nv 3 1 3\nv 3 1 -3\nv -3 1 -3\nusemtl white\nf 1 2 3 4\n");
+    const auto pane = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {"pane.obj", "-r", "16x16", "--stats", "s.json", "--eye", "0,.5,2",
+                                           "--at", "0,0,0", "--point", "0,3,0,9,9,9", "--spp", "16"});
+        const CommandResult result = clrt(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result;
+    };
+    CommandResult result = pane({});
+    EXPECT_EQ(stats()["blind_spots"], nlohmann::json::array());
+    EXPECT_EQ(result.out.find("not seen"), std::string::npos);
+
+    folder.write("pane.obj", folder.read("pane.obj") + "usemtl glass\nf 5 6 7 8\n");
+    result = pane({"--checkpoint", "a.film", "-o", "a.exr"});
+    const nlohmann::json spots = stats()["blind_spots"];
+    ASSERT_EQ(spots.size(), 1u);
+    EXPECT_EQ(spots[0]["paths"], "LpS+D(D|S)*E");
+    EXPECT_EQ(spots[0]["where"], "pane.mtl:4");
+    EXPECT_EQ(spots[0]["cause"], "point light (1 by --point), next to it material \"glass\" (pane.mtl:4)");
+    EXPECT_TRUE(holds(result.err, {"warning", "path does not see LpS+D(D|S)*E (point light (1 by --point)"}));
+    EXPECT_TRUE(
+        holds(result.out, {"not seen LpS+D(D|S)*E: point light (1 by --point), next to it material"}));
+    EXPECT_EQ(result.out.find("can be believed"), std::string::npos) << result.out;
+    EXPECT_EQ(ReadPicture(folder.file("a.exr")).spec.get_string_attribute("clrt.blind_spots"),
+              "LpS+D(D|S)*E");
+    const CommandResult merged =
+        run_command({CLRT_MERGE_EXECUTABLE, folder.file("a.film"), "-o", folder.file("m.exr")});
+    EXPECT_TRUE(holds(merged.out, {"not seen LpS+D(D|S)*E"}));
+
+    for (const char* integrator : {"whitted", "raycast"}) {
+        pane({"-i", integrator});
+        EXPECT_EQ(stats()["blind_spots"], nlohmann::json::array()) << integrator;
+    }
+    pane({"--paths", "LDE"});
+    EXPECT_EQ(stats()["blind_spots"], nlohmann::json::array());
+}
+
 TEST_F(ErrorReport, WhatIsNotKnownIsNull) {
     write_lamp();
     EXPECT_EQ(render({"--spp", "64"}).exit_code, 0);

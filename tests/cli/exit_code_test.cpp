@@ -181,6 +181,24 @@ TEST_F(ExitCode, ATerminationSavesThePictureAndExits143) {
     EXPECT_TRUE(exists("long.exr"));
 }
 
+TEST_F(ExitCode, AnInterruptDoesNotWaitForAPassOfMinutes) {
+    // White walls all around: every path has 4096 segments.
+    folder.write("box.mtl", "newmtl white\nKd 1 1 1\nKe .01 .01 .01\n");
+    folder.write("box.obj",
+                 "mtllib box.mtl\nusemtl white\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 "
+                 "1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 2 3 4\nf 8 7 6 5\nf 1 4 8 5\nf 2 6 7 3\n"
+                 "f 1 5 6 2\nf 4 3 7 8\n");
+    CommandSettings settings;
+    settings.signals = {{8, SIGINT}};
+    const CommandResult result = clrt({"box.obj", "--eye", "0,0,0", "--at", "0,0,-1", "-r", "1600x1200",
+                                       "--max-depth", "4096", "-o", "long.png"},
+                                      settings);
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_LT(result.seconds, 30) << "a pass takes minutes";
+    EXPECT_TRUE(holds(result.err, {"before the first pass was complete: there is no picture"}));
+    EXPECT_FALSE(exists("long.png"));
+}
+
 TEST_F(ExitCode, ASecondSignalStopsAtOnceWithoutAPicture) {
     write_square("scene");
     CommandSettings settings;

@@ -182,7 +182,7 @@ TEST_F(FilmCommand, AnAdaptiveRunGoesOnButDoesNotMerge) {
 TEST_F(FilmCommand, ResumingSaysWhatDoesNotFit) {
     render_part("a", 0, 2, {"-o", "a.png"});
     for (const auto& [option, part] : {std::pair{"--seed=3", "seed: expected 0, found 3"},
-                                       {"--max-depth=5", "max_depth: expected 64, found 5"},
+                                       {"--max-depth=5", "max_depth: expected 4096, found 5"},
                                        {"--first-sample=2", "first_sample: expected 0, found 2"},
                                        {"-iraycast", "integrator: expected \"path\", found \"raycast\""}}) {
         const CommandResult result = clrt({"--resume", "a.film", option, "-s", "4", "-o", "b.png"});

@@ -15,7 +15,7 @@ namespace {
 /// A film file with this header, whatever it says, and sums of 1 for a film of `sums` values.
 std::string film_bytes(std::string_view header, size_t sums) {
     std::string bytes = "CLRTFILM";
-    for (const size_t number : {size_t(1), header.size()})
+    for (const size_t number : {size_t(2), header.size()})
         for (int i = 0; i < 4; ++i)
             bytes += char(number >> (8 * i) & 0xff);
     bytes += header;

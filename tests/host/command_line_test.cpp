@@ -102,7 +102,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     EXPECT_FALSE(o.spp);
     EXPECT_FALSE(o.time_seconds);
     EXPECT_FALSE(o.error);
-    EXPECT_EQ(effective_max_depth(o), 64);
+    EXPECT_EQ(effective_max_depth(o), 4096);
     EXPECT_EQ(o.roulette_depth, 5);
     EXPECT_EQ(o.min_contribution, 0.002);
     EXPECT_EQ(o.replicates, 8);

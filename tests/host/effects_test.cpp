@@ -191,7 +191,7 @@ TEST(Effects, MapsAreNamedWithTheLineOfTheirStatement) {
 
 TEST(Effects, InterreflectionTakesAThirdSegment) {
     OneQuad scene;
-    expect_present_at_run_time(scene, EFFECT_INTERREFLECTION, "64 segments, material \"thing\"");
+    expect_present_at_run_time(scene, EFFECT_INTERREFLECTION, "4096 segments, material \"thing\"");
     scene.options.max_depth = 2;
     EXPECT_FALSE(find(scene.effects(), EFFECT_INTERREFLECTION).present);
     scene.options.max_depth.reset();

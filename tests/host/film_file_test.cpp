@@ -34,6 +34,10 @@ FilmFile make_film() {
     counts.primary = 1ull << 40;
     counts.shadow = 3;
     counts.nan = 2;
+    counts.cut_paths = 5;
+    counts.cut_weight = 1ull << 41;
+    file.bias.cut_radiance = 1.0 / 3;
+    file.bias.blind_spots = {{"LpS+DE", "a light", "a.mtl:3"}};
     counts.bad_samples = {{7, 9}, {8, 10}};
     file.render.history = {{8, 0.1, 1.0 / 3, {1, 2, 3, 0.1}}};
     file.render.seconds = 1.1;
@@ -98,6 +102,11 @@ TEST_F(FilmFileTest, EverythingComesBack) {
     EXPECT_EQ(read.render.counts.primary, written.render.counts.primary);
     EXPECT_EQ(read.render.counts.shadow, 3u);
     EXPECT_EQ(read.render.counts.nan, 2u);
+    EXPECT_EQ(read.render.counts.cut_paths, 5u);
+    EXPECT_EQ(read.render.counts.cut_weight, 1ull << 41);
+    EXPECT_EQ(read.bias.cut_radiance, 1.0 / 3);
+    ASSERT_EQ(read.bias.blind_spots.size(), 1u);
+    EXPECT_EQ(read.bias.blind_spots[0].where, "a.mtl:3");
     EXPECT_EQ(read.render.counts.bad_samples, written.render.counts.bad_samples);
     ASSERT_EQ(read.render.history.size(), 1u);
     EXPECT_EQ(read.render.history[0].samples, 8u);
@@ -110,7 +119,7 @@ TEST_F(FilmFileTest, EverythingComesBack) {
 TEST_F(FilmFileTest, TheLayoutIsTheDocumentedOne) {
     const std::string file = bytes();
     EXPECT_EQ(file.substr(0, 8), "CLRTFILM");
-    EXPECT_EQ(file.substr(8, 4), std::string("\1\0\0\0", 4));
+    EXPECT_EQ(file.substr(8, 4), std::string("\2\0\0\0", 4));
     const auto byte = [&](size_t i) { return size_t(static_cast<unsigned char>(file[i])); };
     const size_t header = byte(12) + 256 * byte(13);
     EXPECT_EQ(file[16], '{');
@@ -144,8 +153,8 @@ TEST_F(FilmFileTest, OtherFilesAreRefusedByWhatTheyAre) {
     expect_refused("\x76\x2f\x31\x01 is how a picture starts",
                    "expected a film file as --checkpoint writes it");
     std::string newer = bytes();
-    newer[8] = 2;
-    expect_refused(newer, "expected format version 1, found 2");
+    newer[8] = 3;
+    expect_refused(newer, "expected format version 2, found 3");
     EXPECT_THROW(read_film_file(folder.file("none.film")), SceneError);
     EXPECT_THROW(read_film_file(folder.file("")), SceneError) << "a folder";
 }

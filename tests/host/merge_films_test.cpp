@@ -61,6 +61,19 @@ TEST(MergeFilms, AnyOrderGivesTheSameFilm) {
     } while (std::next_permutation(order.begin(), order.end()));
 }
 
+TEST(MergeFilms, WhatWasCutAddsUp) {
+    FilmFile sum = part(0, 4), other = part(4, 4);
+    other.render.counts.cut_paths = 3;
+    other.render.counts.cut_weight = 7;
+    other.bias = {0.5, {{"LpS+DE", "a light", ""}}};
+    sum.bias.blind_spots = other.bias.blind_spots;
+    merge_film(sum, "a", other, "b");
+    EXPECT_EQ(sum.render.counts.cut_paths, 3u);
+    EXPECT_EQ(sum.render.counts.cut_weight, 7u);
+    EXPECT_EQ(sum.bias.cut_radiance, 0.5) << "the film without cuts does not know it";
+    EXPECT_EQ(sum.bias.blind_spots.size(), 1u);
+}
+
 TEST(MergeFilms, GapsStayGaps) {
     FilmFile sum = part(20, 4);
     merge_film(sum, "a", part(0, 8), "b");

@@ -284,13 +284,14 @@ TEST(Sampler, DifferentAddressesHaveDifferentWords) {
     // Each part of the address varies in turn, the others are fixed; then bounce, purpose and sample
     // together.
     constexpr u32 COUNT = 1u << 18;
-    std::array<Addresses, 5> sets;
+    std::array<Addresses, 6> sets;
     for (u32 i = 0; i < COUNT; ++i) {
         sets[0].add(1, i, 0, 0, 0, 0);
         sets[1].add(i, 5, 0, 0, 0, 0);
         sets[2].add(1, 5, 0, i, 0, 0);
         sets[3].add(1, 5, i % 8, i / 8, 3, 2);
         sets[4].add(1, 5, 0, i / 1024, i / PURPOSES % 64, i % PURPOSES);
+        sets[5].add(1, 5, 0, i / (PURPOSES * 4096), i / PURPOSES % 4096, i % PURPOSES);
     }
     for (const Addresses& set : sets) {
         // Pairs of 64 random bits would repeat with probability 2e-9.
@@ -305,13 +306,24 @@ TEST(Sampler, DifferentAddressesHaveDifferentWords) {
     }
 }
 
+TEST(Sampler, NoTwoNumbersOfALongPathAreTheSame) {
+    // All purposes of the 4096 segments that the longest path has by default: one word each, no word twice.
+    Addresses path;
+    for (u32 i = 0; i < 4097 * PURPOSES; ++i)
+        path.add(7, 1234, 3, 9, i / PURPOSES, i % PURPOSES);
+    std::vector<u32> words = path.run<u32>("word");
+    std::sort(words.begin(), words.end());
+    EXPECT_EQ(std::adjacent_find(words.begin(), words.end()), words.end());
+}
+
 TEST(Sampler, NumbersOfTwoAddressesAreIndependent) {
     constexpr u32 SAMPLES = 1024, PIXELS = 64;
     struct Address {
         u32 bounce, purpose;
     };
     const std::vector<std::array<Address, 2>> couples = {
-        {{{0, 1}, {0, 3}}}, {{{0, 1}, {1, 1}}}, {{{1, 2}, {2, 1}}}, {{{0, 0}, {0, 1}}}, {{{3, 3}, {63, 15}}}};
+        {{{0, 1}, {0, 3}}},   {{{0, 1}, {1, 1}}},     {{{1, 2}, {2, 1}}},      {{{0, 0}, {0, 1}}},
+        {{{3, 3}, {63, 15}}}, {{{64, 1}, {4095, 1}}}, {{{4094, 6}, {4095, 2}}}};
     for (const auto& couple : couples) {
         std::array<Addresses, 2> sets;
         for (size_t side = 0; side < 2; ++side)

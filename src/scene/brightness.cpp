@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/brightness.h"
+
+#include "kernels/shared/path_types.h"
+
+#include <algorithm>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace clrt {
+
+namespace {
+
+double largest_of(const vec4& v) {
+    return std::max({double(v.x), double(v.y), double(v.z)});
+}
+
+glm::dvec3 to_dvec3(const vec4& v) {
+    return {v.x, v.y, v.z};
+}
+
+float as_float(u32 word) {
+    float value = 0;
+    std::memcpy(&value, &word, sizeof value);
+    return value;
+}
+
+/// Smallest and largest r, g or b of a texture's image, linear, without base and gain.
+std::pair<double, double> texel_range(const Scene& scene, const Texture& texture) {
+    const u32* words = &scene.texel_words[texture.first_word];
+    const size_t texels = size_t(texture.width) * texture.height;
+    if (texture.format == TEXEL_FLOAT) {
+        double low = std::numeric_limits<double>::max(), high = 0;
+        for (size_t i = 0; i < 4 * texels; ++i)
+            if (i % 4 != 3) {
+                low = std::min(low, double(as_float(words[i])));
+                high = std::max(high, double(as_float(words[i])));
+            }
+        return {low, high};
+    }
+    u32 low = 255, high = 0;
+    for (size_t i = 0; i < texels; ++i)
+        for (const u32 byte : {words[i] & 255u, words[i] >> 8 & 255u, words[i] >> 16 & 255u}) {
+            low = std::min(low, byte);
+            high = std::max(high, byte);
+        }
+    if (texture.format == TEXEL_LINEAR8)
+        return {low / 255.0, high / 255.0};
+    return {as_float(scene.texel_words[low]), as_float(scene.texel_words[high])}; // the sRGB curve
+}
+
+/// The largest value of a map, which multiplies a colour; 1 without a map.
+double largest_factor(const Scene& scene, u32 map) {
+    if (map == NO_INDEX)
+        return 1;
+    const Texture& texture = scene.textures[map];
+    const auto [low, high] = texel_range(scene, texture);
+    return std::max(0.0, texture.base + std::max(texture.gain * low, texture.gain * high));
+}
+
+double albedo(const Scene& scene, const Material& m) {
+    const bool reflects = (m.lobes & (LOBE_GLOSSY | LOBE_MIRROR)) != 0;
+    if ((m.lobes & LOBE_DIELECTRIC) || (reflects && m.fresnel != FRESNEL_NONE))
+        return 1;
+    glm::dvec3 sum(0);
+    if (m.lobes & LOBE_MATTE)
+        sum += to_dvec3(m.matte) * largest_factor(scene, m.map_matte);
+    if (reflects)
+        sum += to_dvec3(m.specular) * largest_factor(scene, m.map_specular);
+    return std::max({sum.x, sum.y, sum.z});
+}
+
+double largest_emission(const Scene& scene) {
+    std::vector<bool> seen(scene.materials.size(), false);
+    double largest = 0;
+    for (const Emitter& emitter : scene.emitters) {
+        const u32 index = scene.triangles[emitter.triangle].material;
+        if (seen[index])
+            continue;
+        seen[index] = true;
+        const Material& m = scene.materials[index];
+        largest = std::max(largest, largest_of(m.emission) * largest_factor(scene, m.map_emission));
+    }
+    return largest;
+}
+
+double largest_sky(const Environment& sky) {
+    double texel = sky.texels.empty() ? 1 : 0;
+    for (const EnvironmentTexel& t : sky.texels)
+        texel = std::max(texel, largest_of(t.radiance));
+    return texel * std::max({sky.radiance.x, sky.radiance.y, sky.radiance.z});
+}
+
+/// Squared distance of a point to a triangle (Ericson 2004, Real-Time Collision Detection, section 5.1.5).
+double squared_distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double squared = glm::dot(normal, normal);
+    const auto outside = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        return glm::dot(glm::cross(to - from, p - from), normal) < 0;
+    };
+    if (squared > 0 && !outside(a, b) && !outside(b, c) && !outside(c, a)) {
+        const double height = glm::dot(p - a, normal);
+        return height * height / squared;
+    }
+    const auto to_edge = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        const glm::dvec3 way = to - from;
+        const double length = glm::dot(way, way);
+        const double along = length > 0 ? glm::clamp(glm::dot(p - from, way) / length, 0.0, 1.0) : 0;
+        const glm::dvec3 apart = p - (from + along * way);
+        return glm::dot(apart, apart);
+    };
+    return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
+}
+
+double squared_distance_to_scene(const Scene& scene, const glm::dvec3& p) {
+    double nearest = std::numeric_limits<double>::max();
+    for (const Triangle& t : scene.triangles)
+        nearest = std::min(nearest, squared_distance(p, to_dvec3(scene.positions[t.v0]),
+                                                     to_dvec3(scene.positions[t.v1]),
+                                                     to_dvec3(scene.positions[t.v2])));
+    return nearest;
+}
+
+} // namespace
+
+double largest_albedo(const Scene& scene) {
+    std::vector<bool> seen(scene.materials.size(), false);
+    double largest = 0;
+    for (const Triangle& triangle : scene.triangles)
+        if (!seen[triangle.material]) {
+            seen[triangle.material] = true;
+            largest = std::max(largest, albedo(scene, scene.materials[triangle.material]));
+        }
+    return largest;
+}
+
+double largest_radiance(const Scene& scene, unsigned kinds) {
+    double outside = kinds & KIND_SKY ? largest_sky(scene.environment) : 0;
+    for (const Light& light : scene.lights)
+        if (light.kind == LIGHT_SUN && light.one_minus_cos > 0 && (kinds & KIND_SUN))
+            outside += largest_of(light.emission);
+    return std::max(outside, kinds & KIND_AREA ? largest_emission(scene) : 0.0);
+}
+
+std::optional<double> largest_delta_irradiance(const Scene& scene, unsigned kinds) {
+    double sum = 0;
+    for (const Light& light : scene.lights) {
+        if (light.kind == LIGHT_SUN && light.one_minus_cos == 0 && (kinds & KIND_SUN))
+            sum += largest_of(light.emission);
+        if (light.kind != LIGHT_POINT || !(kinds & KIND_POINT))
+            continue;
+        const double squared = squared_distance_to_scene(scene, to_dvec3(light.vector));
+        if (!(squared > 0))
+            return std::nullopt;
+        sum += largest_of(light.emission) / squared;
+    }
+    return sum;
+}
+
+} // namespace clrt
