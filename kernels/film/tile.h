@@ -29,6 +29,12 @@ static inline SampleRange tile_samples(const RenderParams* params, global const 
     return range;
 }
 
+/* Where a slot begins in an array of `words` a slot: three words of 1.4 billion pixels are beyond 32 bits. */
+static inline ulong tile_index(uint slot, uint words)
+{
+    return (ulong)words * slot;
+}
+
 /* The pixel of this work-item; false for padding. */
 static inline bool tile_pixel(const RenderParams* params, TilePixel* pixel)
 {

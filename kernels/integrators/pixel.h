@@ -72,14 +72,14 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
     for (uint k = 0; k < count; ++k, sample_counter_next(params, counter)) {
         uint fault = film_fault(params, samples[k].radiance);
         if (fault == COUNT_WORDS) {
-            film_add(params, film_sums(params, film, place.slot, counter->replicate), &samples[k].sampler,
-                     samples[k].radiance);
-            if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u)
+            const bool fits = film_add(params, film_sums(params, film, place.slot, counter->replicate),
+                                       &samples[k].sampler, samples[k].radiance);
+            if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u || !fits)
                 fault = COUNT_OVERFLOW;
         }
         if (fault != COUNT_WORDS) {
             film_report_fault(counters, fault, pixel, counter->sample);
-            ++pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_BAD_SAMPLES];
+            ++pixel_rays[tile_index(place.slot, PIXEL_RAYS_WORDS) + PIXEL_BAD_SAMPLES];
         }
     }
 }
@@ -107,8 +107,9 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             RADIANCE(scene, params, samples, count, &rays);                                                   \
             pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
         }                                                                                                     \
-        pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SECONDARY] += rays.secondary;                   \
-        pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_RAYS_SHADOW] += rays.shadow;                         \
+        global uint* counts = pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS);                          \
+        counts[PIXEL_RAYS_SECONDARY] += rays.secondary;                                                       \
+        counts[PIXEL_RAYS_SHADOW] += rays.shadow;                                                             \
     }                                                                                                         \
                                                                                                               \
     CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
