@@ -27,30 +27,6 @@ typedef struct {
     real3 radiance;
 } CameraSample;
 
-/* Counts through samples: sample s is number s / replicates of replicate s mod replicates. */
-typedef struct {
-    uint sample, replicate, index;
-} SampleCounter;
-
-/* Starts with sample number `first` among those that the launch deals out. */
-static inline SampleCounter sample_counter_make(const RenderParams* params, uint first)
-{
-    SampleCounter counter;
-    counter.replicate = params->first_replicate + first % params->dealt_replicates;
-    counter.index = first / params->dealt_replicates;
-    counter.sample = counter.index * params->replicates + counter.replicate;
-    return counter;
-}
-
-static inline void sample_counter_next(const RenderParams* params, SampleCounter* counter)
-{
-    if (++counter->replicate == params->first_replicate + params->dealt_replicates) {
-        counter->replicate = params->first_replicate;
-        ++counter->index;
-    }
-    counter->sample = counter->index * params->replicates + counter->replicate;
-}
-
 /* Aims `count` samples of the pixel (x, y) from the counter on. */
 static CLRT_NOINLINE void pixel_aim(const RenderParams* params, uint x, uint y, SampleCounter counter, CameraSample* samples,
                                     uint count)

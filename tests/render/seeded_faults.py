@@ -22,7 +22,7 @@ KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 
 # Name, file, text, text with the fault, test program.
 FAULTS = [
-    ("both halves of an adaptive render are one", "integrators/pixel.h",
+    ("both halves of an adaptive render are one", "film/tile.h",
      "counter.replicate = params->first_replicate + first % params->dealt_replicates;",
      "counter.replicate = first % params->dealt_replicates;", "adaptive_render_test"),
     ("an adaptive tile starts over", "film/tile.h", "range.first = ranges[TILE_RANGE_FIRST];", "range.first = 0u;",

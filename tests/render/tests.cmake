@@ -8,6 +8,7 @@ target_compile_definitions(effect_masks_test PRIVATE CLRT_SCENES_FOLDER="${PROJE
 clrt_test(render film_range_test)
 clrt_test(render furnace_test)
 clrt_test(render glass_test)
+clrt_test(render hit_layers_test)
 clrt_test(render interreflection_test)
 clrt_test(render launch_bits_test)
 clrt_test(render paths_test)
