@@ -53,6 +53,7 @@ set(CLRT_KERNEL_FILES
   scattering/fresnel.h
   scattering/material.h
   scattering/microfacet.h
+  shared/aov_types.h
   shared/bvh_types.h
   shared/effects.h
   shared/fact_types.h

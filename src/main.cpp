@@ -59,6 +59,10 @@ int finish(const Report& report) {
         spdlog::warn("stopped by a signal after {} spp; the picture is saved", film_samples(render.film));
         return 128 + render.stop_signal;
     }
+    if (!render.hits_error.empty()) {
+        spdlog::error("the picture was written without the layers of hits: {}", render.hits_error);
+        return EXIT_DEVICE;
+    }
     spdlog::info("ended after {} spp: {}", film_samples(render.film), render.stop_text);
     const bool missed = report.options.error && film_samples(render.film) > 0 && !error_reached(report);
     if (missed)

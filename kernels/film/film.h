@@ -77,14 +77,16 @@ static inline global long* film_sums(const RenderParams* params, global long* fi
     return film + 3u * (kept * slots + slot);
 }
 
-/* Adds the radiance of a good sample. */
-static inline void film_add(const RenderParams* params, global long* sums, const Sampler* sampler, real3 radiance)
+/* Adds the radiance of a good sample. Sums stay at their largest value instead of wrapping: for contributions that are not
+   negative this is as free of order as adding. False where a sum is full. */
+static inline bool film_add(const RenderParams* params, global long* sums, const Sampler* sampler, real3 radiance)
 {
     const real3 quanta = radiance * (real)params->inverse_quantum;
     const uint word = sampler_word(sampler, 0u, SAMPLE_ROUNDING);
-    sums[0] += film_round(quanta.x, word);
-    sums[1] += film_round(quanta.y, word * 0x9e3779b9u);
-    sums[2] += film_round(quanta.z, word * 0x85ebca6bu);
+    sums[0] = add_sat(sums[0], film_round(quanta.x, word));
+    sums[1] = add_sat(sums[1], film_round(quanta.y, word * 0x9e3779b9u));
+    sums[2] = add_sat(sums[2], film_round(quanta.z, word * 0x85ebca6bu));
+    return max(sums[0], max(sums[1], sums[2])) != LONG_MAX;
 }
 
 #endif

@@ -29,6 +29,43 @@ static inline SampleRange tile_samples(const RenderParams* params, global const 
     return range;
 }
 
+/* This work-item's place among those of its launch: tile by tile, rows within a tile. */
+static inline uint tile_launch_slot(void)
+{
+    const uint group = (uint)(get_group_id(1) * get_num_groups(0) + get_group_id(0));
+    return group * TILE_PIXELS + (uint)(get_local_id(1) * TILE_SIZE + get_local_id(0));
+}
+
+/* Where a slot begins in an array of `words` a slot: three words of 1.4 billion pixels are beyond 32 bits. */
+static inline ulong tile_index(uint slot, uint words)
+{
+    return (ulong)words * slot;
+}
+
+/* Counts through samples: sample s is number s / replicates of replicate s mod replicates. */
+typedef struct {
+    uint sample, replicate, index;
+} SampleCounter;
+
+/* Starts with sample number `first` among those that the launch deals out. */
+static inline SampleCounter sample_counter_make(const RenderParams* params, uint first)
+{
+    SampleCounter counter;
+    counter.replicate = params->first_replicate + first % params->dealt_replicates;
+    counter.index = first / params->dealt_replicates;
+    counter.sample = counter.index * params->replicates + counter.replicate;
+    return counter;
+}
+
+static inline void sample_counter_next(const RenderParams* params, SampleCounter* counter)
+{
+    if (++counter->replicate == params->first_replicate + params->dealt_replicates) {
+        counter->replicate = params->first_replicate;
+        ++counter->index;
+    }
+    counter->sample = counter->index * params->replicates + counter->replicate;
+}
+
 /* The pixel of this work-item; false for padding. */
 static inline bool tile_pixel(const RenderParams* params, TilePixel* pixel)
 {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entry point for the auxiliary layers: what the primary hits are. The same camera rays as the picture's samples.
+// Entry point for the layers of the primary hits: what the picture's samples see first, by the same camera rays.
 #include "camera/camera.h"
 #include "film/tile.h"
 #include "geometry/visibility.h"
+#include "shared/aov_types.h"
 
-/* Floats a pixel: albedo rgb, normal xyz, position xyz, distance along look: sums over samples that hit; number of hits;
-   object and material of the first hit (NO_INDEX as -1). */
-#define AOV_FLOATS 13
+/* Sums over a pixel's samples of this launch. */
+typedef struct {
+    long values[AOV_SUMS];
+    uint words[AOV_WORDS];
+} AovSums;
 
 /* Reflectance of the surface seen along wo: matte colour plus reflection head-on; 1 for dielectrics. */
 static inline real3 aov_albedo(const Bsdf* bsdf)
@@ -19,19 +22,25 @@ static inline real3 aov_albedo(const Bsdf* bsdf)
     return albedo;
 }
 
-static inline void aov_add(global float* out, real3 v)
+/* In fixed point, rounded to nearest; 0 for what is no number. */
+static inline long aov_fixed(real x)
 {
-    out[0] += (float)v.x;
-    out[1] += (float)v.y;
-    out[2] += (float)v.z;
+    const real largest = (real)AOV_LARGEST;
+    return real_is_finite(x) ? convert_long_rte(clamp(x, -largest, largest) * (real)(1ul << AOV_BITS)) : 0;
 }
 
-/* Adds one sample's layers. */
-static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* params, uint x, uint y, uint sample,
-                                     global float* out)
+static inline void aov_add(long* sums, real3 v)
 {
-    const Sampler sampler = sampler_make(params->seed, y * params->width + x, sample % params->replicates,
-                                         sample / params->replicates);
+    sums[0] += aov_fixed(v.x);
+    sums[1] += aov_fixed(v.y);
+    sums[2] += aov_fixed(v.z);
+}
+
+/* Adds what one sample hits first. */
+static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* params, uint x, uint y,
+                                     SampleCounter counter, AovSums* sums)
+{
+    const Sampler sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
     const Ray ray = camera_ray(params, &sampler, x, y);
     const Hit hit = visible_hit(scene, params, &sampler, 1u, &ray);
     if (hit.triangle == NO_INDEX)
@@ -39,28 +48,36 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
     const real3 wo = -ray.direction;
     const Surface surface = surface_at(scene, &hit, wo);
     const Bsdf bsdf = material_bsdf(scene, &surface, wo);
-    aov_add(out, aov_albedo(&bsdf));
-    aov_add(out + 3, bsdf.frame.z);
-    aov_add(out + 6, surface.position);
-    out[9] += (float)(hit.t * vector_dot(ray.direction, vector_from(params->look)));
-    if (out[10] == 0.0f) {
-        out[11] = (float)scene->triangles[hit.triangle].object;
-        out[12] = (float)surface.material;
+    aov_add(sums->values + AOV_ALBEDO, aov_albedo(&bsdf));
+    aov_add(sums->values + AOV_NORMAL, bsdf.frame.z);
+    aov_add(sums->values + AOV_POSITION, surface.position);
+    if (sums->words[AOV_HITS]++ == 0u) {
+        sums->words[AOV_OBJECT] = scene->triangles[hit.triangle].object;
+        sums->words[AOV_MATERIAL] = surface.material;
     }
-    out[10] += 1.0f;
 }
 
-CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void render_aov(const RenderParams params,
-                                                                                      SCENE_PARAMS,
-                                                                                      global float* restrict layers)
+/* Writes the sums of the launch's samples, tile by tile in the order of the launch. */
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void render_aov(
+    const RenderParams params, SCENE_PARAMS, global const uint* restrict pixel_rays, global long* restrict hit_sums,
+    global uint* restrict hit_words)
 {
     TilePixel place;
     if (!tile_pixel(&params, &place))
         return;
     const Scene scene = SCENE_MAKE;
-    global float* out = layers + AOV_FLOATS * (place.y * params.crop_width + place.x);
-    for (uint i = 0; i < AOV_FLOATS; ++i)
-        out[i] = 0.0f;
-    for (uint s = 0; s < params.sample_count; ++s)
-        aov_sample(&scene, &params, params.crop_x + place.x, params.crop_y + place.y, params.first_sample + s, out);
+    AovSums sums;
+    for (uint i = 0; i < AOV_SUMS; ++i)
+        sums.values[i] = 0;
+    for (uint i = 0; i < AOV_WORDS; ++i)
+        sums.words[i] = 0u;
+    const SampleRange range = tile_samples(&params, pixel_rays, place.slot);
+    SampleCounter counter = sample_counter_make(&params, range.first);
+    for (uint i = 0; i < range.count; ++i, sample_counter_next(&params, &counter))
+        aov_sample(&scene, &params, params.crop_x + place.x, params.crop_y + place.y, counter, &sums);
+    const uint slot = tile_launch_slot();
+    for (uint i = 0; i < AOV_SUMS; ++i)
+        hit_sums[tile_index(slot, AOV_SUMS) + i] = sums.values[i];
+    for (uint i = 0; i < AOV_WORDS; ++i)
+        hit_words[tile_index(slot, AOV_WORDS) + i] = sums.words[i];
 }

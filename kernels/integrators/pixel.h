@@ -27,30 +27,6 @@ typedef struct {
     real3 radiance;
 } CameraSample;
 
-/* Counts through samples: sample s is number s / replicates of replicate s mod replicates. */
-typedef struct {
-    uint sample, replicate, index;
-} SampleCounter;
-
-/* Starts with sample number `first` among those that the launch deals out. */
-static inline SampleCounter sample_counter_make(const RenderParams* params, uint first)
-{
-    SampleCounter counter;
-    counter.replicate = params->first_replicate + first % params->dealt_replicates;
-    counter.index = first / params->dealt_replicates;
-    counter.sample = counter.index * params->replicates + counter.replicate;
-    return counter;
-}
-
-static inline void sample_counter_next(const RenderParams* params, SampleCounter* counter)
-{
-    if (++counter->replicate == params->first_replicate + params->dealt_replicates) {
-        counter->replicate = params->first_replicate;
-        ++counter->index;
-    }
-    counter->sample = counter->index * params->replicates + counter->replicate;
-}
-
 /* Aims `count` samples of the pixel (x, y) from the counter on. */
 static CLRT_NOINLINE void pixel_aim(const RenderParams* params, uint x, uint y, SampleCounter counter, CameraSample* samples,
                                     uint count)
@@ -72,14 +48,14 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
     for (uint k = 0; k < count; ++k, sample_counter_next(params, counter)) {
         uint fault = film_fault(params, samples[k].radiance);
         if (fault == COUNT_WORDS) {
-            film_add(params, film_sums(params, film, place.slot, counter->replicate), &samples[k].sampler,
-                     samples[k].radiance);
-            if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u)
+            const bool fits = film_add(params, film_sums(params, film, place.slot, counter->replicate),
+                                       &samples[k].sampler, samples[k].radiance);
+            if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u || !fits)
                 fault = COUNT_OVERFLOW;
         }
         if (fault != COUNT_WORDS) {
             film_report_fault(counters, fault, pixel, counter->sample);
-            ++pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_BAD_SAMPLES];
+            ++pixel_rays[tile_index(place.slot, PIXEL_RAYS_WORDS) + PIXEL_BAD_SAMPLES];
         }
     }
 }
@@ -107,7 +83,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             RADIANCE(scene, params, samples, count, &rays);                                                   \
             pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
         }                                                                                                     \
-        film_add_counts(&rays, pixel_rays + PIXEL_RAYS_WORDS * place.slot);                                   \
+        film_add_counts(&rays, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));                         \
     }                                                                                                         \
                                                                                                               \
     CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \

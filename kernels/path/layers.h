@@ -67,9 +67,8 @@ static inline uint layers_film_add(const RenderParams* params, global long* film
     uint bad = 0u;
 #if PATH_LAYERS > 0
     for (uint i = 0; i < PATH_LAYERS; ++i)
-        if (film_fault(params, sums->radiance[i]) == COUNT_WORDS)
-            film_add(params, layers_film_sums(params, film, slot, i), sampler, sums->radiance[i]);
-        else
+        if (film_fault(params, sums->radiance[i]) != COUNT_WORDS ||
+            !film_add(params, layers_film_sums(params, film, slot, i), sampler, sums->radiance[i]))
             ++bad;
 #endif
     return bad;

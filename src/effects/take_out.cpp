@@ -2,6 +2,7 @@
 #include "effects/take_out.h"
 
 #include "effects/effect_table.h"
+#include "scene/emission.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,8 @@ void take_out_textures(Scene& scene) {
             *map = NO_INDEX;
         set_cut_out_flag(material);
     }
+    for (size_t i = 0; i < scene.emitted.size(); ++i)
+        scene.emitted[i] = constant_emission(scene.materials[i]);
 }
 
 void take_out_normal_maps(Scene& scene) {

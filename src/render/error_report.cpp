@@ -2,6 +2,7 @@
 #include "render/error_report.h"
 
 #include <fmt/format.h>
+#include <new>
 #include <nlohmann/json.hpp>
 
 namespace clrt {
@@ -77,7 +78,10 @@ ErrorReport make_error_report(const RenderProgress& render, const BiasSources& b
     if (history.empty() || history.back().samples < squared->samples)
         history.push_back(*squared);
     report.slope = error_slope(history);
-    report.spread = film_error_spread(render.film);
+    try {
+        report.spread = film_error_spread(render.film);
+    } catch (const std::bad_alloc&) { // where the error sits is not worth the picture
+    }
     if (report.error)
         report.price = price_of_half(*report.error, report.slope, render.seconds);
     return report;

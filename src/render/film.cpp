@@ -9,31 +9,56 @@ namespace clrt {
 namespace {
 
 constexpr double PI = 3.14159265358979323846;
-constexpr int QUANTUM_BITS = 20; ///< the quantum is 2^-20 levels
-constexpr int LARGEST_BITS = 24; ///< a contribution is at most 2^24 levels
-constexpr int BRIGHTEST_BITS =
-    20; ///< the brightest light is at most 2^20 levels: room for path weights above 1
+constexpr int QUANTUM_BITS = 20;   ///< the quantum is 2^-20 levels
+constexpr int SUSTAINED_BITS = 24; ///< every sample of a full film may have 2^24 levels
+/// A contribution is at most 2^40 levels: a point light lights matte surfaces by that at 1e-6 of the scene's
+/// size, and the weights of paths have room above the brightest light.
+constexpr int LARGEST_BITS = 40;
+constexpr int DISC_BITS = 36;         ///< the disc of a sun has at most 2^36 levels
+constexpr int SMALLEST_LEVEL = -100;  ///< 1 / quantum stays finite in a float
+constexpr double NOTHING = 0x1p-1000; ///< no light; has a logarithm
 
 double luminance(double r, double g, double b) {
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }
 
-/// Largest radiance component of anything that shines.
-double brightest_light(const Scene& scene) {
+double largest_component(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+glm::dvec3 to_dvec3(const vec4& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// Largest radiance component of what can fill pictures: surfaces, maps included, and the sky.
+double brightest_surface(const Scene& scene) {
     double brightest = 0;
-    for (const Emitter& emitter : scene.emitters) {
-        const vec4& e = scene.materials[scene.triangles[emitter.triangle].material].emission;
-        brightest = std::max({brightest, double(e.x), double(e.y), double(e.z)});
-    }
-    for (const Light& light : scene.lights)
-        if (light.kind == LIGHT_SUN)
-            brightest = std::max(
-                {brightest, double(light.emission.x), double(light.emission.y), double(light.emission.z)});
-    const glm::dvec3& sky = scene.environment.radiance;
+    for (const Emitter& emitter : scene.emitters)
+        brightest = std::max(
+            brightest, largest_component(scene.emitted[scene.triangles[emitter.triangle].material].largest));
     double texel = scene.environment.texels.empty() ? 1 : 0;
     for (const EnvironmentTexel& t : scene.environment.texels)
-        texel = std::max({texel, double(t.radiance.x), double(t.radiance.y), double(t.radiance.z)});
-    return std::max(brightest, texel * std::max({sky.x, sky.y, sky.z}));
+        texel = std::max(texel, largest_component(to_dvec3(t.radiance)));
+    return std::max(brightest, texel * largest_component(scene.environment.radiance));
+}
+
+/// Largest radiance component of the discs of suns.
+double brightest_disc(const Scene& scene) {
+    double brightest = 0;
+    for (const Light& light : scene.lights)
+        if (light.kind == LIGHT_SUN)
+            brightest = std::max(brightest, largest_component(to_dvec3(light.emission)));
+    return brightest;
+}
+
+/// The smallest exponent of a level of which a radiance is less than 2^bits.
+int level_below(double radiance, int bits) {
+    return std::ilogb(std::max(radiance, NOTHING)) + 1 - bits;
+}
+
+FilmScale scale_of_level(int exponent) {
+    return {std::ldexp(1.0, exponent - QUANTUM_BITS), std::ldexp(1.0, exponent + LARGEST_BITS),
+            std::ldexp(1.0, exponent + SUSTAINED_BITS)};
 }
 
 /// The sum of value `i` over replicates [begin, end), rounded once. Full replicates take 64 bits each, so the
@@ -70,9 +95,12 @@ FilmScale film_scale(const Scene& scene) {
     const double sky_mean =
         scene.environment.texels.empty() ? luminance(sky.x, sky.y, sky.z) : scene.environment.mean_radiance;
     const double mean = scene.emitted_power / (4 * PI * radius * radius * PI) + sky_mean;
-    const double level = std::max(mean, std::ldexp(brightest_light(scene), -BRIGHTEST_BITS));
-    const int exponent = level > 0 ? int(std::lround(std::log2(level))) : 0;
-    return {std::ldexp(1.0, exponent - QUANTUM_BITS), std::ldexp(1.0, exponent + LARGEST_BITS)};
+    const double disc = brightest_disc(scene), surface = brightest_surface(scene);
+    if (!(std::max({mean, disc, surface}) > 0))
+        return scale_of_level(0);
+    return scale_of_level(
+        std::max({int(std::lround(std::log2(std::max(mean, NOTHING)))), level_below(surface, SUSTAINED_BITS),
+                  level_below(disc, DISC_BITS), SMALLEST_LEVEL}));
 }
 
 Film film_layer(const Film& film) {
@@ -185,7 +213,8 @@ double ReplicateMeans::read_deviations(size_t i, double* deviations, double& squ
 void fold_replicates(Film& film, int replicates) {
     const size_t plane = film_plane(film), kept = size_t(replicates) * plane;
     for (size_t i = kept; i < film.sums.size(); ++i)
-        film.sums[i % kept] += film.sums[i];
+        if (__builtin_add_overflow(film.sums[i % kept], film.sums[i], &film.sums[i % kept]))
+            film.sums[i % kept] = INT64_MAX; // as on the device
     film.sums.resize(kept);
     film.replicates = replicates;
 }

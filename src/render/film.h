@@ -13,17 +13,22 @@ namespace clrt {
 
 /// Sums are multiples of `quantum`; a single contribution may reach `largest`.
 struct FilmScale {
-    double quantum = 1; ///< radiance; a power of two
-    double largest = 1; ///< radiance
+    double quantum = 1;   ///< radiance; a power of two
+    double largest = 1;   ///< radiance
+    double sustained = 1; ///< radiance that every sample of a full film may have
 };
 
-/// Chooses the scale from the scene alone (same for crop, effects, precision and device): 2^-20 of the power
-/// of two nearest the mean radiance level, which is the emitted power over the bounding sphere's area and pi
-/// plus the sky's mean, raised to 2^-20 of the brightest light so that a light in view stays below `largest`
-/// = 2^24 levels.
+/// Chooses the scale from the scene alone (same for crop, effects, precision and device). A quantum is 2^-20
+/// of the level, the power of two nearest the mean radiance: the emitted power over the bounding sphere's
+/// area and pi plus the sky's mean. A contribution may reach `largest` = 2^40 levels; all samples of a full
+/// film may reach `sustained` = 2^24 levels, and a sum that grows beyond 2^63 quanta all the same stays there
+/// and is reported. The level rises above the mean
+/// - where a surface or the sky shines brighter than 2^24 levels, so that pictures of it never fill a sum;
+/// - where the disc of a sun shines brighter than 2^36 levels: only pictures that magnify it fill pixels with
+///   it, and they hold 2^7 samples a replicate at least.
 FilmScale film_scale(const Scene& scene);
 
-/// Most samples that a pixel of one replicate can hold: 2^63 / 2^44 contributions.
+/// Samples that a pixel of one replicate can hold at 2^24 levels each: 2^63 / 2^44.
 constexpr std::uint64_t FILM_SAMPLES_PER_REPLICATE = std::uint64_t(1) << 19;
 
 /// Sample numbers first .. end - 1 of every pixel.

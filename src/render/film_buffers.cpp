@@ -16,11 +16,15 @@ size_t film_slots(const RenderParams& params) {
     return size_t(params.tile_count) * TILE_PIXELS;
 }
 
+/// Buffers are read and written in pieces of about this size: what a render needs at its end is there from
+/// its start.
+constexpr size_t PIECE_BYTES = size_t(4) << 20;
+
 template <class T>
-std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t count) {
+std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t first, size_t count) {
     std::vector<T> values(count);
     check_opencl("reading the picture back", [&] {
-        device.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
+        device.queue.enqueueReadBuffer(buffer, CL_TRUE, first * sizeof(T), count * sizeof(T), values.data());
     });
     return values;
 }
@@ -55,17 +59,63 @@ void FilmBuffers::bind(Kernel& kernel) const {
     kernel.set("counters", counters_);
 }
 
+void FilmBuffers::bind_ranges(Kernel& kernel) const {
+    kernel.set("pixel_rays", pixel_rays_);
+}
+
+std::vector<FilmBuffers::Band> FilmBuffers::bands() const {
+    const size_t rows = params_.tile_count / params_.tiles_x;
+    const size_t row_bytes = size_t(params_.tiles_x) * TILE_PIXELS * 3 * sizeof(std::int64_t);
+    const size_t at_once = std::max<size_t>(PIECE_BYTES / row_bytes, 1);
+    std::vector<Band> bands;
+    for (size_t row = 0; row < rows; row += at_once)
+        bands.push_back({row, std::min(at_once, rows - row)});
+    return bands;
+}
+
+size_t FilmBuffers::first_slot(size_t plane, const Band& band) const {
+    return plane * slots_ + slot_count({0, band.first});
+}
+
+size_t FilmBuffers::slot_count(const Band& band) const {
+    return band.count * params_.tiles_x * TILE_PIXELS;
+}
+
 template <class Action>
-void FilmBuffers::for_each_pixel(size_t first, size_t planes, Action&& action) const {
-    const size_t width = params_.crop_width, height = params_.crop_height;
-    tbb::parallel_for(size_t(0), planes * height, [&](size_t row) {
-        const size_t plane = first + row / height, y = row % height;
+void FilmBuffers::for_each_pixel(const Band& band, Action&& action) const {
+    const size_t width = params_.crop_width, first = band.first * TILE_SIZE;
+    const size_t end = std::min<size_t>(params_.crop_height, (band.first + band.count) * TILE_SIZE);
+    tbb::parallel_for(first, end, [&](size_t y) {
         for (size_t x = 0; x < width; ++x) {
-            const size_t tile = y / TILE_SIZE * params_.tiles_x + x / TILE_SIZE;
+            const size_t tile = (y - first) / TILE_SIZE * params_.tiles_x + x / TILE_SIZE;
             const size_t slot = tile * TILE_PIXELS + (y % TILE_SIZE) * TILE_SIZE + x % TILE_SIZE;
-            action(3 * (plane * slots_ + slot), 3 * (row * width + x));
+            action(3 * slot, 3 * (y * width + x));
         }
     });
+}
+
+void FilmBuffers::write_plane(size_t plane, const std::int64_t* sums) const {
+    for (const Band& band : bands()) {
+        std::vector<std::int64_t> piece(3 * slot_count(band), 0);
+        for_each_pixel(band, [&](size_t on_device, size_t in_film) {
+            std::copy_n(sums + in_film, 3, &piece[on_device]);
+        });
+        check_opencl("continuing the picture", [&] {
+            device_.queue.enqueueWriteBuffer(film_, CL_TRUE,
+                                             3 * first_slot(plane, band) * sizeof(std::int64_t),
+                                             piece.size() * sizeof(std::int64_t), piece.data());
+        });
+    }
+}
+
+void FilmBuffers::read_plane(size_t plane, std::int64_t* sums) const {
+    for (const Band& band : bands()) {
+        const auto piece =
+            read_buffer<std::int64_t>(device_, film_, 3 * first_slot(plane, band), 3 * slot_count(band));
+        for_each_pixel(band, [&](size_t on_device, size_t in_film) {
+            std::copy_n(&piece[on_device], 3, sums + in_film);
+        });
+    }
 }
 
 u32 FilmBuffers::pixel_of_slot(size_t slot) const {
@@ -93,40 +143,30 @@ void FilmBuffers::write_tile_ranges(const std::vector<std::uint32_t>& from,
 
 void FilmBuffers::write_sums(const RenderProgress& render) {
     const size_t replicates = params_.film_replicates;
-    std::vector<std::int64_t> tiles(slots_ * 3 * (replicates + layers_), 0);
-    const auto write = [&](size_t first, size_t planes, const Film& film) {
-        for_each_pixel(first, planes, [&](size_t on_device, size_t in_film) {
-            std::copy_n(&film.sums[in_film], 3, &tiles[on_device]);
-        });
-    };
-    write(0, replicates, render.film);
+    for (size_t i = 0; i < replicates; ++i)
+        write_plane(i, &render.film.sums[i * film_plane(render.film)]);
     for (size_t i = 0; i < layers_; ++i)
-        write(replicates + i, 1, render.path_layers[i]);
-    check_opencl("continuing the picture", [&] {
-        device_.queue.enqueueWriteBuffer(film_, CL_TRUE, 0, tiles.size() * sizeof(std::int64_t),
-                                         tiles.data());
-    });
+        write_plane(replicates + i, render.path_layers[i].sums.data());
 }
 
 void FilmBuffers::read_sums(RenderProgress& render) const {
-    const size_t replicates = params_.film_replicates;
-    const auto tiles = read_buffer<std::int64_t>(device_, film_, slots_ * 3 * (replicates + layers_));
-    const auto read = [&](size_t first, size_t planes, Film& film) {
-        film.sums.resize(planes * film_plane(film));
-        for_each_pixel(first, planes, [&](size_t on_device, size_t in_film) {
-            std::copy_n(&tiles[on_device], 3, &film.sums[in_film]);
-        });
-    };
-    read(0, replicates, render.film);
+    const size_t replicates = params_.film_replicates, plane = film_plane(render.film);
+    render.film.sums.resize(replicates * plane);
+    for (size_t i = 0; i < replicates; ++i)
+        read_plane(i, &render.film.sums[i * plane]);
     render.path_layers.resize(layers_);
     for (size_t i = 0; i < layers_; ++i) {
-        render.path_layers[i] = film_layer(render.film);
-        read(replicates + i, 1, render.path_layers[i]);
+        Film& layer = render.path_layers[i];
+        std::vector<std::int64_t> sums = std::move(layer.sums);
+        layer = film_layer(render.film);
+        layer.sums = std::move(sums);
+        layer.sums.resize(plane);
+        read_plane(replicates + i, layer.sums.data());
     }
 }
 
 RenderCounts FilmBuffers::read_counts() const {
-    const auto words = read_buffer<u32>(device_, counters_, COUNT_WORDS + 2 * REPLAY_CAPACITY);
+    const auto words = read_buffer<u32>(device_, counters_, 0, COUNT_WORDS + 2 * REPLAY_CAPACITY);
     RenderCounts counts;
     counts.nan = words[COUNT_NAN];
     counts.infinite = words[COUNT_INFINITE];
@@ -135,15 +175,19 @@ RenderCounts FilmBuffers::read_counts() const {
     const u32 noted = std::min<u32>(words[COUNT_BAD_SAMPLES], REPLAY_CAPACITY);
     for (u32 i = 0; i < noted; ++i)
         counts.bad_samples.emplace_back(words[COUNT_WORDS + 2 * i], words[COUNT_WORDS + 2 * i + 1]);
-    const auto rays = read_buffer<u32>(device_, pixel_rays_, slots_ * PIXEL_RAYS_WORDS);
-    for (size_t i = 0; i < rays.size(); i += PIXEL_RAYS_WORDS) {
-        counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
-        counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
-        counts.cut_paths += rays[i + PIXEL_CUT_PATHS];
-        counts.cut_weight +=
-            std::uint64_t(rays[i + PIXEL_CUT_WEIGHT_HIGH]) << 32 | rays[i + PIXEL_CUT_WEIGHT_LOW];
-        if (const u32 bad = rays[i + PIXEL_BAD_SAMPLES])
-            counts.bad_pixels[pixel_of_slot(i / PIXEL_RAYS_WORDS)] = bad;
+    for (const Band& band : bands()) {
+        const size_t first = first_slot(0, band);
+        const auto rays = read_buffer<u32>(device_, pixel_rays_, first * PIXEL_RAYS_WORDS,
+                                           slot_count(band) * PIXEL_RAYS_WORDS);
+        for (size_t i = 0; i < rays.size(); i += PIXEL_RAYS_WORDS) {
+            counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];
+            counts.shadow += rays[i + PIXEL_RAYS_SHADOW];
+            counts.cut_paths += rays[i + PIXEL_CUT_PATHS];
+            counts.cut_weight +=
+                std::uint64_t(rays[i + PIXEL_CUT_WEIGHT_HIGH]) << 32 | rays[i + PIXEL_CUT_WEIGHT_LOW];
+            if (const u32 bad = rays[i + PIXEL_BAD_SAMPLES])
+                counts.bad_pixels[pixel_of_slot(first + i / PIXEL_RAYS_WORDS)] = bad;
+        }
     }
     return counts;
 }

@@ -21,6 +21,8 @@ public:
     FilmBuffers(const Device& device, const RenderParams& params, size_t layers);
     /// Binds the outputs of a render kernel.
     void bind(Kernel& kernel) const;
+    /// Binds the samples of adaptive tiles only.
+    void bind_ranges(Kernel& kernel) const;
     /// The samples of each adaptive tile that the next launches take: those in `to` but not in `from`.
     void write_tile_ranges(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to);
     /// Starts from the sums of an earlier run.
@@ -31,10 +33,21 @@ public:
     RenderCounts read_counts() const;
 
 private:
-    /// Calls action(index of a pixel's sums on the device, its index in the film) for `planes` planes from
-    /// `first` on.
+    /// Some rows of tiles.
+    struct Band {
+        size_t first, count;
+    };
+    /// All rows of tiles, in bands of which a plane's sums are small.
+    std::vector<Band> bands() const;
+    /// Slots of the device's film from which a band of a plane starts, and how many it has.
+    size_t first_slot(size_t plane, const Band& band) const;
+    size_t slot_count(const Band& band) const;
+    /// Calls action(index of a pixel's sums in the band, its index in the plane of a film).
     template <class Action>
-    void for_each_pixel(size_t first, size_t planes, Action&& action) const;
+    void for_each_pixel(const Band& band, Action&& action) const;
+    /// One plane's sums, by way of a small copy.
+    void write_plane(size_t plane, const std::int64_t* sums) const;
+    void read_plane(size_t plane, std::int64_t* sums) const;
 
     /// Pixel (y width + x of the whole picture) of a slot.
     u32 pixel_of_slot(size_t slot) const;

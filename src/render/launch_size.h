@@ -25,6 +25,9 @@ public:
     /// dealt out evenly, so that no last launch is too small to time.
     u32 tiles(double samples, u32 left) const;
 
+    /// Samples a pixel that the next launch can give to so many tiles at once; at least one.
+    u32 samples(u32 tiles) const;
+
     /// The launch took this long.
     void took(u32 tiles, double samples, double seconds);
 

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace clrt {
 
 namespace {
-
-/// Where the sums of kernels/integrators/aov.cl lie within a pixel.
-enum HitOffset { ALBEDO = 0, NORMAL = 3, POSITION = 6, DEPTH = 9, HITS = 10, OBJECT = 11, MATERIAL = 12 };
 
 /// How many bad samples each pixel has.
 Layer bad_samples_layer(const Render& render, const Crop& window, int full_width) {
@@ -34,80 +32,75 @@ bool wants(const Options& options, const std::string& name) {
 /// Makes layers from the sums over the primary hits.
 class HitLayerMaker {
 public:
-    HitLayerMaker(const Render& render, const Scene& scene) : render_(render), scene_(scene) {}
+    HitLayerMaker(const Render& render, const Scene& scene)
+        : render_(render), frame_(scene.normalisation), eye_(scene.camera.eye),
+          look_(glm::normalize(scene.camera.at - scene.camera.eye)) {}
 
-    /// `count` sums from `offset`, over the number of hits (or of samples); 0 where nothing was hit.
-    Layer average(const char* name, std::vector<std::string> channels, int offset,
-                  bool over_samples = false) const {
-        Layer layer{name, std::move(channels), {}, false};
-        const int count = int(layer.channel_names.size());
-        for_each_pixel([&](const float* sums) {
-            const float over = over_samples ? float(render_.layer_samples) : std::max(sums[HITS], 1.0f);
-            for (int c = 0; c < count; ++c)
-                layer.values.push_back(sums[offset + c] / over);
-        });
-        return layer;
+    /// Share of the samples that hit something.
+    Layer alpha() const {
+        return make("", {"A"}, [](const PixelHits& hits) { return hits.share; });
+    }
+    /// 0 where nothing was hit.
+    Layer albedo() const {
+        return make("albedo", {"R", "G", "B"}, [](const PixelHits& hits) { return hits.albedo; });
     }
     /// Mean shading normal, unit length.
     Layer normal() const {
-        Layer layer = average("N", {"X", "Y", "Z"}, NORMAL);
-        for (size_t i = 0; i < layer.values.size(); i += 3) {
-            float* n = &layer.values[i];
-            const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-            for (int c = 0; c < 3 && length > 0; ++c)
-                n[c] /= length;
-        }
-        return layer;
+        return make("N", {"X", "Y", "Z"}, [](const PixelHits& hits) {
+            const double length = glm::length(hits.normal);
+            return length > 0 ? hits.normal / length : hits.normal;
+        });
     }
     /// Mean position in world units.
     Layer position() const {
-        Layer layer = average("P", {"X", "Y", "Z"}, POSITION);
-        const Normalisation& frame = scene_.normalisation;
-        size_t i = 0;
-        for_each_pixel([&](const float* sums) {
-            for (int c = 0; c < 3; ++c, ++i)
-                layer.values[i] =
-                    sums[HITS] > 0 ? float(double(layer.values[i]) / frame.scale + frame.centre[c]) : 0.0f;
-        });
-        return layer;
+        return make("P", {"X", "Y", "Z"},
+                    [&](const PixelHits& hits) { return hits.share > 0 ? place(hits) : glm::dvec3(0); });
     }
     /// Mean distance along the look vector, world units; infinite where nothing was hit.
     Layer depth() const {
-        Layer layer = average("", {"Z"}, DEPTH);
-        size_t i = 0;
-        for_each_pixel([&](const float* sums) {
-            layer.values[i] =
-                sums[HITS] > 0 ? float(double(layer.values[i]) / scene_.normalisation.scale) : INFINITY;
-            ++i;
+        return make("", {"Z"}, [&](const PixelHits& hits) {
+            return hits.share > 0 ? glm::dot(place(hits) - eye_, look_) : INFINITY;
         });
-        return layer;
     }
     /// Index of the first hit's object or material plus 1; 0 where nothing was hit.
-    Layer id(const char* name, int offset) const {
-        Layer layer{"", {name}, {}, true};
-        for_each_pixel(
-            [&](const float* sums) { layer.values.push_back(sums[HITS] > 0 ? sums[offset] + 1.0f : 0.0f); });
+    Layer id(const char* name, u32 PixelHits::*member) const {
+        Layer layer =
+            make("", {name}, [&](const PixelHits& hits) { return hits.share > 0 ? hits.*member + 1.0 : 0; });
+        layer.is_id = true;
         return layer;
     }
 
 private:
+    /// The mean position in world units.
+    glm::dvec3 place(const PixelHits& hits) const { return hits.position / frame_.scale + frame_.centre; }
     template <class Function>
-    void for_each_pixel(Function&& function) const {
-        for (size_t i = 0; i < render_.layers.size(); i += HIT_LAYER_FLOATS)
-            function(&render_.layers[i]);
+    Layer make(const char* name, std::vector<std::string> channels, Function&& value_of) const {
+        Layer layer{name, std::move(channels), {}, false};
+        const size_t pixels = film_plane(render_.film) / 3;
+        layer.values.reserve(pixels * layer.channel_names.size());
+        for (size_t pixel = 0; pixel < pixels; ++pixel)
+            append(layer.values, value_of(pixel_hits(render_.hits, render_.film, pixel)));
+        return layer;
     }
+    static void append(std::vector<float>& values, double x) { values.push_back(float(x)); }
+    static void append(std::vector<float>& values, const glm::dvec3& v) {
+        for (int c = 0; c < 3; ++c)
+            values.push_back(float(v[c]));
+    }
+
     const Render& render_;
-    const Scene& scene_;
+    const Normalisation& frame_;
+    const glm::dvec3 eye_, look_;
 };
 
 void add_hit_layers(const Render& render, const Scene& scene, const Options& options, Picture& picture) {
-    if (render.layers.empty())
+    if (render.hits.empty())
         return;
     const HitLayerMaker maker(render, scene);
     if (wants(options, "alpha"))
-        picture.layers.push_back(maker.average("", {"A"}, HITS, true));
+        picture.layers.push_back(maker.alpha());
     if (wants(options, "albedo"))
-        picture.layers.push_back(maker.average("albedo", {"R", "G", "B"}, ALBEDO));
+        picture.layers.push_back(maker.albedo());
     if (wants(options, "N"))
         picture.layers.push_back(maker.normal());
     if (wants(options, "Z"))
@@ -115,14 +108,14 @@ void add_hit_layers(const Render& render, const Scene& scene, const Options& opt
     if (wants(options, "P"))
         picture.layers.push_back(maker.position());
     if (wants(options, "objectId"))
-        picture.layers.push_back(maker.id("objectId", OBJECT));
+        picture.layers.push_back(maker.id("objectId", &PixelHits::object));
     if (wants(options, "materialId"))
-        picture.layers.push_back(maker.id("materialId", MATERIAL));
+        picture.layers.push_back(maker.id("materialId", &PixelHits::material));
 }
 
 } // namespace
 
-Picture make_picture(const Render& render, const Scene& scene, const Options& options) {
+Picture make_plain_picture(const Render& render, const Options& options) {
     const Crop window = render_window(options);
     Picture picture;
     picture.width = render.film.width;
@@ -132,6 +125,11 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     picture.full_width = options.size.x;
     picture.full_height = options.size.y;
     picture.layers.push_back({"", {"R", "G", "B"}, film_mean(render.film), false});
+    return picture;
+}
+
+Picture make_picture(const Render& render, const Scene& scene, const Options& options) {
+    Picture picture = make_plain_picture(render, options);
     for (size_t i = 0; i < render.path_layers.size(); ++i)
         picture.layers.push_back(
             {options.path_layers[i].name, {"R", "G", "B"}, film_mean(render.path_layers[i]), false});
@@ -144,7 +142,7 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     if (wants(options, "samples"))
         picture.layers.push_back({"", {"samples"}, film_pixel_samples(render.film), false});
     if (options.aovs ? wants(options, "badSamples") : !render.counts.bad_pixels.empty())
-        picture.layers.push_back(bad_samples_layer(render, window, options.size.x));
+        picture.layers.push_back(bad_samples_layer(render, render_window(options), options.size.x));
     return picture;
 }
 

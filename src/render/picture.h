@@ -11,4 +11,7 @@ namespace clrt {
 /// units. Metadata is left to the report.
 Picture make_picture(const Render& render, const Scene& scene, const Options& options);
 
+/// The picture alone.
+Picture make_plain_picture(const Render& render, const Options& options);
+
 } // namespace clrt

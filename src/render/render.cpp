@@ -5,14 +5,18 @@
 #include "device/opencl_error.h"
 #include "error.h"
 #include "render/film_buffers.h"
+#include "render/film_capacity.h"
+#include "render/hit_layers.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
+#include "render/reminder.h"
 #include "render/render_params.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace clrt {
 
@@ -24,8 +28,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double LONGEST_WAIT = 3;
 /// Launches take multiples of this many samples where they can: kernels simulate up to four at once.
 constexpr double SAMPLE_GROUP = 4;
-/// Samples a pixel that the auxiliary layers average.
-constexpr std::uint64_t LAYER_SAMPLES = 16;
 /// Without --error, measuring errors may take this part of the render; the slope is worth no more.
 constexpr double LARGEST_CHECK_SHARE = 0.05;
 /// So much is always worth it, seconds.
@@ -34,34 +36,6 @@ constexpr double SMALL_CHECK_SECONDS = 0.2;
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// Samples a pixel that every sum of the film can hold; a layer of paths has one for all replicates.
-std::uint64_t film_capacity(const Film& film, const Options& options) {
-    return FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.path_layers.empty() ? film.replicates : 1);
-}
-
-/// Samples a pixel that the film holds and that 32-bit sample numbers reach.
-std::uint64_t film_limit(const Film& film, const Options& options) {
-    const std::uint64_t next = film.ranges.empty() ? options.first_sample : film.ranges.back().end;
-    return std::min(film_capacity(film, options), film_samples(film) + UINT32_MAX - next);
-}
-
-/// Reminds every so often; never without an interval.
-class Reminder {
-public:
-    explicit Reminder(const std::optional<double>& interval_seconds)
-        : interval_(interval_seconds), last_(Clock::now()) {}
-    bool due() {
-        if (!interval_ || seconds_since(last_) < *interval_)
-            return false;
-        last_ = Clock::now();
-        return true;
-    }
-
-private:
-    std::optional<double> interval_;
-    Clock::time_point last_;
-};
 
 /// The passes of one render.
 class Passes {
@@ -92,7 +66,9 @@ private:
     double rays_per_second_now(double samples) const;
     void measure();
     void read_back();
-    void render_layers();
+    void begin_hits();
+    void advance_hits(const char* phase = nullptr);
+    void give_up_hits(const DeviceError& error);
     void save_when_due();
 
     const Device& device_;
@@ -105,6 +81,7 @@ private:
     Render& result_;
     FilmBuffers film_buffers_;
     Launcher launcher_;
+    std::optional<HitLayers> hit_layers_;
     StopRules rules_;
     Reminder picture_reminder_, film_reminder_;
     Clock::time_point start_;
@@ -146,7 +123,44 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     // A launch without samples makes the driver finish its compilation.
     const auto start = Clock::now();
     launcher_.run(0, 0, 0, 0);
+    begin_hits();
     result.first_launch_seconds = seconds_since(start);
+}
+
+/// Takes the memory of the layers of hits. Without them the picture is rendered all the same.
+void Passes::begin_hits() {
+    if (!programs_.layers)
+        return;
+    try {
+        hit_layers_.emplace(device_, *programs_.layers, params_, options_.adaptive, scene_buffers_,
+                            film_buffers_, result_.hits);
+    } catch (const DeviceError& error) {
+        give_up_hits(error);
+    }
+}
+
+/// Brings the layers of hits to the film's samples; what takes longer than a launch shows as `phase`.
+void Passes::advance_hits(const char* phase) {
+    if (!hit_layers_)
+        return;
+    const auto start = Clock::now();
+    try {
+        hit_layers_->advance(result_.film, [&](double fraction) {
+            if (phase)
+                progress_.update({phase, fraction, 0, -1, -1});
+        });
+    } catch (const DeviceError& error) {
+        give_up_hits(error);
+    }
+    launch_seconds_ += seconds_since(start);
+}
+
+void Passes::give_up_hits(const DeviceError& error) {
+    result_.hits_error = error.what();
+    result_.hits = {};
+    hit_layers_.reset();
+    progress_.finish();
+    spdlog::warn("the picture will be without the layers of hits: {}", error.what());
 }
 
 /// Samples of the next launch on all tiles: what fits the aimed time, up to the next measurement, decision or
@@ -317,7 +331,6 @@ void Passes::save_when_due() {
     if (picture_reminder_.due() && hooks_.save_picture) {
         read_back();
         result_.error = film_error(result_.film);
-        render_layers();
         hooks_.save_picture(result_);
     }
 }
@@ -335,12 +348,17 @@ StopRule Passes::run_until_stopped() {
             gave_up_ = true;
             return StopRule::SIGNAL;
         }
+        advance_hits();
         save_when_due();
     }
 }
 
 void Passes::run() {
     start_ = Clock::now();
+    if (samples_ > 0) {
+        advance_hits("layers"); // of the film that the render goes on from
+        launch_seconds_ = 0;    // no pass of this run
+    }
     result_.stop = run_until_stopped();
     result_.stop_text = rules_.describe(result_.stop);
     result_.stop_signal = result_.stop == StopRule::SIGNAL ? stop_signal() : 0;
@@ -349,35 +367,10 @@ void Passes::run() {
     if (samples_ == 0)
         return;
     result_.error = film_error(result_.film);
-    render_layers();
-}
-
-/// The auxiliary layers of the primary hits.
-void Passes::render_layers() {
-    if (!programs_.layers)
-        return;
-    const size_t floats = size_t(params_.crop_width) * params_.crop_height * HIT_LAYER_FLOATS;
-    const cl::Buffer layers = create_buffer(device_, "layers", floats * sizeof(float));
-    Launcher launcher(device_, *programs_.layers, "render_aov", params_, scene_buffers_);
-    launcher.kernel().set("layers", layers);
-    const SampleRange& range = result_.film.ranges.front();
-    result_.layer_samples = std::uint32_t(std::min(LAYER_SAMPLES, range.end - range.first));
-    launcher.run(std::uint32_t(range.first), result_.layer_samples, 0, params_.tile_count);
-    result_.layers.resize(floats);
-    check_opencl("reading the picture back", [&] {
-        device_.queue.enqueueReadBuffer(layers, CL_TRUE, 0, floats * sizeof(float), result_.layers.data());
-    });
-}
-
-/// --spp beyond what the film can hold.
-void check_film_capacity(const Options& options, const Film& film) {
-    const std::uint64_t most = film_capacity(film, options);
-    if (options.spp && *options.spp > most)
-        throw UsageError(fmt::format(
-            "--spp {}: the film holds at most {} samples a pixel with {}; "
-            "render disjoint ranges with --first-sample",
-            *options.spp, most,
-            options.path_layers.empty() ? fmt::format("{} replicates", film.replicates) : "layers of paths"));
+    if (!result_.hits.empty() && !has_all_samples(result_.hits, result_.film)) {
+        progress_.finish();
+        spdlog::warn("the layers of hits lack samples of the film that the render went on from");
+    }
 }
 
 } // namespace
@@ -424,6 +417,12 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
             fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
                         "a smaller --size or --crop, or fewer --replicates",
                         options.replicates, film.replicates));
+
+    // All memory is taken before the first sample.
+    film.sums.resize(size_t(film.replicates) * film_plane(film));
+    result.path_layers.resize(programs.paths.layers.size());
+    for (Film& layer : result.path_layers)
+        layer.sums.resize(film_plane(film));
 
     progress.update({"compile", -1, 0, -1, -1});
     Passes passes(device, programs, buffers, options, params, progress, hooks, result);

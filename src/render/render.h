@@ -6,6 +6,7 @@
 #include "render/adaptive.h"
 #include "render/film.h"
 #include "render/film_error.h"
+#include "render/hit_sums.h"
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
 #include "render/stop_rules.h"
@@ -35,10 +36,6 @@ struct RenderCounts {
     void add(const RenderCounts& other);
 };
 
-/// Sums over the primary hits of a pixel (AOV_FLOATS in kernels/integrators/aov.cl), empty if not asked for.
-using HitLayers = std::vector<float>;
-constexpr int HIT_LAYER_FLOATS = 13;
-
 /// What a render has when it starts anew, and what one that goes on from a film file starts with.
 struct RenderProgress {
     Film film;
@@ -51,8 +48,8 @@ struct RenderProgress {
 
 /// What a render gives: film, counts, history and seconds of the whole picture, the rest of this run.
 struct Render : RenderProgress {
-    HitLayers layers;
-    std::uint32_t layer_samples = 0;
+    HitSums hits;                    ///< empty if no file wants layers of them
+    std::string hits_error;          ///< why they had to be given up, else empty
     std::uint64_t passes = 0;        ///< samples a pixel in this run
     double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
     double run_seconds = 0;          ///< of this run's render stage, first_launch_seconds not included

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render_params.h"
 
+#include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -108,7 +110,7 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     params.scene_extent = scene.extent;
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);
-    params.largest_contribution = float(scale.largest);
+    params.largest_contribution = float(std::min(scale.largest, double(FLT_MAX)));
     return params;
 }
 

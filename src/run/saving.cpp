@@ -4,6 +4,7 @@
 #include "output/image.h"
 #include "render/picture.h"
 
+#include <new>
 #include <spdlog/spdlog.h>
 
 namespace clrt {
@@ -22,6 +23,20 @@ void save_on_the_way(Progress& progress, const std::function<void()>& save) {
     } catch (const SceneError& error) {
         progress.finish();
         spdlog::warn("{}; the render goes on", error.what());
+    } catch (const std::bad_alloc&) {
+        progress.finish();
+        spdlog::warn("not enough memory to save on the way; the render goes on");
+    }
+}
+
+/// The picture with its layers, or without where they do not fit the memory.
+Picture picture_within_memory(const Report& report, FinalFiles& files) {
+    try {
+        return make_picture(report.render, report.scene, report.options);
+    } catch (const std::bad_alloc&) {
+        files.fail(SceneError(report.options.outputs.front(), 0,
+                              "not enough memory for the layers: the picture is written without them"));
+        return make_plain_picture(report.render, report.options);
     }
 }
 
@@ -32,11 +47,17 @@ void FinalFiles::write(const std::string& path, const std::function<void()>& wri
         writer();
         spdlog::info("wrote {}", path);
     } catch (const SceneError& error) {
-        if (first_error_)
-            spdlog::error("{}", error.what());
-        else
-            first_error_ = error;
+        fail(error);
+    } catch (const std::bad_alloc&) {
+        fail(SceneError(path, 0, "not enough memory to write the file"));
     }
+}
+
+void FinalFiles::fail(const SceneError& error) {
+    if (first_error_)
+        spdlog::error("{}", error.what());
+    else
+        first_error_ = error;
 }
 
 void FinalFiles::finish() const {
@@ -46,7 +67,7 @@ void FinalFiles::finish() const {
 
 void write_outputs(const Report& report, FinalFiles& files) {
     const Options& options = report.options;
-    Picture picture = make_picture(report.render, report.scene, options);
+    Picture picture = picture_within_memory(report, files);
     picture.metadata = report_metadata(report);
     for (const std::string& path : options.outputs)
         files.write(path, [&] { write_picture(picture, path, options.exposure_ev, options.tonemap); });

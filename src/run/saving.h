@@ -18,6 +18,8 @@ namespace clrt {
 class FinalFiles {
 public:
     void write(const std::string& path, const std::function<void()>& writer);
+    /// Notes what is wrong with a file that is written all the same.
+    void fail(const SceneError& error);
     /// Throws the first error, if there was one.
     void finish() const;
 

@@ -4,8 +4,8 @@
 #include "error.h"
 #include "scene/assemble_geometry.h"
 #include "scene/camera_fit.h"
-#include "scene/colour.h"
 #include "scene/cut_vast.h"
+#include "scene/emission.h"
 #include "scene/environment.h"
 #include "scene/lights.h"
 #include "scene/material_rules.h"
@@ -72,11 +72,8 @@ std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, 
             material_by_name(mesh.material_names[i], mesh.material_lines[i], options.scene_path, library,
                              context, load_map, place, notices);
         const Material& m = ruled.material;
-        glm::dvec3 emission(m.emission.x, m.emission.y, m.emission.z);
-        if (m.map_emission != NO_INDEX)
-            emission *= store.mean(m.map_emission);
-        exitance.push_back(luminance(emission) * double(m.matte.w) *
-                           (m.flags & MATERIAL_EMITS_BOTH_SIDES ? 2 : 1));
+        scene.emitted.push_back(emitted_radiance(m, store));
+        exitance.push_back(emitted_luminance(m, scene.emitted.back()));
         scene.materials.push_back(m);
         scene.material_names.push_back(mesh.material_names[i]);
         scene.material_places.push_back(place);

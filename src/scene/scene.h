@@ -33,6 +33,12 @@ struct Environment {
     double mean_radiance = 0;    ///< over the sphere, luminance, factor included
 };
 
+/// Radiance that a material emits, its map included.
+struct EmittedRadiance {
+    glm::dvec3 mean{0};    ///< over the map's picture
+    glm::dvec3 largest{0}; ///< of the map's texels, component by component
+};
+
 /// Where a material was defined, for witnesses and messages.
 struct SourcePlace {
     std::string file;
@@ -54,6 +60,7 @@ struct Scene {
     std::vector<float> uvs;      ///< u, v pairs
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
+    std::vector<EmittedRadiance> emitted; ///< by each material
     std::vector<std::string> material_names;
     std::vector<SourcePlace> material_places;
     std::vector<std::string> material_rules; ///< the row of the MTL table that made each material

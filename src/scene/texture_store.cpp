@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 namespace clrt {
 namespace {
@@ -140,19 +141,31 @@ vec4 TextureStore::texel(const Texture& texture, u32 x, u32 y) const {
     return {value(0), value(8), value(16), float(word >> 24) / 255.f};
 }
 
-glm::dvec3 TextureStore::mean(u32 index) const {
+template <class Action>
+void TextureStore::for_each_value(u32 index, Action&& action) const {
     const Texture& texture = textures_[index];
-    glm::dvec3 sum(0);
     for (u32 y = 0; y < texture.height; ++y)
         for (u32 x = 0; x < texture.width; ++x) {
             const vec4 value = texel(texture, x, y);
-            const glm::dvec3 mapped = glm::dvec3(value.x, value.y, value.z) * double(texture.gain) +
-                                      glm::dvec3(double(texture.base));
+            glm::dvec3 mapped = glm::dvec3(value.x, value.y, value.z) * double(texture.gain) +
+                                glm::dvec3(double(texture.base));
             for (int c = 0; c < 3; ++c)
-                if (std::isfinite(mapped[c]) && mapped[c] > 0)
-                    sum[c] += mapped[c];
+                if (!(std::isfinite(mapped[c]) && mapped[c] > 0))
+                    mapped[c] = 0;
+            action(mapped);
         }
-    return sum / (double(texture.width) * double(texture.height));
+}
+
+glm::dvec3 TextureStore::mean(u32 index) const {
+    glm::dvec3 sum(0);
+    for_each_value(index, [&](const glm::dvec3& value) { sum += value; });
+    return sum / (double(textures_[index].width) * double(textures_[index].height));
+}
+
+glm::dvec3 TextureStore::largest(u32 index) const {
+    glm::dvec3 largest(0);
+    for_each_value(index, [&](const glm::dvec3& value) { largest = glm::max(largest, value); });
+    return largest;
 }
 
 } // namespace clrt

@@ -37,6 +37,9 @@ public:
     /// Mean of the texture's values over its picture: linear, with base and gain, negative values as 0.
     glm::dvec3 mean(u32 texture) const;
 
+    /// The largest of these values, channel by channel: no lookup between texels gives more.
+    glm::dvec3 largest(u32 texture) const;
+
     /// Linear r, g, b, a of a texel, as a kernel decodes it; without base and gain.
     vec4 texel(const Texture& texture, u32 x, u32 y) const;
 
@@ -52,6 +55,10 @@ private:
         u32 first_word, width, height, format;
         bool has_alpha, is_grey;
     };
+
+    /// Calls action(rgb) for the value of each texel: base and gain applied, 0 where that is negative.
+    template <class Action>
+    void for_each_value(u32 texture, Action&& action) const;
 
     const StoredImage* find_or_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
     StoredImage store(const Image& image, ImageEncoding encoding, const std::string& path,

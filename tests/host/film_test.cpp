@@ -125,6 +125,13 @@ TEST(Film, FoldedReplicatesKeepThePicture) {
     }
 }
 
+TEST(Film, FullSumsStayFullWhenReplicatesAreFolded) {
+    Film film = empty_film(1, 1, 2, 0, 2);
+    film.sums = {INT64_MAX, 5, INT64_MAX - 3, 1, 6, 3};
+    fold_replicates(film, 1);
+    EXPECT_EQ(film.sums, (std::vector<std::int64_t>{INT64_MAX, 11, INT64_MAX}));
+}
+
 TEST(Film, RangesWithAGapCountTheirSamples) {
     Film film = empty_film(1, 1, 4, 0, 6);
     film.ranges.push_back({9, 12});
@@ -136,7 +143,8 @@ TEST(Film, RangesWithAGapCountTheirSamples) {
 
 TEST(FilmScale, TheQuantumIsAMillionthOfTheMeanLevel) {
     EXPECT_EQ(film_scale(shining(1, 0)).quantum, std::ldexp(1.0, -20));
-    EXPECT_EQ(film_scale(shining(1, 0)).largest, std::ldexp(1.0, 24));
+    EXPECT_EQ(film_scale(shining(1, 0)).largest, std::ldexp(1.0, 40));
+    EXPECT_EQ(film_scale(shining(1, 0)).sustained, std::ldexp(1.0, 24));
     EXPECT_EQ(film_scale(shining(1.4, 0)).quantum, std::ldexp(1.0, -20)) << "the power of two nearest to it";
     EXPECT_EQ(film_scale(shining(1.5, 0)).quantum, std::ldexp(1.0, -19));
     // Power over the bounding sphere's area (radius sqrt(3)) and pi.
@@ -153,19 +161,46 @@ TEST(FilmScale, ItFollowsTheLightByPowersOfTwo) {
     }
 }
 
-TEST(FilmScale, TheBrightestLightInViewFits) {
+TEST(FilmScale, AFullFilmHoldsTheBrightestSurfaceAndTheBrightestTexel) {
     Scene scene = shining(0, 1e-6);
-    Light sun{};
-    sun.kind = LIGHT_SUN;
-    sun.emission = {1e9f, 1, 1, 0};
-    scene.lights.push_back(sun);
-    EXPECT_GE(film_scale(scene).largest, 8e9);
+    scene.triangles.resize(1);
+    scene.triangles[0].material = 1;
+    scene.emitters.resize(1);
+    scene.emitted = {{glm::dvec3(1e20), glm::dvec3(1e20)}, {glm::dvec3(1e-3), {3, 1e9, 2}}};
+    const FilmScale scale = film_scale(scene);
+    EXPECT_GT(scale.sustained, 1e9) << "what no triangle has does not count";
+    EXPECT_LE(scale.sustained, 2e9) << "no coarser than needed";
+    EXPECT_LE(scale.sustained / scale.quantum * double(FILM_SAMPLES_PER_REPLICATE), 0x1p63);
+    scene.emitted[1].largest = glm::dvec3(0x1p30);
+    EXPECT_GT(film_scale(scene).sustained, 0x1p30) << "all samples of it are less than 2^63";
 
     scene = shining(2, 0);
     scene.environment.texels.resize(2);
     scene.environment.texels[1].radiance = {0, 5e8f, 0, 0};
     scene.environment.mean_radiance = 1e-3;
-    EXPECT_GE(film_scale(scene).largest, 8e9) << "the map's factor counts";
+    EXPECT_GE(film_scale(scene).sustained, 1e9) << "the map's factor counts";
+}
+
+TEST(FilmScale, DiscsOfSunsFitAndLeaveTheQuantumFine) {
+    Scene scene = shining(0, 1);
+    Light sun{};
+    sun.kind = LIGHT_SUN;
+    for (const float radiance : {1e3f, 1e9f, 1e15f}) {
+        sun.emission = {radiance, 1, 1, 0};
+        scene.lights = {sun};
+        const FilmScale scale = film_scale(scene);
+        EXPECT_GE(scale.largest, 16 * double(radiance));
+        EXPECT_LE(double(radiance) / scale.quantum * 127, 0x1p63) << "127 samples of the disc alone";
+        EXPECT_LE(scale.quantum, std::max(film_scale(shining(0, 1)).quantum, double(radiance) * 0x1p-55));
+    }
+}
+
+TEST(FilmScale, ItsNumbersAreFloatsWhateverTheLight) {
+    for (const double radiance : {1e-44, 1e-35, 1e-30, 1e30, 3e38}) {
+        const FilmScale scale = film_scale(shining(radiance, 0));
+        EXPECT_TRUE(std::isnormal(float(scale.quantum))) << radiance;
+        EXPECT_TRUE(std::isnormal(float(1 / scale.quantum))) << radiance;
+    }
 }
 
 } // namespace clrt

@@ -231,4 +231,9 @@ TEST_F(TextureStoreTest, MeanIsLinearWithBaseAndGain) {
     use.gain = 2;
     const glm::dvec3 mean = store.mean(add("a.exr", TextureRole::COLOUR, use));
     EXPECT_NEAR(mean.y, 1.5, 1e-6) << "2 * 2 - 1 and 0 (not below) on average";
+    EXPECT_EQ(store.largest(add("a.exr", TextureRole::COLOUR)), glm::dvec3(3, 2, 3));
+    EXPECT_EQ(store.largest(add("a.exr", TextureRole::COLOUR, use)), glm::dvec3(5, 3, 5));
+    use.gain = -2;
+    use.base = 3;
+    EXPECT_EQ(store.largest(add("a.exr", TextureRole::COLOUR, use)), glm::dvec3(1, 3, 1)) << "of the darkest";
 }

@@ -70,6 +70,8 @@ KernelProbe& probe() {
                                             "out = film_fault(&params, vector_from(a));");
         // The rounded value less the value's floor: 0 or 1.
         made.add<i32(float, u32)>("round", "(i32)(film_round((real)a, b) - convert_long(floor(a)))");
+        made.add<u32(u32, u32)>("index_low", "(uint)tile_index(a, b)");
+        made.add<u32(u32, u32)>("index_high", "(uint)(tile_index(a, b) >> 32)");
         return made;
     }();
     return instance;
@@ -176,6 +178,35 @@ TEST(Film, SumsOfManySamplesKeepTheValue) {
         EXPECT_NEAR(mean[0], value, scatter);
         EXPECT_NEAR(mean[1], 0.25 * value, scatter);
         EXPECT_NEAR(mean[2], 3 * double(value), scatter + 3 * double(value) * FLOAT_U);
+    }
+}
+
+TEST(Film, FullSumsStayFull) {
+    // 2^59 quanta a sample in red, a quarter of that in green, three times in blue.
+    constexpr u32 SAMPLES = 17;
+    RenderParams params{};
+    params.inverse_quantum = 1;
+    Kernel kernel = probe().kernel("probe_add");
+    const cl::Buffer sums = zeros<int64_t>(3);
+    kernel.set("params", params);
+    kernel.set("count", 1u);
+    kernel.set("sums", sums);
+    kernel.set("samples", SAMPLES);
+    kernel.set("value", 0x1p59f);
+    probe().launch(kernel, 1);
+    const std::vector<int64_t> got = probe().read<int64_t>(sums, 3);
+    EXPECT_EQ(got, (std::vector<int64_t>{INT64_MAX, SAMPLES * (int64_t(1) << 57), INT64_MAX}));
+}
+
+TEST(Tile, ArraysOfTheLargestPictureAreAddressedInSixtyFourBits) {
+    // 65536 x 65536 pixels have 2^32 slots.
+    const std::vector<u32> slots = {0, 1, 1431655766, UINT32_MAX};
+    for (const u32 words : {u32(PIXEL_RAYS_WORDS), 21u}) {
+        const std::vector<u32> many(slots.size(), words);
+        const std::vector<u32> low = probe().run<u32>("index_low", slots, many),
+                               high = probe().run<u32>("index_high", slots, many);
+        for (size_t i = 0; i < slots.size(); ++i)
+            EXPECT_EQ(std::uint64_t(high[i]) << 32 | low[i], std::uint64_t(words) * slots[i]);
     }
 }
 

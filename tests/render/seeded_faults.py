@@ -22,7 +22,7 @@ KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 
 # Name, file, text, text with the fault, test program.
 FAULTS = [
-    ("both halves of an adaptive render are one", "integrators/pixel.h",
+    ("both halves of an adaptive render are one", "film/tile.h",
      "counter.replicate = params->first_replicate + first % params->dealt_replicates;",
      "counter.replicate = first % params->dealt_replicates;", "adaptive_render_test"),
     ("an adaptive tile starts over", "film/tile.h", "range.first = ranges[TILE_RANGE_FIRST];", "range.first = 0u;",
@@ -87,6 +87,9 @@ FAULTS = [
      "(REAL(1.0) + lambda_o)", "furnace_test"),
     ("window not taken from the whole picture", "integrators/pixel.h", "params->seed, y * params->width + x",
      "params->seed, (y - params->crop_y) * params->width + x", "same_bits_test"),
+    ("full sums wrap", "film/film.h", "sums[0] = add_sat(sums[0], film_round(quanta.x, word));",
+     "sums[0] += film_round(quanta.x, word);", "film_tile_test"),
+    ("full sums not told", "film/film.h", "!= LONG_MAX;", "!= 0 || true;", "film_range_test"),
     ("film rounds down", "film/film.h", "(sampler_unit(word) < quanta - whole ? 1 : 0)", "0", "direct_light_test"),
     ("rays below the minimum are followed", "integrators/whitted.h",
      "vector_is_below(child.weight, (real)params->min_contribution) || ", "", "ray_tree_test"),
@@ -139,7 +142,7 @@ FAULTS = [
      "replay_test"),
     ("a lobe not recorded", "scattering/bsdf.h", "TRACE_SET(sample.lobe, LOBE_MIRROR);", "", "replay_test"),
     ("bad samples of a pixel not counted", "integrators/pixel.h",
-     "++pixel_rays[PIXEL_RAYS_WORDS * place.slot + PIXEL_BAD_SAMPLES];", "", "replay_test"),
+     "++pixel_rays[tile_index(place.slot, PIXEL_RAYS_WORDS) + PIXEL_BAD_SAMPLES];", "", "replay_test"),
     ("the sampled direction not recorded", "integrators/path.h", "    TRACE_DIRECTION(scene, &next, continues);\n", "",
      "replay_test"),
     ("the film's share not replayed", "trace/replay.h",

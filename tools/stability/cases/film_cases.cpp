@@ -171,11 +171,11 @@ void partition(CaseRun& run) {
 }
 
 void full_film(CaseRun& run) {
-    // All samples at the largest contribution that the film takes: the next float would count as overflow.
+    // All samples at the brightest that a full film holds.
     Figure& error = run.figure("relative error of the mean", 1.2e-7);
     Figure& lost = run.figure("samples that count as overflow", 0);
     FilmBench scale(run.device, std::vector<float>(512, 1.0f), 1);
-    const float largest = std::nextafter(float(scale.scale().largest), 0.0f);
+    const float largest = std::nextafter(float(scale.scale().sustained), 0.0f);
     FilmBench bench(run.device, std::vector<float>(size_t(FULL), largest), 1);
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the sums over the primary hits of a pixel lie: kernels/integrators/aov.cl makes them, src/render/hit_layers.cpp adds
+// them up.
+#ifndef CLRT_SHARED_AOV_TYPES_H
+#define CLRT_SHARED_AOV_TYPES_H
+
+#include "types.h"
+
+SHARED_BEGIN
+
+/* 64-bit sums in fixed point. */
+#define AOV_ALBEDO 0u   /* r, g, b */
+#define AOV_NORMAL 3u   /* x, y, z: for shading, unit */
+#define AOV_POSITION 6u /* x, y, z: normalised frame, within 2 of its origin */
+#define AOV_SUMS 9u
+
+/* 32-bit words. */
+#define AOV_HITS 0u     /* samples that hit something */
+#define AOV_OBJECT 1u   /* of the first of them */
+#define AOV_MATERIAL 2u
+#define AOV_WORDS 3u
+
+/* One in fixed point is 2^AOV_BITS: floats from 2^-10 on are exact. Values are below 8, so that 2^26 samples fit, more than
+   a film of 64 replicates holds. */
+#define AOV_BITS 34
+#define AOV_LARGEST 8
+
+SHARED_END
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the primary hits of the film's samples are, summed up pixel by pixel: the source of the layers alpha,
+// albedo, N, Z, P, objectId and materialId. No OpenCL here.
+#pragma once
+
+#include "kernels/shared/aov_types.h"
+#include "render/film.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace clrt {
+
+/// Sums over the primary hits of a window, of each half of the replicates where tiles have samples of their
+/// own, else in the first place only. Fixed point (kernels/shared/aov_types.h): launches of any size give the
+/// same bits.
+struct HitSums {
+    std::array<std::vector<std::int64_t>, 2> values; ///< AOV_SUMS a pixel
+    std::array<std::vector<u32>, 2> words;           ///< AOV_WORDS a pixel
+    std::uint64_t samples = 0;                       ///< a pixel, of a film that is not adaptive
+    TileSamples tile_samples;                        ///< of an adaptive film
+    bool empty() const { return values[0].empty(); }
+};
+
+/// Whether they have all samples of the film.
+bool has_all_samples(const HitSums& hits, const Film& film);
+
+/// What the samples of a pixel see first, on average over those that hit something.
+struct PixelHits {
+    double share = 0; ///< of the samples that hit something
+    glm::dvec3 albedo{0}, normal{0};
+    glm::dvec3 position{0};       ///< normalised frame
+    u32 object = 0, material = 0; ///< of the first hit
+};
+
+/// The averages of a pixel; each half weighs as much as it does in the film's picture.
+PixelHits pixel_hits(const HitSums& hits, const Film& film, size_t pixel);
+
+} // namespace clrt

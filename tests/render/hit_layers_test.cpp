@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums over the primary hits: the same bits however the film grows, right for a million samples, and stopped
+// by a signal.
+#include "render/hit_layers.h"
+
+#include "app/signals.h"
+#include "bvh/bvh.h"
+#include "effects/effects.h"
+#include "render/kernels.h"
+#include "render/render_params.h"
+#include "support/kernel_probe.h"
+#include "support/render_scene.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// A leaf with holes before a floor of another colour, and the sums of layers over films of any samples: the
+/// picture itself is not rendered.
+class HitLayersTest : public testing::Test {
+protected:
+    HitLayersTest() {
+        test_.texture("leaf.exr", 2, 1, 4, {1, 1, 1, 0.25f, 1, 1, 1, 0.75f});
+        test_.build.material("white", "Kd 0.7 0.3 0.1").material("leaf", "Kd 0.2 0.4 0.1\nmap_d leaf.exr");
+        test_.build.use("white").floor(4);
+        test_.build.use("leaf").textured_quad({{-1, 0.5, 0}, {1, 0.5, 0}, {1, 2, 0.3}, {-1, 2, 0.3}});
+        test_.look({0, 1.5, 3}, {0, 0.6, 0}, 45);
+        Options& options = test_.options;
+        options.size = {27, 21}; // tiles at the edges are not whole
+        options.replicates = 4;
+        options.outputs = {"a.exr"};
+        const Scene scene = test_.load();
+        const Effects effects = find_effects(scene, options);
+        const BvhLayout layout = choose_layout(options.bvh, test_device().info);
+        programs_ = build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
+        buffers_ = upload_scene(test_device(), scene,
+                                build_bvh(scene.positions, scene.triangles, layout, BvhQuality::FAST));
+        params_ = make_render_params(scene, options, film_scale(scene));
+        film_.width = options.size.x;
+        film_.height = options.size.y;
+        film_.replicates = options.replicates;
+    }
+
+    /// Goes through films of these ranges, one after the other.
+    HitSums sums(const std::vector<std::vector<SampleRange>>& films) {
+        HitSums sums;
+        FilmBuffers film_buffers(test_device(), params_, 0);
+        HitLayers layers(test_device(), *programs_.layers, params_, false, buffers_, film_buffers, sums);
+        for (const std::vector<SampleRange>& ranges : films) {
+            film_.ranges = ranges;
+            layers.advance(film_, [](double) {});
+        }
+        return sums;
+    }
+    /// The same with tiles of these samples, those of the second half one more.
+    HitSums tile_sums(const std::vector<u32>& samples) {
+        HitSums sums;
+        FilmBuffers film_buffers(test_device(), params_, 0);
+        HitLayers layers(test_device(), *programs_.layers, params_, true, buffers_, film_buffers, sums);
+        film_.ranges = {{0, 1}};
+        for (const u32 count : samples) {
+            for (u32 half = 0; half < 2; ++half) {
+                film_.tile_samples[half].assign(film_tiles(film_), count + half);
+                film_.tile_samples[half][1] += 3;
+            }
+            layers.advance(film_, [](double) {});
+        }
+        return sums;
+    }
+    static bool same(const HitSums& a, const HitSums& b) {
+        return a.values == b.values && a.words == b.words && a.samples == b.samples &&
+               a.tile_samples == b.tile_samples;
+    }
+
+    TestScene test_;
+    RenderPrograms programs_;
+    SceneBuffers buffers_;
+    RenderParams params_{};
+    Film film_;
+};
+
+} // namespace
+
+TEST_F(HitLayersTest, GrowWithTheFilmToTheSameBits) {
+    const HitSums at_once = sums({{{5, 45}, {60, 70}}});
+    EXPECT_EQ(at_once.samples, 50u);
+    EXPECT_TRUE(
+        same(sums({{{5, 6}}, {{5, 9}}, {{5, 45}}, {{5, 45}, {60, 61}}, {{5, 45}, {60, 70}}}), at_once));
+    EXPECT_FALSE(same(sums({{{5, 45}, {61, 71}}}), at_once)) << "other samples must show";
+    const HitSums tiles = tile_sums({50});
+    EXPECT_TRUE(same(tile_sums({2, 4, 18, 50}), tiles));
+    EXPECT_FALSE(same(tile_sums({51}), tiles));
+}
+
+TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
+    // The halves hold replicates 0, 1 and 2, 3: 8 samples of each are samples 0 to 15.
+    const HitSums whole = sums({{{0, 16}}});
+    HitSums halves;
+    FilmBuffers film_buffers(test_device(), params_, 0);
+    HitLayers layers(test_device(), *programs_.layers, params_, true, buffers_, film_buffers, halves);
+    for (size_t half = 0; half < 2; ++half)
+        film_.tile_samples[half].assign(film_tiles(film_), 8);
+    layers.advance(film_, [](double) {});
+    for (size_t i = 0; i < whole.values[0].size(); ++i)
+        ASSERT_EQ(halves.values[0][i] + halves.values[1][i], whole.values[0][i]);
+    film_.ranges = {{0, 16}};
+    Film equal = film_;
+    equal.tile_samples = {};
+    for (size_t pixel = 0; pixel < film_plane(film_) / 3; ++pixel) {
+        const PixelHits a = pixel_hits(halves, film_, pixel), b = pixel_hits(whole, equal, pixel);
+        ASSERT_NEAR(a.share, b.share, 1e-15);
+        ASSERT_NEAR(a.albedo.x, b.albedo.x, 1e-14);
+        ASSERT_NEAR(a.position.z, b.position.z, 1e-14);
+    }
+}
+
+TEST_F(HitLayersTest, SumsOfManySamplesLoseNothing) {
+    // All hit the floor at the picture's bottom: its albedo is a constant.
+    const u32 samples = 100003;
+    params_.crop_y = params_.crop_height - 1;
+    params_.crop_height = 1;
+    params_.tile_count = params_.tiles_x;
+    params_.tile_stride = 1;
+    film_.height = 1;
+    const HitSums hits = sums({{{0, samples}}});
+    const PixelHits middle = pixel_hits(hits, film_, 13);
+    EXPECT_EQ(middle.share, 1);
+    EXPECT_EQ(float(middle.albedo.x), 0.7f);
+    EXPECT_EQ(float(middle.albedo.z), 0.1f);
+    EXPECT_EQ(middle.normal, glm::dvec3(0, 1, 0));
+}
+
+TEST_F(HitLayersTest, ASignalEndsWhatTakesLong) {
+    catch_stop_signals();
+    std::raise(SIGINT);
+    const std::uint64_t all = 1u << 30;
+    std::vector<double> reported;
+    HitSums hits;
+    FilmBuffers film_buffers(test_device(), params_, 0);
+    HitLayers layers(test_device(), *programs_.layers, params_, false, buffers_, film_buffers, hits);
+    film_.ranges = {{0, all}};
+    layers.advance(film_, [&](double share) { reported.push_back(share); });
+    EXPECT_GT(hits.samples, 0u) << "a whole pass at least";
+    EXPECT_LT(hits.samples, all / 2);
+    EXPECT_EQ(reported, std::vector<double>{double(hits.samples) / double(all)});
+    EXPECT_EQ(pixel_hits(hits, film_, film_plane(film_) / 3 - 1).share, 1) << "of the samples that are there";
+}
+
+} // namespace clrt
