@@ -98,6 +98,7 @@ public:
         set_emission();
         set_coverage();
         set_shape_maps();
+        note_missing_lobes();
         if (largest_component(to_dvec3(m_.matte)) > 0 && !(m_.lobes & LOBE_DIELECTRIC))
             m_.lobes |= LOBE_MATTE;
         return {m_, rule_.illum < 0 ? rule_.text : fmt::format("illum {}: {}", rule_.illum, rule_.text)};
@@ -296,6 +297,21 @@ private:
             return;
         m_.map_bump = load(mtl_.map_bump, TextureRole::SCALAR);
         m_.bump_scale = float(mtl_.map_bump->bump_multiplier * context_.unit);
+    }
+
+    /// What the keys ask for and no lobe does.
+    void note_missing_lobes() {
+        const auto note = [&](const char* name, const char* key, bool is_given) {
+            if (is_given)
+                notices_.add(fmt::format("{} has no effect here and is ignored", name), mtl_.place_of(key));
+        };
+        note("Pc (coat)", "pc", mtl_.pc.value_or(0) > 0);
+        note("Ps (sheen)", "ps", mtl_.ps.value_or(0) > 0);
+        note("map_Ps (sheen)", "map_ps", mtl_.map_ps.has_value());
+        note("anisor (turn of the highlight)", "anisor",
+             mtl_.aniso.value_or(0) > 0 && mtl_.anisor.value_or(0) > 0);
+        note("map_Ns", "map_ns", mtl_.map_ns.has_value());
+        note("map_refl", "map_refl", mtl_.map_refl.has_value());
     }
 
     const MtlMaterial& mtl_;

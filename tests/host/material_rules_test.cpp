@@ -329,6 +329,17 @@ TEST(MaterialRules, BumpHeightsAreInSceneUnits) {
     EXPECT_EQ(Ruled("bump -bm 0 b.png\n").m.map_bump, NO_INDEX);
 }
 
+TEST(MaterialRules, WhatHasNoLobeIsSaidWhereItIsAskedFor) {
+    const Ruled r(
+        "Pr 0.5\nPc 0.5\nPs 0.5\nmap_Ps s.png\naniso 0.5\nanisor 0.25\nmap_Ns n.png\nmap_refl r.png\n");
+    for (const char* notice :
+         {"a.mtl:3: Pc (coat) has no effect", "a.mtl:4: Ps (sheen) has no effect",
+          "a.mtl:5: map_Ps (sheen) has no effect", "a.mtl:7: anisor (turn of the highlight)",
+          "a.mtl:8: map_Ns has no effect", "a.mtl:9: map_refl has no effect"})
+        EXPECT_EQ(count_notices(r.notices, notice), 1) << notice;
+    EXPECT_TRUE(Ruled("Pr 0.5\nPc 0\nPcr 0.03\nPs 0\naniso 0\nanisor 0.5\n").notices.empty());
+}
+
 TEST(MaterialRules, ReflectionWithoutKsIsNoted) {
     const Ruled r("illum 3\nKd 0.5\n");
     EXPECT_EQ(r.m.lobes, LOBE_MATTE);
