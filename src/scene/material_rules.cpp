@@ -234,8 +234,8 @@ private:
             set_roughness(roughness());
     }
 
-    /// Pm: F0 = mix(0.04, Kd, Pm), matte Kd (1 - Pm). At normal incidence both together give back
-    /// Kd + 0.04 (1 - Pm): Kd is scaled so that this stays at 1 or below.
+    /// Pm: F0 = mix(F, Kd, Pm), matte Kd (1 - Pm), where F is the part's that is no metal. At normal
+    /// incidence both together give back Kd + F (1 - Pm): Kd is scaled so that this stays at 1 or below.
     void set_metallic() {
         if (is_positive(mtl_.ks) || mtl_.illum.value_or(2) > 2)
             notices_.add("Pm is given: metallic-roughness instead of illum and Ks", mtl_.place);
@@ -243,22 +243,27 @@ private:
         m_.emission.w = float(pm);
         m_.map_metallic = pm > 0 ? load(mtl_.map_pm, TextureRole::SCALAR) : NO_INDEX;
         const bool by_map = m_.map_metallic != NO_INDEX;
-        const double most = 1 - DIELECTRIC_F0 * (by_map ? 1 : 1 - pm);
+        const double dielectric = mtl_.dielectric_f0.value_or(DIELECTRIC_F0);
+        if (dielectric > 0 && (by_map || pm < 1))
+            m_.map_specular = load(mtl_.map_dielectric_f0, TextureRole::LEVEL);
+        const double most = 1 - dielectric * (by_map ? 1 : 1 - pm);
         glm::dvec3 kd = to_dvec3(m_.matte);
         kd *= most / std::max(largest_component(kd), most);
-        const glm::dvec3 f0 = glm::mix(glm::dvec3(DIELECTRIC_F0), kd, pm);
+        glm::dvec3 f0(dielectric);
 
         // Where maps make the mix vary the kernels do it; a pure metal's map is the colour of its reflection.
         m_.matte = to_vec4(kd, 1);
         m_.fresnel = FRESNEL_SCHLICK;
-        if (by_map || (m_.map_matte != NO_INDEX && pm > 0 && pm < 1)) {
+        const bool has_colour_map = m_.map_matte != NO_INDEX || m_.map_specular != NO_INDEX;
+        if (by_map || (has_colour_map && pm > 0 && pm < 1)) {
             m_.flags |= MATERIAL_METALLIC_ROUGHNESS;
         } else {
+            f0 = glm::mix(f0, kd, pm);
             m_.matte = to_vec4(kd * (1 - pm), 1);
             if (pm == 1)
                 std::swap(m_.map_specular, m_.map_matte);
         }
-        if (by_map || largest_component(f0) > 0)
+        if (m_.flags & MATERIAL_METALLIC_ROUGHNESS || largest_component(f0) > 0)
             set_lobe(f0);
         if (mtl_.pr && *mtl_.pr <= WHITTED_MIRROR_PR)
             m_.flags |= MATERIAL_WHITTED_MIRROR;
@@ -290,13 +295,21 @@ private:
             m_.flags |= MATERIAL_CUT_OUT;
     }
 
-    /// Bump heights are in scene units: -bm is the height of a full-range map.
+    /// Bump heights are in scene units: -bm is the height of a full-range map. Of a normal map -bm is the
+    /// strength; beside a bump map it is 1.
     void set_shape_maps() {
-        m_.map_normal = load(mtl_.map_normal, TextureRole::NORMAL);
-        if (!mtl_.map_bump || mtl_.map_bump->bump_multiplier == 0)
-            return;
-        m_.map_bump = load(mtl_.map_bump, TextureRole::SCALAR);
-        m_.bump_scale = float(mtl_.map_bump->bump_multiplier * context_.unit);
+        const auto has_effect = [](const std::optional<MtlTexture>& map) {
+            return map && map->bump_multiplier != 0;
+        };
+        if (has_effect(mtl_.map_normal)) {
+            m_.map_normal = load(mtl_.map_normal, TextureRole::NORMAL);
+            m_.bump_scale = float(mtl_.map_normal->bump_multiplier);
+        }
+        if (has_effect(mtl_.map_bump)) {
+            m_.map_bump = load(mtl_.map_bump, TextureRole::SCALAR);
+            if (m_.map_bump != NO_INDEX)
+                m_.bump_scale = float(mtl_.map_bump->bump_multiplier * context_.unit);
+        }
     }
 
     /// What the keys ask for and no lobe does.

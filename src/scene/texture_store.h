@@ -18,6 +18,7 @@ namespace clrt {
 enum class TextureRole {
     COLOUR,   ///< sRGB where the file holds integers
     NORMAL,   ///< three linear channels
+    LEVEL,    ///< three linear channels that multiply a reflectance
     COVERAGE, ///< the alpha channel where there is one, else luminance
     SCALAR    ///< the only channel, else luminance
 };
