@@ -101,7 +101,7 @@ public:
         note_missing_lobes();
         if (largest_component(to_dvec3(m_.matte)) > 0 && !(m_.lobes & LOBE_DIELECTRIC))
             m_.lobes |= LOBE_MATTE;
-        return {m_, rule_.illum < 0 ? rule_.text : fmt::format("illum {}: {}", rule_.illum, rule_.text)};
+        return {m_, rule_text()};
     }
 
 private:
@@ -111,6 +111,14 @@ private:
         m_.fresnel = FRESNEL_NONE;
         m_.map_matte = m_.map_specular = m_.map_emission = m_.map_coverage = m_.map_roughness = NO_INDEX;
         m_.map_metallic = m_.map_normal = m_.map_bump = NO_INDEX;
+    }
+
+    std::string rule_text() const {
+        std::string text =
+            rule_.illum < 0 ? rule_.text : fmt::format("illum {}: {}", rule_.illum, rule_.text);
+        if (!mtl_.repairs.empty())
+            text += fmt::format(" (repaired: {})", fmt::join(mtl_.repairs, ", "));
+        return text;
     }
 
     u32 load(const std::optional<MtlTexture>& map, TextureRole role) {
