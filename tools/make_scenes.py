@@ -15,6 +15,7 @@ import pathlib
 import sys
 
 import scene_textures as textures
+from scene_head import add_head
 from scene_kit import Obj, add, png, png_pixels, polygon_normal, scale, subtract, unit
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
@@ -283,10 +284,36 @@ def every_effect():
     })
 
 
+def still_life():
+    obj = Obj("A head, balls and a lamp on tiles; the materials are written as Blender's exporter writes them")
+    obj.begin("tiles", "tiles")
+    obj.quad((-5, 0, 4.5), (10, 0, 0), (0, 0, -7), (0, 1, 0), repeat=(10, 7))
+    obj.begin("wall", "wall")
+    obj.quad((-5, 0, -2.5), (10, 0, 0), (0, 6, 0), (0, 0, 1))
+    obj.begin("head", "clay")
+    add_head(obj, (0, 1.5, -0.6), 0.9, SPHERE_LEVEL)
+    obj.begin("plinth", "wall")
+    obj.lathe((0, 0, -0.75), [(0.62, 0), (0.62, 0.28), (0.4, 0.34), (0.36, 0.62), (0, 0.62)], 48)
+    for name, centre, radius in (("gold", (-1.75, 0.55, 0.2), 0.55), ("glass", (-0.72, 0.45, 1.1), 0.45),
+                                 ("plastic", (0.42, 0.4, 1.25), 0.4), ("coated", (1.4, 0.5, 0.7), 0.5),
+                                 ("frosted", (-1.75, 0.28, 1.45), 0.28), ("coated_metal", (1.25, 0.26, 1.65), 0.26)):
+        obj.begin(name + "_ball", name)
+        obj.sphere(centre, radius, SPHERE_LEVEL - (0 if name in ("gold", "glass") else 1))
+    obj.begin("lamp_stand", "steel")
+    obj.lathe((2.35, 0, -0.5), [(0.4, 0), (0.4, 0.05), (0.04, 0.09), (0.04, 1.75)], 48)
+    obj.begin("lamp_bulb", "bulb")
+    obj.sphere((2.35, 1.9, -0.5), 0.2, 2)
+    obj.begin("lamp_shade", "shade")
+    obj.lathe((2.35, 0, -0.5), [(0.62, 1.5), (0.38, 2.35)], 48)
+    obj.begin("softbox", "softbox")
+    obj.quad((-3.2, 4.6, 1.2), (2.2, 0.7, 0), (0, 0, 2.2), (0.3, -1, 0))
+    return files("still_life", obj, {"brick": textures.brick(), "brick_normal": textures.brick_normal()})
+
+
 def all_files():
     made = {}
     for scene in (cornell_box, spheres_over_plane, mirror_glass_depth10, colour_bleeding, caustic, furnace,
-                  glossy_plates, textured_interior, every_effect):
+                  glossy_plates, textured_interior, every_effect, still_life):
         made.update(scene())
     return made
 

@@ -74,7 +74,8 @@ static inline real3 material_mapped_normal(const Scene* scene, global const Mate
     const Frame frame = frame_make_tangent(n, surface->tangent);
     /* Green grows with v, also where the texture coordinates are mirrored. */
     const real handed = vector_dot(frame.y, surface->bitangent) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
-    const real3 mapped = m.x * frame.x + m.y * handed * frame.y + m.z * n;
+    const real strength = material->map_bump == NO_INDEX ? (real)material->bump_scale : REAL(1.0);
+    const real3 mapped = strength * (m.x * frame.x + m.y * handed * frame.y) + m.z * n;
     const real length_squared = vector_dot(mapped, mapped);
     return length_squared == REAL(0.0) ? n : mapped / real_sqrt(length_squared);
 }
@@ -117,7 +118,7 @@ static inline void material_parameters(const Scene* scene, global const Material
             roughness = real_unit(texture_scalar(scene, material->map_roughness, surface->uv));
     }
     if (material->flags & MATERIAL_METALLIC_ROUGHNESS) {
-        bsdf->specular = vector_mix((real3)(REAL(0.04)), bsdf->matte, metallic);
+        bsdf->specular = vector_mix(bsdf->specular, bsdf->matte, metallic);
         bsdf->matte *= REAL(1.0) - metallic;
     }
     /* What is smooth stays so, whatever its map: only alpha calls for the effects of rough lobes. */

@@ -30,7 +30,8 @@ ASSERT_SIZE(Triangle, 48);
 #define FRESNEL_NONE 0u    /* colour `specular` at every angle */
 #define FRESNEL_SCHLICK 1u /* F0 = `specular`, 1 at grazing */
 
-#define MATERIAL_METALLIC_ROUGHNESS 1u /* specular = mix(0.04, matte, metallic), matte = matte (1 - metallic) */
+#define MATERIAL_METALLIC_ROUGHNESS 1u /* `specular` is F0 of the part that is no metal: specular = mix(specular, matte,
+                                          metallic), matte = matte (1 - metallic) */
 #define MATERIAL_EMITS_BOTH_SIDES 2u
 #define MATERIAL_WHITTED_MIRROR 4u     /* `whitted` sends one mirror ray for the reflection lobe, no highlight */
 #define MATERIAL_CUT_OUT 8u            /* coverage below 1 somewhere */
@@ -47,7 +48,8 @@ typedef struct {
     u32 map_matte, map_specular, map_emission; /* indices into the textures, multiply the constants above */
     u32 map_coverage, map_roughness, map_metallic; /* map_roughness holds Pr: alpha = (Pr map)^2 */
     u32 map_normal, map_bump;
-    float bump_scale;     /* height of a full-range bump map in normalised scene units (-bm) */
+    float bump_scale;     /* -bm: height of a full-range bump map in normalised scene units; where there is only a
+                             normal map, the factor of its x and y */
     float roughness_sqrt_x, roughness_sqrt_y; /* Pr along x and y: sqrt(alpha), multiplied by map_roughness */
 } Material;
 ASSERT_SIZE(Material, 128);

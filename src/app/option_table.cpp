@@ -230,6 +230,13 @@ std::vector<OptionSpec> work_options() {
          "chooses "
          "the layout by device and high where a long render pays for it (default auto)",
          apply_bvh},
+        {group, "", "--mtl", "MODE",
+         "material libraries: auto (as Blender, Maya, scan tools and others mean what they write; every "
+         "repair "
+         "is said) or plain (word by word) (default auto)",
+         [](Options& o, const OptionValue& v) {
+             o.mtl = parse_choice<MtlReading>(v, {{"auto", MtlReading::AUTO}, {"plain", MtlReading::PLAIN}});
+         }},
     };
 }
 

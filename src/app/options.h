@@ -22,6 +22,7 @@ enum class QualityChoice { AUTO, FAST, HIGH };
 enum class Filter { BOX, TENT, GAUSSIAN };
 enum class Tonemap { NONE, REINHARD, ACES };
 enum class Check { OFF, COUNT, STRICT };
+enum class MtlReading { AUTO, PLAIN };
 enum class Explain { NO, TABLE, JSON };
 
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
@@ -94,6 +95,7 @@ struct Options {
     int threads = 0; ///< 0: all
     BvhChoice bvh = BvhChoice::AUTO;
     QualityChoice bvh_quality = QualityChoice::AUTO; ///< work put into the tree
+    MtlReading mtl = MtlReading::AUTO;               ///< auto: as the writers of libraries mean them
 
     // Picture
     glm::ivec2 size{800, 600};

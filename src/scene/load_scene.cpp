@@ -10,6 +10,7 @@
 #include "scene/lights.h"
 #include "scene/material_rules.h"
 #include "scene/mtl_libraries.h"
+#include "scene/mtl_repair.h"
 #include "scene/normalise.h"
 #include "scene/obj_reader.h"
 #include "scene/text_scanner.h"
@@ -18,6 +19,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <new>
+#include <optional>
 
 namespace clrt {
 namespace {
@@ -33,15 +35,23 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// The materials of the libraries and what turns them into the scene's.
+struct MaterialReader {
+    std::map<std::string, MtlMaterial> library;
+    MaterialContext context;
+    LoadMap load_map;
+    std::optional<MapFacts> facts; ///< for the repairs; absent: --mtl plain
+};
+
 /// The material behind a usemtl name; a name that no library defines is grey, with a notice.
 RuledMaterial material_by_name(const std::string& name, size_t line, const std::string& obj_path,
-                               const std::map<std::string, MtlMaterial>& library,
-                               const MaterialContext& context, const LoadMap& load_map, SourcePlace& place,
-                               NoticeList& notices) {
-    const auto found = library.find(name);
-    if (found != library.end()) {
-        place = found->second.place;
-        return rule_material(found->second, context, load_map, notices);
+                               const MaterialReader& reader, SourcePlace& place, NoticeList& notices) {
+    const auto found = reader.library.find(name);
+    if (found != reader.library.end()) {
+        const MtlMaterial& mtl = found->second;
+        place = mtl.place;
+        return rule_material(reader.facts ? repair_material(mtl, *reader.facts, notices) : mtl,
+                             reader.context, reader.load_map, notices);
     }
     place = {obj_path, line};
     if (!name.empty())
@@ -55,22 +65,33 @@ RuledMaterial material_by_name(const std::string& name, size_t line, const std::
 /// luminance, mean over its map, times coverage, doubled where both sides shine.
 std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, Progress& progress,
                                    Scene& scene, NoticeList& notices) {
-    const auto library = read_mtl_libraries(options.scene_path, mesh.libraries, notices);
-    const MaterialContext context{scene.normalisation.scale, options.light.two_sided};
     TextureStore store;
-    const LoadMap load_map = [&](const MtlTexture& use, TextureRole role) {
+    const auto timed = [&](const auto& question) {
         const Stopwatch watch;
-        const u32 index = store.add(use, role, notices);
+        const auto answer = question();
         scene.statistics.texture_seconds += watch.seconds();
-        return index;
+        return answer;
     };
+    MaterialReader reader;
+    reader.library = read_mtl_libraries(options.scene_path, mesh.libraries, notices);
+    reader.context = {scene.normalisation.scale, options.light.two_sided};
+    reader.load_map = [&](const MtlTexture& use, TextureRole role) {
+        return timed([&] { return store.add(use, role, notices); });
+    };
+    if (options.mtl == MtlReading::AUTO) {
+        note_writers(reader.library, notices);
+        reader.facts = MapFacts{
+            [&](const MtlTexture& use, TextureRole role) {
+                return timed([&] { return store.is_readable(use, role, notices); });
+            },
+            [&](const MtlTexture& use) { return timed([&] { return store.is_normal_map(use, notices); }); }};
+    }
     std::vector<double> exitance;
     for (size_t i = 0; i < mesh.material_names.size(); ++i) {
         progress.update({"textures", double(i) / double(mesh.material_names.size())});
         SourcePlace place;
-        const RuledMaterial ruled =
-            material_by_name(mesh.material_names[i], mesh.material_lines[i], options.scene_path, library,
-                             context, load_map, place, notices);
+        const RuledMaterial ruled = material_by_name(mesh.material_names[i], mesh.material_lines[i],
+                                                     options.scene_path, reader, place, notices);
         const Material& m = ruled.material;
         scene.emitted.push_back(emitted_radiance(m, store));
         exitance.push_back(emitted_luminance(m, scene.emitted.back()));

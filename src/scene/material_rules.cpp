@@ -98,9 +98,10 @@ public:
         set_emission();
         set_coverage();
         set_shape_maps();
+        note_missing_lobes();
         if (largest_component(to_dvec3(m_.matte)) > 0 && !(m_.lobes & LOBE_DIELECTRIC))
             m_.lobes |= LOBE_MATTE;
-        return {m_, rule_.illum < 0 ? rule_.text : fmt::format("illum {}: {}", rule_.illum, rule_.text)};
+        return {m_, rule_text()};
     }
 
 private:
@@ -110,6 +111,14 @@ private:
         m_.fresnel = FRESNEL_NONE;
         m_.map_matte = m_.map_specular = m_.map_emission = m_.map_coverage = m_.map_roughness = NO_INDEX;
         m_.map_metallic = m_.map_normal = m_.map_bump = NO_INDEX;
+    }
+
+    std::string rule_text() const {
+        std::string text =
+            rule_.illum < 0 ? rule_.text : fmt::format("illum {}: {}", rule_.illum, rule_.text);
+        if (!mtl_.repairs.empty())
+            text += fmt::format(" (repaired: {})", fmt::join(mtl_.repairs, ", "));
+        return text;
     }
 
     u32 load(const std::optional<MtlTexture>& map, TextureRole role) {
@@ -233,8 +242,8 @@ private:
             set_roughness(roughness());
     }
 
-    /// Pm: F0 = mix(0.04, Kd, Pm), matte Kd (1 - Pm). At normal incidence both together give back
-    /// Kd + 0.04 (1 - Pm): Kd is scaled so that this stays at 1 or below.
+    /// Pm: F0 = mix(F, Kd, Pm), matte Kd (1 - Pm), where F is the part's that is no metal. At normal
+    /// incidence both together give back Kd + F (1 - Pm): Kd is scaled so that this stays at 1 or below.
     void set_metallic() {
         if (is_positive(mtl_.ks) || mtl_.illum.value_or(2) > 2)
             notices_.add("Pm is given: metallic-roughness instead of illum and Ks", mtl_.place);
@@ -242,22 +251,27 @@ private:
         m_.emission.w = float(pm);
         m_.map_metallic = pm > 0 ? load(mtl_.map_pm, TextureRole::SCALAR) : NO_INDEX;
         const bool by_map = m_.map_metallic != NO_INDEX;
-        const double most = 1 - DIELECTRIC_F0 * (by_map ? 1 : 1 - pm);
+        const double dielectric = mtl_.dielectric_f0.value_or(DIELECTRIC_F0);
+        if (dielectric > 0 && (by_map || pm < 1))
+            m_.map_specular = load(mtl_.map_dielectric_f0, TextureRole::LEVEL);
+        const double most = 1 - dielectric * (by_map ? 1 : 1 - pm);
         glm::dvec3 kd = to_dvec3(m_.matte);
         kd *= most / std::max(largest_component(kd), most);
-        const glm::dvec3 f0 = glm::mix(glm::dvec3(DIELECTRIC_F0), kd, pm);
+        glm::dvec3 f0(dielectric);
 
         // Where maps make the mix vary the kernels do it; a pure metal's map is the colour of its reflection.
         m_.matte = to_vec4(kd, 1);
         m_.fresnel = FRESNEL_SCHLICK;
-        if (by_map || (m_.map_matte != NO_INDEX && pm > 0 && pm < 1)) {
+        const bool has_colour_map = m_.map_matte != NO_INDEX || m_.map_specular != NO_INDEX;
+        if (by_map || (has_colour_map && pm > 0 && pm < 1)) {
             m_.flags |= MATERIAL_METALLIC_ROUGHNESS;
         } else {
+            f0 = glm::mix(f0, kd, pm);
             m_.matte = to_vec4(kd * (1 - pm), 1);
             if (pm == 1)
                 std::swap(m_.map_specular, m_.map_matte);
         }
-        if (by_map || largest_component(f0) > 0)
+        if (m_.flags & MATERIAL_METALLIC_ROUGHNESS || largest_component(f0) > 0)
             set_lobe(f0);
         if (mtl_.pr && *mtl_.pr <= WHITTED_MIRROR_PR)
             m_.flags |= MATERIAL_WHITTED_MIRROR;
@@ -289,13 +303,36 @@ private:
             m_.flags |= MATERIAL_CUT_OUT;
     }
 
-    /// Bump heights are in scene units: -bm is the height of a full-range map.
+    /// Bump heights are in scene units: -bm is the height of a full-range map. Of a normal map -bm is the
+    /// strength; beside a bump map it is 1.
     void set_shape_maps() {
-        m_.map_normal = load(mtl_.map_normal, TextureRole::NORMAL);
-        if (!mtl_.map_bump || mtl_.map_bump->bump_multiplier == 0)
-            return;
-        m_.map_bump = load(mtl_.map_bump, TextureRole::SCALAR);
-        m_.bump_scale = float(mtl_.map_bump->bump_multiplier * context_.unit);
+        const auto has_effect = [](const std::optional<MtlTexture>& map) {
+            return map && map->bump_multiplier != 0;
+        };
+        if (has_effect(mtl_.map_normal)) {
+            m_.map_normal = load(mtl_.map_normal, TextureRole::NORMAL);
+            m_.bump_scale = float(mtl_.map_normal->bump_multiplier);
+        }
+        if (has_effect(mtl_.map_bump)) {
+            m_.map_bump = load(mtl_.map_bump, TextureRole::SCALAR);
+            if (m_.map_bump != NO_INDEX)
+                m_.bump_scale = float(mtl_.map_bump->bump_multiplier * context_.unit);
+        }
+    }
+
+    /// What the keys ask for and no lobe does.
+    void note_missing_lobes() {
+        const auto note = [&](const char* name, const char* key, bool is_given) {
+            if (is_given)
+                notices_.add(fmt::format("{} has no effect here and is ignored", name), mtl_.place_of(key));
+        };
+        note("Pc (coat)", "pc", mtl_.pc.value_or(0) > 0);
+        note("Ps (sheen)", "ps", mtl_.ps.value_or(0) > 0);
+        note("map_Ps (sheen)", "map_ps", mtl_.map_ps.has_value());
+        note("anisor (turn of the highlight)", "anisor",
+             mtl_.aniso.value_or(0) > 0 && mtl_.anisor.value_or(0) > 0);
+        note("map_Ns", "map_ns", mtl_.map_ns.has_value());
+        note("map_refl", "map_refl", mtl_.map_refl.has_value());
     }
 
     const MtlMaterial& mtl_;

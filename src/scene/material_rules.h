@@ -25,7 +25,8 @@ constexpr double SMALLEST_PHONG_EXPONENT = 1e-3;
 /// Up to this roughness `whitted` follows the reflection of a metallic-roughness material as a mirror's.
 constexpr double WHITTED_MIRROR_PR = 0.1;
 
-/// Where normal incidence reflects 4 %: the F0 of metallic-roughness materials that are no metal.
+/// An index of 1.5 reflects 4 % head-on: the F0 of metallic-roughness materials that are no metal and do not
+/// say otherwise.
 constexpr double DIELECTRIC_F0 = 0.04;
 
 /// GGX alpha of a Phong exponent, sqrt(2 / (Ns + 2)), and back, 2 / alpha^2 - 2 (Walter et al. 2007,
@@ -46,7 +47,8 @@ struct MaterialContext {
     bool two_sided = false; ///< --two-sided-lights
 };
 
-/// Gives a material its meaning. Only the maps that can have an effect are loaded.
+/// Gives a material the meaning that the table has for its keys. Only the maps that can have an effect are
+/// loaded.
 RuledMaterial rule_material(const MtlMaterial& mtl, const MaterialContext& context, const LoadMap& load_map,
                             NoticeList& notices);
 

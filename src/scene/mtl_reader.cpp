@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <limits>
+#include <utility>
 
 namespace clrt {
 namespace {
@@ -21,8 +23,10 @@ struct ColourKey {
     double high;
 };
 constexpr ColourKey COLOUR_KEYS[] = {
-    {"kd", &MtlMaterial::kd, 1}, {"ks", &MtlMaterial::ks, 1}, {"ke", &MtlMaterial::ke, UNLIMITED},
-    {"tf", &MtlMaterial::tf, 1}, {"kt", &MtlMaterial::tf, 1},
+    {"kd", &MtlMaterial::kd, 1},
+    {"ks", &MtlMaterial::ks, 1},
+    {"ke", &MtlMaterial::ke, UNLIMITED},
+    {"tf", &MtlMaterial::tf, 1},
 };
 
 struct NumberKey {
@@ -31,9 +35,17 @@ struct NumberKey {
     double high;
 };
 constexpr NumberKey NUMBER_KEYS[] = {
-    {"ns", &MtlMaterial::ns, UNLIMITED}, {"ni", &MtlMaterial::ni, UNLIMITED}, {"d", &MtlMaterial::d, 1},
-    {"tr", &MtlMaterial::tr, 1},         {"pr", &MtlMaterial::pr, 1},         {"pm", &MtlMaterial::pm, 1},
+    {"ns", &MtlMaterial::ns, UNLIMITED},
+    {"ni", &MtlMaterial::ni, UNLIMITED},
+    {"d", &MtlMaterial::d, 1},
+    {"tr", &MtlMaterial::tr, 1},
+    {"pr", &MtlMaterial::pr, 1},
+    {"pm", &MtlMaterial::pm, 1},
+    {"ps", &MtlMaterial::ps, 1},
+    {"pc", &MtlMaterial::pc, UNLIMITED},
+    {"pcr", &MtlMaterial::pcr, 1},
     {"aniso", &MtlMaterial::aniso, 1},
+    {"anisor", &MtlMaterial::anisor, UNLIMITED},
 };
 
 struct MapKey {
@@ -44,15 +56,29 @@ constexpr MapKey MAP_KEYS[] = {
     {"map_kd", &MtlMaterial::map_kd},     {"map_ks", &MtlMaterial::map_ks},
     {"map_ke", &MtlMaterial::map_ke},     {"map_d", &MtlMaterial::map_d},
     {"map_pr", &MtlMaterial::map_pr},     {"map_pm", &MtlMaterial::map_pm},
-    {"map_bump", &MtlMaterial::map_bump}, {"bump", &MtlMaterial::map_bump},
-    {"norm", &MtlMaterial::map_normal},
+    {"map_bump", &MtlMaterial::map_bump}, {"norm", &MtlMaterial::map_normal},
+    {"map_ps", &MtlMaterial::map_ps},     {"map_ns", &MtlMaterial::map_ns},
+    {"map_refl", &MtlMaterial::map_refl},
 };
+
+/// Keys with two names.
+constexpr std::pair<const char*, const char*> ALIASES[] = {
+    {"kt", "tf"}, {"bump", "map_bump"}, {"refl", "map_refl"}};
 
 std::string lower(std::string_view text) {
     std::string result(text);
     std::transform(result.begin(), result.end(), result.begin(),
                    [](unsigned char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : char(c); });
     return result;
+}
+
+/// A key's own name, in lower case.
+std::string own_name(std::string_view key) {
+    const std::string name = lower(key);
+    for (const auto& [alias, own] : ALIASES)
+        if (name == alias)
+            return own;
+    return name;
 }
 
 /// One statement: its key as written, the text after it, and where it stands.
@@ -95,6 +121,17 @@ std::optional<glm::dvec3> read_colour(const Statement& statement, double high, N
     for (int c = 0; c < 3; ++c)
         colour[c] = clamped(statement, colour[c], high, notices);
     return colour;
+}
+
+/// Ka describes the ambient light of local models, which real indirect light replaces; almost every file has
+/// it, so that nothing is said about what cannot be read.
+std::optional<glm::dvec3> read_ambient(const Statement& statement) {
+    std::string_view rest = without_comment(statement.value);
+    glm::dvec3 colour(0);
+    for (int c = 0; c < 3; ++c)
+        if (!parse_number(next_word(rest), colour[c]) || !std::isfinite(colour[c]))
+            return std::nullopt;
+    return glm::clamp(colour, 0.0, 1.0);
 }
 
 std::optional<double> read_scalar(const Statement& statement, double high, NoticeList& notices) {
@@ -148,12 +185,13 @@ bool read_from_tables(const Statement& statement, const std::string& key, MtlMat
 }
 
 void read_statement(const Statement& statement, MtlMaterial& material, NoticeList& notices) {
-    const std::string key = lower(statement.key);
-    // Ka describes the ambient light of local models, which real indirect light replaces; almost every file
-    // has it.
-    if (key == "ka" || read_from_tables(statement, key, material, notices))
+    const std::string key = own_name(statement.key);
+    material.key_lines[key] = statement.place.line;
+    if (read_from_tables(statement, key, material, notices))
         return;
-    if (key == "illum")
+    if (key == "ka")
+        material.ka = read_ambient(statement);
+    else if (key == "illum")
         material.illum = read_illum(statement, notices);
     else
         notices.add(fmt::format("{} has no effect here and is ignored", statement.key), statement.place);
@@ -163,6 +201,7 @@ void read_statement(const Statement& statement, MtlMaterial& material, NoticeLis
 
 std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& path, NoticeList& notices) {
     std::vector<MtlMaterial> materials;
+    const MtlWriter writer = find_mtl_writer(text);
     LineReader reader(without_byte_order_mark(text));
     while (reader.next()) {
         std::string_view rest = reader.text();
@@ -172,6 +211,7 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& pat
             materials.emplace_back();
             materials.back().name = std::string(statement.value);
             materials.back().place = statement.place;
+            materials.back().writer = writer;
         } else if (materials.empty()) {
             notices.add("a statement before the first newmtl is ignored", statement.place);
         } else {

@@ -3,11 +3,13 @@
 // meaning).
 #pragma once
 
+#include "scene/mtl_dialect.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,18 +28,32 @@ struct MtlTexture {
 };
 
 /// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their
-/// ranges: Kd Ks Tf d Tr Pr Pm aniso in [0,1], Ke and Ns not below 0, Ni above 0.
+/// ranges: Ka Kd Ks Tf d Tr Pr Pm Ps Pcr aniso in [0,1], Ke, Ns, Pc and anisor not below 0, Ni above 0.
 struct MtlMaterial {
     std::string name;
     SourcePlace place;
-    std::optional<glm::dvec3> kd, ks, ke, tf;
-    std::optional<double> ns, ni, d, tr, pr, pm, aniso;
+    MtlWriter writer;                        ///< of the library
+    std::map<std::string, size_t> key_lines; ///< where each key was given last; lower case, no other names
+    std::optional<glm::dvec3> ka, kd, ks, ke, tf;
+    std::optional<double> ns, ni, d, tr, pr, pm, ps, pc, pcr, aniso, anisor;
     std::optional<int> illum; ///< 0..9
-    std::optional<MtlTexture> map_kd, map_ks, map_ke, map_d, map_pr, map_pm, map_normal, map_bump;
+    std::optional<MtlTexture> map_kd, map_ks, map_ke, map_d, map_pr, map_pm, map_ps, map_normal, map_bump;
+    std::optional<MtlTexture> map_ns, map_refl; ///< of Ns, and of what is reflected
+
+    // What no key says; mtl_repair.h does.
+    std::optional<double> dielectric_f0; ///< reflectance head-on of the part that is no metal; absent: 4 %
+    std::optional<MtlTexture> map_dielectric_f0; ///< multiplies it
+    std::vector<std::string> repairs;            ///< names of the repairs that changed this material
+
+    /// Where a key was given; the newmtl where it was not.
+    SourcePlace place_of(const std::string& key) const {
+        const auto found = key_lines.find(key);
+        return found == key_lines.end() ? place : SourcePlace{place.file, found->second};
+    }
 };
 
-/// Reads a material library. Keys in any case; Kt is another name of Tf. What has no meaning here is noted
-/// once and ignored: Ps Pc Pcr anisor, maps of Ka, Ns and others, spectral colours, statements before the
+/// Reads a material library. Keys in any case; Kt is another name of Tf, refl of map_refl. What has no
+/// meaning anywhere is noted once and ignored: maps of Ka and others, spectral colours, statements before the
 /// first newmtl, unknown keys; values outside their range are clamped with a notice. Throws SceneError
 /// (file:line) for a missing file and for text where a number belongs.
 std::vector<MtlMaterial> read_mtl(const std::string& path, NoticeList& notices);

@@ -16,6 +16,12 @@ namespace {
 
 constexpr u32 CHANNEL_ALPHA = 3, CHANNEL_LUMINANCE = 4;
 
+/// What tells normal maps from other pictures: of 23 pictures the normal maps had a share of 0.990 or more of
+/// texels whose length is within the tolerance of 1, the next, a bluish one, had 0.938.
+constexpr double NORMAL_MAP_TOLERANCE = 0.1, NORMAL_MAP_SHARE = 0.97;
+/// Of the mean texel: (n.z + 1) / 2 is 0.8 at 53 degrees from +z.
+constexpr double NORMAL_MAP_BLUE = 0.8;
+
 u32 float_bits(float value) {
     u32 bits;
     std::memcpy(&bits, &value, sizeof bits);
@@ -67,8 +73,8 @@ u32 TextureStore::add(const MtlTexture& use, TextureRole role, NoticeList& notic
     return u32(textures_.size() - 1);
 }
 
-const TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& use, TextureRole role,
-                                                            NoticeList& notices) {
+TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& use, TextureRole role,
+                                                      NoticeList& notices) {
     const auto path = find_file(use.file, use.place.file);
     if (!path) {
         notices.add(fmt::format("no file {} found, the map is ignored", clrt::quoted(use.file)), use.place);
@@ -93,6 +99,46 @@ const TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& us
     }
     return &images_.emplace(std::make_pair(*path, encoding), store(image, encoding, *path, notices))
                 .first->second;
+}
+
+TextureStore::StoredImage* TextureStore::try_to_read(const MtlTexture& use, TextureRole role,
+                                                     NoticeList& notices) {
+    NoticeList found;
+    StoredImage* image = find_or_read(use, role, found);
+    for (const std::string& line : image ? found.lines() : std::vector<std::string>())
+        notices.add_line(line);
+    return image;
+}
+
+bool TextureStore::is_readable(const MtlTexture& use, TextureRole role, NoticeList& notices) {
+    return try_to_read(use, role, notices) != nullptr;
+}
+
+bool TextureStore::is_normal_map(const MtlTexture& use, NoticeList& notices) {
+    StoredImage* image = try_to_read(use, TextureRole::NORMAL, notices);
+    if (!image || image->is_grey)
+        return false;
+    if (!image->is_normal_map)
+        image->is_normal_map = has_unit_vectors(*image);
+    return *image->is_normal_map;
+}
+
+bool TextureStore::has_unit_vectors(const StoredImage& image) const {
+    Texture texture{};
+    texture.first_word = image.first_word;
+    texture.width = image.width;
+    texture.format = image.format;
+    size_t unit = 0;
+    double blue = 0;
+    for (u32 y = 0; y < image.height; ++y)
+        for (u32 x = 0; x < image.width; ++x) {
+            const vec4 c = texel(texture, x, y);
+            const double length = std::hypot(2 * c.x - 1, 2 * c.y - 1, 2 * c.z - 1);
+            unit += std::fabs(length - 1) < NORMAL_MAP_TOLERANCE;
+            blue += double(c.z);
+        }
+    const double texels = double(image.width) * double(image.height);
+    return double(unit) >= NORMAL_MAP_SHARE * texels && blue > NORMAL_MAP_BLUE * texels;
 }
 
 TextureStore::StoredImage TextureStore::store(const Image& image, ImageEncoding encoding,

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ namespace clrt {
 enum class TextureRole {
     COLOUR,   ///< sRGB where the file holds integers
     NORMAL,   ///< three linear channels
+    LEVEL,    ///< three linear channels that multiply a reflectance
     COVERAGE, ///< the alpha channel where there is one, else luminance
     SCALAR    ///< the only channel, else luminance
 };
@@ -33,6 +35,13 @@ public:
     /// The file is looked for relative to the MTL file (find_file.h). Throws SceneError if the texels exceed
     /// 2^32 words.
     u32 add(const MtlTexture& use, TextureRole role, NoticeList& notices);
+
+    /// Whether a map can be read. Where not, add() says why.
+    bool is_readable(const MtlTexture& use, TextureRole role, NoticeList& notices);
+
+    /// Whether the picture of a map is a normal map by its texels: in colour, nearly all of them unit vectors
+    /// coded as (n + 1) / 2, and on the whole near +z. False where it cannot be read; add() says why.
+    bool is_normal_map(const MtlTexture& use, NoticeList& notices);
 
     /// Mean of the texture's values over its picture: linear, with base and gain, negative values as 0.
     glm::dvec3 mean(u32 texture) const;
@@ -54,13 +63,16 @@ private:
     struct StoredImage {
         u32 first_word, width, height, format;
         bool has_alpha, is_grey;
+        std::optional<bool> is_normal_map = std::nullopt; ///< once asked
     };
 
     /// Calls action(rgb) for the value of each texel: base and gain applied, 0 where that is negative.
     template <class Action>
     void for_each_value(u32 texture, Action&& action) const;
 
-    const StoredImage* find_or_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
+    StoredImage* find_or_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
+    StoredImage* try_to_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
+    bool has_unit_vectors(const StoredImage& image) const;
     StoredImage store(const Image& image, ImageEncoding encoding, const std::string& path,
                       NoticeList& notices);
 

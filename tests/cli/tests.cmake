@@ -19,6 +19,7 @@ target_compile_definitions(film_command_test PRIVATE CLRT_MERGE_EXECUTABLE="$<TA
 add_dependencies(film_command_test clrt-merge)
 clrt_command_test(hit_layers_command_test)
 clrt_command_test(information_test)
+clrt_command_test(mtl_command_test)
 clrt_command_test(odd_input_test)
 find_program(CLRT_OCLGRIND oclgrind)
 if(CLRT_OCLGRIND)

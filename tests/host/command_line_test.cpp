@@ -37,6 +37,7 @@ const std::map<std::string, std::string>& samples() {
         {"--precision", "double"},
         {"--threads", "2"},
         {"--bvh", "bvh2"},
+        {"--mtl", "plain"},
         {"--size", "320x200"},
         {"--output", "a.exr"},
         {"--crop", "10,20,30,40"},

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "scene_support.h"
+#include "support/blender_mtl.h"
 
 #include <cmath>
 #include <cstring>
@@ -143,6 +144,51 @@ TEST(LoadScene, BumpHeightsFollowTheScale) {
         load(folder.write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 64 0 0\nv 0 64 0\nf 1 2 3\n"));
     EXPECT_EQ(scene.normalisation.scale, 1. / 32);
     EXPECT_EQ(scene.materials[0].bump_scale, 0.5f / 32);
+}
+
+TEST(LoadScene, LibrariesAreReadAsTheirWritersMeanThem) {
+    const TemporaryFolder folder;
+    folder.write("a.mtl", BLENDER_PBR_MTL);
+    for (const char* name :
+         {"colour.png", "level.png", "metal.png", "roughness.png", "mask.png", "relief.png"})
+        folder.write_image(name, 1, 1, 3, std::vector<std::uint8_t>{128, 128, 255}, OIIO::TypeDesc::UINT8);
+    Options options;
+    options.scene_path = folder.write("a.obj", quad("mtllib a.mtl\n", "usemtl glass\n") +
+                                                   "usemtl mapped\nf 1 2 3\nusemtl coated\nf 1 2 3\n");
+    const Scene scene = load(options);
+    EXPECT_EQ(scene.materials[0].lobes, LOBE_DIELECTRIC);
+    const Material& mapped = scene.materials[1];
+    EXPECT_EQ(scene.texture_names[mapped.map_normal], "relief.png");
+    EXPECT_EQ(scene.texture_names[mapped.map_specular], "level.png");
+    EXPECT_EQ(scene.textures.size(), 6u);
+    EXPECT_EQ(count_notices(scene.notices, "a.mtl: written by Blender 5.0.1"), 1);
+    EXPECT_EQ(count_notices(scene.notices, "Blender's Ks is a specular level: F0 from it and Ni; illum 6 and "
+                                           "9 mean d (and 2 more)"),
+              1)
+        << "one line a repair";
+    EXPECT_EQ(count_notices(scene.notices, "Pc (coat) has no effect"), 1);
+
+    options.mtl = MtlReading::PLAIN;
+    const Scene plain = load(options);
+    EXPECT_EQ(plain.materials[0].lobes, LOBE_MATTE | LOBE_MIRROR);
+    EXPECT_EQ(plain.materials[1].map_normal, NO_INDEX);
+    EXPECT_EQ(plain.texture_names[plain.materials[1].map_bump], "relief.png");
+    EXPECT_EQ(count_notices(plain.notices, "Blender"), 0);
+}
+
+TEST(LoadScene, ABumpMapOfUnitVectorsIsANormalMapAndAMissingOneIsSaidOnce) {
+    const TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl m\nKd 0.5\nbump -bm 2 n.png\nnewmtl none\nbump none.png\nKd 0 0 0\nmap_Kd "
+                          "none.png\n");
+    folder.write_image("n.png", 1, 1, 3, std::vector<std::uint8_t>{128, 128, 255}, OIIO::TypeDesc::UINT8);
+    const Scene scene =
+        load(folder.write("a.obj", quad("mtllib a.mtl\n", "usemtl m\n") + "usemtl none\nf 1 2 3\n"));
+    EXPECT_EQ(scene.materials[0].map_bump, NO_INDEX);
+    EXPECT_EQ(scene.texture_names[scene.materials[0].map_normal], "n.png");
+    EXPECT_EQ(scene.materials[0].bump_scale, 2);
+    EXPECT_EQ(count_notices(scene.notices, "a.mtl:3: map_Bump is a normal map"), 1);
+    EXPECT_EQ(count_notices(scene.notices, "no file 'none.png' found"), 1);
+    EXPECT_EQ(count_notices(scene.notices, "more)"), 0);
 }
 
 TEST(LoadScene, DegenerateTrianglesNeverShine) {

@@ -329,6 +329,53 @@ TEST(MaterialRules, BumpHeightsAreInSceneUnits) {
     EXPECT_EQ(Ruled("bump -bm 0 b.png\n").m.map_bump, NO_INDEX);
 }
 
+TEST(MaterialRules, NormalMapsAloneHaveAStrength) {
+    EXPECT_EQ(Ruled("norm n.png\n", {0.25, false}).m.bump_scale, 1);
+    EXPECT_EQ(Ruled("norm -bm 0.7 n.png\n", {0.25, false}).m.bump_scale, 0.7f);
+    EXPECT_EQ(Ruled("norm -bm 0 n.png\n").m.map_normal, NO_INDEX);
+    const Ruled missing("norm -bm 0.7 n.png\nbump -bm 3 missing.png\n", {0.25, false});
+    EXPECT_EQ(missing.m.bump_scale, 0.7f) << "an unreadable bump map does not count";
+}
+
+TEST(MaterialRules, WhatHasNoLobeIsSaidWhereItIsAskedFor) {
+    const Ruled r(
+        "Pr 0.5\nPc 0.5\nPs 0.5\nmap_Ps s.png\naniso 0.5\nanisor 0.25\nmap_Ns n.png\nmap_refl r.png\n");
+    for (const char* notice :
+         {"a.mtl:3: Pc (coat) has no effect", "a.mtl:4: Ps (sheen) has no effect",
+          "a.mtl:5: map_Ps (sheen) has no effect", "a.mtl:7: anisor (turn of the highlight)",
+          "a.mtl:8: map_Ns has no effect", "a.mtl:9: map_refl has no effect"})
+        EXPECT_EQ(count_notices(r.notices, notice), 1) << notice;
+    EXPECT_TRUE(Ruled("Pr 0.5\nPc 0\nPcr 0.03\nPs 0\naniso 0\nanisor 0.5\n").notices.empty());
+}
+
+TEST(MaterialRules, TheReflectanceOfTheDielectricPartCanBeGiven) {
+    NoticeList notices;
+    const auto with_f0 = [&](const std::string& text, double f0, const char* map) {
+        MtlMaterial mtl = parse_mtl("newmtl m\n" + text, "a.mtl", notices).at(0);
+        mtl.dielectric_f0 = f0;
+        if (map) {
+            mtl.map_dielectric_f0.emplace();
+            mtl.map_dielectric_f0->file = map;
+        }
+        u32 maps = 0;
+        return rule_material(
+                   mtl, {}, [&](const MtlTexture&, TextureRole) { return maps++; }, notices)
+            .material;
+    };
+    const Material plain = with_f0("Kd 1\nPm 0\nPr 0.5\n", 0.2, nullptr);
+    expect_colour(plain.specular, 0.2, 0.2, 0.2);
+    EXPECT_FLOAT_EQ(plain.matte.x, 0.8f);
+    const Material mixed = with_f0("Kd 0.6\nPm 0.5\nPr 0.5\n", 0.2, nullptr);
+    expect_colour(mixed.specular, 0.4, 0.4, 0.4);
+    const Material mapped = with_f0("Kd 0.6\nPm 0.5\nPr 0.5\n", 0.2, "f0.png");
+    EXPECT_EQ(mapped.flags, MATERIAL_METALLIC_ROUGHNESS);
+    expect_colour(mapped.specular, 0.2, 0.2, 0.2);
+    EXPECT_EQ(mapped.map_specular, 0u);
+    EXPECT_EQ(with_f0("Kd 0.6\nPm 0\nPr 0.5\n", 0.2, "f0.png").flags, 0u) << "no mix is needed";
+    EXPECT_EQ(with_f0("Kd 0.6\nPm 1\nPr 0.5\n", 0.2, "f0.png").map_specular, NO_INDEX) << "all is metal";
+    EXPECT_EQ(with_f0("Kd 0.6\nPm 0\nPr 0.5\n", 0, "f0.png").lobes, LOBE_MATTE);
+}
+
 TEST(MaterialRules, ReflectionWithoutKsIsNoted) {
     const Ruled r("illum 3\nKd 0.5\n");
     EXPECT_EQ(r.m.lobes, LOBE_MATTE);

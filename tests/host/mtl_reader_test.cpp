@@ -50,8 +50,9 @@ std::map<std::string, MtlMaterial> libraries(const TemporaryFolder& folder, cons
 
 TEST(MtlReader, ReadsEveryKey) {
     const MtlMaterial m =
-        parse_one("Ka 9 9 9\nKd .1 .2 .3\nKs 0.4 0.5 0.6\nKe 7 8 9\nTf 0.9 0.8 0.7\nNs 33\nNi 1.4\n"
-                  "illum 7\nd 0.25\nTr 0.75\nPr 0.2\nPm 0.3\naniso 0.4\n");
+        parse_one("Ka .6 .7 9\nKd .1 .2 .3\nKs 0.4 0.5 0.6\nKe 7 8 9\nTf 0.9 0.8 0.7\nNs 33\nNi 1.4\n"
+                  "illum 7\nd 0.25\nTr 0.75\nPr 0.2\nPm 0.3\naniso 0.4\nPs 0.5\nPc 4\nPcr 0.1\nanisor 1.5\n");
+    EXPECT_EQ(m.ka, glm::dvec3(0.6, 0.7, 1));
     EXPECT_EQ(m.kd, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(m.ks, glm::dvec3(0.4, 0.5, 0.6));
     EXPECT_EQ(m.ke, glm::dvec3(7, 8, 9));
@@ -64,19 +65,33 @@ TEST(MtlReader, ReadsEveryKey) {
     EXPECT_EQ(m.pr, 0.2);
     EXPECT_EQ(m.pm, 0.3);
     EXPECT_EQ(m.aniso, 0.4);
+    EXPECT_EQ(m.ps, 0.5);
+    EXPECT_EQ(m.pc, 4);
+    EXPECT_EQ(m.pcr, 0.1);
+    EXPECT_EQ(m.anisor, 1.5);
 }
 
 TEST(MtlReader, AbsentKeysStayAbsent) {
     const MtlMaterial m = parse_one("");
-    EXPECT_FALSE(m.kd || m.ks || m.ke || m.tf || m.ns || m.ni || m.d || m.tr || m.pr || m.pm || m.aniso ||
-                 m.illum);
-    EXPECT_FALSE(m.map_kd || m.map_ks || m.map_ke || m.map_d || m.map_pr || m.map_pm || m.map_normal ||
-                 m.map_bump);
+    EXPECT_FALSE(m.ka || m.kd || m.ks || m.ke || m.tf || m.ns || m.ni || m.d || m.tr || m.pr || m.pm ||
+                 m.ps || m.pc || m.pcr || m.aniso || m.anisor || m.illum || m.dielectric_f0);
+    EXPECT_FALSE(m.map_kd || m.map_ks || m.map_ke || m.map_d || m.map_pr || m.map_pm || m.map_ps ||
+                 m.map_normal || m.map_bump || m.map_ns || m.map_refl || m.map_dielectric_f0);
+}
+
+TEST(MtlReader, KeysKnowTheirLines) {
+    const MtlMaterial m = parse_one("KD 1 1 1\n\nbump b.png\nKt 1 1 1\nKd 0.5\n");
+    EXPECT_EQ(m.place_of("kd").line, 6u) << "the last one counts";
+    EXPECT_EQ(m.place_of("map_bump").line, 4u);
+    EXPECT_EQ(m.place_of("tf").line, 5u);
+    EXPECT_EQ(m.place_of("ns").line, 1u) << "absent: that of newmtl";
+    EXPECT_EQ(m.place_of("kd").file, "a.mtl");
 }
 
 TEST(MtlReader, ReadsEveryMap) {
     const MtlMaterial m =
-        parse_one("map_Kd 1\nmap_Ks 2\nmap_Ke 3\nmap_d 4\nmap_Pr 5\nmap_Pm 6\nnorm 7\nbump 8\n");
+        parse_one("map_Kd 1\nmap_Ks 2\nmap_Ke 3\nmap_d 4\nmap_Pr 5\nmap_Pm 6\nnorm 7\nbump 8\n"
+                  "map_Ns 9\nmap_refl 10\nmap_Ps 11\n");
     EXPECT_EQ(m.map_kd->file, "1");
     EXPECT_EQ(m.map_ks->file, "2");
     EXPECT_EQ(m.map_ke->file, "3");
@@ -85,6 +100,10 @@ TEST(MtlReader, ReadsEveryMap) {
     EXPECT_EQ(m.map_pm->file, "6");
     EXPECT_EQ(m.map_normal->file, "7");
     EXPECT_EQ(m.map_bump->file, "8");
+    EXPECT_EQ(m.map_ns->file, "9");
+    EXPECT_EQ(m.map_refl->file, "10");
+    EXPECT_EQ(m.map_ps->file, "11");
+    EXPECT_EQ(parse_one("refl r.png").map_refl->file, "r.png");
     EXPECT_EQ(m.map_bump->place.line, 9u);
     EXPECT_EQ(parse_one("map_Bump x.png").map_bump->file, "x.png");
 }
@@ -147,8 +166,8 @@ TEST(MtlReader, ImpossibleIorAndIllumFallBack) {
 
 TEST(MtlReader, IgnoredKeysAreListedOnce) {
     const Parsed p =
-        parse("newmtl a\nPs 1\nmap_Ka x.png\nwhat ever\nnewmtl b\nPs 2\nTf spectral x.rfl 1\nKd xyz 1 1 1\n");
-    EXPECT_EQ(count_notices(p.notices, "a.mtl:2: Ps has no effect here and is ignored (and 1 more)"), 1);
+        parse("newmtl a\nKm 1\nmap_Ka x.png\nwhat ever\nnewmtl b\nKm 2\nTf spectral x.rfl 1\nKd xyz 1 1 1\n");
+    EXPECT_EQ(count_notices(p.notices, "a.mtl:2: Km has no effect here and is ignored (and 1 more)"), 1);
     EXPECT_EQ(count_notices(p.notices, "map_Ka has no effect"), 1);
     EXPECT_EQ(count_notices(p.notices, "what has no effect"), 1);
     EXPECT_EQ(count_notices(p.notices, "Tf spectral is not supported"), 1);
@@ -157,8 +176,13 @@ TEST(MtlReader, IgnoredKeysAreListedOnce) {
     EXPECT_FALSE(p.materials[1].tf || p.materials[1].kd);
 }
 
-TEST(MtlReader, AmbientColoursAreSilentlyIgnored) {
+TEST(MtlReader, AmbientColoursAreReadSilently) {
     EXPECT_TRUE(parse("newmtl a\nKa 1 1 1\n").notices.empty());
+    for (const char* odd : {"Ka", "Ka 1", "Ka spectral x.rfl 1", "Ka 1 red 1", "Ka 1 nan 1"}) {
+        const Parsed p = parse(std::string("newmtl a\n") + odd + "\n");
+        EXPECT_FALSE(p.materials[0].ka) << odd;
+        EXPECT_TRUE(p.notices.empty()) << odd;
+    }
 }
 
 TEST(MtlReader, StatementsBeforeTheFirstMaterialAreIgnored) {
@@ -311,9 +335,9 @@ TEST(MtlLibraries, TheFirstDefinitionOfANameCounts) {
 
 TEST(MtlLibraries, ALibraryNamedTwiceIsReadOnce) {
     const TemporaryFolder folder;
-    folder.write("a.mtl", "newmtl m\nPs 1\n");
+    folder.write("a.mtl", "newmtl m\nKm 1\n");
     NoticeList notices;
     read_mtl_libraries(folder.path("scene.obj"), {{"a.mtl", 1}, {"a.mtl", 9}}, notices);
-    EXPECT_EQ(count_notices(notices, "Ps has no effect here and is ignored"), 1);
+    EXPECT_EQ(count_notices(notices, "Km has no effect here and is ignored"), 1);
     EXPECT_EQ(count_notices(notices, "more"), 0);
 }

@@ -51,6 +51,7 @@ TEST(PathPlan, EveryLetterOfTheSceneHasItsWitness) {
     PlannedScene scene;
     scene.build.material("unused", "illum 7\nNi 1.5").material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3");
     scene.build.material("frosted", "illum 7\nNi 1.5\nPr 0.5").material("flat", "illum 7\nNi 1");
+    scene.options.mtl = MtlReading::PLAIN; // "flat" is glass that bends nothing
     scene.options.light.points.push_back({{0, 1, 0}, glm::dvec3(1)});
     PathPlan plan = scene.plan("L.*E");
     EXPECT_EQ(plan.alphabet.letters, 1u << LETTER_MATTE) << "materials on no triangle count for nothing";

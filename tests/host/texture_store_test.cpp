@@ -4,6 +4,7 @@
 #include "scene/colour.h"
 #include "scene_support.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
@@ -236,4 +237,60 @@ TEST_F(TextureStoreTest, MeanIsLinearWithBaseAndGain) {
     use.gain = -2;
     use.base = 3;
     EXPECT_EQ(store.largest(add("a.exr", TextureRole::COLOUR, use)), glm::dvec3(1, 3, 1)) << "of the darkest";
+}
+
+namespace {
+
+/// A picture of 10 x 10 texels (r, g, b) of which the first `odd` differ.
+Bytes picture(const std::array<std::uint8_t, 3>& usual, const std::array<std::uint8_t, 3>& other, int odd) {
+    Bytes bytes;
+    for (int i = 0; i < 100; ++i)
+        for (const std::uint8_t value : i < odd ? other : usual)
+            bytes.push_back(value);
+    return bytes;
+}
+
+} // namespace
+
+TEST_F(TextureStoreTest, NormalMapsAreKnownByTheirTexels) {
+    constexpr std::array<std::uint8_t, 3> UP{128, 128, 255}, TILTED{218, 128, 218}, GREY{128, 128, 128},
+        BLUE{90, 120, 210}, SIDEWAYS{255, 128, 128};
+    const auto is_normal = [&](const std::string& name, const Bytes& bytes, int channels = 3) {
+        folder.write_image(name, 10, 10, channels, bytes, OIIO::TypeDesc::UINT8);
+        MtlTexture use;
+        use.file = name;
+        use.place = {folder.path("scene.mtl"), 5};
+        return store.is_normal_map(use, notices);
+    };
+    EXPECT_TRUE(is_normal("flat.png", picture(UP, UP, 0)));
+    EXPECT_TRUE(is_normal("tilted.png", picture(TILTED, UP, 40)));
+    EXPECT_TRUE(is_normal("few_odd.png", picture(UP, GREY, 3)));
+    EXPECT_FALSE(is_normal("more_odd.png", picture(UP, GREY, 4))) << "97 % are unit vectors";
+    EXPECT_FALSE(is_normal("blue.png", picture(BLUE, BLUE, 0)));
+    EXPECT_FALSE(is_normal("sideways.png", picture(SIDEWAYS, SIDEWAYS, 0))) << "unit vectors, far from +z";
+    EXPECT_FALSE(is_normal("heights.png", picture(GREY, {200, 200, 200}, 50)));
+    EXPECT_FALSE(is_normal("grey.png", Bytes(100, 202), 1)) << "(202, 202, 202) is near a unit vector";
+    folder.write_image("floats.exr", 1, 1, 3, std::vector<float>{0.5f, 0.5f, 1}, OIIO::TypeDesc::FLOAT);
+    MtlTexture use;
+    use.place = {folder.path("scene.mtl"), 5};
+    use.file = "floats.exr";
+    EXPECT_TRUE(store.is_normal_map(use, notices));
+    use.file = "missing.png";
+    EXPECT_FALSE(store.is_normal_map(use, notices));
+    EXPECT_FALSE(store.is_readable(use, TextureRole::COLOUR, notices));
+    EXPECT_TRUE(notices.lines().empty()) << "the use of the map says it";
+}
+
+TEST_F(TextureStoreTest, QuestionsReadAPictureOnceAndKeepItsNotices) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    folder.write_image("a.exr", 1, 1, 3, std::vector<float>{nan, 0.5f, 1}, OIIO::TypeDesc::FLOAT);
+    MtlTexture use;
+    use.file = "a.exr";
+    use.place = {folder.path("scene.mtl"), 5};
+    EXPECT_FALSE(store.is_normal_map(use, notices));
+    EXPECT_TRUE(store.is_readable(use, TextureRole::NORMAL, notices));
+    const size_t words = store.words().size();
+    add("a.exr", TextureRole::NORMAL);
+    EXPECT_EQ(store.words().size(), words);
+    EXPECT_EQ(count_notices(notices, "1 values are NaN or infinite"), 1);
 }

@@ -158,6 +158,7 @@ TEST(Material, RoughnessMapsHoldTheRootOfAlpha) {
 TEST(Material, MetallicRoughnessMixesTheReflectionFromGlassToMetal) {
     Sample sample;
     sample.material().flags = MATERIAL_METALLIC_ROUGHNESS;
+    sample.material().specular = {0.04f, 0.04f, 0.04f, 40};
     for (const float metallic : {0.0f, 0.25f, 1.0f}) {
         sample.material().emission.w = metallic;
         const SceneProbe::Outputs got = sample.at("colors", 0.25, 0.25, UP);
@@ -169,6 +170,12 @@ TEST(Material, MetallicRoughnessMixesTheReflectionFromGlassToMetal) {
     EXPECT_LE(
         glm::length(to_dvec3(sample.at("colors", 0.25, 0.25, UP).first[0]) - dvec3(0.25, 0.125, 0.0625)),
         1e-7);
+    // The part that is no metal has its own reflectance, and a map of it.
+    sample.material().specular = {0.2f, 0.2f, 0.2f, 40};
+    sample.material().map_specular = sample.add_map(1, 1, {{0.5f, 0.25f, 1, 1}});
+    EXPECT_LE(glm::length(to_dvec3(sample.at("colors", 0.25, 0.25, UP).second[0]) -
+                          (dvec3(0.1, 0.05, 0.2) + dvec3(0.5, 0.25, 0.125)) / 2.0),
+              1e-7);
 }
 
 TEST(Material, LightComesFromTheFrontUnlessBothSidesEmit) {
@@ -202,6 +209,7 @@ TEST(Material, FlatMapsLeaveTheNormal) {
 TEST(Material, NormalMapsTurnRedTowardsUAndGreenTowardsV) {
     Sample sample;
     sample.material().map_normal = sample.add_map(1, 1, {{0.8f, 0.7f, 0.9f, 1}});
+    sample.material().bump_scale = 1;
     const dvec3 exact = glm::normalize(dvec3(0.6, 0.4, 0.8));
     EXPECT_LE(glm::length(to_dvec3(sample.at("frame", 0.25, 0.25, UP).first[0]) - exact), 1e-6);
     // From behind, as when light leaves glass, it is the same surface.
@@ -214,6 +222,23 @@ TEST(Material, NormalMapsTurnRedTowardsUAndGreenTowardsV) {
     // Without texture coordinates a map has no direction.
     sample.scene.triangles[0].t0 = NO_INDEX;
     EXPECT_EQ(to_dvec3(sample.at("frame", 0.25, 0.25, UP).first[0]), UP);
+}
+
+TEST(Material, TheStrengthOfANormalMapScalesItsTilt) {
+    Sample sample;
+    sample.material().map_normal = sample.add_map(1, 1, {{0.8f, 0.7f, 0.9f, 1}});
+    for (const float strength : {-1.0f, 0.5f, 3.0f}) {
+        sample.material().bump_scale = strength;
+        const dvec3 exact = glm::normalize(dvec3(0.6 * double(strength), 0.4 * double(strength), 0.8));
+        EXPECT_LE(glm::length(to_dvec3(sample.at("frame", 0.25, 0.25, UP).first[0]) - exact), 1e-6)
+            << strength;
+    }
+    // Beside a bump map its strength is 1: the scale is that of the heights.
+    sample.material().bump_scale = 7;
+    sample.material().map_bump = sample.add_map(1, 1, {{0.3f, 0, 0, 1}});
+    EXPECT_LE(glm::length(to_dvec3(sample.at("frame", 0.25, 0.25, UP).first[0]) -
+                          glm::normalize(dvec3(0.6, 0.4, 0.8))),
+              1e-6);
 }
 
 TEST(Material, BumpMapsTiltTheNormalAgainstTheSlope) {

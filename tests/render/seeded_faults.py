@@ -82,6 +82,8 @@ FAULTS = [
      "textured_picture_test"),
     ("green of normal maps turned round", "scattering/material.h", "m.y * handed * frame.y", "-m.y * handed * frame.y",
      "shading_normal_test"),
+    ("strength of normal maps forgotten", "scattering/material.h", "? (real)material->bump_scale : REAL(1.0)",
+     "? REAL(1.0) : REAL(1.0)", "mtl_dialects_test"),
     ("no inverse square", "lights/delta_light.h", "sample.radiance /= distance_squared;", "", "direct_light_test"),
     ("no masking of microfacets", "scattering/bsdf_glossy.h", "(REAL(1.0) + lambda_o + lambda_i)",
      "(REAL(1.0) + lambda_o)", "furnace_test"),

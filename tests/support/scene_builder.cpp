@@ -69,6 +69,11 @@ void SceneBuilder::face(size_t first_vertex, size_t count, bool textured) {
     line(text);
 }
 
+SceneBuilder& SceneBuilder::header(const std::string& lines) {
+    mtl_ = lines + mtl_;
+    return *this;
+}
+
 SceneBuilder& SceneBuilder::material(const std::string& name, const std::string& keys) {
     mtl_ += "newmtl " + name + "\n" + keys + "\n\n";
     return *this;

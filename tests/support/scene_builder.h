@@ -17,6 +17,8 @@ enum class Shading { FLAT, SMOOTH };
 /// Writes an OBJ and its MTL face by face. Faces are counter-clockwise seen from their front.
 class SceneBuilder {
 public:
+    /// Puts lines in front of the materials, such as the comment that names their writer.
+    SceneBuilder& header(const std::string& lines);
     /// Defines a material; `keys` are its lines, such as "Kd 1 1 1\nNi 1.5".
     SceneBuilder& material(const std::string& name, const std::string& keys);
     /// Faces from here on have this material.

@@ -42,6 +42,7 @@ struct GradientScene : SkyScene {
         options.light.environment_file = folder.file("gradient.exr");
         // Both scenes have one frame: the corners of their boxes are these.
         build.material("air", "Ni 1\nillum 7").material("black", "Kd 0 0 0").use("black");
+        options.mtl = MtlReading::PLAIN; // air is glass that bends nothing
         build.box({6, 6, 6}, {6.1, 6.1, 6.1}).box({-6.1, -6.1, -6.1}, {-6, -6, -6});
         if (with_ball)
             build.use("air").icosphere({0, 0, 0}, 1, 2);
