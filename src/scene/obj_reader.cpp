@@ -4,7 +4,9 @@
 #include "scene/obj_reader.h"
 
 #include "error.h"
+#include "scene/foreign_format.h"
 #include "scene/obj_chunk.h"
+#include "scene/text_encoding.h"
 #include "scene/text_scanner.h"
 #include "scene/triangulate.h"
 
@@ -349,8 +351,11 @@ ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes
     progress.update({"load", 0});
     Pieces pieces;
     {
-        const std::string text = read_file(path);
-        mesh.bytes = text.size();
+        std::string bytes = read_file(path);
+        mesh.bytes = bytes.size();
+        if (const std::string other = foreign_format(bytes); !other.empty())
+            throw SceneError(path, 0, "expected a Wavefront OBJ, found " + other);
+        const std::string text = as_utf8(std::move(bytes));
         progress.update({"load", PROGRESS_READ});
         pieces = parse_text(path, without_byte_order_mark(text), chunk_bytes, progress);
     }

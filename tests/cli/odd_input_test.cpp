@@ -71,6 +71,20 @@ TEST_F(OddInput, LineEndsMarksAndIndicesAreAsWritersMakeThem) {
     expect_seen("a long line", SQUARE + "# " + std::string(3000000, 'x') + "\nf 1 2 3 4\n");
     expect_seen("vertices with weights", with_line_ends(SQUARE, " 1\n") + "f 1 2 3 4\n");
     expect_seen("vertices with colours", with_line_ends(SQUARE, " 1 0 0\n") + "f 1 2 3 4\n");
+    std::string utf16 = "\xff\xfe";
+    for (const char c : SQUARE + "f 1 2 3 4\r\n")
+        utf16 += {c, '\0'};
+    expect_seen("UTF-16", utf16);
+}
+
+TEST_F(OddInput, FilesOfOtherFormatsAreErrorsThatSayWhatToDo) {
+    expect_error("glTF", "{\"asset\":{\"version\":\"2.0\"}}",
+                 {"odd.obj: expected a Wavefront OBJ, found a glTF file", "export"});
+    expect_error("GLB", std::string("glTF\2\0\0\0\x10\0\0\0", 12),
+                 {"a binary glTF file (GLB)", "assimp export"});
+    expect_error("PLY", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n", {"a PLY file"});
+    expect_error("MTL", "newmtl red\nKd 1 0 0\n", {"a material library (MTL): give the OBJ that names it"});
+    expect_error("a picture", "\x89PNG\r\n\x1a\n", {"a PNG picture"});
 }
 
 TEST_F(OddInput, PolygonsHaveAnyShape) {

@@ -415,5 +415,31 @@ TEST(ObjReader, ResultDoesNotDependOnChunksOrThreads) {
     }
 }
 
+TEST(ObjReader, Utf16IsReadAsUtf8) {
+    const std::string text = std::string(SQUARE) + "o \xc3\xa4\nf 1 2 3 4\n"; // a with two dots
+    const auto utf16 = [](const std::string& characters, bool big, bool mark) {
+        std::string bytes = !mark ? "" : big ? "\xfe\xff" : "\xff\xfe";
+        for (const char c : characters)
+            bytes += big ? std::string{'\0', c} : std::string{c, '\0'};
+        return bytes;
+    };
+    const std::string expected = dump(read(text));
+    for (const bool big : {false, true})
+        for (const bool mark : {false, true}) {
+            ObjMesh mesh = read(utf16(std::string(SQUARE) + "o \xe4\nf 1 2 3 4\n", big, mark));
+            mesh.bytes = text.size();
+            EXPECT_EQ(dump(mesh), expected) << big << mark;
+        }
+    EXPECT_EQ(error_of(utf16("v 0 0 0\nv 1 x 0\n", false, true)),
+              "scene.obj:2: expected a number after v, found 'x'");
+}
+
+TEST(ObjReader, FilesOfOtherFormatsAreNamed) {
+    EXPECT_EQ(error_of(std::string("glTF\2\0\0\0", 8))
+                  .find("scene.obj: expected a Wavefront OBJ, found a binary "
+                        "glTF file (GLB): export it as OBJ"),
+              0u);
+}
+
 } // namespace
 } // namespace clrt
