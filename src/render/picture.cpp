@@ -2,6 +2,7 @@
 #include "render/picture.h"
 
 #include "render/render_params.h"
+#include "scene/normalise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,15 +60,16 @@ public:
         }
         return layer;
     }
-    /// Mean position in world units.
+    /// Mean position in world units, from position_origin().
     Layer position() const {
         Layer layer = average("P", {"X", "Y", "Z"}, POSITION);
         const Normalisation& frame = scene_.normalisation;
+        const glm::dvec3 centre = frame.centre - position_origin(frame);
         size_t i = 0;
         for_each_pixel([&](const float* sums) {
             for (int c = 0; c < 3; ++c, ++i)
                 layer.values[i] =
-                    sums[HITS] > 0 ? float(double(layer.values[i]) / frame.scale + frame.centre[c]) : 0.0f;
+                    sums[HITS] > 0 ? float(double(layer.values[i]) / frame.scale + centre[c]) : 0.0f;
         });
         return layer;
     }

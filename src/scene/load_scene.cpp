@@ -7,6 +7,7 @@
 #include "scene/colour.h"
 #include "scene/cut_vast.h"
 #include "scene/environment.h"
+#include "scene/far_notices.h"
 #include "scene/lights.h"
 #include "scene/material_rules.h"
 #include "scene/mtl_libraries.h"
@@ -118,6 +119,8 @@ Scene load_all(const Options& options, Progress& progress) {
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
     scene.normalisation = fit_normalisation(bounds);
+    note_coarse_digits(mesh, bounds, options.scene_path, notices);
+    note_relative_positions(scene.normalisation, options, notices);
     const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
     assemble_geometry(mesh, bounds, scene.normalisation, options.scene_path, scene, notices);
     const CutTriangles cut = cut_vast_triangles(scene);
@@ -129,6 +132,7 @@ Scene load_all(const Options& options, Progress& progress) {
     const bool whole_camera = options.camera.eye && options.camera.at;
     const BoxCover cover = whole_camera ? BoxCover{} : measure_box_cover(scene.positions, scene.triangles);
     scene.camera = fit_camera(options.camera, options.size, bounds, cover, notices);
+    note_far_options(scene.camera, bounds, options, notices);
     scene.notices = notices.lines();
     return scene;
 }

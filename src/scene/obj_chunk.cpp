@@ -22,9 +22,10 @@ bool is_end(std::string_view word) {
     return word.empty() || word[0] == '#';
 }
 
-/// Reads up to `wanted` numbers, `needed` of them at least; anything after them is left alone.
-std::string parse_numbers(std::string_view keyword, std::string_view rest, int needed, int wanted,
-                          float* numbers) {
+/// Takes up to `wanted` numbers off `rest`, `needed` of them at least.
+template <typename T>
+std::string parse_numbers(std::string_view keyword, std::string_view& rest, int needed, int wanted,
+                          T* numbers) {
     for (int i = 0; i < wanted; ++i) {
         const std::string_view word = next_word(rest);
         if (is_end(word)) {
@@ -95,9 +96,18 @@ std::string parse_face(std::string_view rest, size_t line, ObjChunk& chunk) {
     return {};
 }
 
+/// Beyond the range of float a coordinate is infinite or zero: squares of sizes stay in the range of double.
+double in_range(double x) {
+    const double size = std::fabs(x);
+    if (size > double(std::numeric_limits<float>::max()))
+        return std::copysign(std::numeric_limits<double>::infinity(), x);
+    return size < double(std::numeric_limits<float>::denorm_min()) ? 0 : x;
+}
+
 std::string parse_position(std::string_view rest, ObjChunk& chunk) {
-    glm::vec3 p(0);
+    glm::dvec3 p(0);
     std::string error = parse_numbers("v", rest, 3, 3, &p.x);
+    p = {in_range(p.x), in_range(p.y), in_range(p.z)};
     chunk.has_non_finite_position |= !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     chunk.positions.push_back(p);
     return error;

@@ -70,7 +70,8 @@ using Tallies = std::array<Tally, ODDITY_KINDS>;
 
 /// Everything a piece of text says, and the first thing in it that is wrong.
 struct ObjChunk {
-    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
     std::vector<ObjCorner> corners;
     std::vector<ObjFace> faces;

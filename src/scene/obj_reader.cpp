@@ -190,7 +190,7 @@ void resolve_face(const ObjMesh& mesh, Piece& piece, const ObjFace& face) {
 bool is_finite(const ObjMesh& mesh, const ObjChunk& chunk, const ObjFace& face) {
     return std::all_of(chunk.corners.begin() + std::ptrdiff_t(face.first_corner),
                        chunk.corners.begin() + std::ptrdiff_t(face.end_corner), [&](const ObjCorner& corner) {
-                           const glm::vec3& p = mesh.positions[size_t(corner.v)];
+                           const glm::dvec3& p = mesh.positions[size_t(corner.v)];
                            return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
                        });
 }
@@ -229,7 +229,7 @@ ObjTriangle make_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorne
 /// Writes a piece's triangles to their place in the mesh.
 void triangulate_piece(Piece& piece, ObjMesh& mesh) {
     ObjTriangle* out = mesh.triangles.data() + piece.first_triangle;
-    std::vector<glm::vec3> polygon;
+    std::vector<glm::dvec3> polygon;
     std::vector<u32> cut;
     auto material = piece.materials.begin(), object = piece.objects.begin();
     for (size_t f = 0; f < piece.chunk.faces.size(); ++f) {

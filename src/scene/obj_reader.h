@@ -28,7 +28,7 @@ struct ObjLibrary {
 
 /// The geometry and names of an OBJ file, exactly as written (world units, no fallbacks for materials).
 struct ObjMesh {
-    std::vector<glm::vec3> positions;
+    std::vector<glm::dvec3> positions; ///< in double: map coordinates leave floats no digits for the scene
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
     std::vector<ObjTriangle> triangles;      ///< in file order

@@ -87,6 +87,36 @@ TEST_F(OddInput, FilesOfOtherFormatsAreErrorsThatSayWhatToDo) {
     expect_error("a picture", "\x89PNG\r\n\x1a\n", {"a PNG picture"});
 }
 
+TEST_F(OddInput, MapCoordinatesAreRenderedAndTheirLimitsAreSaid) {
+    const std::string far =
+        "v 5399999.6 -1 0\nv 5400000.4 -1 0\nv 5400000.4 1 0\nv 5399999.6 1 0\nf 1 2 3 4\n";
+    expect_seen("far away", far);
+    expect_seen("digits of single precision",
+                "v 5400000 -1 0\nv 5400001 -1 0\nv 5400001 1 0\nv 5400000 1 0\nf 1 2 3 4\n",
+                {"odd.obj: x is written in steps of 1 near 5.4e+06"});
+    // Single precision has steps of half a unit there: layer P keeps what lies between.
+    const CommandResult result = render(far, {"-o", "odd.exr", "-o", "odd.png"});
+    EXPECT_TRUE(holds(result.err, {"layer P counts from 5400000,", "clrt.P.origin"}));
+    const ReadPicture picture(folder.file("odd.exr"));
+    EXPECT_EQ(std::string(picture.spec.get_string_attribute("clrt.P.origin")), "5400000 0 0");
+    const float middle = picture.at(8, 6, "P.X"), next = picture.at(9, 6, "P.X");
+    EXPECT_GT(middle, 0);
+    EXPECT_GT(next, middle);
+    EXPECT_LT(next, 0.49f) << "within the square, between two floats of its coordinates";
+}
+
+TEST_F(OddInput, OptionsInOtherCoordinatesThanTheFilesAreSaid) {
+    const std::string far = "v 5399999 -1 0\nv 5400001 -1 0\nv 5400001 1 0\nv 5399999 1 0\nf 1 2 3 4\n";
+    const CommandResult away = render(far, {"--eye", "0,0,5", "--at", "0,0,0", "--point", "0,5,0,1,1,1"});
+    EXPECT_EQ(away.exit_code, 0);
+    EXPECT_TRUE(holds(away.err, {"camera: --eye 0,0,5 is 5.4e+06 from the scene, whose centre is 5400000,0,0",
+                                 "less than a pixel", "--point 0,5,0 is 5.4e+06 from the scene"}));
+    const CommandResult past = render(far, {"--eye", "5400000,0,5", "--at", "0,0,0"});
+    EXPECT_TRUE(holds(past.err, {"camera: --at 0,0,0 is 5.4e+06 from the scene", "out of view"}));
+    const CommandResult there = render(far, {"--eye", "5400000,0,5", "--at", "5400000,0,0"});
+    EXPECT_EQ(there.err.find("from the scene"), std::string::npos) << there.err;
+}
+
 TEST_F(OddInput, PolygonsHaveAnyShape) {
     // Concave: the notch reaches below the middle, so the middle is open.
     expect_sky("concave", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv 0 -0.9 0\nv -1 1 0\nf 1 2 3 4 5\n", {});

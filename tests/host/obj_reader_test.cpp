@@ -89,7 +89,7 @@ TEST(ObjReader, TriangleHasPositionsUvsAndNormals) {
     const ObjMesh mesh =
         read("v 0 0 0\nv 1.5 0 -2e1\nv 0 1 0\nvt 0 0\nvt 1 .25\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\n");
     ASSERT_EQ(mesh.triangles.size(), 1u);
-    EXPECT_EQ(mesh.positions[1], glm::vec3(1.5f, 0, -20));
+    EXPECT_EQ(mesh.positions[1], glm::dvec3(1.5, 0, -20));
     EXPECT_EQ(mesh.uvs[1], glm::vec2(1, 0.25f));
     EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
     EXPECT_EQ(indices(mesh.triangles[0].v), (std::vector<u32>{0, 1, 2}));
@@ -151,7 +151,7 @@ TEST(ObjReader, EveryKindOfLineEndGivesTheSameMesh) {
 TEST(ObjReader, BackslashContinuesLines) {
     const ObjMesh mesh =
         read("v 0 \\\n0 0\nv 2 0 0\r\nv 2 2\\\r\n 0\nv 0 2 0\nf 1 2 \\\n\\\n3 \\\n 4\nf 1 2 3\\");
-    EXPECT_EQ(mesh.positions[2], glm::vec3(2, 2, 0));
+    EXPECT_EQ(mesh.positions[2], glm::dvec3(2, 2, 0));
     EXPECT_EQ(mesh.triangles.size(), 3u);
     EXPECT_EQ(error_of("v 0 \\\n0 0\nv 1 \\\nx 0\n"), "scene.obj:3: expected a number after v, found 'x'");
 }
@@ -174,7 +174,7 @@ TEST(ObjReader, MarksBlanksAndCommentsAreSkipped) {
 TEST(ObjReader, ExtraNumbersAreIgnoredAndMissingUvsAreZero) {
     const ObjMesh mesh =
         read("v 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nvt .5\nvt .5 .25 0\nvt .5 # .25\nf 1/1 2/2 3/3\n");
-    EXPECT_EQ(mesh.positions[1], glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh.positions[1], glm::dvec3(1, 0, 0));
     EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{.5, 0}, {.5, .25}, {.5, 0}}));
 }
 
@@ -413,6 +413,16 @@ TEST(ObjReader, ResultDoesNotDependOnChunksOrThreads) {
             EXPECT_EQ(error_of(bad, 16), error_of(bad)) << wrong;
         }
     }
+}
+
+TEST(ObjReader, PositionsAreDoubles) {
+    const ObjMesh mesh = read("v 5400552.8 -1e-3 3.0000000001\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(mesh.positions[0], glm::dvec3(5400552.8, -1e-3, 3.0000000001));
+    EXPECT_EQ(
+        error_of("v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("not finite"),
+        std::string("scene.obj: the file has no faces that can be rendered: all 1 have fewer than three "
+                    "corners or a vertex that is ")
+            .size());
 }
 
 TEST(ObjReader, Utf16IsReadAsUtf8) {
