@@ -85,6 +85,7 @@ void assemble_vertices(ObjMesh& mesh, const Normalisation& frame, Scene& scene) 
         scene.uvs[2 * i + 1] = mesh.uvs[i].y;
     });
     release(mesh.uvs);
+    scene.vertex_colours = std::move(mesh.colours);
 }
 
 } // namespace

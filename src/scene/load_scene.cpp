@@ -15,10 +15,12 @@
 #include "scene/obj_reader.h"
 #include "scene/text_scanner.h"
 #include "scene/texture_store.h"
+#include "scene/vertex_colours.h"
 
 #include <chrono>
 #include <fmt/format.h>
 #include <new>
+#include <optional>
 
 namespace clrt {
 namespace {
@@ -34,30 +36,42 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// The material behind a usemtl name; a name that no library defines is grey, with a notice.
+/// The material behind a usemtl name; a name that no library defines is grey, with a notice. `first_colour`
+/// is given where the material's triangles have coloured vertices.
 RuledMaterial material_by_name(const std::string& name, size_t line, const std::string& obj_path,
                                const std::map<std::string, MtlMaterial>& library,
-                               const MaterialContext& context, const LoadMap& load_map, SourcePlace& place,
+                               const MaterialContext& context, const LoadMap& load_map,
+                               const std::optional<SourcePlace>& first_colour, SourcePlace& place,
                                NoticeList& notices) {
+    const auto coloured = [&](const MtlMaterial& material) {
+        return first_colour ? with_vertex_colours(material, *first_colour, notices) : material;
+    };
     const auto found = library.find(name);
     if (found != library.end()) {
         place = found->second.place;
-        return rule_material(found->second, context, load_map, notices);
+        return rule_material(coloured(found->second), context, load_map, notices);
     }
     place = {obj_path, line};
     if (!name.empty())
-        notices.add(
-            fmt::format("usemtl {}: no library defines it, matte grey (Kd 0.8) is taken", clrt::quoted(name)),
-            place);
+        notices.add(fmt::format("usemtl {}: no library defines it, matte {} is taken", clrt::quoted(name),
+                                first_colour ? "with the colours of the vertices" : "grey (Kd 0.8)"),
+                    place);
+    if (first_colour)
+        return {rule_material(coloured({}), context, load_map, notices).material,
+                "no material: matte, Kd of the vertices"};
     return default_material();
 }
 
 /// Reads the libraries and gives every material that a face uses its meaning. Returns what each emits:
 /// luminance, mean over its map, times coverage, doubled where both sides shine.
-std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, Progress& progress,
-                                   Scene& scene, NoticeList& notices) {
+std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progress& progress, Scene& scene,
+                                   NoticeList& notices) {
     const auto library = read_mtl_libraries(options.scene_path, mesh.libraries, notices);
     const MaterialContext context{scene.normalisation.scale, options.light.two_sided};
+    std::vector<bool> coloured = coloured_materials(mesh);
+    decode_vertex_colours(mesh, options.scene_path, notices);
+    if (mesh.colours.empty())
+        coloured.assign(mesh.material_names.size(), false);
     TextureStore store;
     const LoadMap load_map = [&](const MtlTexture& use, TextureRole role) {
         const Stopwatch watch;
@@ -69,9 +83,12 @@ std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, 
     for (size_t i = 0; i < mesh.material_names.size(); ++i) {
         progress.update({"textures", double(i) / double(mesh.material_names.size())});
         SourcePlace place;
+        std::optional<SourcePlace> first_colour;
+        if (coloured[i])
+            first_colour = {options.scene_path, mesh.first_colour_line};
         const RuledMaterial ruled =
             material_by_name(mesh.material_names[i], mesh.material_lines[i], options.scene_path, library,
-                             context, load_map, place, notices);
+                             context, load_map, first_colour, place, notices);
         const Material& m = ruled.material;
         glm::dvec3 emission(m.emission.x, m.emission.y, m.emission.z);
         if (m.map_emission != NO_INDEX)
@@ -127,6 +144,7 @@ Scene load_all(const Options& options, Progress& progress) {
     if (cut.vast)
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
                                      options.scene_path, cut.vast, cut.vast + cut.added));
+    store_vertex_colours(scene, options.scene_path);
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
     const bool whole_camera = options.camera.eye && options.camera.at;

@@ -104,11 +104,25 @@ double in_range(double x) {
     return size < double(std::numeric_limits<float>::denorm_min()) ? 0 : x;
 }
 
-std::string parse_position(std::string_view rest, ObjChunk& chunk) {
+/// Three more numbers behind a position are its colour; one alone is a weight.
+bool parse_colour(std::string_view rest, glm::vec3& colour) {
+    for (int c = 0; c < 3; ++c)
+        if (const std::string_view word = next_word(rest); is_end(word) || !parse_number(word, colour[c]))
+            return false;
+    return true;
+}
+
+std::string parse_position(std::string_view rest, size_t line, ObjChunk& chunk) {
     glm::dvec3 p(0);
     std::string error = parse_numbers("v", rest, 3, 3, &p.x);
     p = {in_range(p.x), in_range(p.y), in_range(p.z)};
     chunk.has_non_finite_position |= !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    if (glm::vec3 colour; !rest.empty() && parse_colour(rest, colour)) {
+        if (chunk.colours.empty())
+            chunk.first_colour_line = line;
+        chunk.colours.resize(chunk.positions.size(), NO_COLOUR);
+        chunk.colours.push_back(colour);
+    }
     chunk.positions.push_back(p);
     return error;
 }
@@ -120,7 +134,7 @@ std::string parse_statement(std::string_view text, size_t line, ObjChunk& chunk)
         names.push_back({std::string(trim(rest)), line, chunk.faces.size()});
     };
     if (keyword == "v"sv)
-        return parse_position(rest, chunk);
+        return parse_position(rest, line, chunk);
     if (keyword == "f"sv)
         return parse_face(rest, line, chunk);
     if (keyword == "vn"sv)
@@ -158,6 +172,8 @@ ObjChunk parse_obj_chunk(std::string_view text) {
         chunk.error_line = lines.number();
     }
     chunk.line_ends = lines.line_ends();
+    if (!chunk.colours.empty())
+        chunk.colours.resize(chunk.positions.size(), NO_COLOUR);
     return chunk;
 }
 

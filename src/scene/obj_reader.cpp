@@ -89,6 +89,21 @@ Pieces parse_text(const std::string& path, std::string_view text, size_t chunk_b
     return pieces;
 }
 
+/// Moves the colours into the mesh, where there are any. Wants Piece::before.
+void join_colours(Pieces& pieces, ObjMesh& mesh) {
+    const auto has_colours = [](const Piece& piece) { return !piece.chunk.colours.empty(); };
+    const auto first = std::find_if(pieces.begin(), pieces.end(), has_colours);
+    if (first == pieces.end())
+        return;
+    mesh.first_colour_line = first->first_line + first->chunk.first_colour_line;
+    mesh.colours.assign(mesh.positions.size(), NO_COLOUR);
+    for (Piece& piece : pieces) {
+        std::copy(piece.chunk.colours.begin(), piece.chunk.colours.end(),
+                  mesh.colours.begin() + std::ptrdiff_t(piece.before.positions));
+        piece.chunk.colours = {};
+    }
+}
+
 /// Sets ObjCounts of each piece and moves all elements into the mesh.
 void join_elements(const std::string& path, Pieces& pieces, ObjMesh& mesh) {
     ObjCounts total;
@@ -102,6 +117,7 @@ void join_elements(const std::string& path, Pieces& pieces, ObjMesh& mesh) {
     if (most > size_t(std::numeric_limits<i32>::max()))
         throw SceneError(path, 0, "expected at most 2147483647 vertices, found " + std::to_string(most));
     mesh.positions.resize(total.positions);
+    join_colours(pieces, mesh);
     mesh.uvs.resize(total.uvs);
     mesh.normals.resize(total.normals);
     const auto move = [](auto& from, auto& to, size_t offset) {

@@ -31,7 +31,9 @@ struct ObjMesh {
     std::vector<glm::dvec3> positions; ///< in double: map coordinates leave floats no digits for the scene
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
-    std::vector<ObjTriangle> triangles;      ///< in file order
+    std::vector<glm::vec3> colours;     ///< of each position, as written, NaN for none; empty if none has any
+    size_t first_colour_line = 0;       ///< of the first position with a colour
+    std::vector<ObjTriangle> triangles; ///< in file order
     std::vector<std::string> material_names; ///< by first use; "" is "no usemtl"
     std::vector<size_t> material_lines;      ///< line of the first usemtl of each that has faces; 0 for ""
     std::vector<std::string>

@@ -31,7 +31,7 @@ public:
 
     /// Adds a use of a map and returns its index; NO_INDEX, with one notice per file, if it cannot be read.
     /// The file is looked for relative to the MTL file (find_file.h). Throws SceneError if the texels exceed
-    /// 2^32 words.
+    /// 2^32 words. The texels of a use by_vertex are added later (store_vertex_colours).
     u32 add(const MtlTexture& use, TextureRole role, NoticeList& notices);
 
     /// Mean of the texture's values over its picture: linear, with base and gain, negative values as 0.
@@ -53,6 +53,7 @@ private:
         bool has_alpha, is_grey;
     };
 
+    u32 add_record(const Texture& texture, const MtlTexture& use);
     const StoredImage* find_or_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
     StoredImage store(const Image& image, ImageEncoding encoding, const std::string& path,
                       NoticeList& notices);

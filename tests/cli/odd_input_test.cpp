@@ -70,7 +70,9 @@ TEST_F(OddInput, LineEndsMarksAndIndicesAreAsWritersMakeThem) {
     expect_seen("negative indices", SQUARE + "f -4 -3 -2 -1\n");
     expect_seen("a long line", SQUARE + "# " + std::string(3000000, 'x') + "\nf 1 2 3 4\n");
     expect_seen("vertices with weights", with_line_ends(SQUARE, " 1\n") + "f 1 2 3 4\n");
-    expect_seen("vertices with colours", with_line_ends(SQUARE, " 1 0 0\n") + "f 1 2 3 4\n");
+    // 0.906 is sRGB's for a linear 0.8, the grey of squares without a colour.
+    expect_seen("vertices with colours", with_line_ends(SQUARE, " 1 0.906 0\n") + "f 1 2 3 4\n",
+                {"odd.obj:1: vertex colours"});
     std::string utf16 = "\xff\xfe";
     for (const char c : SQUARE + "f 1 2 3 4\r\n")
         utf16 += {c, '\0'};

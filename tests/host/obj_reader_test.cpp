@@ -68,7 +68,7 @@ std::string dump(const ObjMesh& mesh) {
                   std::streamsize(values.size() * sizeof values[0]));
     };
     bytes(mesh.positions), bytes(mesh.normals), bytes(mesh.uvs), bytes(mesh.triangles),
-        bytes(mesh.material_lines);
+        bytes(mesh.material_lines), bytes(mesh.colours);
     for (const auto* names : {&mesh.material_names, &mesh.object_names, &mesh.notices})
         for (const std::string& name : *names)
             out << name << '\n';
@@ -423,6 +423,21 @@ TEST(ObjReader, PositionsAreDoubles) {
         std::string("scene.obj: the file has no faces that can be rendered: all 1 have fewer than three "
                     "corners or a vertex that is ")
             .size());
+}
+
+TEST(ObjReader, ColoursBehindPositionsAreKept) {
+    const std::string text =
+        "v 0 0 0\nv 1 0 0 0.25 0.5 1\nv 1 1 0 1 # a weight\nv 0 1 0 1 0 0 0.5\nf 1 2 3 4\n";
+    for (const size_t chunk_bytes : {OBJ_CHUNK_BYTES, size_t(1), size_t(20)}) {
+        const ObjMesh mesh = read(text, chunk_bytes);
+        ASSERT_EQ(mesh.colours.size(), 4u);
+        EXPECT_TRUE(std::isnan(mesh.colours[0].x));
+        EXPECT_EQ(mesh.colours[1], glm::vec3(0.25f, 0.5f, 1));
+        EXPECT_TRUE(std::isnan(mesh.colours[2].x)) << "one number is a weight";
+        EXPECT_EQ(mesh.colours[3], glm::vec3(1, 0, 0)) << "a fourth number is an opacity";
+        EXPECT_EQ(mesh.first_colour_line, 2u);
+    }
+    EXPECT_TRUE(read(std::string(SQUARE) + "f 1 2 3 4\n").colours.empty());
 }
 
 TEST(ObjReader, Utf16IsReadAsUtf8) {

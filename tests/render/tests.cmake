@@ -18,6 +18,7 @@ clrt_test(render replay_test)
 target_compile_definitions(replay_test PRIVATE CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels")
 clrt_test(render same_bits_test)
 clrt_test(render sampler_choice_test)
+clrt_test(render vertex_colour_test)
 clrt_python_test(render seeded_faults ${PROJECT_BINARY_DIR} --quick)
 set_tests_properties(render.seeded_faults PROPERTIES TIMEOUT 3600) # CLRT_TEST_LONG plants them all
 clrt_test(render shading_normal_test)
