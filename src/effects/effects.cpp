@@ -161,8 +161,8 @@ void find_smooth_normals(const Scene& scene, EffectFinder& finder) {
     const bool has = first < scene.triangles.size();
     finder.fact(
         EFFECT_SMOOTH_NORMALS, has,
-        has ? fmt::format("vn on triangle {}{}", first, quoted_place(scene.first_smooth))
-            : "no vn",
+        has ? fmt::format("normals at the corners of triangle {}{}", first, quoted_place(scene.first_smooth))
+            : "no vn and no smoothing group",
         scene.first_smooth);
 }
 

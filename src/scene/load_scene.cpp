@@ -13,6 +13,7 @@
 #include "scene/mtl_libraries.h"
 #include "scene/normalise.h"
 #include "scene/obj_reader.h"
+#include "scene/smoothing.h"
 #include "scene/text_scanner.h"
 #include "scene/texture_store.h"
 #include "scene/vertex_colours.h"
@@ -138,6 +139,7 @@ Scene load_all(const Options& options, Progress& progress) {
     scene.normalisation = fit_normalisation(bounds);
     note_coarse_digits(mesh, bounds, options.scene_path, notices);
     note_relative_positions(scene.normalisation, options, notices);
+    smooth_by_groups(mesh, options.scene_path, notices);
     const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
     assemble_geometry(mesh, bounds, scene.normalisation, options.scene_path, scene, notices);
     const CutTriangles cut = cut_vast_triangles(scene);

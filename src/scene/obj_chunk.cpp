@@ -127,6 +127,13 @@ std::string parse_position(std::string_view rest, size_t line, ObjChunk& chunk) 
     return error;
 }
 
+/// A smoothing group that goes on is not noted again: some writers repeat it before every face.
+void parse_smoothing(std::string_view rest, size_t line, ObjChunk& chunk) {
+    const std::string_view name = next_word(rest);
+    if (chunk.smoothings.empty() || chunk.smoothings.back().name != name)
+        chunk.smoothings.push_back({std::string(name), line, chunk.faces.size()});
+}
+
 std::string parse_statement(std::string_view text, size_t line, ObjChunk& chunk) {
     std::string_view rest = text;
     const std::string_view keyword = next_word(rest);
@@ -154,7 +161,9 @@ std::string parse_statement(std::string_view text, size_t line, ObjChunk& chunk)
     else if (std::find(std::begin(CURVE_KEYWORDS), std::end(CURVE_KEYWORDS), keyword) !=
              std::end(CURVE_KEYWORDS))
         chunk.tallies[CURVES].add(line);
-    else if (keyword != "s"sv) {
+    else if (keyword == "s"sv)
+        parse_smoothing(rest, line, chunk);
+    else {
         if (chunk.tallies[UNKNOWN_STATEMENTS].count == 0)
             chunk.unknown_keyword = quoted(keyword);
         chunk.tallies[UNKNOWN_STATEMENTS].add(line);

@@ -38,7 +38,7 @@ struct ObjFace {
     u32 positions, uvs, normals;     ///< elements of the chunk before this face
 };
 
-/// A usemtl, o, g or mtllib statement: the rest of its line.
+/// A usemtl, o, g, mtllib or s statement: the rest of its line.
 struct ObjName {
     std::string name;
     size_t line = 0; ///< in the chunk, from 0
@@ -80,9 +80,10 @@ struct ObjChunk {
     std::vector<ObjCorner> corners;
     std::vector<ObjFace> faces;
     std::vector<ObjName> materials, groups, libraries;
-    Tallies tallies;             ///< lines in the chunk, from 0
-    std::string unknown_keyword; ///< of the first unknown statement
-    std::string oversized_index; ///< the first vertex index beyond 31 bits as written; stored saturated
+    std::vector<ObjName> smoothings; ///< s statements: their first words
+    Tallies tallies;                 ///< lines in the chunk, from 0
+    std::string unknown_keyword;     ///< of the first unknown statement
+    std::string oversized_index;     ///< the first vertex index beyond 31 bits as written; stored saturated
     bool has_non_finite_position = false;
     size_t first_colour_line = 0; ///< of the first position with a colour
     size_t line_ends = 0;

@@ -34,11 +34,12 @@ struct ObjMesh {
     std::vector<glm::vec3> colours;     ///< of each position, as written, NaN for none; empty if none has any
     size_t first_colour_line = 0;       ///< of the first position with a colour
     std::vector<ObjTriangle> triangles; ///< in file order
+    std::vector<u32> smoothing; ///< each triangle's smoothing group, NO_INDEX for none; empty if none has any
     std::vector<std::string> material_names; ///< by first use; "" is "no usemtl"
     std::vector<size_t> material_lines;      ///< line of the first usemtl of each that has faces; 0 for ""
     std::vector<std::string>
         object_names;                  ///< of `o` and `g` statements that have faces; "" is the unnamed first
-    size_t first_normals_triangle = 0; ///< the first triangle with corner normals,
+    size_t first_normals_triangle = 0; ///< the first triangle with corner normals or a smoothing group,
     size_t first_normals_line = 0;     ///< and the line of its face; 0 where no triangle has any
     std::vector<ObjLibrary> libraries;
     std::vector<std::string>

@@ -119,6 +119,23 @@ TEST_F(OddInput, OptionsInOtherCoordinatesThanTheFilesAreSaid) {
     EXPECT_EQ(there.err.find("from the scene"), std::string::npos) << there.err;
 }
 
+TEST_F(OddInput, SmoothingGroupsMakeCornersRound) {
+    // Two squares that meet in a ridge towards the eye: by one smoothing group its normal looks at the sky
+    // half and half, and the picture has no edge.
+    const std::string ridge = "v -1 -1 0\nv 0 -1 1\nv 0 1 1\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n";
+    const auto layer = [&](const std::string& group) {
+        EXPECT_EQ(render(ridge + group + "f 1 2 3 4\nf 2 5 6 3\n",
+                         {"-o", "odd.exr", "--eye", "0,0,6", "--at", "0,0,0"})
+                      .exit_code,
+                  0);
+        const ReadPicture picture(folder.file("odd.exr"));
+        return picture.at(8, 6, "N.X") - picture.at(7, 6, "N.X");
+    };
+    EXPECT_NEAR(layer(""), std::sqrt(2.0), 1e-3);
+    EXPECT_NEAR(layer("s off\n"), std::sqrt(2.0), 1e-3);
+    EXPECT_LT(layer("s 1\n"), 0.7);
+}
+
 TEST_F(OddInput, PolygonsHaveAnyShape) {
     // Concave: the notch reaches below the middle, so the middle is open.
     expect_sky("concave", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv 0 -0.9 0\nv -1 1 0\nf 1 2 3 4 5\n", {});

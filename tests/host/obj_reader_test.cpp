@@ -68,7 +68,7 @@ std::string dump(const ObjMesh& mesh) {
                   std::streamsize(values.size() * sizeof values[0]));
     };
     bytes(mesh.positions), bytes(mesh.normals), bytes(mesh.uvs), bytes(mesh.triangles),
-        bytes(mesh.material_lines), bytes(mesh.colours);
+        bytes(mesh.material_lines), bytes(mesh.colours), bytes(mesh.smoothing);
     for (const auto* names : {&mesh.material_names, &mesh.object_names, &mesh.notices})
         for (const std::string& name : *names)
             out << name << '\n';
@@ -438,6 +438,23 @@ TEST(ObjReader, ColoursBehindPositionsAreKept) {
         EXPECT_EQ(mesh.first_colour_line, 2u);
     }
     EXPECT_TRUE(read(std::string(SQUARE) + "f 1 2 3 4\n").colours.empty());
+}
+
+TEST(ObjReader, SmoothingGroupsHoldUntilTheNextStatement) {
+    const std::string text = std::string(SQUARE) +
+                             "f 1 2 3\ns 1\nf 1 2 3\nf 1 2 3 4\ns off\nf 1 2 3\ns 7 # seven\n"
+                             "f 1 2 3\ns 1\nf 1 2 3\ns 0\nf 1 2 3\n";
+    for (const size_t chunk_bytes : {OBJ_CHUNK_BYTES, size_t(1), size_t(9)}) {
+        const ObjMesh mesh = read(text, chunk_bytes);
+        ASSERT_EQ(mesh.smoothing.size(), 8u);
+        const u32 one = mesh.smoothing[1], seven = mesh.smoothing[5];
+        EXPECT_NE(one, seven);
+        EXPECT_EQ(mesh.smoothing,
+                  (std::vector<u32>{NO_INDEX, one, one, one, NO_INDEX, seven, one, NO_INDEX}));
+        EXPECT_EQ(mesh.first_normals_line, 7u);
+        EXPECT_EQ(mesh.first_normals_triangle, 1u);
+    }
+    EXPECT_TRUE(read(std::string(SQUARE) + "s off\nf 1 2 3\ns 0\nf 1 2 3\n").smoothing.empty());
 }
 
 TEST(ObjReader, Utf16IsReadAsUtf8) {
