@@ -320,11 +320,16 @@ size_t count_oddities(const Pieces& pieces, ObjOddity kind) {
                              std::to_string(mesh.dropped_faces) +
                              " have fewer than three corners or a vertex that is not finite");
     const auto count = [&](ObjOddity kind) { return std::to_string(count_oddities(pieces, kind)); };
-    throw SceneError(path, 0,
-                     "the file has no faces (f) to render, only " + std::to_string(mesh.positions.size()) +
-                         " vertices (v), " + count(LINES) + " lines (l), " + count(POINTS) + " points (p), " +
-                         count(CURVES) + " curve and surface statements and " + count(UNKNOWN_STATEMENTS) +
-                         " unknown ones");
+    const bool is_mtl = std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) {
+        return piece.chunk.unknown_keyword == quoted("newmtl");
+    });
+    throw SceneError(
+        path, 0,
+        "the file has no faces (f) to render, only " + std::to_string(mesh.positions.size()) +
+            " vertices (v), " + count(LINES) + " lines (l), " + count(POINTS) + " points (p), " +
+            count(CURVES) + " curve and surface statements and " + count(UNKNOWN_STATEMENTS) +
+            " unknown ones" +
+            (is_mtl ? ": it looks like a material library (MTL), give the OBJ that names it" : ""));
 }
 
 /// Gives each piece its place in the mesh's triangles. Throws where there are none.

@@ -477,6 +477,8 @@ TEST(ObjReader, Utf16IsReadAsUtf8) {
 }
 
 TEST(ObjReader, FilesOfOtherFormatsAreNamed) {
+    EXPECT_NE(error_of("# a library\nnewmtl red\nKd 1 0 0\n").find("it looks like a material library (MTL)"),
+              std::string::npos);
     EXPECT_EQ(error_of(std::string("glTF\2\0\0\0", 8))
                   .find("scene.obj: expected a Wavefront OBJ, found a binary "
                         "glTF file (GLB): export it as OBJ"),
