@@ -14,6 +14,8 @@ typedef struct {
     real3 bitangent;  /* direction of growing texture v */
     real3 bulge;      /* from position to the curved surface that the corner normals describe; points to wo's side */
     float2 uv;
+    real b1, b2;      /* barycentric weights of corners 1 and 2, */
+    uint triangle;    /* of this triangle */
     real offset;      /* bound of position's distance to the plane that the triangle test sees */
     uint emitter;     /* index into the emitters, NO_INDEX for a dark triangle */
     uint material;
@@ -174,6 +176,9 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface.bulge = (real3)(REAL(0.0));
     surface.is_curved = false;
     surface.uv = (float2)(0.0f);
+    surface.b1 = hit->b1;
+    surface.b2 = hit->b2;
+    surface.triangle = hit->triangle;
     surface.emitter = triangle->emitter;
     surface.material = triangle->material;
     surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
@@ -181,6 +186,17 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
         surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
     surface_smooth(scene, triangle, p, hit->b1, hit->b2, &surface);
     return surface;
+}
+
+/* Interpolates colours of the vertices, three floats each from a texel word on. Equal ones stay what they are. */
+static CLRT_NOINLINE real3 surface_vertex_color(const Scene* scene, const Surface* surface, uint first_word)
+{
+    global const Triangle* triangle = scene->triangles + surface->triangle;
+    global const float* colors = (global const float*)scene->texel_words + first_word;
+    const real3 c0 = convert_real3(vload3(triangle->v0, colors));
+    const real3 c1 = convert_real3(vload3(triangle->v1, colors));
+    const real3 c2 = convert_real3(vload3(triangle->v2, colors));
+    return fmax(c0 + surface->b1 * (c1 - c0) + surface->b2 * (c2 - c0), (real3)(REAL(0.0)));
 }
 
 /* True if a ray in direction w leaves on wo's side: above the plane, or, where corner normals describe a curved surface that

@@ -101,6 +101,14 @@ static inline real3 material_normal(const Scene* scene, global const Material* m
     return n;
 }
 
+/* A map's colour at the surface point: of a picture, or of the triangle's vertices. */
+static inline real3 material_color(const Scene* scene, uint map, const Surface* surface)
+{
+    if (scene->textures[map].format == TEXEL_VERTEX)
+        return surface_vertex_color(scene, surface, scene->textures[map].first_word);
+    return texture_color(scene, map, surface->uv);
+}
+
 /* Reads colours and roughness, maps included. */
 static inline void material_parameters(const Scene* scene, global const Material* material, const Surface* surface,
                                        Bsdf* bsdf)
@@ -109,9 +117,9 @@ static inline void material_parameters(const Scene* scene, global const Material
     real roughness = REAL(1.0);
     if (HAS(EFFECT_TEXTURES)) {
         if (material->map_matte != NO_INDEX)
-            bsdf->matte *= texture_color(scene, material->map_matte, surface->uv);
+            bsdf->matte *= material_color(scene, material->map_matte, surface);
         if (material->map_specular != NO_INDEX)
-            bsdf->specular *= texture_color(scene, material->map_specular, surface->uv);
+            bsdf->specular *= material_color(scene, material->map_specular, surface);
         if (material->map_metallic != NO_INDEX)
             metallic *= real_unit(texture_scalar(scene, material->map_metallic, surface->uv));
         if (material->map_roughness != NO_INDEX)

@@ -58,6 +58,7 @@ ASSERT_SIZE(Material, 128);
 #define TEXEL_SRGB8 0u   /* one word: r, g, b, a bytes from the lowest; r, g, b are sRGB-encoded, a is linear */
 #define TEXEL_LINEAR8 1u /* the same, all four linear */
 #define TEXEL_FLOAT 2u   /* four words: r, g, b, a as floats */
+#define TEXEL_VERTEX 3u  /* no picture: three words a vertex (index as in positions): r, g, b as floats */
 
 /* One use of an image: rows from top to bottom; uv = (0,0) is the lower left corner.
    The lookup is at u' = scale_u u + offset_u, v' = scale_v v + offset_v; value' = base + gain value (-mm). */

@@ -2,6 +2,7 @@
 // Asks every platform and device about itself, and prints the table of --list-devices.
 #include "device/device.h"
 
+#include "device/address_space.h"
 #include "device/opencl_error.h"
 
 #include <algorithm>
@@ -116,6 +117,7 @@ Row table_row(const DeviceInfo& device) {
 } // namespace
 
 std::vector<PlatformInfo> list_platforms() {
+    require_address_space(DRIVER_BYTES, "an OpenCL driver");
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

@@ -159,9 +159,11 @@ void find_smooth_normals(const Scene& scene, EffectFinder& finder) {
     while (first < scene.triangles.size() && scene.triangles[first].n0 == NO_INDEX)
         ++first;
     const bool has = first < scene.triangles.size();
-    finder.fact(EFFECT_SMOOTH_NORMALS, has,
-                has ? fmt::format("vn on triangle {}{}", first, quoted_place(scene.first_smooth)) : "no vn",
-                scene.first_smooth);
+    finder.fact(
+        EFFECT_SMOOTH_NORMALS, has,
+        has ? fmt::format("normals at the corners of triangle {}{}", first, quoted_place(scene.first_smooth))
+            : "no vn and no smoothing group",
+        scene.first_smooth);
 }
 
 void find_cut_outs(EffectFinder& finder) {

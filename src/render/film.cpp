@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film.h"
 
+#include "kernels/shared/path_types.h"
+#include "scene/brightness.h"
+#include "scene/colour.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,36 +22,12 @@ constexpr int DISC_BITS = 36;         ///< the disc of a sun has at most 2^36 le
 constexpr int SMALLEST_LEVEL = -100;  ///< 1 / quantum stays finite in a float
 constexpr double NOTHING = 0x1p-1000; ///< no light; has a logarithm
 
-double luminance(double r, double g, double b) {
-    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
-}
-
-double largest_component(const glm::dvec3& v) {
-    return std::max({v.x, v.y, v.z});
-}
-
-glm::dvec3 to_dvec3(const vec4& v) {
-    return {v.x, v.y, v.z};
-}
-
-/// Largest radiance component of what can fill pictures: surfaces, maps included, and the sky.
-double brightest_surface(const Scene& scene) {
-    double brightest = 0;
-    for (const Emitter& emitter : scene.emitters)
-        brightest = std::max(
-            brightest, largest_component(scene.emitted[scene.triangles[emitter.triangle].material].largest));
-    double texel = scene.environment.texels.empty() ? 1 : 0;
-    for (const EnvironmentTexel& t : scene.environment.texels)
-        texel = std::max(texel, largest_component(to_dvec3(t.radiance)));
-    return std::max(brightest, texel * largest_component(scene.environment.radiance));
-}
-
 /// Largest radiance component of the discs of suns.
 double brightest_disc(const Scene& scene) {
     double brightest = 0;
     for (const Light& light : scene.lights)
         if (light.kind == LIGHT_SUN)
-            brightest = std::max(brightest, largest_component(to_dvec3(light.emission)));
+            brightest = std::max(brightest, largest_component({light.emission.x, light.emission.y, light.emission.z}));
     return brightest;
 }
 
@@ -93,9 +73,10 @@ FilmScale film_scale(const Scene& scene) {
     const double radius = std::sqrt(3.0) * std::max(double(scene.extent), 1e-30);
     const glm::dvec3& sky = scene.environment.radiance;
     const double sky_mean =
-        scene.environment.texels.empty() ? luminance(sky.x, sky.y, sky.z) : scene.environment.mean_radiance;
+        scene.environment.texels.empty() ? luminance(sky) : scene.environment.mean_radiance;
     const double mean = scene.emitted_power / (4 * PI * radius * radius * PI) + sky_mean;
-    const double disc = brightest_disc(scene), surface = brightest_surface(scene);
+    const double disc = brightest_disc(scene);
+    const double surface = largest_radiance(scene, KIND_AREA | KIND_SKY); // what can fill pictures
     if (!(std::max({mean, disc, surface}) > 0))
         return scale_of_level(0);
     return scale_of_level(

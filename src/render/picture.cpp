@@ -2,6 +2,7 @@
 #include "render/picture.h"
 
 #include "render/render_params.h"
+#include "scene/normalise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,10 +52,11 @@ public:
             return length > 0 ? hits.normal / length : hits.normal;
         });
     }
-    /// Mean position in world units.
+    /// Mean position in world units, from position_origin().
     Layer position() const {
-        return make("P", {"X", "Y", "Z"},
-                    [&](const PixelHits& hits) { return hits.share > 0 ? place(hits) : glm::dvec3(0); });
+        return make("P", {"X", "Y", "Z"}, [&](const PixelHits& hits) {
+            return hits.share > 0 ? place(hits) - position_origin(frame_) : glm::dvec3(0);
+        });
     }
     /// Mean distance along the look vector, world units; infinite where nothing was hit.
     Layer depth() const {

@@ -2,6 +2,7 @@
 #include "render/report.h"
 
 #include "paths/path_report.h"
+#include "scene/normalise.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -248,6 +249,8 @@ Metadata report_metadata(const Report& report) {
                       {"infinite", std::to_string(render.counts.infinite)},
                       {"negative", std::to_string(render.counts.negative)},
                       {"overflow", std::to_string(render.counts.overflow)}};
+    if (const glm::dvec3 origin = position_origin(report.scene.normalisation); origin != glm::dvec3(0))
+        metadata.emplace_back("P.origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z));
     add_facts(report, metadata);
     if (is_adaptive(render.film)) {
         const TileSpread spread = tile_spread(render.film);

@@ -70,7 +70,7 @@ void note_count(NoticeList& notices, size_t count, const std::string& obj_path, 
 void assemble_vertices(ObjMesh& mesh, const Normalisation& frame, Scene& scene) {
     scene.positions.resize(mesh.positions.size());
     for_each_index(mesh.positions.size(), [&](size_t i) {
-        const glm::dvec3 p = to_normalised(frame, glm::dvec3(mesh.positions[i]));
+        const glm::dvec3 p = to_normalised(frame, mesh.positions[i]);
         // No triangle uses a position that is not finite; no kernel shall meet one.
         const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
         scene.positions[i] = finite ? vec4{float(p.x), float(p.y), float(p.z), 0} : vec4{0, 0, 0, 0};
@@ -85,6 +85,7 @@ void assemble_vertices(ObjMesh& mesh, const Normalisation& frame, Scene& scene) 
         scene.uvs[2 * i + 1] = mesh.uvs[i].y;
     });
     release(mesh.uvs);
+    scene.vertex_colours = std::move(mesh.colours);
 }
 
 } // namespace
@@ -97,7 +98,7 @@ Bounds bounds_of_triangles(const ObjMesh& mesh) {
         [&](const tbb::blocked_range<size_t>& range, Bounds bounds) {
             for (size_t i = range.begin(); i < range.end(); ++i)
                 for (u32 v : mesh.triangles[i].v) {
-                    const glm::dvec3 p(mesh.positions[v]);
+                    const glm::dvec3& p = mesh.positions[v];
                     bounds.low = glm::min(bounds.low, p);
                     bounds.high = glm::max(bounds.high, p);
                 }

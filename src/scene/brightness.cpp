@@ -2,6 +2,7 @@
 #include "scene/brightness.h"
 
 #include "kernels/shared/path_types.h"
+#include "scene/colour.h"
 
 #include <algorithm>
 #include <cstring>
@@ -29,6 +30,8 @@ float as_float(u32 word) {
 
 /// Smallest and largest r, g or b of a texture's image, linear, without base and gain.
 std::pair<double, double> texel_range(const Scene& scene, const Texture& texture) {
+    if (texture.format == TEXEL_VERTEX)
+        return {0, 1}; // the range of vertex colours
     const u32* words = &scene.texel_words[texture.first_word];
     const size_t texels = size_t(texture.width) * texture.height;
     if (texture.format == TEXEL_FLOAT) {
@@ -73,15 +76,10 @@ double albedo(const Scene& scene, const Material& m) {
 }
 
 double largest_emission(const Scene& scene) {
-    std::vector<bool> seen(scene.materials.size(), false);
     double largest = 0;
     for (const Emitter& emitter : scene.emitters) {
-        const u32 index = scene.triangles[emitter.triangle].material;
-        if (seen[index])
-            continue;
-        seen[index] = true;
-        const Material& m = scene.materials[index];
-        largest = std::max(largest, largest_of(m.emission) * largest_factor(scene, m.map_emission));
+        const glm::dvec3& e = scene.emitted[scene.triangles[emitter.triangle].material].largest;
+        largest = std::max(largest, largest_component(e));
     }
     return largest;
 }

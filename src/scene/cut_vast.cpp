@@ -231,6 +231,8 @@ private:
             if (has_corner_at(scene_.triangles[s], rounded))
                 return false;
         scene_.positions.push_back(rounded);
+        if (std::vector<glm::vec3>& colours = scene_.vertex_colours; !colours.empty())
+            colours.push_back((colours[e.first] + colours[e.second]) * 0.5f);
         const std::vector<u32> sharing = std::move(by_edge_[e]);
         by_edge_.erase(e);
         for (const u32 s : sharing)

@@ -7,14 +7,17 @@
 #include "scene/cut_vast.h"
 #include "scene/emission.h"
 #include "scene/environment.h"
+#include "scene/far_notices.h"
 #include "scene/lights.h"
 #include "scene/material_rules.h"
 #include "scene/mtl_libraries.h"
 #include "scene/mtl_repair.h"
 #include "scene/normalise.h"
 #include "scene/obj_reader.h"
+#include "scene/smoothing.h"
 #include "scene/text_scanner.h"
 #include "scene/texture_store.h"
+#include "scene/vertex_colours.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -43,28 +46,40 @@ struct MaterialReader {
     std::optional<MapFacts> facts; ///< for the repairs; absent: --mtl plain
 };
 
-/// The material behind a usemtl name; a name that no library defines is grey, with a notice.
+/// The material behind a usemtl name; a name that no library defines is grey, with a notice. `first_colour`
+/// is given where the material's triangles have coloured vertices.
 RuledMaterial material_by_name(const std::string& name, size_t line, const std::string& obj_path,
-                               const MaterialReader& reader, SourcePlace& place, NoticeList& notices) {
+                               const MaterialReader& reader, const std::optional<SourcePlace>& first_colour,
+                               SourcePlace& place, NoticeList& notices) {
+    const auto coloured = [&](const MtlMaterial& material) {
+        return first_colour ? with_vertex_colours(material, *first_colour, notices) : material;
+    };
     const auto found = reader.library.find(name);
     if (found != reader.library.end()) {
         const MtlMaterial& mtl = found->second;
         place = mtl.place;
-        return rule_material(reader.facts ? repair_material(mtl, *reader.facts, notices) : mtl,
+        return rule_material(coloured(reader.facts ? repair_material(mtl, *reader.facts, notices) : mtl),
                              reader.context, reader.load_map, notices);
     }
     place = {obj_path, line};
     if (!name.empty())
-        notices.add(
-            fmt::format("usemtl {}: no library defines it, matte grey (Kd 0.8) is taken", clrt::quoted(name)),
-            place);
+        notices.add(fmt::format("usemtl {}: no library defines it, matte {} is taken", clrt::quoted(name),
+                                first_colour ? "with the colours of the vertices" : "grey (Kd 0.8)"),
+                    place);
+    if (first_colour)
+        return {rule_material(coloured({}), reader.context, reader.load_map, notices).material,
+                "no material: matte, Kd of the vertices"};
     return default_material();
 }
 
 /// Reads the libraries and gives every material that a face uses its meaning. Returns what each emits:
 /// luminance, mean over its map, times coverage, doubled where both sides shine.
-std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, Progress& progress,
-                                   Scene& scene, NoticeList& notices) {
+std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progress& progress, Scene& scene,
+                                   NoticeList& notices) {
+    std::vector<bool> coloured = coloured_materials(mesh);
+    decode_vertex_colours(mesh, options.scene_path, notices);
+    if (mesh.colours.empty())
+        coloured.assign(mesh.material_names.size(), false);
     TextureStore store;
     const auto timed = [&](const auto& question) {
         const Stopwatch watch;
@@ -90,8 +105,12 @@ std::vector<double> load_materials(const ObjMesh& mesh, const Options& options, 
     for (size_t i = 0; i < mesh.material_names.size(); ++i) {
         progress.update({"textures", double(i) / double(mesh.material_names.size())});
         SourcePlace place;
-        const RuledMaterial ruled = material_by_name(mesh.material_names[i], mesh.material_lines[i],
-                                                     options.scene_path, reader, place, notices);
+        std::optional<SourcePlace> first_colour;
+        if (coloured[i])
+            first_colour = {options.scene_path, mesh.first_colour_line};
+        const RuledMaterial ruled =
+            material_by_name(mesh.material_names[i], mesh.material_lines[i], options.scene_path, reader,
+                             first_colour, place, notices);
         const Material& m = ruled.material;
         scene.emitted.push_back(emitted_radiance(m, store));
         exitance.push_back(emitted_luminance(m, scene.emitted.back()));
@@ -136,17 +155,22 @@ Scene load_all(const Options& options, Progress& progress) {
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
     scene.normalisation = fit_normalisation(bounds);
+    note_coarse_digits(mesh, bounds, options.scene_path, notices);
+    note_relative_positions(scene.normalisation, options, notices);
+    smooth_by_groups(mesh, options.scene_path, notices);
     const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
     assemble_geometry(mesh, bounds, scene.normalisation, options.scene_path, scene, notices);
     const CutTriangles cut = cut_vast_triangles(scene);
     if (cut.vast)
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
                                      options.scene_path, cut.vast, cut.vast + cut.added));
+    store_vertex_colours(scene, options.scene_path);
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
     const bool whole_camera = options.camera.eye && options.camera.at;
     const BoxCover cover = whole_camera ? BoxCover{} : measure_box_cover(scene.positions, scene.triangles);
     scene.camera = fit_camera(options.camera, options.size, bounds, cover, notices);
+    note_far_options(scene.camera, bounds, options, notices);
     scene.notices = notices.lines();
     return scene;
 }

@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "scene/mtl_texture.h"
+#include "scene/text_encoding.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>
@@ -222,7 +223,7 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& pat
 }
 
 std::vector<MtlMaterial> read_mtl(const std::string& path, NoticeList& notices) {
-    return parse_mtl(read_file(path), path, notices);
+    return parse_mtl(as_utf8(read_file(path)), path, notices);
 }
 
 } // namespace clrt

@@ -25,6 +25,7 @@ struct MtlTexture {
     double bump_multiplier = 1;     ///< -bm
     bool clamp = false;             ///< -clamp on
     std::optional<u32> channel;     ///< -imfchan: 0..3 = r, g, b, m; 4 = l
+    bool by_vertex = false;         ///< no file but the colours of the vertices (vertex_colours.h)
 };
 
 /// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their

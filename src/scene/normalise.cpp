@@ -22,4 +22,15 @@ Normalisation fit_normalisation(const Bounds& bounds) {
     return frame;
 }
 
+glm::dvec3 position_origin(const Normalisation& frame) {
+    glm::dvec3 origin(0);
+    bool is_far = false;
+    for (int c = 0; c < 3; ++c) {
+        const double units = frame.centre[c] * frame.scale;
+        is_far |= std::fabs(units) > FAR_SCENE;
+        origin[c] = std::nearbyint(units) / frame.scale;
+    }
+    return is_far ? origin : glm::dvec3(0);
+}
+
 } // namespace clrt

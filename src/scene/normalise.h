@@ -26,4 +26,10 @@ inline glm::dvec3 to_normalised(const Normalisation& frame, const glm::dvec3& p)
     return (p - frame.centre) * frame.scale;
 }
 
+/// Where the world positions of a picture's layer count from: 0, but for scenes further than this many units
+/// of the normalised frame from the origin near the centre (an exact multiple of that unit). Floats that
+/// count from the origin would differ by 2^-14 of the scene's radius there; readers add it in double.
+constexpr double FAR_SCENE = 1024;
+glm::dvec3 position_origin(const Normalisation& frame);
+
 } // namespace clrt

@@ -22,9 +22,10 @@ bool is_end(std::string_view word) {
     return word.empty() || word[0] == '#';
 }
 
-/// Reads up to `wanted` numbers, `needed` of them at least; anything after them is left alone.
-std::string parse_numbers(std::string_view keyword, std::string_view rest, int needed, int wanted,
-                          float* numbers) {
+/// Takes up to `wanted` numbers off `rest`, `needed` of them at least.
+template <typename T>
+std::string parse_numbers(std::string_view keyword, std::string_view& rest, int needed, int wanted,
+                          T* numbers) {
     for (int i = 0; i < wanted; ++i) {
         const std::string_view word = next_word(rest);
         if (is_end(word)) {
@@ -95,12 +96,42 @@ std::string parse_face(std::string_view rest, size_t line, ObjChunk& chunk) {
     return {};
 }
 
-std::string parse_position(std::string_view rest, ObjChunk& chunk) {
-    glm::vec3 p(0);
+/// Beyond the range of float a coordinate is infinite or zero: squares of sizes stay in the range of double.
+double in_range(double x) {
+    const double size = std::fabs(x);
+    if (size > double(std::numeric_limits<float>::max()))
+        return std::copysign(std::numeric_limits<double>::infinity(), x);
+    return size < double(std::numeric_limits<float>::denorm_min()) ? 0 : x;
+}
+
+/// Three more numbers behind a position are its colour; one alone is a weight.
+bool parse_colour(std::string_view rest, glm::vec3& colour) {
+    for (int c = 0; c < 3; ++c)
+        if (const std::string_view word = next_word(rest); is_end(word) || !parse_number(word, colour[c]))
+            return false;
+    return true;
+}
+
+std::string parse_position(std::string_view rest, size_t line, ObjChunk& chunk) {
+    glm::dvec3 p(0);
     std::string error = parse_numbers("v", rest, 3, 3, &p.x);
+    p = {in_range(p.x), in_range(p.y), in_range(p.z)};
     chunk.has_non_finite_position |= !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    if (glm::vec3 colour; !rest.empty() && parse_colour(rest, colour)) {
+        if (chunk.colours.empty())
+            chunk.first_colour_line = line;
+        chunk.colours.resize(chunk.positions.size(), NO_COLOUR);
+        chunk.colours.push_back(colour);
+    }
     chunk.positions.push_back(p);
     return error;
+}
+
+/// A smoothing group that goes on is not noted again: some writers repeat it before every face.
+void parse_smoothing(std::string_view rest, size_t line, ObjChunk& chunk) {
+    const std::string_view name = next_word(rest);
+    if (chunk.smoothings.empty() || chunk.smoothings.back().name != name)
+        chunk.smoothings.push_back({std::string(name), line, chunk.faces.size()});
 }
 
 std::string parse_statement(std::string_view text, size_t line, ObjChunk& chunk) {
@@ -110,7 +141,7 @@ std::string parse_statement(std::string_view text, size_t line, ObjChunk& chunk)
         names.push_back({std::string(trim(rest)), line, chunk.faces.size()});
     };
     if (keyword == "v"sv)
-        return parse_position(rest, chunk);
+        return parse_position(rest, line, chunk);
     if (keyword == "f"sv)
         return parse_face(rest, line, chunk);
     if (keyword == "vn"sv)
@@ -130,7 +161,9 @@ std::string parse_statement(std::string_view text, size_t line, ObjChunk& chunk)
     else if (std::find(std::begin(CURVE_KEYWORDS), std::end(CURVE_KEYWORDS), keyword) !=
              std::end(CURVE_KEYWORDS))
         chunk.tallies[CURVES].add(line);
-    else if (keyword != "s"sv) {
+    else if (keyword == "s"sv)
+        parse_smoothing(rest, line, chunk);
+    else {
         if (chunk.tallies[UNKNOWN_STATEMENTS].count == 0)
             chunk.unknown_keyword = quoted(keyword);
         chunk.tallies[UNKNOWN_STATEMENTS].add(line);
@@ -148,6 +181,8 @@ ObjChunk parse_obj_chunk(std::string_view text) {
         chunk.error_line = lines.number();
     }
     chunk.line_ends = lines.line_ends();
+    if (!chunk.colours.empty())
+        chunk.colours.resize(chunk.positions.size(), NO_COLOUR);
     return chunk;
 }
 

@@ -18,6 +18,9 @@ namespace clrt {
 /// The index of a corner that gives none (0 is an index, if a wrong one).
 constexpr i32 ABSENT_INDEX = std::numeric_limits<i32>::min();
 
+/// The colour of a vertex that gives none.
+constexpr glm::vec3 NO_COLOUR(std::numeric_limits<float>::quiet_NaN());
+
 /// The indices of a face's corner: from 1, or negative and counting back from the element before the face.
 struct ObjCorner {
     i32 v = ABSENT_INDEX, t = ABSENT_INDEX, n = ABSENT_INDEX;
@@ -35,7 +38,7 @@ struct ObjFace {
     u32 positions, uvs, normals;     ///< elements of the chunk before this face
 };
 
-/// A usemtl, o, g or mtllib statement: the rest of its line.
+/// A usemtl, o, g, mtllib or s statement: the rest of its line.
 struct ObjName {
     std::string name;
     size_t line = 0; ///< in the chunk, from 0
@@ -70,15 +73,19 @@ using Tallies = std::array<Tally, ODDITY_KINDS>;
 
 /// Everything a piece of text says, and the first thing in it that is wrong.
 struct ObjChunk {
-    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
+    std::vector<glm::vec3> colours; ///< as written, of each position, NaN for none; empty if none has any
     std::vector<ObjCorner> corners;
     std::vector<ObjFace> faces;
     std::vector<ObjName> materials, groups, libraries;
-    Tallies tallies;             ///< lines in the chunk, from 0
-    std::string unknown_keyword; ///< of the first unknown statement
-    std::string oversized_index; ///< the first vertex index beyond 31 bits as written; stored saturated
+    std::vector<ObjName> smoothings; ///< s statements: their first words
+    Tallies tallies;                 ///< lines in the chunk, from 0
+    std::string unknown_keyword;     ///< of the first unknown statement
+    std::string oversized_index;     ///< the first vertex index beyond 31 bits as written; stored saturated
     bool has_non_finite_position = false;
+    size_t first_colour_line = 0; ///< of the first position with a colour
     size_t line_ends = 0;
     std::string error; ///< what is wrong in error_line, where reading stopped; empty if nothing is
     size_t error_line = 0;

@@ -4,7 +4,9 @@
 #include "scene/obj_reader.h"
 
 #include "error.h"
+#include "scene/foreign_format.h"
 #include "scene/obj_chunk.h"
+#include "scene/text_encoding.h"
 #include "scene/text_scanner.h"
 #include "scene/triangulate.h"
 
@@ -36,9 +38,10 @@ struct Piece {
     ObjCounts before;          ///< elements in the chunks before it
     size_t first_triangle = 0; ///< into ObjMesh::triangles
     size_t triangle_count = 0;
-    size_t normals_triangle = 0; ///< into ObjMesh::triangles: the first with corner normals,
-    size_t normals_line = 0;     ///< and its face's line in the file; 0: none
-    std::vector<NameRun> materials, objects;
+    size_t normals_triangle =
+        0;                   ///< into ObjMesh::triangles: the first with corner normals or a smoothing group,
+    size_t normals_line = 0; ///< and its face's line in the file; 0: none
+    std::vector<NameRun> materials, objects, smoothings;
 };
 
 using Pieces = std::vector<Piece>;
@@ -87,6 +90,21 @@ Pieces parse_text(const std::string& path, std::string_view text, size_t chunk_b
     return pieces;
 }
 
+/// Moves the colours into the mesh, where there are any. Wants Piece::before.
+void join_colours(Pieces& pieces, ObjMesh& mesh) {
+    const auto has_colours = [](const Piece& piece) { return !piece.chunk.colours.empty(); };
+    const auto first = std::find_if(pieces.begin(), pieces.end(), has_colours);
+    if (first == pieces.end())
+        return;
+    mesh.first_colour_line = first->first_line + first->chunk.first_colour_line;
+    mesh.colours.assign(mesh.positions.size(), NO_COLOUR);
+    for (Piece& piece : pieces) {
+        std::copy(piece.chunk.colours.begin(), piece.chunk.colours.end(),
+                  mesh.colours.begin() + std::ptrdiff_t(piece.before.positions));
+        piece.chunk.colours = {};
+    }
+}
+
 /// Sets ObjCounts of each piece and moves all elements into the mesh.
 void join_elements(const std::string& path, Pieces& pieces, ObjMesh& mesh) {
     ObjCounts total;
@@ -100,6 +118,7 @@ void join_elements(const std::string& path, Pieces& pieces, ObjMesh& mesh) {
     if (most > size_t(std::numeric_limits<i32>::max()))
         throw SceneError(path, 0, "expected at most 2147483647 vertices, found " + std::to_string(most));
     mesh.positions.resize(total.positions);
+    join_colours(pieces, mesh);
     mesh.uvs.resize(total.uvs);
     mesh.normals.resize(total.normals);
     const auto move = [](auto& from, auto& to, size_t offset) {
@@ -188,7 +207,7 @@ void resolve_face(const ObjMesh& mesh, Piece& piece, const ObjFace& face) {
 bool is_finite(const ObjMesh& mesh, const ObjChunk& chunk, const ObjFace& face) {
     return std::all_of(chunk.corners.begin() + std::ptrdiff_t(face.first_corner),
                        chunk.corners.begin() + std::ptrdiff_t(face.end_corner), [&](const ObjCorner& corner) {
-                           const glm::vec3& p = mesh.positions[size_t(corner.v)];
+                           const glm::dvec3& p = mesh.positions[size_t(corner.v)];
                            return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
                        });
 }
@@ -224,19 +243,32 @@ ObjTriangle make_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorne
     return triangle;
 }
 
-/// Writes a piece's triangles to their place in the mesh.
-void triangulate_piece(Piece& piece, ObjMesh& mesh) {
+/// The names that hold for the faces of a piece, one after the other.
+class RunWalk {
+public:
+    explicit RunWalk(const std::vector<NameRun>& runs) : at_(runs.begin()), end_(runs.end()) {}
+    /// The name of a face; faces must come in ascending order.
+    u32 name_of(size_t face) {
+        if (at_ + 1 != end_ && at_[1].first_face <= face)
+            ++at_;
+        return at_->name;
+    }
+
+private:
+    std::vector<NameRun>::const_iterator at_, end_;
+};
+
+/// Writes a piece's triangles to their place in the mesh; `groups` are the smoothing groups by name's number.
+void triangulate_piece(Piece& piece, const std::vector<u32>& groups, ObjMesh& mesh) {
     ObjTriangle* out = mesh.triangles.data() + piece.first_triangle;
-    std::vector<glm::vec3> polygon;
+    std::vector<glm::dvec3> polygon;
     std::vector<u32> cut;
-    auto material = piece.materials.begin(), object = piece.objects.begin();
+    RunWalk materials(piece.materials), objects(piece.objects), smoothings(piece.smoothings);
     for (size_t f = 0; f < piece.chunk.faces.size(); ++f) {
         const ObjFace& face = piece.chunk.faces[f];
         const ObjCorner* const corners = piece.chunk.corners.data() + face.first_corner;
-        if (material + 1 != piece.materials.end() && material[1].first_face <= f)
-            ++material;
-        if (object + 1 != piece.objects.end() && object[1].first_face <= f)
-            ++object;
+        const u32 material = materials.name_of(f), object = objects.name_of(f),
+                  group = groups[smoothings.name_of(f)];
         polygon.clear();
         for (size_t c = 0; c < face.end_corner - face.first_corner; ++c)
             polygon.push_back(mesh.positions[size_t(corners[c].v)]);
@@ -245,9 +277,10 @@ void triangulate_piece(Piece& piece, ObjMesh& mesh) {
         if (!triangulate(polygon, cut))
             piece.chunk.tallies[CRUDE_CUTS].add(face.line);
         for (size_t i = 0; i < cut.size(); i += 3, ++out) {
-            *out = make_triangle(corners[cut[i]], corners[cut[i + 1]], corners[cut[i + 2]], material->name,
-                                 object->name);
-            if (piece.normals_line || out->n[0] == NO_INDEX)
+            *out = make_triangle(corners[cut[i]], corners[cut[i + 1]], corners[cut[i + 2]], material, object);
+            if (!mesh.smoothing.empty())
+                mesh.smoothing[size_t(out - mesh.triangles.data())] = group;
+            if (piece.normals_line || (out->n[0] == NO_INDEX && group == NO_INDEX))
                 continue;
             piece.normals_line = piece.first_line + face.line;
             piece.normals_triangle = size_t(out - mesh.triangles.data());
@@ -255,7 +288,15 @@ void triangulate_piece(Piece& piece, ObjMesh& mesh) {
     }
 }
 
-/// Remembers the first triangle with corner normals.
+/// The smoothing group of each name of an s statement: NO_INDEX for "off", "0" and none.
+std::vector<u32> smoothing_groups(const std::vector<std::string>& names) {
+    std::vector<u32> groups;
+    for (const std::string& name : names)
+        groups.push_back(name.empty() || name == "off" || name == "0" ? NO_INDEX : u32(groups.size()));
+    return groups;
+}
+
+/// Remembers the first triangle with corner normals or a smoothing group.
 void note_first_normals(const Pieces& pieces, ObjMesh& mesh) {
     for (const Piece& piece : pieces)
         if (piece.normals_line) {
@@ -279,11 +320,16 @@ size_t count_oddities(const Pieces& pieces, ObjOddity kind) {
                              std::to_string(mesh.dropped_faces) +
                              " have fewer than three corners or a vertex that is not finite");
     const auto count = [&](ObjOddity kind) { return std::to_string(count_oddities(pieces, kind)); };
-    throw SceneError(path, 0,
-                     "the file has no faces (f) to render, only " + std::to_string(mesh.positions.size()) +
-                         " vertices (v), " + count(LINES) + " lines (l), " + count(POINTS) + " points (p), " +
-                         count(CURVES) + " curve and surface statements and " + count(UNKNOWN_STATEMENTS) +
-                         " unknown ones");
+    const bool is_mtl = std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) {
+        return piece.chunk.unknown_keyword == quoted("newmtl");
+    });
+    throw SceneError(
+        path, 0,
+        "the file has no faces (f) to render, only " + std::to_string(mesh.positions.size()) +
+            " vertices (v), " + count(LINES) + " lines (l), " + count(POINTS) + " points (p), " +
+            count(CURVES) + " curve and surface statements and " + count(UNKNOWN_STATEMENTS) +
+            " unknown ones" +
+            (is_mtl ? ": it looks like a material library (MTL), give the OBJ that names it" : ""));
 }
 
 /// Gives each piece its place in the mesh's triangles. Throws where there are none.
@@ -349,14 +395,20 @@ ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes
     progress.update({"load", 0});
     Pieces pieces;
     {
-        const std::string text = read_file(path);
-        mesh.bytes = text.size();
+        std::string bytes = read_file(path);
+        mesh.bytes = bytes.size();
+        if (const std::string other = foreign_format(bytes); !other.empty())
+            throw SceneError(path, 0, "expected a Wavefront OBJ, found " + other);
+        const std::string text = as_utf8(std::move(bytes));
         progress.update({"load", PROGRESS_READ});
         pieces = parse_text(path, without_byte_order_mark(text), chunk_bytes, progress);
     }
     join_elements(path, pieces, mesh);
     mesh.material_lines = join_names(pieces, &ObjChunk::materials, &Piece::materials, mesh.material_names);
     join_names(pieces, &ObjChunk::groups, &Piece::objects, mesh.object_names);
+    std::vector<std::string> smoothing_names;
+    join_names(pieces, &ObjChunk::smoothings, &Piece::smoothings, smoothing_names);
+    const std::vector<u32> groups = smoothing_groups(smoothing_names);
     for (const Piece& piece : pieces)
         for (const ObjName& library : piece.chunk.libraries)
             mesh.libraries.push_back({library.name, piece.first_line + library.line});
@@ -367,7 +419,9 @@ ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes
     throw_first_error(path, pieces);
     progress.update({"load", PROGRESS_RESOLVED});
     place_triangles(path, pieces, mesh);
-    for_each_piece(pieces, [&](Piece& piece) { triangulate_piece(piece, mesh); });
+    if (std::any_of(groups.begin(), groups.end(), [](u32 group) { return group != NO_INDEX; }))
+        mesh.smoothing.resize(mesh.triangles.size());
+    for_each_piece(pieces, [&](Piece& piece) { triangulate_piece(piece, groups, mesh); });
     note_first_normals(pieces, mesh);
     mesh.notices = make_notices(path, pieces);
     progress.update({"load", 1});

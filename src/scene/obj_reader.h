@@ -28,15 +28,18 @@ struct ObjLibrary {
 
 /// The geometry and names of an OBJ file, exactly as written (world units, no fallbacks for materials).
 struct ObjMesh {
-    std::vector<glm::vec3> positions;
+    std::vector<glm::dvec3> positions; ///< in double: map coordinates leave floats no digits for the scene
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
-    std::vector<ObjTriangle> triangles;      ///< in file order
+    std::vector<glm::vec3> colours;     ///< of each position, as written, NaN for none; empty if none has any
+    size_t first_colour_line = 0;       ///< of the first position with a colour
+    std::vector<ObjTriangle> triangles; ///< in file order
+    std::vector<u32> smoothing; ///< each triangle's smoothing group, NO_INDEX for none; empty if none has any
     std::vector<std::string> material_names; ///< by first use; "" is "no usemtl"
     std::vector<size_t> material_lines;      ///< line of the first usemtl of each that has faces; 0 for ""
     std::vector<std::string>
         object_names;                  ///< of `o` and `g` statements that have faces; "" is the unnamed first
-    size_t first_normals_triangle = 0; ///< the first triangle with corner normals,
+    size_t first_normals_triangle = 0; ///< the first triangle with corner normals or a smoothing group,
     size_t first_normals_line = 0;     ///< and the line of its face; 0 where no triangle has any
     std::vector<ObjLibrary> libraries;
     std::vector<std::string>
@@ -49,11 +52,11 @@ struct ObjMesh {
 constexpr size_t OBJ_CHUNK_BYTES = size_t(1) << 20;
 
 /// Reads an OBJ file. Polygons become triangles (concave ones by ear clipping), negative indices count back,
-/// CR, LF and CRLF end lines, a backslash at a line's end continues it. Points, lines, curves and unknown
-/// statements are counted in a notice. A vn or vt index out of range is dropped with a notice, a position
-/// index out of range or 0, a number that is none, and a file without a single face throw SceneError
-/// (file:line, what was expected, what was found). The result is the same for any number of threads and any
-/// `chunk_bytes` (at least 1).
+/// CR, LF and CRLF end lines, a backslash at a line's end continues it, UTF-16 is read as UTF-8. Points,
+/// lines, curves and unknown statements are counted in a notice. A vn or vt index out of range is dropped
+/// with a notice; a position index out of range or 0, a number that is none, a file of another format and one
+/// without a single face throw SceneError (file:line, what was expected, what was found). The result is the
+/// same for any number of threads and any `chunk_bytes` (at least 1).
 ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes = OBJ_CHUNK_BYTES);
 
 } // namespace clrt

@@ -67,6 +67,8 @@ struct Scene {
     std::vector<std::string> object_names;
     std::vector<Texture> textures;
     std::vector<u32> texel_words;
+    std::vector<glm::vec3>
+        vertex_colours; ///< of each position, linear, while loading: then they are texel words
     std::vector<std::string> texture_names;
     std::vector<SourcePlace> texture_places; ///< the map_* statement of each
     std::vector<Emitter> emitters;

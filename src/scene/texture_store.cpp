@@ -46,7 +46,21 @@ TextureStore::TextureStore() {
         words_[i] = float_bits(float(srgb_to_linear(i / 255.0)));
 }
 
+u32 TextureStore::add_record(const Texture& texture, const MtlTexture& use) {
+    textures_.push_back(texture);
+    names_.push_back(use.file);
+    places_.push_back(use.place);
+    return u32(textures_.size() - 1);
+}
+
 u32 TextureStore::add(const MtlTexture& use, TextureRole role, NoticeList& notices) {
+    if (use.by_vertex) {
+        Texture texture{};
+        texture.width = texture.height = 1;
+        texture.format = TEXEL_VERTEX;
+        texture.gain = 1;
+        return add_record(texture, use);
+    }
     const StoredImage* image = find_or_read(use, role, notices);
     if (!image)
         return NO_INDEX;
@@ -67,10 +81,7 @@ u32 TextureStore::add(const MtlTexture& use, TextureRole role, NoticeList& notic
                                                                         : CHANNEL_LUMINANCE;
     if (use.channel)
         texture.channel = *use.channel;
-    textures_.push_back(texture);
-    names_.push_back(use.file);
-    places_.push_back(use.place);
-    return u32(textures_.size() - 1);
+    return add_record(texture, use);
 }
 
 TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& use, TextureRole role,

@@ -33,7 +33,7 @@ public:
 
     /// Adds a use of a map and returns its index; NO_INDEX, with one notice per file, if it cannot be read.
     /// The file is looked for relative to the MTL file (find_file.h). Throws SceneError if the texels exceed
-    /// 2^32 words.
+    /// 2^32 words. The texels of a use by_vertex are added later (store_vertex_colours).
     u32 add(const MtlTexture& use, TextureRole role, NoticeList& notices);
 
     /// Whether a map can be read. Where not, add() says why.
@@ -65,6 +65,8 @@ private:
         bool has_alpha, is_grey;
         std::optional<bool> is_normal_map = std::nullopt; ///< once asked
     };
+
+    u32 add_record(const Texture& texture, const MtlTexture& use);
 
     /// Calls action(rgb) for the value of each texel: base and gain applied, 0 where that is negative.
     template <class Action>

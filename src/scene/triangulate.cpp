@@ -10,19 +10,18 @@ namespace clrt {
 
 namespace {
 
-/// Twice the signed area of a, b, c: positive if they turn left. The corners are floats, so that the
-/// differences and, for most inputs, the products are exact in double.
+/// Twice the signed area of a, b, c: positive if they turn left.
 double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 /// The polygon without the coordinate in which its area vector is longest, turning left. Empty if it has no
 /// area.
-std::vector<glm::dvec2> project(const std::vector<glm::vec3>& polygon) {
-    const glm::dvec3 origin(polygon[0]);
+std::vector<glm::dvec2> project(const std::vector<glm::dvec3>& polygon) {
+    const glm::dvec3& origin = polygon[0];
     glm::dvec3 area(0);
     for (size_t i = 2; i < polygon.size(); ++i)
-        area += glm::cross(glm::dvec3(polygon[i - 1]) - origin, glm::dvec3(polygon[i]) - origin);
+        area += glm::cross(polygon[i - 1] - origin, polygon[i] - origin);
     const glm::dvec3 size = glm::abs(area);
     const int axis = size.z >= size.x && size.z >= size.y ? 2 : size.y >= size.x ? 1 : 0;
     if (!(size[axis] > 0))
@@ -32,7 +31,7 @@ std::vector<glm::dvec2> project(const std::vector<glm::vec3>& polygon) {
         std::swap(u, v);
     std::vector<glm::dvec2> points;
     points.reserve(polygon.size());
-    for (const glm::vec3& p : polygon)
+    for (const glm::dvec3& p : polygon)
         points.emplace_back(p[u], p[v]);
     return points;
 }
@@ -48,16 +47,14 @@ void emit_fan(std::vector<u32>& triangles, size_t apex, size_t size) {
 
 /// Cuts along the shorter of the diagonals that lie inside. A corner on the line between its neighbours, or
 /// equal to one of them, is tolerated where no diagonal gives two triangles with an area.
-bool cut_quad(const std::vector<glm::vec3>& polygon, const std::vector<glm::dvec2>& p,
+bool cut_quad(const std::vector<glm::dvec3>& polygon, const std::vector<glm::dvec2>& p,
               std::vector<u32>& triangles) {
     // The areas of the two triangles beside diagonal 0-2, and beside diagonal 1-3.
     const double areas[2][2] = {{turn(p[0], p[1], p[2]), turn(p[0], p[2], p[3])},
                                 {turn(p[1], p[2], p[3]), turn(p[1], p[3], p[0])}};
     const auto inside = [&](int d) { return areas[d][0] > 0 && areas[d][1] > 0; };
     const auto tolerable = [&](int d) { return areas[d][0] >= 0 && areas[d][1] >= 0; };
-    const auto length = [&](int d) {
-        return glm::length(glm::dvec3(polygon[d + 2]) - glm::dvec3(polygon[d]));
-    };
+    const auto length = [&](int d) { return glm::length(polygon[d + 2] - polygon[d]); };
     int diagonal = length(1) < length(0) ? 1 : 0;
     if (!inside(diagonal) && (inside(1 - diagonal) || !tolerable(diagonal)))
         diagonal = 1 - diagonal;
@@ -206,7 +203,7 @@ void EarClipper::cut(u32 i) {
 
 } // namespace
 
-bool triangulate(const std::vector<glm::vec3>& polygon, std::vector<u32>& triangles) {
+bool triangulate(const std::vector<glm::dvec3>& polygon, std::vector<u32>& triangles) {
     const size_t size = polygon.size();
     triangles.clear();
     if (size == 3) {

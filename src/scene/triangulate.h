@@ -19,6 +19,6 @@ constexpr size_t MAX_CLIPPED_CORNERS = 8192;
 /// clipping. False where no triangles of that winding were found that make up the polygon: it has no area,
 /// crosses itself (which mostly shows), or is concave with more than MAX_CLIPPED_CORNERS corners. Then the
 /// rest of it is cut as a fan, overlapping as it may.
-bool triangulate(const std::vector<glm::vec3>& polygon, std::vector<u32>& triangles);
+bool triangulate(const std::vector<glm::dvec3>& polygon, std::vector<u32>& triangles);
 
 } // namespace clrt

@@ -204,6 +204,33 @@ TEST_F(Fault, AnObjThatTheMemoryCannotHoldIsAnError) {
     EXPECT_TRUE(holds(result.err, {"clrt: error: large.obj: not enough memory to load the scene"}));
 }
 
+TEST_F(Fault, ALimitOfTheAddressSpaceIsAnErrorBeforeLibrariesMeetIt) {
+    if (IS_SANITIZED)
+        GTEST_SKIP() << "needs a limit of memory";
+    // Libraries that meet the limit abort or wait for ever, at one limit and not at the next.
+    constexpr int LOADER_FAILED = 127; // the dynamic linker's: no line of ours has run
+    bool loads = false, renders = false;
+    int refused = 0;
+    for (size_t limit = 360; limit <= 1080; limit += limit < 480 ? 20 : 40) {
+        CommandSettings little;
+        little.limits[RLIMIT_AS] = limit * MEBIBYTE;
+        little.limit_seconds = 60;
+        const CommandResult result = clrt(quick({"scene.obj"}), little);
+        if (result.exit_code == LOADER_FAILED && !loads)
+            continue;
+        loads = true;
+        SCOPED_TRACE(testing::Message() << limit << " MiB: " << result.err);
+        renders = result.exit_code == 0;
+        if (renders)
+            continue;
+        EXPECT_TRUE(result.exit_code == 1 || result.exit_code == 3) << result.exit_code;
+        EXPECT_TRUE(holds(result.err, {"clrt: error: ", "not enough memory", "ulimit -v"}));
+        ++refused;
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_TRUE(renders) << "a gigabyte is enough";
+}
+
 TEST_F(Fault, AMeshThatTheMemoryCannotHoldIsAnErrorWhereverItRunsOut) {
     if (IS_SANITIZED)
         GTEST_SKIP() << "needs a limit of memory";

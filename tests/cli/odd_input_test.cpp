@@ -70,7 +70,70 @@ TEST_F(OddInput, LineEndsMarksAndIndicesAreAsWritersMakeThem) {
     expect_seen("negative indices", SQUARE + "f -4 -3 -2 -1\n");
     expect_seen("a long line", SQUARE + "# " + std::string(3000000, 'x') + "\nf 1 2 3 4\n");
     expect_seen("vertices with weights", with_line_ends(SQUARE, " 1\n") + "f 1 2 3 4\n");
-    expect_seen("vertices with colours", with_line_ends(SQUARE, " 1 0 0\n") + "f 1 2 3 4\n");
+    // 0.906 is sRGB's for a linear 0.8, the grey of squares without a colour.
+    expect_seen("vertices with colours", with_line_ends(SQUARE, " 1 0.906 0\n") + "f 1 2 3 4\n",
+                {"odd.obj:1: vertex colours"});
+    std::string utf16 = "\xff\xfe";
+    for (const char c : SQUARE + "f 1 2 3 4\r\n")
+        utf16 += {c, '\0'};
+    expect_seen("UTF-16", utf16);
+}
+
+TEST_F(OddInput, FilesOfOtherFormatsAreErrorsThatSayWhatToDo) {
+    expect_error("glTF", "{\"asset\":{\"version\":\"2.0\"}}",
+                 {"odd.obj: expected a Wavefront OBJ, found a glTF file", "export"});
+    expect_error("GLB", std::string("glTF\2\0\0\0\x10\0\0\0", 12),
+                 {"a binary glTF file (GLB)", "assimp export"});
+    expect_error("PLY", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n", {"a PLY file"});
+    expect_error("MTL", "newmtl red\nKd 1 0 0\n", {"a material library (MTL): give the OBJ that names it"});
+    expect_error("a picture", "\x89PNG\r\n\x1a\n", {"a PNG picture"});
+}
+
+TEST_F(OddInput, MapCoordinatesAreRenderedAndTheirLimitsAreSaid) {
+    const std::string far =
+        "v 5399999.6 -1 0\nv 5400000.4 -1 0\nv 5400000.4 1 0\nv 5399999.6 1 0\nf 1 2 3 4\n";
+    expect_seen("far away", far);
+    expect_seen("digits of single precision",
+                "v 5400000 -1 0\nv 5400001 -1 0\nv 5400001 1 0\nv 5400000 1 0\nf 1 2 3 4\n",
+                {"odd.obj: x is written in steps of 1 near 5.4e+06"});
+    // Single precision has steps of half a unit there: layer P keeps what lies between.
+    const CommandResult result = render(far, {"-o", "odd.exr", "-o", "odd.png"});
+    EXPECT_TRUE(holds(result.err, {"layer P counts from 5400000,", "clrt.P.origin"}));
+    const ReadPicture picture(folder.file("odd.exr"));
+    EXPECT_EQ(std::string(picture.spec.get_string_attribute("clrt.P.origin")), "5400000 0 0");
+    const float middle = picture.at(8, 6, "P.X"), next = picture.at(9, 6, "P.X");
+    EXPECT_GT(middle, 0);
+    EXPECT_GT(next, middle);
+    EXPECT_LT(next, 0.49f) << "within the square, between two floats of its coordinates";
+}
+
+TEST_F(OddInput, OptionsInOtherCoordinatesThanTheFilesAreSaid) {
+    const std::string far = "v 5399999 -1 0\nv 5400001 -1 0\nv 5400001 1 0\nv 5399999 1 0\nf 1 2 3 4\n";
+    const CommandResult away = render(far, {"--eye", "0,0,5", "--at", "0,0,0", "--point", "0,5,0,1,1,1"});
+    EXPECT_EQ(away.exit_code, 0);
+    EXPECT_TRUE(holds(away.err, {"camera: --eye 0,0,5 is 5.4e+06 from the scene, whose centre is 5400000,0,0",
+                                 "less than a pixel", "--point 0,5,0 is 5.4e+06 from the scene"}));
+    const CommandResult past = render(far, {"--eye", "5400000,0,5", "--at", "0,0,0"});
+    EXPECT_TRUE(holds(past.err, {"camera: --at 0,0,0 is 5.4e+06 from the scene", "out of view"}));
+    const CommandResult there = render(far, {"--eye", "5400000,0,5", "--at", "5400000,0,0"});
+    EXPECT_EQ(there.err.find("from the scene"), std::string::npos) << there.err;
+}
+
+TEST_F(OddInput, SmoothingGroupsMakeCornersRound) {
+    // Two squares that meet in a ridge towards the eye: by one smoothing group its normal looks at the sky
+    // half and half, and the picture has no edge.
+    const std::string ridge = "v -1 -1 0\nv 0 -1 1\nv 0 1 1\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n";
+    const auto layer = [&](const std::string& group) {
+        EXPECT_EQ(render(ridge + group + "f 1 2 3 4\nf 2 5 6 3\n",
+                         {"-o", "odd.exr", "--eye", "0,0,6", "--at", "0,0,0"})
+                      .exit_code,
+                  0);
+        const ReadPicture picture(folder.file("odd.exr"));
+        return picture.at(8, 6, "N.X") - picture.at(7, 6, "N.X");
+    };
+    EXPECT_NEAR(layer(""), std::sqrt(2.0), 1e-3);
+    EXPECT_NEAR(layer("s off\n"), std::sqrt(2.0), 1e-3);
+    EXPECT_LT(layer("s 1\n"), 0.7);
 }
 
 TEST_F(OddInput, PolygonsHaveAnyShape) {

@@ -38,7 +38,8 @@ void check_same(const Outcome& a, const Outcome& b) {
     if (!a.error.empty())
         return;
     promise(same_bytes(a.mesh.positions, b.mesh.positions) && same_bytes(a.mesh.normals, b.mesh.normals) &&
-                same_bytes(a.mesh.uvs, b.mesh.uvs) && same_bytes(a.mesh.triangles, b.mesh.triangles),
+                same_bytes(a.mesh.uvs, b.mesh.uvs) && same_bytes(a.mesh.triangles, b.mesh.triangles) &&
+                same_bytes(a.mesh.colours, b.mesh.colours) && same_bytes(a.mesh.smoothing, b.mesh.smoothing),
             "the mesh does not depend on chunks");
     promise(a.mesh.notices == b.mesh.notices && a.mesh.material_names == b.mesh.material_names &&
                 a.mesh.material_lines == b.mesh.material_lines && a.mesh.object_names == b.mesh.object_names,
@@ -47,6 +48,10 @@ void check_same(const Outcome& a, const Outcome& b) {
 
 void check_sound(const ObjMesh& mesh) {
     promise(!mesh.triangles.empty(), "a mesh has triangles");
+    promise(mesh.colours.empty() || mesh.colours.size() == mesh.positions.size(),
+            "each position has a colour");
+    promise(mesh.smoothing.empty() || mesh.smoothing.size() == mesh.triangles.size(),
+            "each triangle has a group");
     for (const ObjTriangle& triangle : mesh.triangles) {
         for (int c = 0; c < 3; ++c) {
             promise(triangle.v[c] < mesh.positions.size(), "corners are in range");

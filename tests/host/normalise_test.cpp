@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -17,10 +18,10 @@ ObjTriangle obj_triangle(u32 a, u32 b, u32 c) {
     return {{a, b, c}, {NO_INDEX, NO_INDEX, NO_INDEX}, {NO_INDEX, NO_INDEX, NO_INDEX}, 0, 0};
 }
 
-ObjMesh wedge(float scale) {
+ObjMesh wedge(double scale) {
     ObjMesh mesh;
-    mesh.positions = {glm::vec3(0.1f, 0.7f, -3.3f) * scale, glm::vec3(1.3f, 2.9f, 0.3f) * scale,
-                      glm::vec3(-4.1f, 0.2f, 8.8f) * scale};
+    mesh.positions = {glm::dvec3(0.1, 0.7, -3.3) * scale, glm::dvec3(1.3, 2.9, 0.3) * scale,
+                      glm::dvec3(-4.1, 0.2, 8.8) * scale};
     mesh.triangles = {obj_triangle(0, 1, 2)};
     return mesh;
 }
@@ -62,17 +63,43 @@ TEST(Normalise, ASinglePointGetsScaleOne) {
 
 TEST(Normalise, ScalingByAPowerOfTwoChangesNoBit) {
     const Scene one = assembled(wedge(1));
-    for (float scale : {0.25f, 1024.f, std::ldexp(1.f, -40), std::ldexp(1.f, 100)}) {
+    for (double scale : {0.25, 1024., 0x1p-40, 0x1p100}) {
         const Scene other = assembled(wedge(scale));
         EXPECT_EQ(0, std::memcmp(one.positions.data(), other.positions.data(), 3 * sizeof(vec4))) << scale;
         EXPECT_EQ(one.extent, other.extent);
     }
 }
 
+TEST(Normalise, FarFromTheOriginPositionsKeepTheirDigits) {
+    // 2^23 + k 2^-20 is exact in double and no float: what is left after centring is.
+    const Scene near = assembled(wedge(1));
+    ObjMesh mesh = wedge(1);
+    for (glm::dvec3& p : mesh.positions)
+        p = glm::dvec3(glm::round(p * 0x1p20)) * 0x1p-20;
+    const Scene rounded = assembled(mesh);
+    for (glm::dvec3& p : mesh.positions)
+        p += glm::dvec3(0x1p23, -0x1p22, 0x1p20);
+    const Scene far = assembled(mesh);
+    EXPECT_EQ(0, std::memcmp(rounded.positions.data(), far.positions.data(), 3 * sizeof(vec4)));
+    EXPECT_NEAR(near.positions[0].x, far.positions[0].x, 1e-6);
+}
+
+TEST(Normalise, LayersCountFromWhereFloatsResolveTheScene) {
+    Normalisation frame;
+    frame.scale = 0x1p-8;
+    frame.centre = {278, 274.4, 279.6};
+    EXPECT_EQ(position_origin(frame), glm::dvec3(0)) << "near the origin world units are kept";
+    frame.centre += glm::dvec3(5.4e6, 0, 0);
+    const glm::dvec3 origin = position_origin(frame);
+    EXPECT_EQ(origin, glm::dvec3(256 * std::nearbyint(5400278 / 256.), 256, 256));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_LE(std::fabs(frame.centre[c] - origin[c]), 128);
+}
+
 TEST(Normalise, PositionsThatNoTriangleUsesDoNotCount) {
     ObjMesh mesh = wedge(1);
-    mesh.positions.push_back(glm::vec3(1e30f));
-    mesh.positions.push_back(glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    mesh.positions.push_back(glm::dvec3(1e30));
+    mesh.positions.push_back(glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
     const Scene scene = assembled(mesh);
     EXPECT_EQ(scene.normalisation.scale, assembled(wedge(1)).normalisation.scale);
     EXPECT_EQ(scene.positions[4].x, 0) << "a position that is not finite must not reach the device";

@@ -68,7 +68,7 @@ std::string dump(const ObjMesh& mesh) {
                   std::streamsize(values.size() * sizeof values[0]));
     };
     bytes(mesh.positions), bytes(mesh.normals), bytes(mesh.uvs), bytes(mesh.triangles),
-        bytes(mesh.material_lines);
+        bytes(mesh.material_lines), bytes(mesh.colours), bytes(mesh.smoothing);
     for (const auto* names : {&mesh.material_names, &mesh.object_names, &mesh.notices})
         for (const std::string& name : *names)
             out << name << '\n';
@@ -89,7 +89,7 @@ TEST(ObjReader, TriangleHasPositionsUvsAndNormals) {
     const ObjMesh mesh =
         read("v 0 0 0\nv 1.5 0 -2e1\nv 0 1 0\nvt 0 0\nvt 1 .25\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\n");
     ASSERT_EQ(mesh.triangles.size(), 1u);
-    EXPECT_EQ(mesh.positions[1], glm::vec3(1.5f, 0, -20));
+    EXPECT_EQ(mesh.positions[1], glm::dvec3(1.5, 0, -20));
     EXPECT_EQ(mesh.uvs[1], glm::vec2(1, 0.25f));
     EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
     EXPECT_EQ(indices(mesh.triangles[0].v), (std::vector<u32>{0, 1, 2}));
@@ -151,7 +151,7 @@ TEST(ObjReader, EveryKindOfLineEndGivesTheSameMesh) {
 TEST(ObjReader, BackslashContinuesLines) {
     const ObjMesh mesh =
         read("v 0 \\\n0 0\nv 2 0 0\r\nv 2 2\\\r\n 0\nv 0 2 0\nf 1 2 \\\n\\\n3 \\\n 4\nf 1 2 3\\");
-    EXPECT_EQ(mesh.positions[2], glm::vec3(2, 2, 0));
+    EXPECT_EQ(mesh.positions[2], glm::dvec3(2, 2, 0));
     EXPECT_EQ(mesh.triangles.size(), 3u);
     EXPECT_EQ(error_of("v 0 \\\n0 0\nv 1 \\\nx 0\n"), "scene.obj:3: expected a number after v, found 'x'");
 }
@@ -174,7 +174,7 @@ TEST(ObjReader, MarksBlanksAndCommentsAreSkipped) {
 TEST(ObjReader, ExtraNumbersAreIgnoredAndMissingUvsAreZero) {
     const ObjMesh mesh =
         read("v 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nvt .5\nvt .5 .25 0\nvt .5 # .25\nf 1/1 2/2 3/3\n");
-    EXPECT_EQ(mesh.positions[1], glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh.positions[1], glm::dvec3(1, 0, 0));
     EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{.5, 0}, {.5, .25}, {.5, 0}}));
 }
 
@@ -413,6 +413,76 @@ TEST(ObjReader, ResultDoesNotDependOnChunksOrThreads) {
             EXPECT_EQ(error_of(bad, 16), error_of(bad)) << wrong;
         }
     }
+}
+
+TEST(ObjReader, PositionsAreDoubles) {
+    const ObjMesh mesh = read("v 5400552.8 -1e-3 3.0000000001\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(mesh.positions[0], glm::dvec3(5400552.8, -1e-3, 3.0000000001));
+    EXPECT_EQ(
+        error_of("v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("not finite"),
+        std::string("scene.obj: the file has no faces that can be rendered: all 1 have fewer than three "
+                    "corners or a vertex that is ")
+            .size());
+}
+
+TEST(ObjReader, ColoursBehindPositionsAreKept) {
+    const std::string text =
+        "v 0 0 0\nv 1 0 0 0.25 0.5 1\nv 1 1 0 1 # a weight\nv 0 1 0 1 0 0 0.5\nf 1 2 3 4\n";
+    for (const size_t chunk_bytes : {OBJ_CHUNK_BYTES, size_t(1), size_t(20)}) {
+        const ObjMesh mesh = read(text, chunk_bytes);
+        ASSERT_EQ(mesh.colours.size(), 4u);
+        EXPECT_TRUE(std::isnan(mesh.colours[0].x));
+        EXPECT_EQ(mesh.colours[1], glm::vec3(0.25f, 0.5f, 1));
+        EXPECT_TRUE(std::isnan(mesh.colours[2].x)) << "one number is a weight";
+        EXPECT_EQ(mesh.colours[3], glm::vec3(1, 0, 0)) << "a fourth number is an opacity";
+        EXPECT_EQ(mesh.first_colour_line, 2u);
+    }
+    EXPECT_TRUE(read(std::string(SQUARE) + "f 1 2 3 4\n").colours.empty());
+}
+
+TEST(ObjReader, SmoothingGroupsHoldUntilTheNextStatement) {
+    const std::string text = std::string(SQUARE) +
+                             "f 1 2 3\ns 1\nf 1 2 3\nf 1 2 3 4\ns off\nf 1 2 3\ns 7 # seven\n"
+                             "f 1 2 3\ns 1\nf 1 2 3\ns 0\nf 1 2 3\n";
+    for (const size_t chunk_bytes : {OBJ_CHUNK_BYTES, size_t(1), size_t(9)}) {
+        const ObjMesh mesh = read(text, chunk_bytes);
+        ASSERT_EQ(mesh.smoothing.size(), 8u);
+        const u32 one = mesh.smoothing[1], seven = mesh.smoothing[5];
+        EXPECT_NE(one, seven);
+        EXPECT_EQ(mesh.smoothing,
+                  (std::vector<u32>{NO_INDEX, one, one, one, NO_INDEX, seven, one, NO_INDEX}));
+        EXPECT_EQ(mesh.first_normals_line, 7u);
+        EXPECT_EQ(mesh.first_normals_triangle, 1u);
+    }
+    EXPECT_TRUE(read(std::string(SQUARE) + "s off\nf 1 2 3\ns 0\nf 1 2 3\n").smoothing.empty());
+}
+
+TEST(ObjReader, Utf16IsReadAsUtf8) {
+    const std::string text = std::string(SQUARE) + "o \xc3\xa4\nf 1 2 3 4\n"; // a with two dots
+    const auto utf16 = [](const std::string& characters, bool big, bool mark) {
+        std::string bytes = !mark ? "" : big ? "\xfe\xff" : "\xff\xfe";
+        for (const char c : characters)
+            bytes += big ? std::string{'\0', c} : std::string{c, '\0'};
+        return bytes;
+    };
+    const std::string expected = dump(read(text));
+    for (const bool big : {false, true})
+        for (const bool mark : {false, true}) {
+            ObjMesh mesh = read(utf16(std::string(SQUARE) + "o \xe4\nf 1 2 3 4\n", big, mark));
+            mesh.bytes = text.size();
+            EXPECT_EQ(dump(mesh), expected) << big << mark;
+        }
+    EXPECT_EQ(error_of(utf16("v 0 0 0\nv 1 x 0\n", false, true)),
+              "scene.obj:2: expected a number after v, found 'x'");
+}
+
+TEST(ObjReader, FilesOfOtherFormatsAreNamed) {
+    EXPECT_NE(error_of("# a library\nnewmtl red\nKd 1 0 0\n").find("it looks like a material library (MTL)"),
+              std::string::npos);
+    EXPECT_EQ(error_of(std::string("glTF\2\0\0\0", 8))
+                  .find("scene.obj: expected a Wavefront OBJ, found a binary "
+                        "glTF file (GLB): export it as OBJ"),
+              0u);
 }
 
 } // namespace

@@ -14,7 +14,7 @@
 namespace clrt {
 namespace {
 
-using Polygon = std::vector<glm::vec3>;
+using Polygon = std::vector<glm::dvec3>;
 
 /// A polygon in the plane z = 0.
 Polygon flat(const std::vector<glm::vec2>& corners) {
@@ -146,17 +146,28 @@ TEST(Triangulate, RandomPolygonsInRandomPlanesAreTiled) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0, 1);
     for (int n = 5; n < 60; ++n) {
-        const glm::vec3 normal = glm::normalize(glm::vec3(unit(random), unit(random), unit(random)) - 0.5f);
-        const glm::vec3 s = glm::normalize(glm::cross(normal, glm::vec3(normal.y, normal.z, -normal.x)));
-        const glm::vec3 t = glm::cross(normal, s), centre(100 * unit(random), 7, -3);
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(unit(random), unit(random), unit(random)) - 0.5);
+        const glm::dvec3 s = glm::normalize(glm::cross(normal, glm::dvec3(normal.y, normal.z, -normal.x)));
+        const glm::dvec3 t = glm::cross(normal, s), centre(100 * unit(random), 7, -3);
         Polygon polygon;
         for (int i = 0; i < n; ++i) {
-            const float angle = 6.2831853f * float(i) / float(n), radius = 0.2f + unit(random);
+            const double angle = 2 * M_PI * i / n, radius = 0.2 + double(unit(random));
             polygon.push_back(centre + radius * (std::cos(angle) * s + std::sin(angle) * t));
         }
         // Rounded positions leave the plane a little, so that thin triangles may turn over a little.
-        expect_proper_cut(polygon, -1e-5);
+        expect_proper_cut(polygon, -1e-12);
     }
+}
+
+TEST(Triangulate, APolygonInMapCoordinatesIsCutAsAtTheOrigin) {
+    // A square with a notch, in sixteenths of a unit: floats have steps of half a unit there.
+    Polygon polygon = flat({{0, 0}, {1, 0}, {1, 1}, {0.5, 0.0625}, {0, 1}});
+    std::vector<u32> near, far;
+    EXPECT_TRUE(triangulate(polygon, near));
+    for (glm::dvec3& p : polygon)
+        p += glm::dvec3(5.4e6, -6.2e6, 1e6);
+    EXPECT_TRUE(triangulate(polygon, far));
+    EXPECT_EQ(near, far);
 }
 
 TEST(Triangulate, WhatCannotBeTiledIsFannedAndReported) {

@@ -80,6 +80,8 @@ FAULTS = [
      "cut_out_test"),
     ("textures upside down", "geometry/texture.h", "(1.0f - v) * (float)texture->height", "v * (float)texture->height",
      "textured_picture_test"),
+    ("vertex colours by the wrong weights", "geometry/surface.h", "surface->b1 * (c1 - c0)", "surface->b2 * (c1 - c0)",
+     "vertex_colour_test"),
     ("green of normal maps turned round", "scattering/material.h", "m.y * handed * frame.y", "-m.y * handed * frame.y",
      "shading_normal_test"),
     ("strength of normal maps forgotten", "scattering/material.h", "? (real)material->bump_scale : REAL(1.0)",
