@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <utility>
 
 namespace clrt {
 
@@ -54,8 +55,8 @@ std::string progress_line(const ProgressState& state, double seconds) {
     return line;
 }
 
-Progress::Progress(Toggle show, bool quiet)
-    : terminal_(isatty(STDERR_FILENO) != 0), enabled_(show != Toggle::OFF && !quiet) {}
+Progress::Progress(Toggle show, bool quiet, std::function<Clock::time_point()> now)
+    : now_(std::move(now)), terminal_(isatty(STDERR_FILENO) != 0), enabled_(show != Toggle::OFF && !quiet) {}
 
 Progress::~Progress() {
     finish();
@@ -64,7 +65,7 @@ Progress::~Progress() {
 void Progress::update(const ProgressState& state) {
     if (!enabled_)
         return;
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = now_();
     if (state.phase != last_.phase) {
         finish();
         phase_start_ = last_print_ = now;
@@ -80,7 +81,7 @@ void Progress::update(const ProgressState& state) {
 void Progress::finish() {
     if (last_.phase.empty())
         return;
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = now_();
     const bool worth_a_line = seconds_between(phase_start_, now) > WORTH_A_LINE;
     if (worth_a_line && !shown_)
         print(now);

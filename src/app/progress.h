@@ -5,6 +5,7 @@
 #include "app/options.h"
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace clrt {
@@ -25,9 +26,11 @@ std::string progress_line(const ProgressState& state, double seconds);
 /// Not for several threads at once. Log lines come between two lines only: call finish() before logging.
 class Progress {
 public:
+    using Clock = std::chrono::steady_clock;
+
     /// AUTO shows it when stderr is a terminal, and as plain lines every few seconds when it is not; -q
-    /// switches it off.
-    Progress(Toggle show, bool quiet);
+    /// switches it off. `now` tells the time.
+    Progress(Toggle show, bool quiet, std::function<Clock::time_point()> now = Clock::now);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -39,10 +42,9 @@ public:
     void finish();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     void print(Clock::time_point now);
 
+    std::function<Clock::time_point()> now_;
     bool terminal_ = false, enabled_ = false;
     bool shown_ = false; ///< the last state has been printed
     bool open_ = false;  ///< the cursor is on a line of ours, on a terminal

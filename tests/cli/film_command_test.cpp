@@ -209,9 +209,10 @@ TEST_F(FilmCommand, ResumingSaysWhatDoesNotFit) {
 
 TEST_F(FilmCommand, AnInterruptedRunCanGoOn) {
     CommandSettings settings;
-    settings.signals = {{2.5, SIGINT}};
+    settings.signals = {{0.1, SIGINT}};
+    settings.signals_after_file = "a.film";
     std::vector<std::string> arguments = LONG_RUN;
-    arguments.emplace_back("a.film");
+    arguments.emplace_back("a.film,0.01s");
     EXPECT_EQ(clrt(arguments, settings).exit_code, 130);
     const std::uint64_t samples = film_samples(film("a.film").render.film);
     ASSERT_GE(samples, 1u);
@@ -240,7 +241,8 @@ TEST_F(FilmCommand, AKilledRunLeavesAWholeFilm) {
 
 TEST_F(FilmCommand, PicturesSoFarAreSavedAtWholePasses) {
     CommandSettings settings;
-    settings.signals = {{4, SIGKILL}};
+    settings.signals = {{0.5, SIGKILL}};
+    settings.signals_after_file = "so_far.exr";
     std::vector<std::string> command{CLRT_EXECUTABLE, "lamp.obj", "-t",         "60",           "-s",
                                      "4000000",       "-o",       "so_far.exr", "--save-every", "0.1s"};
     settings.folder = path();

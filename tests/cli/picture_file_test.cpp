@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 namespace clrt {
 
@@ -269,37 +268,6 @@ TEST_F(PictureFile, TheFittedCameraCanBeCopiedFromTheLog) {
         arguments.push_back(word);
     ASSERT_EQ(clrt(arguments).exit_code, 0);
     EXPECT_TRUE(ReadPicture(folder.file("a.exr")).values == ReadPicture(folder.file("b.exr")).values);
-}
-
-TEST_F(PictureFile, TheProgressLineSaysWhatIsKnown) {
-    write_square("scene");
-    const auto result =
-        clrt({"scene.obj", "-r", "64x48", "-t", "1.5", "--progress", "on", "--stats", "s.json"});
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    // The line that a render of more than a second leaves behind.
-    const std::regex line(
-        R"(render  +\d+%  (\d+) spp  ([0-9.]+) s (?: ETA [^M]*)? ([0-9.]+) Mrays/s  error about ([0-9.]+) %)");
-    std::smatch found;
-    ASSERT_TRUE(std::regex_search(result.err, found, line)) << result.err;
-    const nlohmann::json stats = json("s.json");
-    EXPECT_EQ(std::stoull(found[1]), stats["spp"]);
-    EXPECT_NEAR(std::stod(found[2]), stats["seconds"]["render"].get<double>(), 0.2);
-    // The rays of a sample are those of the last measurement, which had a quarter of all samples or more.
-    double rays = 0;
-    for (const char* kind : {"primary", "secondary", "shadow"})
-        rays += stats["rays"][kind].get<double>();
-    const double expected = 1e-6 * rays / stats["seconds"]["render"].get<double>();
-    EXPECT_NEAR(std::stod(found[3]) / expected, 1, 0.15);
-}
-
-TEST_F(PictureFile, ATimeLimitEndsTheRenderInTime) {
-    write_square("scene");
-    const auto result = clrt({"scene.obj", "-r", "64x48", "-t", "1.5", "--stats", "s.json"});
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    const double seconds = json("s.json")["seconds"]["render"];
-    EXPECT_GT(seconds, 0.5);
-    EXPECT_LT(seconds, 3.0) << "overrun by at most one launch";
-    EXPECT_GT(json("s.json")["spp"], 64) << "not bounded by the default number of samples";
 }
 
 } // namespace clrt

@@ -59,11 +59,18 @@ std::string read_all(std::FILE* file) {
 /// Waits for a child, sends it its signals in time, and kills it at the limit.
 int wait_for(pid_t child, const CommandSettings& settings, Clock::time_point start) {
     size_t sent = 0;
+    bool counts = settings.signals_after_file.empty();
+    auto signals_start = start;
     for (int status = 0;;) {
         if (waitpid(child, &status, WNOHANG) == child)
             return status;
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        for (; sent < settings.signals.size() && seconds >= settings.signals[sent].first; ++sent)
+        if (!counts && access((settings.folder + "/" + settings.signals_after_file).c_str(), F_OK) == 0) {
+            counts = true;
+            signals_start = Clock::now();
+        }
+        const double waited = std::chrono::duration<double>(Clock::now() - signals_start).count();
+        for (; counts && sent < settings.signals.size() && waited >= settings.signals[sent].first; ++sent)
             kill(child, settings.signals[sent].second);
         if (seconds > settings.limit_seconds)
             kill(child, SIGKILL);

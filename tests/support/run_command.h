@@ -22,7 +22,9 @@ struct CommandSettings {
     std::string folder;                             ///< where it runs; empty: here
     std::map<std::string, std::string> environment; ///< replaces or adds variables
     std::vector<std::pair<double, int>> signals;    ///< seconds after the start, and which
-    double limit_seconds = 120;                     ///< then it is killed
+    /// Their seconds count from when this file of the folder is there; empty: from the start.
+    std::string signals_after_file;
+    double limit_seconds = 120; ///< then it is killed
     std::map<int, size_t>
         limits; ///< of setrlimit(): RLIMIT_FSIZE for a full disk, RLIMIT_AS for little memory; bytes
 };
