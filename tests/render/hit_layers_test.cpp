@@ -12,6 +12,7 @@
 #include "support/render_scene.h"
 
 #include <csignal>
+#include <cstdlib>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -32,6 +33,8 @@ protected:
         options.size = {27, 21}; // tiles at the edges are not whole
         options.replicates = 4;
         options.outputs = {"a.exr"};
+        if (const char* folder = std::getenv("CLRT_TEST_KERNELS"))
+            options.kernels_folder = folder;
         const Scene scene = test_.load();
         const Effects effects = find_effects(scene, options);
         const BvhLayout layout = choose_layout(options.bvh, test_device().info);
