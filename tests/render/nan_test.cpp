@@ -2,17 +2,12 @@
 // A NaN anywhere inside a sample is counted, also where the comparison that meets it first would take it for
 // black, for a light behind the surface or for an end by roulette. NaNs are planted into a copy of the
 // kernels, by the seed.
+#include "support/prepared_render.h"
 #include "support/render_scene.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <sstream>
-#include <stdexcept>
-
-namespace fs = std::filesystem;
 
 namespace clrt {
 
@@ -46,7 +41,7 @@ std::vector<Value> light_values() {
 std::vector<Place> path_places() {
     const char* const file = "integrators/path.h";
     return {
-        {file, "Surface surface = surface_at(scene, &path->hit, wo);", surface_values()},
+        {file, "const Surface surface = surface_at(scene, &path->hit, wo);", surface_values()},
         {file,
          "Bsdf bsdf = material_bsdf(scene, &surface, wo);",
          {{"bsdf.wo.z", {"glossy", "mirror", "glass", "rough glass"}},
@@ -56,7 +51,7 @@ std::vector<Place> path_places() {
           {"bsdf.alpha_x", {"glossy", "rough glass"}},
           {"bsdf.eta", {"glass", "rough glass"}}}},
         {file,
-         "BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);",
+         "const BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);",
          {{"next.wi.x"}}},
         {file,
          "if (!next.is_valid || !continues)\n        return;",
@@ -67,7 +62,8 @@ std::vector<Place> path_places() {
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
         {file,
-         "lights_sample(scene, params, surface, bsdf->frame.z, path->numbers.light, path->numbers.alias);",
+         "const LightSample light =\n        lights_sample(scene, params, surface, bsdf->frame.z, "
+         "path->numbers.light, path->numbers.alias);",
          light_values(), Reached::IF_LIT},
     };
 }
@@ -75,11 +71,12 @@ std::vector<Place> path_places() {
 /// Those of the integrators that light locally; `file` has the rest of the vertex.
 std::vector<Place> direct_places(const char* file) {
     return {{"integrators/direct.h",
-             "emitter_sample(scene, params, surface->position, words.x, alias_word, sampler_unit(words.y));",
+             "const LightSample light =\n            emitter_sample(scene, params, surface->position, "
+             "words.x, alias_word, sampler_unit(words.y));",
              light_values(), Reached::IF_LIT},
-            {file, "Surface surface = surface_at(scene, &hit, wo);", surface_values()},
+            {file, "const Surface surface = surface_at(scene, &hit, wo);", surface_values()},
             {file,
-             "Bsdf bsdf = material_bsdf(scene, &surface, wo);",
+             "const Bsdf bsdf = material_bsdf(scene, &surface, wo);",
              {{"bsdf.wo.z"},
               {"bsdf.frame.z.y", {"matte", "glossy"}},
               {"bsdf.matte.x", {"matte", "glossy"}},
@@ -96,52 +93,30 @@ std::vector<Place> whitted_places() {
     return places;
 }
 
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+/// Puts text behind a statement of a file; a constant that it declares can be changed there.
+KernelPatch insertion(const char* file, const std::string& statement, const std::string& text) {
+    const std::string constant = "const ";
+    const bool is_constant = statement.compare(0, constant.size(), constant) == 0;
+    return {file, statement, statement.substr(is_constant ? constant.size() : 0) + text};
 }
 
-/// A copy of the kernels into which NaNs are planted.
-class SpoiledKernels {
-public:
-    SpoiledKernels() { fs::copy(CLRT_KERNELS_FOLDER, path(), fs::copy_options::recursive); }
-    std::string path() const { return folder_.file("kernels"); }
-
-    /// Makes value k of the places NaN where the seed is k + 1.
-    explicit SpoiledKernels(const std::vector<Place>& places) : SpoiledKernels() {
-        int seed = 0;
-        for (const Place& place : places) {
-            std::string text;
-            for (const Value& value : place.values)
-                text += fmt::format("\n if (params->seed == {}u) {{ {} = REAL_NAN; }}\n", ++seed, value.name);
-            insert(place.file, place.statement, text);
-        }
+/// Kernels that make value k of the places NaN where the seed is k + 1.
+PatchedKernels spoiled_kernels(const std::vector<Place>& places) {
+    std::vector<KernelPatch> patches;
+    int seed = 0;
+    for (const Place& place : places) {
+        std::string text;
+        for (const Value& value : place.values)
+            text += fmt::format("\n if (params->seed == {}u) {{ {} = REAL_NAN; }}\n", ++seed, value.name);
+        patches.push_back(insertion(place.file, place.statement, text));
     }
-    /// Makes the value that a statement declares NaN.
-    SpoiledKernels(const char* file, const std::string& statement, const char* value) : SpoiledKernels() {
-        insert(file, statement, fmt::format(" {} = REAL_NAN;", value));
-    }
+    return PatchedKernels(patches);
+}
 
-private:
-    /// Puts text behind a statement, whose variable it may change.
-    void insert(const char* file, const std::string& statement, const std::string& text) const {
-        const fs::path name = fs::path(path()) / file;
-        std::string code = read_text(name);
-        const size_t at = code.find(statement);
-        if (at == std::string::npos)
-            throw std::runtime_error("the kernels have no '" + statement + "' any more");
-        code.insert(at + statement.size(), text);
-        const std::string constant = "const ";
-        const size_t found = code.rfind(constant, at);
-        if (code.find(';', found) > at)
-            code.erase(found, constant.size());
-        std::ofstream(name) << code;
-    }
-
-    ScratchFolder folder_;
-};
+/// Kernels that make what a statement declares NaN.
+PatchedKernels spoiled_kernels(const char* file, const char* statement, const char* value) {
+    return PatchedKernels({insertion(file, statement, fmt::format(" {} = REAL_NAN;", value))});
+}
 
 /// A floor under a lamp, with nothing else to see; every sample sees the floor.
 class FloorUnderALamp : public TestScene {
@@ -181,7 +156,7 @@ std::uint64_t samples_at(Reached place, const FloorUnderALamp& scene, const Rend
 }
 
 void expect_all_counted(Integrator integrator, const std::vector<Place>& places) {
-    const SpoiledKernels kernels(places);
+    const PatchedKernels kernels = spoiled_kernels(places);
     for (const auto& [name, keys] : FLOORS) {
         FloorUnderALamp scene(keys);
         scene.options.integrator = integrator;
@@ -204,7 +179,7 @@ void expect_all_counted(Integrator integrator, const std::vector<Place>& places)
 }
 
 /// Expects that a render with these kernels counts every sample as NaN.
-void expect_counted(const SpoiledKernels& kernels, FloorUnderALamp& scene, Integrator integrator,
+void expect_counted(const PatchedKernels& kernels, FloorUnderALamp& scene, Integrator integrator,
                     const std::string& what = "") {
     scene.options.integrator = integrator;
     scene.options.kernels_folder = kernels.path();
@@ -226,30 +201,31 @@ TEST(Nan, RayCastingCountsItWhereverItArises) {
 }
 
 TEST(Nan, TheSideOfALampDoesNotHideIt) {
-    const SpoiledKernels kernels("lights/emitter.h", "const real facing = -vector_dot(way, normal);",
-                                 "facing");
+    const PatchedKernels kernels =
+        spoiled_kernels("lights/emitter.h", "const real facing = -vector_dot(way, normal);", "facing");
     FloorUnderALamp scene("Kd 0.5 0.5 0.5");
     expect_counted(kernels, scene, Integrator::RAYCAST);
 }
 
 TEST(Nan, TheDistanceOfAPointLightDoesNotHideIt) {
-    const SpoiledKernels kernels("lights/delta_light.h",
-                                 "const real distance_squared = vector_dot(way, way);", "distance_squared");
+    const PatchedKernels kernels = spoiled_kernels(
+        "lights/delta_light.h", "const real distance_squared = vector_dot(way, way);", "distance_squared");
     FloorUnderALamp scene("Kd 0.5 0.5 0.5");
     scene.options.light.points.push_back({{0, 2, 1}, glm::dvec3(1)});
     expect_counted(kernels, scene, Integrator::RAYCAST);
 }
 
 TEST(Nan, AnInterpolatedNormalDoesNotHideIt) {
-    const SpoiledKernels kernels("geometry/surface.h", "const real length_squared = vector_dot(sum, sum);",
-                                 "length_squared");
+    const PatchedKernels kernels = spoiled_kernels(
+        "geometry/surface.h", "const real length_squared = vector_dot(sum, sum);", "length_squared");
     FloorUnderALamp scene("Kd 0.5 0.5 0.5");
     scene.build.use("floor").icosphere({0, 0, 0}, 0.2, 1, Facing::OUTWARD, Shading::SMOOTH);
     expect_counted(kernels, scene, Integrator::RAYCAST);
 }
 
 TEST(Nan, NoMapHidesIt) {
-    const SpoiledKernels kernels("geometry/texture.h", "const float4 upper = a + fx * (b - a);", "upper");
+    const PatchedKernels kernels =
+        spoiled_kernels("geometry/texture.h", "const float4 upper = a + fx * (b - a);", "upper");
     for (const char* keys :
          {"Kd 1 1 1\nmap_Kd grey.png", "Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nmap_Ks grey.png\nillum 3",
           "Kd 0.5 0.5 0.5\nPm 0.5\nPr 0.5\nmap_Pr grey.png", "Kd 0.5 0.5 0.5\nPr 0.5\nPm 1\nmap_Pm grey.png",

@@ -307,11 +307,12 @@ TEST(Replay, ADecisionThatDoubleMakesDifferentlyIsFound) {
     room.options.kernels_folder = tested_kernels_folder();
     const FlipStatistics clean = find_flips(test_device(), room.load(), room.options);
     EXPECT_EQ(clean.samples, 16u * 16u * 4u);
-    EXPECT_LT(clean.share(), 0.01);
+    EXPECT_LE(clean.flips.size(), 1u) << "1e-5 of the samples of a matte room flip (flips_test)";
     room.options.kernels_folder = kernels.path();
     const FlipStatistics flips = find_flips(test_device(), room.load(), room.options);
     const std::uint64_t planted = flips.counts()[{"roulette", 2u}];
-    EXPECT_NEAR(double(planted) / double(flips.samples), 1.0 / 3, 0.05);
+    // A third of 1024 keys that a hash deals out, within three standard errors.
+    EXPECT_NEAR(double(planted) / double(flips.samples), 1.0 / 3, 0.045);
     EXPECT_GE(planted + clean.flips.size(), flips.flips.size()) << format_flips(flips);
 }
 

@@ -129,7 +129,9 @@ void garbage(CaseRun& run) {
                                             [&] { return fmt::format("scene {}: {}", k, error.what()); });
         }
     }
-    run.figure("scenes that did not become a picture, of all", 0.9)[Build::SINGLE].see(
+    // About 0.4 of them name no face or are refused; three standard errors of 60 files are 0.19. Were it many
+    // more, the figures above would be of nothing.
+    run.figure("scenes that did not become a picture, of all", 0.6)[Build::SINGLE].see(
         1 - double(rendered) / double(scenes), [] { return "garbage"; });
 }
 

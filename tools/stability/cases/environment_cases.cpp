@@ -52,7 +52,10 @@ double texel_irradiance(int width, int height, int row) {
 }
 
 void one_bright_texel(CaseRun& run) {
-    Figure& missed = run.figure("|share of samples beside the bilinear tent - 15/64|", 0.02);
+    // A share of n samples: six standard errors of 15/64.
+    const size_t samples = run.count(2e4, 1e6, 1e7);
+    Figure& missed = run.figure("|share of samples beside the bilinear tent - 15/64|",
+                                6 * std::sqrt(15.0 / 64 * (49.0 / 64) / double(samples)));
     Figure& bad = run.figure("samples that are no finite number >= 0", 0);
     // Six standard errors are 6 %: a sixteenth of the tent that is lost is just seen.
     MeanFigure mean(run, "the irradiance", 1e-2);
@@ -65,8 +68,7 @@ void one_bright_texel(CaseRun& run) {
         for (const Build build : path_builds(run)) {
             std::vector<double> values;
             double dark = 0;
-            for (const dvec3& value :
-                 probe.radiance(build, Integrator::PATH, rays, run.count(2e4, 1e6, 1e7))) {
+            for (const dvec3& value : probe.radiance(build, Integrator::PATH, rays, samples)) {
                 values.push_back(value.x / radiance);
                 dark += value.x == 0;
                 bad[build].count(!(value.x >= 0 && std::isfinite(value.x)),
