@@ -23,7 +23,7 @@ static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* 
                                        uint which)
 {
     WhittedRay child;
-    child.ray = ray_make(surface_origin(surface, wi), wi);
+    child.ray = ray_make(surface_origin(surface, which == 0u), wi);
     child.weight = weight;
     child.segment = parent->segment + 1u;
     child.node = 2u * parent->node + which;
@@ -60,7 +60,7 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     if (f >= REAL(1.0)) /* a mirror, or total reflection */
         return top;
     const real3 refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
-    if (vector_dot(refracted, surface->normal_g) >= REAL(0.0))
+    if (surface_reflects(surface, refracted))
         return top;
     const real3 color = bsdf->transmission * ((REAL(1.0) - f) * bsdf->eta * bsdf->eta);
     return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack, top);

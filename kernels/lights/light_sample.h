@@ -35,7 +35,7 @@ static inline LightSample light_sample_none(void)
    vector moves its end, and stops a few roundings short. */
 static inline Ray light_shadow_ray(const Surface* surface, const LightSample* sample)
 {
-    const real3 origin = surface_origin(surface, sample->wi);
+    const real3 origin = surface_origin(surface, surface_reflects(surface, sample->wi));
     if (sample->is_distant)
         return ray_make(origin, sample->wi);
     Ray ray = ray_make(origin, sample->target - origin);

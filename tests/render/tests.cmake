@@ -20,4 +20,5 @@ clrt_python_test(render seeded_faults ${PROJECT_BINARY_DIR} --quick)
 set_tests_properties(render.seeded_faults PROPERTIES TIMEOUT 3600) # CLRT_TEST_LONG plants them all
 clrt_test(render shading_normal_test)
 clrt_test(render sky_light_test)
+clrt_test(render surface_sides_test)
 clrt_test(render textured_picture_test)
