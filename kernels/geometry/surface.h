@@ -210,7 +210,7 @@ static inline bool surface_reflects(const Surface* surface, real3 w)
     return surface_side(surface->normal_g, surface->normal_s, surface->is_curved, w);
 }
 
-/* The curved surface's point: where rays on wo's side start, but for the rounding's step. */
+/* The curved surface's point: where rays on wo's side start, but for the rounding's step, and whence lights are looked at. */
 static inline real3 surface_lifted(const Surface* surface)
 {
     return HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved ? surface->position + surface->bulge : surface->position;

@@ -53,7 +53,7 @@ static Ray make_shadow(const Scene* scene, const RenderParams* params, const Sur
     const LightSample light =
         lights_sample(scene, params, surface, surface->normal_s, sampler_pair_words(sampler, bounce, SAMPLE_LIGHT),
                       sampler_word(sampler, bounce, SAMPLE_LIGHT_ALIAS));
-    if (light.pdf_w == REAL(0.0) || vector_dot(light.wi, surface->normal_g) <= REAL(0.0))
+    if (light.pdf_w == REAL(0.0) || !light.reflects)
         return make_nothing();
     return light_shadow_ray(surface, &light);
 }
