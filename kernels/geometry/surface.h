@@ -18,6 +18,7 @@ typedef struct {
     uint emitter;     /* index into the emitters, NO_INDEX for a dark triangle */
     uint material;
     bool is_curved;   /* the corner normals describe a surface that bulges over the plane to wo's side */
+    bool is_near_edge; /* the point was drawn in from an edge */
     bool front;       /* wo is on the front side (winding, or vn where given) */
 } Surface;
 
@@ -176,7 +177,9 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface.offset = surface_offset_bound(p[0], p[1], p[2]);
     real3 point = fma((real3)(hit->b1), e1, hit->b2 * e2);
     const real margin = SURFACE_INSET * surface.offset;
-    if (across > REAL(0.0) && surface_is_near_edge(hit, surface_extent(p[0], p[1], p[2]), across, margin))
+    surface.is_near_edge =
+        across > REAL(0.0) && surface_is_near_edge(hit, surface_extent(p[0], p[1], p[2]), across, margin);
+    if (surface.is_near_edge)
         point = surface_inset(point, e1, e2, normal, margin);
     surface.position = p[0] + point;
     surface.normal_g = normal * side;

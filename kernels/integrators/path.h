@@ -220,7 +220,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
         path_escape(scene, params, path, sample);
         return;
     }
-    const Surface surface = surface_at(scene, &path->hit, wo);
+    const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     TRACE_SURFACE(scene, &surface);
 
     /* Add what it emits. */

@@ -10,7 +10,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
                                           Ray ray, PixelRays* rays)
 {
     const real3 wo = -ray.direction;
-    const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
+    Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
     TRACE_HIT(scene, 1u, 0u, &ray, &hit);
     if (hit.triangle == NO_INDEX) {
         const real3 sky = lights_escape(scene, params, ray.direction, REAL(0.0), KINDS_ALL);
@@ -18,7 +18,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
         TRACE_VECTOR(scene, TRACE_ADDED, sky);
         return sky;
     }
-    const Surface surface = surface_at(scene, &hit, wo);
+    const Surface surface = visible_surface(scene, params, &ray, &hit);
     TRACE_SURFACE(scene, &surface);
     real3 radiance = (real3)(REAL(0.0));
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {

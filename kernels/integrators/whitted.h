@@ -83,7 +83,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
             ++rays->secondary;
 
         /* Find the surface, or the light outside the scene. */
-        const Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
+        Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
         TRACE_HIT(scene, current.segment, current.node, &current.ray, &hit);
         TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
         if (hit.triangle == NO_INDEX) {
@@ -93,7 +93,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
             TRACE_VECTOR(scene, TRACE_ADDED, current.weight * sky);
             continue;
         }
-        const Surface surface = surface_at(scene, &hit, wo);
+        const Surface surface = visible_surface(scene, params, &current.ray, &hit);
         TRACE_SURFACE(scene, &surface);
         if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
             const real3 emitted = material_emitted(scene, &surface);

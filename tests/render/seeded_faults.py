@@ -52,6 +52,8 @@ FAULTS = [
      "surface_test"),
     ("parts of a BSDF shine through", "path/filter.h", "matte != glossy && !vector_is_black(whole)", "matte != glossy",
      "surface_sides_test"),
+    ("walls that edges hide are hit", "geometry/visibility.h", "nearer.triangle == NO_INDEX ||",
+     "true ||", "surface_sides_test"),
     ("sampler address used for all bounces", "numerics/sampler.h", "return bounce * SAMPLER_PURPOSES + purpose;",
      "return purpose;", "interreflection_test"),
     ("lobe and roulette share a number", "numerics/sampler.h", "#define SAMPLE_ROULETTE 6u",

@@ -197,4 +197,21 @@ TEST(SurfaceSides, MappedGlassLosesAndGainsNothingByItsPlanesOwnNormals) {
         }
 }
 
+TEST(SurfaceSides, ABoxSeenAtItsOutlineKeepsItsLightInside) {
+    // Pictures a few roundings wide of points on edges between a face that is seen from outside and one that
+    // is not.
+    for (const Integrator integrator : INTEGRATORS)
+        for (const double along : {-0.77, -0.31, 0.12, 0.58})
+            for (const dvec3& eye : {dvec3(0.3, 2.4, 0.2), dvec3(-1.6, 3.1, 1.4), dvec3(0.9, 1.7, -0.8)}) {
+                MappedScene scene;
+                scene.build.material("wall", MATERIALS[0]).use("wall").box({-1, -1, -1}, {1, 1, 1});
+                scene.light_from({0.3, 0.2, 0.1});
+                scene.options.light.suns.clear();
+                scene.options.integrator = integrator;
+                scene.options.max_depth = 4;
+                scene.look(eye, {1, 1, along}, 1e-5);
+                EXPECT_EQ(count_lit(scene.render().film), 0) << integrator_name(integrator) << ", " << along;
+            }
+}
+
 } // namespace clrt
