@@ -12,14 +12,15 @@ typedef struct {
     real3 normal_s;   /* unit, for shading, on wo's side */
     real3 tangent;    /* direction of growing texture u; any length, 0 without texture coordinates */
     real3 bitangent;  /* direction of growing texture v */
-    real3 bulge;      /* from position to the curved surface that the corner normals describe; points to wo's side */
+    real3 bulge;      /* from position to the curved surface that the corner normals describe, on wo's side; 0 where flat */
     float2 uv;
     real b1, b2;      /* barycentric weights of corners 1 and 2, */
     uint triangle;    /* of this triangle */
     real offset;      /* bound of position's distance to the plane that the triangle test sees */
     uint emitter;     /* index into the emitters, NO_INDEX for a dark triangle */
     uint material;
-    bool is_curved;   /* bulge is not 0 */
+    bool is_curved;   /* the corner normals describe a surface that bulges over the plane to wo's side */
+    bool is_near_edge; /* the point was drawn in from an edge */
     bool front;       /* wo is on the front side (winding, or vn where given) */
 } Surface;
 
@@ -111,9 +112,16 @@ static inline void surface_uv(const Scene* scene, global const Triangle* triangl
     surface->bitangent = ((real)d1.x * e2 - (real)d2.x * e1) / det;
 }
 
+/* cos of 0.01: corner normals that are all within this angle of the plane's are those of a flat triangle. A vn of two
+   decimals, the fewest that exporters write, is off by up to half a hundredth on each axis, which tilts it by at most 0.0087.
+   Balls of more than 300 segments around, whose faces meet at less than 0.02, count as flat too: where their plane hides
+   a light that their shading normals see, it adds at most 0.01 of what it would head-on. */
+#define SURFACE_FLAT_COS REAL(0.99995)
+
 /* Interpolated shading normal, and the displacement to the curved surface: the point is projected on the tangent planes
    of the corners, and the projections are interpolated (Hanika 2021, Ray Tracing Gems II, ch. 4). Without it
-   coarse meshes shade themselves near the terminator. */
+   coarse meshes shade themselves near the terminator. A displacement that leads below the plane or the shading normal's
+   horizon, as corner normals that contradict each other give, is none. */
 static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, const real3* p, real b1, real b2,
                                   Surface* surface)
 {
@@ -130,11 +138,16 @@ static inline void surface_smooth(const Scene* scene, global const Triangle* tri
         return;
     const real side = surface->front ? REAL(1.0) : REAL(-1.0);
     surface->normal_s = sum * (side / real_sqrt(length_squared));
+    const real3 up = surface->normal_g * side;
+    const real nearest = fmin(vector_dot(n0, up), fmin(vector_dot(n1, up), vector_dot(n2, up)));
+    if (nearest >= SURFACE_FLAT_COS)
+        return;
     const real3 lift = b0 * fmin(vector_dot(surface->position - p[0], n0) * side, REAL(0.0)) * n0 +
                        b1 * fmin(vector_dot(surface->position - p[1], n1) * side, REAL(0.0)) * n1 +
                        b2 * fmin(vector_dot(surface->position - p[2], n2) * side, REAL(0.0)) * n2;
-    surface->bulge = -lift * side;
-    surface->is_curved = !vector_is_zero(lift);
+    const real3 bulge = -lift * side;
+    surface->is_curved = vector_dot(bulge, surface->normal_g) > REAL(0.0) && vector_dot(bulge, surface->normal_s) > REAL(0.0);
+    surface->bulge = surface->is_curved ? bulge : (real3)(REAL(0.0));
 }
 
 /* True where the given normals say that the winding's normal points inward. */
@@ -166,7 +179,9 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface.offset = surface_offset_bound(p[0], p[1], p[2]);
     real3 point = fma((real3)(hit->b1), e1, hit->b2 * e2);
     const real margin = SURFACE_INSET * surface.offset;
-    if (across > REAL(0.0) && surface_is_near_edge(hit, surface_extent(p[0], p[1], p[2]), across, margin))
+    surface.is_near_edge =
+        across > REAL(0.0) && surface_is_near_edge(hit, surface_extent(p[0], p[1], p[2]), across, margin);
+    if (surface.is_near_edge)
         point = surface_inset(point, e1, e2, normal, margin);
     surface.position = p[0] + point;
     surface.normal_g = normal * side;
@@ -199,21 +214,33 @@ static CLRT_NOINLINE real3 surface_vertex_color(const Scene* scene, const Surfac
     return fmax(c0 + surface->b1 * (c1 - c0) + surface->b2 * (c2 - c0), (real3)(REAL(0.0)));
 }
 
-/* True if a ray in direction w leaves on wo's side: above the plane, or, where corner normals describe a curved surface that
-   bulges over the plane, above the shading normal's horizon. */
-static inline bool surface_reflects(const Surface* surface, real3 w)
+/* The one decision of sides: true if direction w is on wo's side of a surface, above its plane or, where corner normals
+   describe a curved surface that bulges over the plane, above the interpolated normal's horizon. Maps have no say: they
+   shade, but no ray gets through a wall by them. */
+static inline bool surface_side(real3 normal_g, real3 normal_s, bool is_curved, real3 w)
 {
-    if (HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved && vector_dot(w, surface->normal_s) > REAL(0.0))
+    if (HAS(EFFECT_SMOOTH_NORMALS) && is_curved && vector_dot(w, normal_s) > REAL(0.0))
         return true;
-    return vector_dot(w, surface->normal_g) >= REAL(0.0);
+    return vector_dot(w, normal_g) >= REAL(0.0);
 }
 
-/* Where a ray in direction w leaves the surface: on w's side of the plane by the error bound, and, when it stays on wo's
-   side, lifted to the curved surface. */
-static inline real3 surface_origin(const Surface* surface, real3 w)
+static inline bool surface_reflects(const Surface* surface, real3 w)
+{
+    return surface_side(surface->normal_g, surface->normal_s, surface->is_curved, w);
+}
+
+/* The curved surface's point: where rays on wo's side start, but for the rounding's step, and whence lights are looked at. */
+static inline real3 surface_lifted(const Surface* surface)
+{
+    return HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved ? surface->position + surface->bulge : surface->position;
+}
+
+/* Where a ray leaves the surface, by its side (surface_reflects): off the plane by the error bound, and, on wo's side, from
+   the curved surface. */
+static inline real3 surface_origin(const Surface* surface, bool reflects)
 {
     const real3 step = surface->normal_g * surface->offset;
-    return surface_reflects(surface, w) ? surface->position + surface->bulge + step : surface->position - step;
+    return reflects ? surface_lifted(surface) + step : surface->position - step;
 }
 
 #endif

@@ -42,11 +42,11 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
 {
     const Sampler sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
     const Ray ray = camera_ray(params, &sampler, x, y);
-    const Hit hit = visible_hit(scene, params, &sampler, 1u, &ray);
+    Hit hit = visible_hit(scene, params, &sampler, 1u, &ray);
     if (hit.triangle == NO_INDEX)
         return;
     const real3 wo = -ray.direction;
-    const Surface surface = surface_at(scene, &hit, wo);
+    const Surface surface = visible_surface(scene, params, &ray, &hit);
     const Bsdf bsdf = material_bsdf(scene, &surface, wo);
     aov_add(sums->values + AOV_ALBEDO, aov_albedo(&bsdf));
     aov_add(sums->values + AOV_NORMAL, bsdf.frame.z);

@@ -55,12 +55,13 @@ static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* p
 static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint node,
                                         const Surface* surface, const Bsdf* bsdf, bool highlight, PixelRays* rays)
 {
+    const real3 from = surface_lifted(surface);
     real3 radiance = (real3)(REAL(0.0));
     const uint alias_word = sampler_word(sampler, node, SAMPLE_LIGHT_ALIAS);
     if (HAS(EFFECT_AREA_LIGHT) && params->emitter_count != 0u) {
         const uint2 words = sampler_pair_words(sampler, node, SAMPLE_LIGHT);
         const LightSample light =
-            emitter_sample(scene, params, surface->position, words.x, alias_word, sampler_unit(words.y));
+            emitter_sample(scene, params, from, words.x, alias_word, sampler_unit(words.y));
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     if (HAS(EFFECT_ENVIRONMENT)) {
@@ -73,7 +74,7 @@ static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* 
         return radiance;
     for (uint i = 0; i < params->light_count; ++i) {
         const LightSample light =
-            delta_light_sample(scene, i, surface->position, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION));
+            delta_light_sample(scene, i, from, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION));
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     return radiance;

@@ -36,26 +36,13 @@ static inline PathNumbers path_numbers(const Sampler* sampler, uint segment)
     return numbers;
 }
 
-/* Emission of a surface hit at distance t, weighted against the light sampling at `from` that could have found it. */
-static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface, real3 from, real t,
-                                  real3 wo, real pdf_w)
-{
-    const real3 emitted = material_emitted(scene, surface);
-    TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
-    if (pdf_w == REAL(0.0))
-        return emitted;
-    const real light_pdf_w = (real)params->choose_emitter * emitter_hit_pdf_w(scene, surface, from, t, wo);
-    TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
-    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, mis_weight(pdf_w, light_pdf_w));
-    return emitted * mis_weight(pdf_w, light_pdf_w);
-}
-
 /* A path on its way. */
 typedef struct {
     Ray ray;               /* the segment to trace */
     Hit hit;               /* where it ended */
     PathNumbers numbers;   /* of the vertex there */
-    real3 from;            /* the surface that it left; unused for camera rays */
+    real3 from;            /* whence the surface that it left looked at lights; unused for camera rays */
+    bool has_crossed_curved; /* it did not start there but at the plane below */
     real3 throughput;      /* of the path so far: product of BSDF times cosine over pdf */
     real eta_squared;      /* product of the squared index ratios crossed */
     real pdf_w;            /* of the ray's direction; 0 for camera rays and delta lobes */
@@ -71,6 +58,7 @@ static inline void path_begin(Path* path, const Ray* ray)
 {
     path->ray = *ray;
     path->from = ray->origin;
+    path->has_crossed_curved = false;
     path->throughput = (real3)(REAL(1.0));
     path->watched = (real3)(REAL(0.0));
     path->eta_squared = REAL(1.0);
@@ -84,6 +72,25 @@ static inline void path_begin(Path* path, const Ray* ray)
 static inline uint path_accepted(const Path* path)
 {
     return HAS(EFFECT_PATH_FILTER) ? AUTOMATON_STATES[path->state] & STATE_KINDS_MASK : KINDS_ALL;
+}
+
+/* Emission of the surface that was hit, weighted against the light sampling at the vertex before that could have found it. */
+static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface, const Path* path,
+                                  real3 wo)
+{
+    const real3 emitted = material_emitted(scene, surface);
+    TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
+    const real pdf_w = path->pdf_w;
+    if (pdf_w == REAL(0.0))
+        return emitted;
+    const real t = path->hit.t;
+    const real point_pdf_w = HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
+                                 ? emitter_crossed_pdf_w(scene, surface, path->from, t, wo)
+                                 : emitter_hit_pdf_w(scene, surface, path->from, t, wo);
+    const real light_pdf_w = (real)params->choose_emitter * point_pdf_w;
+    TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
+    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, mis_weight(pdf_w, light_pdf_w));
+    return emitted * mis_weight(pdf_w, light_pdf_w);
 }
 
 /* Adds light of one kind that the path has met to the layers. */
@@ -245,12 +252,12 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
         path_escape(scene, params, path, sample);
         return;
     }
-    const Surface surface = surface_at(scene, &path->hit, wo);
+    const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     TRACE_SURFACE(scene, &surface);
 
     /* Add what it emits. */
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && (path_accepted(path) & KIND_AREA)) {
-        const real3 emitted = path_emission(scene, params, &surface, path->from, path->hit.t, wo, path->pdf_w);
+        const real3 emitted = path_emission(scene, params, &surface, path, wo);
         sample->radiance += path->throughput * emitted;
         TRACE_VECTOR(scene, TRACE_ADDED, path->throughput * emitted);
         path_add_layers(path, KIND_AREA, emitted, sample);
@@ -293,8 +300,9 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     path->pdf_w = next.pdf_w;
     path->eta_squared *= next.eta * next.eta;
     path->is_alive = path_survives(scene, params, &sample->sampler, segment, path);
-    path->ray = ray_make(surface_origin(&surface, next.wi), next.wi);
-    path->from = surface.position;
+    path->ray = ray_make(surface_origin(&surface, next.reflects), next.wi);
+    path->from = surface_lifted(&surface);
+    path->has_crossed_curved = surface.is_curved && !next.reflects;
     rays->secondary += path->is_alive ? 1u : 0u;
 }
 

@@ -11,7 +11,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
                                           Ray ray, PixelRays* rays)
 {
     const real3 wo = -ray.direction;
-    const Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
+    Hit hit = visible_hit(scene, params, sampler, 1u, &ray);
     TRACE_HIT(scene, 1u, 0u, &ray, &hit);
     real3 radiance = (real3)(REAL(0.0));
     if (hit.triangle == NO_INDEX) {
@@ -22,7 +22,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
         TRACE_VECTOR(scene, TRACE_ADDED, sky);
         return sky;
     }
-    const Surface surface = surface_at(scene, &hit, wo);
+    const Surface surface = visible_surface(scene, params, &ray, &hit);
     TRACE_SURFACE(scene, &surface);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         radiance = material_emitted(scene, &surface);

@@ -39,7 +39,7 @@ static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* 
                                        uint which)
 {
     WhittedRay child;
-    child.ray = ray_make(surface_origin(surface, wi), wi);
+    child.ray = ray_make(surface_origin(surface, which == 0u), wi);
     child.weight = weight;
     child.segment = parent->segment + 1u;
     child.node = whitted_node(parent->node, which);
@@ -76,7 +76,7 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     if (f >= REAL(1.0)) /* a mirror, or total reflection */
         return top;
     const real3 refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
-    if (vector_dot(refracted, surface->normal_g) >= REAL(0.0))
+    if (surface_reflects(surface, refracted))
         return top;
     const real3 color = bsdf->transmission * ((REAL(1.0) - f) * bsdf->eta * bsdf->eta);
     return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack, top);
@@ -99,7 +99,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
             ++rays->secondary;
 
         /* Find the surface, or the light outside the scene. */
-        const Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
+        Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
         TRACE_HIT(scene, current.segment, current.node, &current.ray, &hit);
         TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
         nan_carry(scene, nan_of_vector(current.weight), &radiance);
@@ -112,7 +112,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
             TRACE_VECTOR(scene, TRACE_ADDED, current.weight * sky);
             continue;
         }
-        const Surface surface = surface_at(scene, &hit, wo);
+        const Surface surface = visible_surface(scene, params, &current.ray, &hit);
         TRACE_SURFACE(scene, &surface);
         if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
             const real3 emitted = material_emitted(scene, &surface);

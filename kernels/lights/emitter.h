@@ -57,6 +57,7 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     /* The shadow ray ends off the triangle by its error bound, or up to sqrt(3) times that. */
     const real step = surface_offset_bound(p0, p1, p2) / vector_max_abs(normal);
     sample.target = point + normal * copysign(step, facing);
+    sample.triangle = emitter->triangle;
     const real distance = vector_length(way);
     sample.wi = way / distance;
     sample.is_distant = false;
@@ -91,6 +92,18 @@ static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* s
     }
     const real cos_l = vector_dot(surface->normal_g, wo);
     return cos_l > REAL(0.0) ? emitter_pdf_w((real)emitter->pdf_a, t * t, cos_l) : REAL(0.0);
+}
+
+/* The same for a ray that crossed a curved surface and so did not start at `from`, where light is sampled, but at the plane
+   (light_from_plane). */
+static CLRT_NOINLINE real emitter_crossed_pdf_w(const Scene* scene, const Surface* surface, real3 from, real t, real3 wo)
+{
+    const real3 way = surface->position - from;
+    const real distance = vector_length(way);
+    const real ratio = light_density_ratio(-t * wo, way, surface->normal_g);
+    if (!(ratio > REAL(0.0) && ratio < REAL_FAR))
+        return REAL(0.0);
+    return ratio * emitter_hit_pdf_w(scene, surface, from, distance, way / -distance);
 }
 
 #endif

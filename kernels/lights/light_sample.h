@@ -13,8 +13,10 @@ typedef struct {
     real3 target;   /* where the shadow ray ends; unused when distant */
     real pdf_w;     /* per steradian as seen from the surface; 1 for a delta light, 0 where no light was found */
     uint kind;      /* KIND_*, set where lights of several kinds are chosen from */
+    uint triangle;  /* of an emissive triangle, else NO_INDEX */
     bool is_distant;
     bool is_delta;
+    bool reflects; /* the light is on wo's side of the surface; true until light_choose_side looks */
 } LightSample;
 
 /* No light: nothing arrives. */
@@ -24,18 +26,58 @@ static inline LightSample light_sample_none(void)
     sample.wi = (real3)(REAL(0.0), REAL(0.0), REAL(1.0));
     sample.radiance = (real3)(REAL(0.0));
     sample.target = (real3)(REAL(0.0));
+    sample.triangle = NO_INDEX;
     sample.pdf_w = REAL(0.0);
     sample.kind = KINDS_ALL;
     sample.is_distant = true;
     sample.is_delta = true;
+    sample.reflects = true;
     return sample;
+}
+
+/* How often denser per steradian a density on a light of this normal (any length) is where it is `way` away than where it is
+   `other_way` away: by d^2 / cos_l. Not positive, or not finite, where the two do not see the same face. */
+static inline real light_density_ratio(real3 way, real3 other_way, real3 normal)
+{
+    const real squares = vector_dot(way, way) / vector_dot(other_way, other_way);
+    return squares * real_sqrt(squares) * (vector_dot(other_way, normal) / vector_dot(way, normal));
+}
+
+/* Light that was sampled from the curved surface but lies on the other side reaches the surface at its plane, where rays that
+   cross it start: there it has another direction, distance and density. None if it is on wo's side of that point or shows
+   it another face. */
+static CLRT_NOINLINE void light_from_plane(const Scene* scene, const Surface* surface, LightSample* sample)
+{
+    const real3 way = sample->target - surface->position;
+    const real3 lifted_way = sample->target - surface_lifted(surface);
+    const real square = vector_dot(way, way);
+    sample->wi = way / real_sqrt(square);
+    real ratio = REAL(1.0);
+    if (sample->triangle == NO_INDEX)
+        sample->radiance *= vector_dot(lifted_way, lifted_way) / square;
+    else {
+        real3 p0, p1, p2;
+        surface_corners(scene, scene->triangles + sample->triangle, &p0, &p1, &p2);
+        ratio = light_density_ratio(way, lifted_way, surface_cross(p1 - p0, p2 - p0));
+    }
+    const bool is_seen = square > REAL(0.0) && ratio > REAL(0.0) && ratio < REAL_FAR;
+    sample->pdf_w = is_seen && !surface_reflects(surface, sample->wi) ? sample->pdf_w * ratio : REAL(0.0);
+}
+
+/* Decides on which side of the surface a light lies that was sampled from surface_lifted. */
+static inline void light_choose_side(const Scene* scene, const Surface* surface, LightSample* sample)
+{
+    sample->reflects = surface_reflects(surface, sample->wi);
+    if (HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && surface->is_curved && !sample->reflects &&
+        !sample->is_distant)
+        light_from_plane(scene, surface, sample);
 }
 
 /* The shadow ray from a surface to the sampled light. A segment to a target keeps its length, so that no rounding of a unit
    vector moves its end, and stops a few roundings short. */
 static inline Ray light_shadow_ray(const Surface* surface, const LightSample* sample)
 {
-    const real3 origin = surface_origin(surface, sample->wi);
+    const real3 origin = surface_origin(surface, sample->reflects);
     if (sample->is_distant)
         return ray_make(origin, sample->wi);
     Ray ray = ray_make(origin, sample->target - origin);

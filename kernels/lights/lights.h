@@ -10,7 +10,8 @@
 #include "path/mis.h"
 
 /* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities, then a
-   light of that kind, then a point on it. The probability of the choice is in pdf_w. One pair of words serves all: what is
+   light of that kind, then a point on it, as seen from the point where rays start that the surface reflects. The
+   probability of the choice is in pdf_w. One pair of words serves all: what is
    left of the first after choosing the light, and of the second after choosing the kind, gives the point. */
 static inline LightSample lights_sample(const Scene* scene, const RenderParams* params, const Surface* surface, real3 n,
                                         uint2 words, uint alias_word)
@@ -19,9 +20,10 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
     const real emitter = (real)params->choose_emitter;
     const real sky = (real)params->choose_environment;
     const real light = (real)params->choose_light;
+    const real3 from = surface_lifted(surface);
     LightSample sample = light_sample_none();
     if (HAS(EFFECT_AREA_LIGHT) && v < emitter) {
-        sample = emitter_sample(scene, params, surface->position, words.x, alias_word, v / emitter);
+        sample = emitter_sample(scene, params, from, words.x, alias_word, v / emitter);
         sample.pdf_w *= emitter;
         sample.kind = KIND_AREA;
     } else if (HAS(EFFECT_ENVIRONMENT_MAP) && v < emitter + sky) {
@@ -31,10 +33,11 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
     } else if (HAS(EFFECT_DELTA_LIGHT) && light > REAL(0.0)) {
         const uint index = delta_light_choose(scene, params, words.x, alias_word);
         const real2 u = (real2)(warp_rest(words.x, params->light_count, alias_word), (v - emitter - sky) / light);
-        sample = delta_light_sample(scene, index, surface->position, u);
+        sample = delta_light_sample(scene, index, from, u);
         sample.pdf_w *= light * (real)scene->lights[index].probability;
         sample.kind = scene->lights[index].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
     }
+    light_choose_side(scene, surface, &sample);
     return sample;
 }
 

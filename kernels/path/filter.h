@@ -82,12 +82,13 @@ static inline real3 filter_glossy_part(const Bsdf* bsdf, real3 wi_world)
     return bsdf_glossy_eval(bsdf, frame_to_local(&bsdf->frame, wi_world)).value;
 }
 
-/* What is left of the BSDF's whole value towards a light when only some classes accept it. */
+/* What is left of the BSDF's whole value towards a light when only some classes accept it. Where the whole is nothing, because
+   the light is on the other side, so are its parts. */
 static inline real3 filter_value(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world, uint kind, real3 whole)
 {
     const bool matte = (bsdf->lobes & LOBE_MATTE) && automaton_accepts(step->matte, kind);
     const bool glossy = (bsdf->lobes & (LOBE_GLOSSY | LOBE_DIELECTRIC)) && automaton_accepts(step->glossy, kind);
-    if (filter_is_ambiguous(step, bsdf) && matte != glossy)
+    if (filter_is_ambiguous(step, bsdf) && matte != glossy && !vector_is_black(whole))
         return matte ? filter_matte_part(bsdf, wi_world) : filter_glossy_part(bsdf, wi_world);
     return matte || glossy ? whole : (real3)(REAL(0.0));
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The BSDF of a material: the sum of its lobes. Lobes are chosen by their weight; where lobes overlap, the density is
-// that of the mixture. Nothing passes where shading and geometric normal disagree about the side.
+// that of the mixture. Nothing passes where the shading normal and the surface disagree about the side.
 #ifndef CLRT_SCATTERING_BSDF_H
 #define CLRT_SCATTERING_BSDF_H
 
 #include "bsdf_dielectric.h"
 #include "bsdf_glossy.h"
 #include "bsdf_matte.h"
+#include "geometry/surface.h"
 
 /* True if some lobe is no delta function, so that connecting to a light can succeed. */
 static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf)
@@ -16,13 +17,16 @@ static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf)
     return (bsdf->lobes & LOBE_DIELECTRIC) && !bsdf_dielectric_is_smooth(bsdf);
 }
 
-/* True if a world direction and its local form are on the same side of both normals, or the direction is reflected by a
-   surface that bulges over its plane: coarse meshes would be black near the terminator otherwise. */
+/* True if a world direction is on wo's side of the surface. */
+static inline bool bsdf_reflects(const Bsdf* bsdf, real3 wi_world)
+{
+    return surface_side(bsdf->normal_g, bsdf->normal_s, bsdf->is_curved, wi_world);
+}
+
+/* True if a world direction is on the side of the surface that its local form is on in the frame, which a map may tilt. */
 static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
 {
-    if (HAS(EFFECT_SMOOTH_NORMALS) && bsdf->is_curved && wi.z > REAL(0.0))
-        return true;
-    return (vector_dot(wi_world, bsdf->normal_g) > REAL(0.0)) == (wi.z > REAL(0.0));
+    return bsdf_reflects(bsdf, wi_world) == (wi.z > REAL(0.0));
 }
 
 /* Sum of the lobes and density of the mixture; wi local, sides already compared. */
@@ -111,7 +115,8 @@ static CLRT_NOINLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2
         sample.weight = bsdf_reflection_color(bsdf, bsdf->wo.z) / (REAL(1.0) - bsdf->choose_matte);
     }
     sample.wi = frame_to_world(&bsdf->frame, wi);
-    sample.is_valid = !vector_is_black(sample.weight) && bsdf_sides_agree(bsdf, sample.wi, wi);
+    sample.reflects = bsdf_reflects(bsdf, sample.wi);
+    sample.is_valid = !vector_is_black(sample.weight) && sample.reflects == (wi.z > REAL(0.0));
     return sample;
 }
 

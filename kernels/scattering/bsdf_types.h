@@ -16,6 +16,7 @@ typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
     real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
     real3 normal_g;     /* world: geometric normal, on wo's side */
+    real3 normal_s;     /* world: interpolated normal, no map; used where the surface is curved */
     bool is_curved;     /* the surface bulges over its plane: directions below the plane may be reflected */
     real3 matte;        /* reflectance */
     real3 specular;     /* reflection colour, or F0 */
@@ -41,6 +42,7 @@ typedef struct {
     real3 weight;  /* BSDF times |cos_i| over pdf, all factors inside */
     real pdf_w;    /* per steradian; 0 for a delta lobe */
     real eta;      /* relative index crossed; 1 for reflection */
+    bool reflects; /* wi is on wo's side of the surface */
     bool is_valid; /* false: no direction, the path ends */
     TRACE_MEMBER(uint lobe) /* chosen */
 } BsdfSample;

@@ -161,6 +161,7 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     bsdf.fresnel = material->fresnel;
     bsdf.flags = material->flags;
     bsdf.normal_g = surface->normal_g;
+    bsdf.normal_s = surface->normal_s;
     bsdf.is_curved = surface->is_curved;
     const real index = (real)material->transmission.w;
     bsdf.eta = HAS(EFFECT_REFRACTION) && surface->front ? REAL(1.0) / index : index;

@@ -33,7 +33,8 @@ SceneProbe& probe() {
         // a: position; b: words
         made.add(
             "any",
-            "Surface surface; surface.position = vector_from(a);"
+            "Surface surface; surface.position = vector_from(a); surface.is_curved = false;"
+            "surface.normal_g = surface.normal_s = vector_make(0.0f, 0.0f, 1.0f);"
             "const LightSample s = lights_sample(scene, params, &surface, vector_make(0.0f, 0.0f, 1.0f), "
             "(uint2)(as_uint(b.x), as_uint(b.y)), as_uint(b.z));" +
                 outputs);

@@ -27,10 +27,11 @@ SceneProbe& probe() {
                                     "third = probe_vec4(surface.bulge, 0.0f);");
         made.add("labels",
                  surface + "first = (vec4)(as_float(surface.emitter), as_float(surface.material), 0, 0);");
-        made.add("origin", surface + "first = probe_vec4(surface_origin(&surface, vector_from(c)), 0.0f);");
+        made.add("origin", surface + "first = probe_vec4(surface_origin(&surface, surface_reflects(&surface, "
+                                     "vector_from(c))), 0.0f);");
         // Meets the same triangle again, by the arithmetic of the traversal: first.x is 1.
         made.add("leave", surface + R"(
-            const Ray ray = ray_make(surface_origin(&surface, vector_from(c)), vector_from(c));
+            const Ray ray = ray_make(surface_origin(&surface, surface_reflects(&surface, vector_from(c))), vector_from(c));
             const RayShear shear = ray_shear_make(&ray);
             real3 p[3];
             surface_corners(scene, scene->triangles + hit.triangle, &p[0], &p[1], &p[2]);
@@ -290,6 +291,60 @@ TEST(Surface, FlatTrianglesHaveNoBulgeAndCornersNeitherDo) {
     for (size_t i = 0; i < hits.size(); ++i)
         // Corners are drawn in by a few offset bounds.
         EXPECT_LE(glm::length(to_dvec3(bulge[i])), i % 11 < 8 ? 0 : 1e-5) << i;
+}
+
+TEST(Surface, RoundedNormalsOfAPlaneAreFlatAndThoseOfAFacetAreNot) {
+    // What two decimals make of a plane's normal, and corners of a ball of 200 segments.
+    Triangles triangles;
+    Random random(10);
+    std::vector<vec4> hits, wo;
+    constexpr u32 COUNT = 2000;
+    for (u32 i = 0; i < COUNT; ++i) {
+        triangles.add(random.in_cube(1), random.in_cube(1), random.in_cube(1));
+        const dvec3 n = triangles.winding_normal(i);
+        const auto rounded = [&] { // as exporters write it: each corner's last digit may fall either way
+            return glm::normalize(glm::round(100.0 * n + random.in_cube(1e-3)) / 100.0);
+        };
+        if (i % 2 == 0)
+            triangles.set_normals(i, rounded(), rounded(), rounded());
+        else {
+            const dvec3 centre =
+                (triangles.corner(i, 0) + triangles.corner(i, 1) + triangles.corner(i, 2)) / 3.0;
+            const auto outward = [&](u32 k) {
+                return glm::normalize(n + PI / 200 * glm::normalize(triangles.corner(i, k) - centre));
+            };
+            triangles.set_normals(i, outward(0), outward(1), outward(2));
+        }
+        hits.push_back(hit(0.3, 0.4, i));
+        wo.push_back(to_vec4(n));
+    }
+    const std::vector<vec4> bulge = probe().run("shape", triangles.scene, RenderParams{}, hits, wo).third;
+    for (u32 i = 0; i < COUNT; ++i)
+        ASSERT_EQ(to_dvec3(bulge[i]) == dvec3(0), i % 2 == 0) << i;
+}
+
+TEST(Surface, ContradictoryNormalsLiftNoPointBelowThePlane) {
+    Triangles triangles;
+    Random random(11);
+    std::vector<vec4> hits, wo;
+    constexpr u32 COUNT = 20000;
+    for (u32 i = 0; i < COUNT; ++i) {
+        triangles.add(random.in_cube(1), random.in_cube(1), random.in_cube(1));
+        const dvec3 n0 = random.direction(), n1 = random.direction();
+        triangles.set_normals(i, n0, n1, random.direction());
+        hits.push_back(random_hit(random, i));
+        wo.push_back(to_vec4(random.direction()));
+    }
+    const std::vector<vec4> bulge = probe().run("shape", triangles.scene, RenderParams{}, hits, wo).third;
+    const SceneProbe::Outputs got = probe().run("geometry", triangles.scene, RenderParams{}, hits, wo);
+    size_t lifted = 0;
+    for (u32 i = 0; i < COUNT; ++i) {
+        const double rounding = 1e-6 * glm::length(to_dvec3(bulge[i]));
+        ASSERT_GE(glm::dot(to_dvec3(bulge[i]), to_dvec3(got.second[i])), -rounding) << i;
+        ASSERT_GE(glm::dot(to_dvec3(bulge[i]), to_dvec3(got.third[i])), -rounding) << i;
+        lifted += to_dvec3(bulge[i]) != dvec3(0);
+    }
+    EXPECT_GT(lifted, COUNT / 10);
 }
 
 TEST(Surface, PointsAreLiftedToTheCurvedSurfaceOnItsRoundSideOnly) {

@@ -116,7 +116,7 @@ const EntryPoint ENTRY_POINTS[] = {
     {"surface_leave", "float4", SURFACE_PARAMETERS, R"(
     const TracedHit traced = hits[i];
     const Surface surface = load_surface(&scene, &ray, &traced);
-    const real3 origin = surface_origin(&surface, vector_from(in[i]));
+    const real3 origin = surface_origin(&surface, surface_reflects(&surface, vector_from(in[i])));
     out[i] = (float4)((float)origin.x, (float)origin.y, (float)origin.z, 0.0f);)"},
     {"surface_normal", "float4", SURFACE_PARAMETERS, R"(
     const TracedHit traced = hits[i];

@@ -172,10 +172,7 @@ BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, cons
 void shadow_terminator(CaseRun& run) {
     ScratchFolder folder;
     KernelFiles flat = kernels_under_test();
-    replace_in_kernel(flat, "geometry/surface.h", "surface->bulge = -lift * side;",
-                      "surface->bulge = (real3)(REAL(0.0));");
-    replace_in_kernel(flat, "geometry/surface.h", "surface->is_curved = !vector_is_zero(lift);",
-                      "surface->is_curved = false;");
+    replace_in_kernel(flat, "geometry/surface.h", "if (nearest >= SURFACE_FLAT_COS)", "if (true)");
     write_kernel_files(flat, folder.file("flat"));
     Figure& black = run.figure("black pixels with cos > 0.05", 0);
     const double limits[] = {0.05, 0.02, 0.01};

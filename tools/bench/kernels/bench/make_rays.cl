@@ -41,7 +41,7 @@ static Ray make_sphere_ray(const RenderParams* params, const Surface* surface, r
     const real3 target = radius * vector_make(r * sc.y, r * sc.x, z);
     real3 wi = vector_normalize(target - surface->position);
     wi -= REAL(2.0) * fmin(vector_dot(wi, surface->normal_g), REAL(0.0)) * surface->normal_g;
-    return ray_make(surface_origin(surface, wi), wi);
+    return ray_make(surface_origin(surface, surface_reflects(surface, wi)), wi);
 }
 
 /* Towards a light that the renderer samples; to the bounding sphere where it samples none (a constant sky). */
@@ -53,7 +53,7 @@ static Ray make_shadow(const Scene* scene, const RenderParams* params, const Sur
     const LightSample light =
         lights_sample(scene, params, surface, surface->normal_s, sampler_pair_words(sampler, bounce, SAMPLE_LIGHT),
                       sampler_word(sampler, bounce, SAMPLE_LIGHT_ALIAS));
-    if (light.pdf_w == REAL(0.0) || vector_dot(light.wi, surface->normal_g) <= REAL(0.0))
+    if (light.pdf_w == REAL(0.0) || !light.reflects)
         return make_nothing();
     return light_shadow_ray(surface, &light);
 }
@@ -63,7 +63,7 @@ static Ray make_diffuse(const Surface* surface, const Sampler* sampler, uint bou
     const Frame frame = frame_make(surface->normal_g);
     const real3 wi =
         frame_to_world(&frame, warp_cosine_hemisphere(sampler_pair(sampler, bounce, SAMPLE_DIRECTION)));
-    return ray_make(surface_origin(surface, wi), wi);
+    return ray_make(surface_origin(surface, surface_reflects(surface, wi)), wi);
 }
 
 /* About the shading normal, about the plane's where that would lead inside. */
@@ -73,7 +73,7 @@ static Ray make_mirror(const Surface* surface, real3 d)
     if (!surface_reflects(surface, wi))
         wi = d - REAL(2.0) * vector_dot(d, surface->normal_g) * surface->normal_g;
     wi = vector_normalize(wi);
-    return ray_make(surface_origin(surface, wi), wi);
+    return ray_make(surface_origin(surface, surface_reflects(surface, wi)), wi);
 }
 
 /* The ray of a kind from where each ray hit; nothing where it did not. */
