@@ -44,6 +44,10 @@ set(CLRT_KERNEL_FILES
   path/filter.h
   path/layers.h
   path/mis.h
+  scattering/albedo.h
+  scattering/albedo_dielectric_table.h
+  scattering/albedo_reflection_table.h
+  scattering/albedo_stretched_table.h
   scattering/bsdf.h
   scattering/bsdf_dielectric.h
   scattering/bsdf_glossy.h
