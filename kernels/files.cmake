@@ -50,6 +50,7 @@ set(CLRT_KERNEL_FILES
   scattering/albedo_stretched_table.h
   scattering/bsdf.h
   scattering/bsdf_dielectric.h
+  scattering/bsdf_energy.h
   scattering/bsdf_glossy.h
   scattering/bsdf_matte.h
   scattering/bsdf_types.h

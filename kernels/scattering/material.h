@@ -100,6 +100,12 @@ static inline real3 material_normal(const Scene* scene, global const Material* m
     return n;
 }
 
+/* A map of a reflectance: pictures with values above 1, and -mm, could make a surface reflect more than it gets. */
+static inline real3 material_reflectance(const Scene* scene, uint map, float2 uv)
+{
+    return clamp(texture_color(scene, map, uv), REAL(0.0), REAL(1.0));
+}
+
 /* Reads colours and roughness, maps included. */
 static inline void material_parameters(const Scene* scene, global const Material* material, const Surface* surface,
                                        Bsdf* bsdf)
@@ -108,9 +114,9 @@ static inline void material_parameters(const Scene* scene, global const Material
     real roughness = REAL(1.0);
     if (HAS(EFFECT_TEXTURES)) {
         if (material->map_matte != NO_INDEX)
-            bsdf->matte *= texture_color(scene, material->map_matte, surface->uv);
+            bsdf->matte *= material_reflectance(scene, material->map_matte, surface->uv);
         if (material->map_specular != NO_INDEX)
-            bsdf->specular *= texture_color(scene, material->map_specular, surface->uv);
+            bsdf->specular *= material_reflectance(scene, material->map_specular, surface->uv);
         if (material->map_metallic != NO_INDEX)
             metallic *= clamp(texture_scalar(scene, material->map_metallic, surface->uv), REAL(0.0), REAL(1.0));
         if (material->map_roughness != NO_INDEX)
@@ -160,6 +166,7 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     /* Only stretched highlights need to know where u grows. */
     bsdf.frame = bsdf.alpha_x != bsdf.alpha_y ? frame_make_tangent(n, surface->tangent) : frame_make(n);
     bsdf.wo = frame_to_local(&bsdf.frame, wo);
+    bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
 }
