@@ -45,8 +45,13 @@ set(CLRT_KERNEL_FILES
   path/layers.h
   path/mis.h
   path/nan.h
+  scattering/albedo.h
+  scattering/albedo_dielectric_table.h
+  scattering/albedo_reflection_table.h
+  scattering/albedo_stretched_table.h
   scattering/bsdf.h
   scattering/bsdf_dielectric.h
+  scattering/bsdf_energy.h
   scattering/bsdf_glossy.h
   scattering/bsdf_matte.h
   scattering/bsdf_types.h

@@ -11,12 +11,14 @@ typedef struct {
     uint words[AOV_WORDS];
 } AovSums;
 
-/* Reflectance of the surface seen along wo: matte colour plus reflection head-on; 1 for dielectrics. */
+/* Reflectance of the surface seen along wo: reflection head-on and what of the matte colour it leaves; 1 for dielectrics. */
 static inline real3 aov_albedo(const Bsdf* bsdf)
 {
     if (bsdf->lobes & LOBE_DIELECTRIC)
         return (real3)(REAL(1.0));
     real3 albedo = (bsdf->lobes & LOBE_MATTE) ? bsdf->matte : (real3)(REAL(0.0));
+    if (bsdf->flags & BSDF_COUPLED)
+        albedo *= (real3)(REAL(1.0)) - bsdf->specular;
     if (bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR))
         albedo += bsdf->specular;
     return albedo;

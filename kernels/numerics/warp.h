@@ -28,6 +28,16 @@ static inline real3 warp_cosine_hemisphere(real2 u)
 
 static inline real warp_cosine_hemisphere_pdf_w(real cos_theta) { return fmax(cos_theta, REAL(0.0)) * REAL_INVERSE_PI; }
 
+/* Uniform direction of the upper hemisphere. */
+static inline real3 warp_hemisphere(real2 u)
+{
+    const real sin_theta = real_root((REAL(1.0) - u.x) * (REAL(1.0) + u.x));
+    const real2 sc = real_sin_cos_turn(u.y);
+    return vector_make(sin_theta * sc.y, sin_theta * sc.x, u.x);
+}
+
+static inline real warp_hemisphere_pdf_w(void) { return REAL(0.5) * REAL_INVERSE_PI; }
+
 /* Uniform direction within a cone around +z; `one_minus_cos` belongs to its half angle. */
 static inline real3 warp_cone(real2 u, real one_minus_cos)
 {

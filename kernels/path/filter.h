@@ -57,8 +57,11 @@ static inline bool filter_continues(const AutomatonStep* step, Bsdf* bsdf)
     else if (filter_is_smooth_glass(bsdf)) /* what is left of it after filter_lobes */
         rest = automaton_continues(step->mirror) || automaton_continues(step->refraction);
     if (has_matte && matte != rest) {
+        const real left = matte ? REAL(0.0) : REAL(1.0) - bsdf->choose_matte;
         bsdf->choose_matte = matte ? REAL(1.0) : REAL(0.0);
-        bsdf->choose_glossy = rest && (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) : REAL(0.0);
+        bsdf->choose_multiple = left > REAL(0.0) ? bsdf->choose_multiple / left : REAL(0.0);
+        bsdf->choose_glossy =
+            rest && (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) - bsdf->choose_multiple : REAL(0.0);
     }
     return matte || rest;
 }
@@ -73,7 +76,7 @@ static inline bool filter_is_ambiguous(const AutomatonStep* step, const Bsdf* bs
 /* The matte part of the BSDF times cosine. */
 static inline real3 filter_matte_part(const Bsdf* bsdf, real3 wi_world)
 {
-    return bsdf_matte_eval(bsdf->matte, frame_to_local(&bsdf->frame, wi_world));
+    return bsdf_matte_eval(bsdf, frame_to_local(&bsdf->frame, wi_world));
 }
 
 /* The glossy part. */

@@ -36,13 +36,13 @@ static inline BsdfValue bsdf_eval_local(const Bsdf* bsdf, real3 wi)
     sum.value = (real3)(REAL(0.0));
     sum.pdf_w = REAL(0.0);
     if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE)) {
-        sum.value = bsdf_matte_eval(bsdf->matte, wi);
+        sum.value = bsdf_matte_eval(bsdf, wi);
         sum.pdf_w = bsdf->choose_matte * bsdf_matte_pdf_w(wi);
     }
     if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY)) {
         const BsdfValue glossy = bsdf_glossy_eval(bsdf, wi);
         sum.value += glossy.value;
-        sum.pdf_w += bsdf->choose_glossy * glossy.pdf_w;
+        sum.pdf_w += glossy.pdf_w;
     }
     if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC))
         sum = bsdf_dielectric_eval(bsdf, wi);
@@ -65,14 +65,21 @@ static inline BsdfValue bsdf_eval(const Bsdf* bsdf, real3 wi_world)
 static inline void bsdf_choose_lobes(Bsdf* bsdf)
 {
     bsdf->choose_matte = (bsdf->lobes == LOBE_MATTE) ? REAL(1.0) : REAL(0.0);
-    bsdf->choose_glossy = (bsdf->lobes == LOBE_GLOSSY) ? REAL(1.0) : REAL(0.0);
-    if (!HAS(EFFECT_GLOSSY | EFFECT_MIRROR) || !(bsdf->lobes & LOBE_MATTE) || bsdf->lobes == LOBE_MATTE)
+    bsdf->choose_glossy = REAL(0.0);
+    bsdf->choose_multiple = REAL(0.0);
+    if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC))
+        bsdf->choose_multiple = bsdf->multiple_size;
+    if (!HAS(EFFECT_GLOSSY | EFFECT_MIRROR) || !(bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
         return;
-    const real matte = vector_color_size(bsdf->matte);
-    const real reflection = vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
-    const real sum = matte + reflection;
-    bsdf->choose_matte = sum == REAL(0.0) ? REAL(1.0) : matte / sum;
-    bsdf->choose_glossy = (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) - bsdf->choose_matte : REAL(0.0);
+    const bool glossy = HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY);
+    const real matte = (bsdf->lobes & LOBE_MATTE) ? bsdf->matte_size : REAL(0.0);
+    const real multiple = glossy ? bsdf->multiple_size : REAL(0.0);
+    const real sum = matte + multiple + vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
+    /* Where nothing is reflected, the matte lobe stands for nothing as well as the others. */
+    const bool is_dark = sum == REAL(0.0);
+    bsdf->choose_matte = !is_dark ? matte / sum : (bsdf->lobes & LOBE_MATTE) ? REAL(1.0) : REAL(0.0);
+    bsdf->choose_multiple = !is_dark ? multiple / sum : REAL(0.0);
+    bsdf->choose_glossy = glossy ? REAL(1.0) - bsdf->choose_matte - bsdf->choose_multiple : REAL(0.0);
 }
 
 /* Completes a sample of the matte or the glossy lobe: density and weight of the mixture. */
@@ -82,7 +89,7 @@ static inline void bsdf_complete(const Bsdf* bsdf, real3 wi, BsdfSample* sample)
     if (bsdf->lobes == LOBE_MATTE) {
         sample->pdf_w = bsdf_matte_pdf_w(wi);
         /* Along the horizon there is no sample: a density of 0 would say that the lobe is a delta function. */
-        sample->weight = sample->pdf_w > REAL(0.0) ? bsdf->matte : (real3)(REAL(0.0));
+        sample->weight = sample->pdf_w > REAL(0.0) ? bsdf_matte_weight(bsdf, wi) : (real3)(REAL(0.0));
         return;
     }
     const BsdfValue eval = bsdf_eval_local(bsdf, wi);
@@ -105,7 +112,8 @@ static CLRT_NOINLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2
         bsdf_complete(bsdf, wi, &sample);
     } else if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY)) {
         TRACE_SET(sample.lobe, LOBE_GLOSSY);
-        wi = bsdf_glossy_sample(bsdf, u);
+        wi = u_lobe < bsdf->choose_matte + bsdf->choose_multiple ? bsdf_energy_multiple_sample(u)
+                                                                 : bsdf_glossy_sample(bsdf, u);
         bsdf_complete(bsdf, wi, &sample);
     } else if (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) {
         wi = bsdf_dielectric_sample(bsdf, u_lobe, u, &sample);

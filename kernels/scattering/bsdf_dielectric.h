@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflection and refraction at the boundary of two dielectrics, smooth or with GGX microfacets (Walter et al. 2007).
-// Radiance is scaled by the squared index ratio where it crosses (Veach 1997, sec. 5.2). Local directions.
+// Reflection and refraction at the boundary of two dielectrics, smooth or with GGX microfacets (Walter et al. 2007): by one facet,
+// and by more (bsdf_energy.h). Radiance is scaled by the squared index ratio where it crosses (Veach 1997, sec. 5.2). Local directions.
 #ifndef CLRT_SCATTERING_BSDF_DIELECTRIC_H
 #define CLRT_SCATTERING_BSDF_DIELECTRIC_H
 
-#include "bsdf_types.h"
-#include "fresnel.h"
+#include "bsdf_energy.h"
 #include "microfacet.h"
 
 /* True if light is only reflected as by a mirror and refracted straight: no roughness, or nothing to refract at. */
@@ -25,8 +24,8 @@ static inline real3 bsdf_dielectric_half(const Bsdf* bsdf, real3 wi, real* lengt
     return sum * (copysign(REAL(1.0), sum.z) / real_sqrt(*length_squared));
 }
 
-/* BSDF times |cos_i| of the rough dielectric and the density of sampling wi; both 0 for the smooth one. */
-static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
+/* One facet: BSDF times |cos_i| of the rough dielectric and the density of sampling wi; both 0 for the smooth one. */
+static inline BsdfValue bsdf_dielectric_eval_single(const Bsdf* bsdf, real3 wi)
 {
     BsdfValue result;
     result.value = (real3)(REAL(0.0));
@@ -60,6 +59,33 @@ static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
     return result;
 }
 
+/* All of it, and the density of the mixture. */
+static inline BsdfValue bsdf_dielectric_eval(const Bsdf* bsdf, real3 wi)
+{
+    BsdfValue result = bsdf_dielectric_eval_single(bsdf, wi);
+    if (bsdf->choose_multiple == REAL(0.0) || wi.z == REAL(0.0))
+        return result;
+    result.value += bsdf_energy_multiple(bsdf, wi);
+    const real side = wi.z > REAL(0.0) ? bsdf->multiple_reflects : REAL(1.0) - bsdf->multiple_reflects;
+    result.pdf_w = fma(bsdf->choose_multiple * side, bsdf_energy_multiple_pdf_w(),
+                       (REAL(1.0) - bsdf->choose_multiple) * result.pdf_w);
+    return result;
+}
+
+/* Samples light of more than one facet, to both sides; u_lobe is below its share of the mixture. */
+static inline real3 bsdf_dielectric_sample_multiple(const Bsdf* bsdf, real u_lobe, real2 u, BsdfSample* sample)
+{
+    const bool reflects = u_lobe < bsdf->choose_multiple * bsdf->multiple_reflects;
+    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : TRACE_LOBE_REFRACTION);
+    real3 wi = bsdf_energy_multiple_sample(u);
+    wi.z = reflects ? wi.z : -wi.z;
+    const BsdfValue eval = bsdf_dielectric_eval(bsdf, wi);
+    sample->eta = reflects ? REAL(1.0) : bsdf->eta;
+    sample->pdf_w = eval.pdf_w;
+    sample->weight = eval.pdf_w > REAL(0.0) ? eval.value / eval.pdf_w : (real3)(REAL(0.0)); /* the horizon */
+    return wi;
+}
+
 /* Probability of reflecting where F would reflect: F itself, unless one of the two ways is closed. */
 static inline real bsdf_dielectric_choose(const Bsdf* bsdf, real f)
 {
@@ -71,8 +97,8 @@ static inline real bsdf_dielectric_choose(const Bsdf* bsdf, real f)
     return (bsdf->flags & BSDF_NO_REFLECTION) ? REAL(0.0) : f;
 }
 
-/* Reflects with probability F, else refracts. Gives the local direction; fills weight, density and index ratio. */
-static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 u, BsdfSample* sample)
+/* One facet: reflects with probability F, else refracts. Gives the local direction; fills weight, density and index ratio. */
+static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_lobe, real2 u, BsdfSample* sample)
 {
     const real3 wo = bsdf->wo;
     const bool smooth = bsdf_dielectric_is_smooth(bsdf);
@@ -96,9 +122,24 @@ static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 
     if (!smooth) {
         sample->weight *=
             microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) / microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);
-        sample->pdf_w = bsdf_dielectric_eval(bsdf, wi).pdf_w;
+        const BsdfValue eval = bsdf_dielectric_eval(bsdf, wi);
+        sample->pdf_w = eval.pdf_w;
+        /* Beside light of more than one facet the direction carries both. */
+        if (bsdf->choose_multiple > REAL(0.0))
+            sample->weight = eval.pdf_w > REAL(0.0) ? eval.value / eval.pdf_w : (real3)(REAL(0.0));
     }
     return wi;
+}
+
+/* Samples a direction and gives it back local; fills weight, density and index ratio. */
+static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, real u_lobe, real2 u, BsdfSample* sample)
+{
+    const real multiple = bsdf->choose_multiple;
+    if (!HAS(EFFECT_ROUGH_REFRACTION) || multiple == REAL(0.0))
+        return bsdf_dielectric_sample_single(bsdf, u_lobe, u, sample);
+    if (u_lobe < multiple)
+        return bsdf_dielectric_sample_multiple(bsdf, u_lobe, u, sample);
+    return bsdf_dielectric_sample_single(bsdf, (u_lobe - multiple) / (REAL(1.0) - multiple), u, sample);
 }
 
 #endif

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rough reflection by GGX microfacets, sampled by visible normals. Local directions, z is the normal.
+// Rough reflection by GGX microfacets: by one facet, sampled by visible normals, and by more (bsdf_energy.h). Local directions,
+// z is the normal.
 #ifndef CLRT_SCATTERING_BSDF_GLOSSY_H
 #define CLRT_SCATTERING_BSDF_GLOSSY_H
 
-#include "bsdf_types.h"
-#include "fresnel.h"
+#include "bsdf_energy.h"
 #include "microfacet.h"
 
 /* The colour of a reflection whose half vector meets the directions at this cosine. */
@@ -13,8 +13,8 @@ static inline real3 bsdf_reflection_color(const Bsdf* bsdf, real cos_h)
     return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
 }
 
-/* BSDF times cos_i (Walter et al. 2007, eq. 20) and the density of sampling wi by visible normals. */
-static inline BsdfValue bsdf_glossy_eval(const Bsdf* bsdf, real3 wi)
+/* One facet: BSDF times cos_i (Walter et al. 2007, eq. 20) and the density of sampling wi by visible normals. */
+static inline BsdfValue bsdf_glossy_eval_single(const Bsdf* bsdf, real3 wi)
 {
     BsdfValue result;
     result.value = (real3)(REAL(0.0));
@@ -33,7 +33,19 @@ static inline BsdfValue bsdf_glossy_eval(const Bsdf* bsdf, real3 wi)
     return result;
 }
 
-/* A reflected direction; z <= 0 means that none was found. */
+/* All of it, and the density of the glossy lobe's share of the mixture. */
+static inline BsdfValue bsdf_glossy_eval(const Bsdf* bsdf, real3 wi)
+{
+    BsdfValue result = bsdf_glossy_eval_single(bsdf, wi);
+    result.pdf_w *= bsdf->choose_glossy;
+    if (!(wi.z > REAL(0.0)))
+        return result;
+    result.value += bsdf_energy_multiple(bsdf, wi);
+    result.pdf_w = fma(bsdf->choose_multiple, bsdf_energy_multiple_pdf_w(), result.pdf_w);
+    return result;
+}
+
+/* A direction reflected by one facet; z <= 0 means that none was found. */
 static inline real3 bsdf_glossy_sample(const Bsdf* bsdf, real2 u)
 {
     const real3 h = microfacet_sample(bsdf->wo, bsdf->alpha_x, bsdf->alpha_y, u);

@@ -3,6 +3,7 @@
 #ifndef CLRT_SCATTERING_BSDF_TYPES_H
 #define CLRT_SCATTERING_BSDF_TYPES_H
 
+#include "albedo.h"
 #include "numerics/frame.h"
 #include "shared/effects.h"
 #include "shared/scene_types.h"
@@ -11,6 +12,9 @@
 /* Ways of a smooth dielectric that a path must not go (path/filter.h), beside MATERIAL_*. */
 #define BSDF_NO_REFLECTION 0x10000u
 #define BSDF_NO_REFRACTION 0x20000u
+
+/* The matte lobe gets what the reflection above it leaves (bsdf_energy.h). */
+#define BSDF_COUPLED 0x40000u
 
 typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
@@ -27,7 +31,16 @@ typedef struct {
     uint lobes;         /* LOBE_* */
     uint fresnel;       /* FRESNEL_* */
     uint flags;         /* MATERIAL_*, BSDF_* */
-    real choose_matte, choose_glossy; /* probabilities of the lobes; the rest is the mirror or the dielectric */
+    AlbedoRoughness rough;  /* alpha 0: nothing rough */
+    real3 passing;          /* coupling of the matte lobe but for what depends on wi */
+    real3 passing_loss;     /* how it grows with what rough facets lose */
+    real3 multiple;         /* light of more than one facet but for what depends on wi: reflected */
+    real3 multiple_through; /* and refracted, with the squared index ratio */
+    real multiple_reflects; /* the reflected share of it */
+    real matte_size, multiple_size; /* of the albedos of the matte lobe and of the light of more than one facet */
+    /* Probabilities of the matte lobe, of the glossy lobe's or the dielectric's part for one facet and for more; the rest is
+       the mirror. */
+    real choose_matte, choose_glossy, choose_multiple;
 } Bsdf;
 
 /* All lobes that are no delta functions, for one direction. */

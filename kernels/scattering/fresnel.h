@@ -45,13 +45,33 @@ static inline real fresnel_dielectric(real cos_i, real eta, real* cos_t)
     return REAL(0.5) * fma(s, s, p * p);
 }
 
-/* Schlick's approximation (1994): f0 head-on, 1 at grazing incidence. */
-static inline real3 fresnel_schlick(real3 f0, real cos_i)
+/* Its mean over a hemisphere of equal radiance. On the denser side 1 - F is smaller by the squared index, as radiance is; on the
+   other Kulla's and Conty's fit (2017), within 1e-3 up to an index of 3. */
+static inline real fresnel_dielectric_mean(real eta)
+{
+    const real index = eta > REAL(1.0) ? eta : REAL(1.0) / eta;
+    const real outside = (index - REAL(1.0)) / fma(REAL(1.00071), index, REAL(4.08567));
+    return eta > REAL(1.0) ? REAL(1.0) - (REAL(1.0) - outside) / (index * index) : outside;
+}
+
+/* What Schlick's approximation adds towards grazing incidence. */
+static inline real fresnel_schlick_grazing(real cos_i)
 {
     const real m = clamp(REAL(1.0) - cos_i, REAL(0.0), REAL(1.0));
     const real m2 = m * m;
-    return f0 + ((real3)(REAL(1.0)) - f0) * (m2 * m2 * m);
+    return m2 * m2 * m;
 }
+
+/* Schlick's approximation (1994): f0 head-on, 1 at grazing incidence. */
+static inline real3 fresnel_schlick(real3 f0, real cos_i)
+{
+    return f0 + ((real3)(REAL(1.0)) - f0) * fresnel_schlick_grazing(cos_i);
+}
+
+/* The mean of (1 - cos)^5 over a hemisphere of equal radiance, 1 / 21, and that of Schlick's reflectance. */
+#define FRESNEL_SCHLICK_MEAN REAL(0.047619047619047619)
+
+static inline real3 fresnel_schlick_mean(real3 f0) { return f0 + ((real3)(REAL(1.0)) - f0) * FRESNEL_SCHLICK_MEAN; }
 
 /* Reflectance head-on between media whose indices have this ratio. */
 static inline real fresnel_head_on(real index)

@@ -101,12 +101,14 @@ static inline real3 material_normal(const Scene* scene, global const Material* m
     return n;
 }
 
-/* A map's colour at the surface point: of a picture, or of the triangle's vertices. */
-static inline real3 material_color(const Scene* scene, uint map, const Surface* surface)
+/* A map's reflectance at the surface point: of a picture, or of the triangle's vertices. Pictures with values above 1, and -mm,
+   could make a surface reflect more than it gets; a NaN stays one. */
+static inline real3 material_reflectance(const Scene* scene, uint map, const Surface* surface)
 {
     if (scene->textures[map].format == TEXEL_VERTEX)
         return surface_vertex_color(scene, surface, scene->textures[map].first_word);
-    return texture_color(scene, map, surface->uv);
+    const real3 color = texture_color(scene, map, surface->uv);
+    return color > (real3)(REAL(1.0)) ? (real3)(REAL(1.0)) : color;
 }
 
 /* Reads colours and roughness, maps included. */
@@ -117,9 +119,9 @@ static inline void material_parameters(const Scene* scene, global const Material
     real roughness = REAL(1.0);
     if (HAS(EFFECT_TEXTURES)) {
         if (material->map_matte != NO_INDEX)
-            bsdf->matte *= material_color(scene, material->map_matte, surface);
+            bsdf->matte *= material_reflectance(scene, material->map_matte, surface);
         if (material->map_specular != NO_INDEX)
-            bsdf->specular *= material_color(scene, material->map_specular, surface);
+            bsdf->specular *= material_reflectance(scene, material->map_specular, surface);
         if (material->map_metallic != NO_INDEX)
             metallic *= real_unit(texture_scalar(scene, material->map_metallic, surface->uv));
         if (material->map_roughness != NO_INDEX)
@@ -170,6 +172,7 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     /* Only stretched highlights need to know where u grows. */
     bsdf.frame = bsdf.alpha_x != bsdf.alpha_y ? frame_make_tangent(n, surface->tangent) : frame_make(n);
     bsdf.wo = frame_to_local(&bsdf.frame, wo);
+    bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
 }

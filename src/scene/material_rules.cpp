@@ -222,9 +222,11 @@ private:
         if (ks_by_map && m_.map_specular == NO_INDEX)
             return; // an unreadable map alone says nothing about the gloss
 
-        // Keep matte and reflection together from giving back more than they get; maps count as 1.
+        // Keep matte and reflection together from giving back more than they get; maps count as 1. Below
+        // Fresnel's reflection the kernels see to it (scattering/bsdf_energy.h).
         glm::dvec3 kd = to_dvec3(m_.matte), ks = mtl_.ks.value_or(glm::dvec3(1));
-        const double sum = std::max(1.0, largest_component(kd + ks));
+        const bool is_coupled = rule_.reflection == Reflection::SCHLICK_MIRROR;
+        const double sum = is_coupled ? 1.0 : std::max(1.0, largest_component(kd + ks));
         m_.matte = to_vec4(kd / sum, 1);
         set_lobe(ks / sum);
         if (rule_.reflection != Reflection::GLOSS)
@@ -242,8 +244,8 @@ private:
             set_roughness(roughness());
     }
 
-    /// Pm: F0 = mix(F, Kd, Pm), matte Kd (1 - Pm), where F is the part's that is no metal. At normal
-    /// incidence both together give back Kd + F (1 - Pm): Kd is scaled so that this stays at 1 or below.
+    /// Pm: F0 = mix(F, Kd, Pm), where F is the part's that is no metal; matte Kd (1 - Pm) of what the
+    /// reflection leaves to it (scattering/bsdf_energy.h).
     void set_metallic() {
         if (is_positive(mtl_.ks) || mtl_.illum.value_or(2) > 2)
             notices_.add("Pm is given: metallic-roughness instead of illum and Ks", mtl_.place);
@@ -254,13 +256,10 @@ private:
         const double dielectric = mtl_.dielectric_f0.value_or(DIELECTRIC_F0);
         if (dielectric > 0 && (by_map || pm < 1))
             m_.map_specular = load(mtl_.map_dielectric_f0, TextureRole::LEVEL);
-        const double most = 1 - dielectric * (by_map ? 1 : 1 - pm);
-        glm::dvec3 kd = to_dvec3(m_.matte);
-        kd *= most / std::max(largest_component(kd), most);
+        const glm::dvec3 kd = to_dvec3(m_.matte);
         glm::dvec3 f0(dielectric);
 
         // Where maps make the mix vary the kernels do it; a pure metal's map is the colour of its reflection.
-        m_.matte = to_vec4(kd, 1);
         m_.fresnel = FRESNEL_SCHLICK;
         const bool has_colour_map = m_.map_matte != NO_INDEX || m_.map_specular != NO_INDEX;
         if (by_map || (has_colour_map && pm > 0 && pm < 1)) {
@@ -351,6 +350,13 @@ double alpha_of_ns(double ns) {
 
 double ns_of_alpha(double alpha) {
     return std::max(2 / (alpha * alpha) - 2, 0.0);
+}
+
+std::vector<MaterialRow> material_rows() {
+    std::vector<MaterialRow> rows = {{"Pm 0", METALLIC_RULE.text}};
+    for (const Rule& rule : ILLUM_RULES)
+        rows.push_back({fmt::format("illum {}", rule.illum), rule.text});
+    return rows;
 }
 
 RuledMaterial rule_material(const MtlMaterial& mtl, const MaterialContext& context, const LoadMap& load_map,

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace clrt {
 
@@ -38,6 +39,12 @@ struct RuledMaterial {
     Material material;
     std::string rule; ///< the row of the table that made it: "illum 2: matte Kd, glossy Ks", ...
 };
+
+/// A row of the table: a line of MTL that selects it, and what it makes.
+struct MaterialRow {
+    std::string keys, text;
+};
+std::vector<MaterialRow> material_rows();
 
 /// Reads a map and returns its index, or NO_INDEX.
 using LoadMap = std::function<u32(const MtlTexture&, TextureRole)>;

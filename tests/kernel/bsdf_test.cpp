@@ -64,22 +64,75 @@ Reference rough_dielectric(const LobeSet& set, const dvec3& wo, const dvec3& wi)
             (1 - f) * visible * std::abs(ih) / denominator};
 }
 
-Reference reference_eval(const LobeSet& set, const dvec3& wo, const dvec3& wi) {
+/// Colour of the light that meets more than one facet (Kulla and Conty 2017), by the mean loss.
+dvec3 multiple_color(const LobeSet& set, double mean_loss) {
+    const dvec3 f =
+        set.fresnel == FRESNEL_SCHLICK ? set.specular + (dvec3(1) - set.specular) / 21.0 : set.specular;
+    return f * f * (1 - mean_loss) / (dvec3(1) - f * mean_loss);
+}
+
+bool is_coupled(const LobeSet& set) {
+    return (set.lobes & LOBE_MATTE) && (set.lobes & ~LOBE_MATTE) && set.fresnel == FRESNEL_SCHLICK;
+}
+
+/// 1 - E of the reflection above the matte lobe: what one facet, Schlick's part and more facets leave.
+dvec3 passing(const LobeSet& set, double loss, double schlick, double mean_loss) {
+    const dvec3 one(1), multiple = mean_loss > 0 ? multiple_color(set, mean_loss) : dvec3(0);
+    return one - set.specular * (1 - loss) - (one - set.specular) * schlick - multiple * loss;
+}
+
+/// Albedo of the matte lobe beside the others.
+dvec3 matte_albedo(const LobeSet& set, const AlbedoSample& o) {
+    return is_coupled(set) ? set.matte * passing(set, o.loss, o.schlick, o.mean_loss) : set.matte;
+}
+
+/// What the facets of a rough dielectric do not send on, leaves on both sides: the reflected share by which
+/// the squared index times the transmission is the same both ways.
+double multiple_reflects(double eta, double here, double there) {
+    const double n = std::max(eta, 1 / eta), outside = (n - 1) / (4.08567 + 1.00071 * n);
+    const double crossing = eta > 1 ? (1 - outside) / (n * n) : 1 - outside;
+    return 1 - crossing * there / std::max(here, there);
+}
+
+Reference dielectric_eval(const LobeSet& set, const dvec3& wo, const dvec3& wi, const AlbedoSample& o,
+                          const AlbedoSample& i, double there) {
+    Reference sum = rough_dielectric(set, wo, wi);
+    const double reflects = multiple_reflects(set.eta, o.mean_loss, there),
+                 side = wi.z > 0 ? reflects : 1 - reflects;
+    const dvec3 color = wi.z > 0 ? set.specular : set.transmission * (set.eta * set.eta);
+    sum.value += color * (side * o.loss * i.loss / i.mean_loss * std::abs(wi.z) / PI);
+    sum.pdf_w = (1 - o.loss) * sum.pdf_w + o.loss * side / (2 * PI);
+    return sum;
+}
+
+/// `there`: the mean loss on the other side of a dielectric.
+Reference reference_eval(const LobeSet& set, const dvec3& wo, const dvec3& wi, const AlbedoSample& o,
+                         const AlbedoSample& i, double there) {
     if (set.lobes == LOBE_DIELECTRIC)
-        return rough_dielectric(set, wo, wi);
+        return dielectric_eval(set, wo, wi, o, i, there);
     if (wi.z <= 0)
         return {};
     const bool has_matte = set.lobes & LOBE_MATTE;
-    const double matte = glm::length(set.matte), reflection = glm::length(reflection_color(set, wo.z));
-    const double choose_matte = !has_matte ? 0 : set.lobes == LOBE_MATTE ? 1 : matte / (matte + reflection);
+    const bool glossy = set.lobes & LOBE_GLOSSY;
+    const dvec3 more = glossy ? multiple_color(set, o.mean_loss) : dvec3(0);
+    const double matte = has_matte ? glm::length(matte_albedo(set, o)) : 0;
+    const double reflection = set.lobes == LOBE_MATTE ? 0 : glm::length(reflection_color(set, wo.z));
+    const double multiple = glm::length(more) * o.loss, sizes = matte + reflection + multiple;
+    const double choose_matte = matte / sizes, choose_multiple = multiple / sizes;
     Reference sum{set.matte * (wi.z / PI), choose_matte * wi.z / PI};
-    if (set.lobes & LOBE_GLOSSY) {
+    if (is_coupled(set))
+        sum.value *= passing(set, o.loss, o.schlick, o.mean_loss) *
+                     passing(set, i.loss, i.schlick, o.mean_loss) /
+                     passing(set, o.mean_loss, o.mean_schlick, o.mean_loss);
+    if (glossy) {
+        sum.value += more * (o.loss * i.loss / o.mean_loss * wi.z / PI);
+        sum.pdf_w += choose_multiple / (2 * PI);
         const dvec3 h = glm::normalize(wo + wi);
         const double d = reference::ggx_d(h, set.alpha_x, set.alpha_y);
         const double g1 = reference::ggx_g1(wo, set.alpha_x, set.alpha_y);
         const double g2 = reference::ggx_g2(wo, wi, set.alpha_x, set.alpha_y);
         sum.value += reflection_color(set, glm::dot(wo, h)) * (d * g2 / (4 * wo.z));
-        sum.pdf_w += (1 - choose_matte) * g1 * d / (4 * wo.z);
+        sum.pdf_w += (1 - choose_matte - choose_multiple) * g1 * d / (4 * wo.z);
     }
     return sum;
 }
@@ -166,8 +219,10 @@ TEST(Bsdf, ValueAndDensityAreTheTextbooks) {
     const std::vector<dvec3> wo = eyes(COUNT, 1), wi = anywhere(COUNT, 2);
     for (const LobeSet& set : smooth_sets()) {
         const BsdfValues got = probe().eval(set, wo, wi);
+        const std::vector<AlbedoSample> from = probe().albedos(set, wo), to = probe().albedos(set, wi);
+        const double there = probe().albedos(set, {{0, 0, -1}})[0].mean_loss;
         for (size_t i = 0; i < COUNT; ++i) {
-            const Reference exact = reference_eval(set, wo[i], wi[i]);
+            const Reference exact = reference_eval(set, wo[i], wi[i], from[i], to[i], there);
             // Where the microfacet is seen edge-on, the sign of a cosine is decided by rounding.
             if (set.lobes == LOBE_DIELECTRIC && (got.pdf_w[i] == 0) != (exact.pdf_w == 0)) {
                 ASSERT_LT(std::max(got.pdf_w[i], exact.pdf_w), 1e-3) << set.name;
@@ -200,7 +255,8 @@ TEST(Bsdf, SamplesCarryTheValueAndTheDensityOfEval) {
                       bound * glm::length(eval.value[i]))
                 << set.name << " wo.z " << wo[i].z << " wi.z " << samples.wi[i].z;
         }
-        EXPECT_GT(valid, COUNT / 4) << set.name;
+        // Half of the eyes are near the horizon, where a mirror takes most.
+        EXPECT_GT(valid, COUNT / 5) << set.name;
     }
 }
 
@@ -272,12 +328,18 @@ TEST(Bsdf, AMirrorBesideAMatteLobeSharesTheSamples) {
         const BsdfSamples samples = probe().sample(set, wo, u);
         for (size_t i = 0; i < COUNT; ++i) {
             const dvec3 color = reflection_color(set, wo[i].z);
-            const double choose_matte =
-                glm::length(set.matte) / (glm::length(set.matte) + glm::length(color));
+            // Below Schlick's mirror (1 - E) (1 - E') / mean(1 - E), and 1 - E = (1 - F0) (1 - (1 - cos)^5).
+            const auto left = [&](double cosine) {
+                return is_coupled(set) ? 1 - std::pow(1 - cosine, 5) : 1.0;
+            };
+            const dvec3 seen =
+                is_coupled(set) ? set.matte * (dvec3(1) - set.specular) * left(wo[i].z) : set.matte;
+            const dvec3 matte = is_coupled(set) ? seen * left(samples.wi[i].z) * (21.0 / 20) : seen;
+            const double choose_matte = glm::length(seen) / (glm::length(seen) + glm::length(color));
             const bool spread = samples.pdf_w[i] > 0;
             ASSERT_TRUE(std::abs(u[i].x - choose_matte) < 1e-6 || spread == (u[i].x < choose_matte)) << name;
-            const dvec3 weight = spread ? set.matte / choose_matte : color / (1 - choose_matte);
-            ASSERT_LE(glm::length(samples.weight[i] - weight), 2e-6 * glm::length(weight)) << name;
+            const dvec3 weight = spread ? matte / choose_matte : color / (1 - choose_matte);
+            ASSERT_LE(glm::length(samples.weight[i] - weight), 1e-5 * glm::length(weight)) << name;
         }
     }
 }
@@ -317,9 +379,11 @@ TEST(Bsdf, EnergyIsNeverGainedAndIsThatOfTheQuadrature) {
         for (const double z : {1.0, 0.6, 0.1}) {
             const dvec3 wo = direction_at(z, 0.4);
             const Moments got = energy(probe().sample(set, repeated(wo, COUNT), u), set.eta);
-            EXPECT_LE(got.mean, 1) << set.name;
+            EXPECT_LE(got.mean, 1 + 1e-3 + 6 * std::sqrt(got.variance_of_mean())) << set.name;
             // 2e-4: the quadrature's error where directions disappear below the horizon.
-            const double expected = reference_energy(set, wo, 512, 512);
+            const AlbedoSample o = probe().albedos(set, {wo})[0];
+            const double more = set.lobes == LOBE_DIELECTRIC ? 1 : multiple_color(set, o.mean_loss).x;
+            const double expected = reference_energy(set, wo, 512, 512) + more * o.loss;
             EXPECT_NEAR(got.mean, expected, 2e-4 + 6 * std::sqrt(got.variance_of_mean()))
                 << set.name << " cos " << z;
         }
@@ -336,7 +400,10 @@ TEST(Bsdf, SumsOfLobesReflectTheSumOfTheirEnergies) {
         for (const double z : {1.0, 0.6, 0.1}) {
             const dvec3 wo = direction_at(z, 0.4);
             const Moments got = energy(probe().sample(set, repeated(wo, COUNT), u), 1);
-            EXPECT_NEAR(got.mean, set.matte.x + reference_energy(glossy, wo, 512, 256),
+            const AlbedoSample o = probe().albedos(set, {wo})[0];
+            EXPECT_NEAR(got.mean,
+                        matte_albedo(set, o).x + multiple_color(set, o.mean_loss).x * o.loss +
+                            reference_energy(glossy, wo, 512, 256),
                         2e-4 + 6 * std::sqrt(got.variance_of_mean()))
                 << name << " cos " << z;
         }

@@ -31,7 +31,7 @@ SceneProbe& probe() {
         made.add("labels",
                  bsdf +
                      "first = (vec4)(as_float(bsdf.lobes), as_float(bsdf.fresnel), as_float(bsdf.flags), 0);"
-                     "second = (vec4)(bsdf.choose_matte, bsdf.choose_glossy, 0, 0);");
+                     "second = (vec4)(bsdf.choose_matte, bsdf.choose_glossy + bsdf.choose_multiple, 0, 0);");
         made.add("light", surface +
                               "first = probe_vec4(material_emitted(scene, &surface), "
                               "material_coverage(scene, scene->materials + surface.material, surface.uv));");

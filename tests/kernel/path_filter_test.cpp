@@ -52,6 +52,7 @@ Bsdf probe_bsdf(uint lobes, real eta)
     bsdf.lobes = lobes;
     bsdf.fresnel = FRESNEL_NONE;
     bsdf.flags = 0u;
+    bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
 }
@@ -81,10 +82,10 @@ KernelProbe& probe() {
             "lobes", "Bsdf bsdf = probe_bsdf(b, (real)c); const AutomatonStep step = "
                      "probe_step(a); filter_lobes(&step, &bsdf); out = bsdf.lobes | bsdf.flags;");
         made.add<vec4(u32, u32, float)>(
-            "continues",
-            "Bsdf bsdf = probe_bsdf(b, (real)c); const AutomatonStep step = probe_step(a); "
-            "filter_lobes(&step, &bsdf); const bool goes = filter_continues(&step, &bsdf); "
-            "out = (vec4)(goes ? 1.0f : 0.0f, (float)bsdf.choose_matte, (float)bsdf.choose_glossy, 0.0f);");
+            "continues", "Bsdf bsdf = probe_bsdf(b, (real)c); const AutomatonStep step = probe_step(a); "
+                         "filter_lobes(&step, &bsdf); const bool goes = filter_continues(&step, &bsdf); "
+                         "out = (vec4)(goes ? 1.0f : 0.0f, (float)bsdf.choose_matte, "
+                         "(float)(bsdf.choose_glossy + bsdf.choose_multiple), 0.0f);");
         made.add<vec4(u32, vec4, float)>(
             "share",
             "const Bsdf bsdf = probe_bsdf(LOBE_MATTE | LOBE_GLOSSY, REAL(1.5)); const AutomatonStep step = "

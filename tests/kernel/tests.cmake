@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
+clrt_test(kernel albedo_test)
+clrt_test(kernel bsdf_energy_test)
 clrt_test(kernel bsdf_sampling_test)
 clrt_test(kernel bsdf_test)
 clrt_test(kernel camera_test)

@@ -39,17 +39,64 @@ public:
     }
 };
 
+/// What the tables of scattering/albedo.h are off by: for round lobes, for stretched ones, for glass.
+constexpr double TABLE_ERROR = 1e-3, STRETCHED_ERROR = 6e-3, GLASS_ERROR = 6e-3;
+
+/// Mean over the hemisphere, weighted by the cosine, of a loss that depends on the cosine.
+template <class Loss>
+double hemispherical_mean(const Loss& loss) {
+    constexpr int STEPS = 24;
+    double sum = 0;
+    for (int i = 0; i < STEPS; ++i) {
+        const double cosine = (i + 0.5) / STEPS;
+        sum += loss(cosine) * 2 * cosine / STEPS;
+    }
+    return sum;
+}
+
+double stretched_mean_loss(double alpha_x, double alpha_y) {
+    return hemispherical_mean([&](double cosine) {
+        double sum = 0;
+        for (const double turn : {0.125, 0.375, 0.625, 0.875})
+            sum += 1 - rough_reflection_albedo({alpha_x, alpha_y, cosine, turn * PI / 2},
+                                               [](double) { return 1.0; });
+        return sum / 4;
+    });
+}
+
+/// What one facet of a lossless mirror does not send on.
+double mean_loss(double alpha) {
+    return hemispherical_mean([&](double cosine) {
+        return 1 - rough_reflection_albedo({alpha, alpha, cosine, 0}, [](double) { return 1.0; });
+    });
+}
+
+double glass_mean_loss(double alpha, double eta) {
+    return hemispherical_mean([&](double cosine) {
+        const RoughSurface surface{alpha, alpha, cosine, 0};
+        return 1 - rough_transmission_albedo(surface, eta) -
+               rough_reflection_albedo(surface, [&](double c) { return fresnel_reflectance(c, eta); });
+    });
+}
+
+/// The colour of light that facets of mean reflectance f reflect more than once (Kulla and Conty 2017).
+double multiple_colour(double f, double loss) {
+    return f * f * (1 - loss) / (1 - f * loss);
+}
+
 /// The albedo by BSDF sampling alone, and with light sampling of a map on top.
-void expect_albedo(const std::string& keys, double cos_o, double expected, double azimuth = 0) {
+void expect_albedo(const std::string& keys, double cos_o, double expected, double azimuth = 0,
+                   double error = 0) {
     SCOPED_TRACE(keys + ", cosine " + std::to_string(cos_o));
     FloorUnderSky constant(keys, cos_o, azimuth);
-    EXPECT_TRUE(agrees(film_estimate(constant.render().film), expected, 1e-3, 1e-5));
+    EXPECT_TRUE(agrees(film_estimate(constant.render().film), expected, 2e-3, 1e-5 + TABLE_ERROR + error));
 
     FloorUnderSky mapped(keys, cos_o, azimuth);
     mapped.texture("ones.exr", 8, 4, 3, std::vector<float>(8 * 4 * 3, 1.0f));
     mapped.options.light.environment.reset();
     mapped.options.light.environment_file = mapped.folder.file("ones.exr");
-    EXPECT_TRUE(agrees(film_estimate(mapped.render().film), expected, 3e-3, 1e-5)) << "with a map";
+    EXPECT_TRUE(agrees(film_estimate(mapped.render().film), expected, 3e-3, 1e-5 + TABLE_ERROR + error))
+        << "with a map";
 }
 
 } // namespace
@@ -149,37 +196,48 @@ TEST(Furnace, LosslessBodiesReturnAllLight) {
         }
 }
 
-TEST(Furnace, RoughMirrorsShowTheirSingleScatteringAlbedo) {
+TEST(Furnace, RoughMirrorsReflectMoreThanOnce) {
     for (const double pr : {0.4, 0.7, 1.0})
         for (const double cos_o : {0.25, 0.9}) {
-            const RoughSurface surface{pr * pr, pr * pr, cos_o, 0};
-            const double albedo = rough_reflection_albedo(surface, [](double) { return 0.8; });
+            const double alpha = pr * pr;
+            const double once = rough_reflection_albedo({alpha, alpha, cos_o, 0}, [](double) { return 1.0; });
+            const double albedo = 0.8 * once + multiple_colour(0.8, mean_loss(alpha)) * (1 - once);
             expect_albedo("Kd 0 0 0\nKs 0.8 0.8 0.8\nillum 3\nPr " + std::to_string(pr), cos_o, albedo);
         }
 }
 
 TEST(Furnace, StretchedHighlightsDependOnTheDirectionOfTheView) {
-    const double alpha = 0.36, aspect = std::sqrt(1 - 0.9 * 0.8), cos_o = 0.35;
-    const std::string keys = "Kd 0 0 0\nKs 1 1 1\nillum 3\nPr 0.6\naniso 0.8";
+    // One facet reflects 0.5 F; more facets add the more, the more of them there are, and the darker the
+    // colour.
+    const double alpha = 0.36, aspect = std::sqrt(1 - 0.9 * 0.8), cos_o = 0.35, ks = 0.5;
+    const std::string keys = "Kd 0 0 0\nKs 0.5 0.5 0.5\nillum 3\nPr 0.6\naniso 0.8";
+    const double more = multiple_colour(ks, stretched_mean_loss(alpha / aspect, alpha * aspect));
     double albedo[2];
     for (const int across : {0, 1}) {
         const double azimuth = across * PI / 2;
         const RoughSurface surface{alpha / aspect, alpha * aspect, cos_o, azimuth};
-        albedo[across] = rough_reflection_albedo(surface, [](double) { return 1.0; });
-        expect_albedo(keys, cos_o, albedo[across], azimuth);
+        const double once = rough_reflection_albedo(surface, [](double) { return 1.0; });
+        albedo[across] = ks * once + more * (1 - once);
+        expect_albedo(keys, cos_o, albedo[across], azimuth, STRETCHED_ERROR);
     }
-    EXPECT_GT(std::abs(albedo[1] - albedo[0]), 0.05) << "or the test could not tell them apart";
+    EXPECT_GT(std::abs(albedo[1] - albedo[0]), 2 * STRETCHED_ERROR)
+        << "or the test could not tell them apart";
 }
 
 TEST(Furnace, MatteAndRoughLobesAddUp) {
     const double cos_o = 0.6;
     const RoughSurface by_ns{std::sqrt(2.0 / 22), std::sqrt(2.0 / 22), cos_o, 0};
+    const double once = rough_reflection_albedo(by_ns, [](double) { return 1.0; });
     expect_albedo("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 20\nillum 2", cos_o,
-                  0.3 + rough_reflection_albedo(by_ns, [](double) { return 0.5; }));
+                  0.3 + 0.5 * once + multiple_colour(0.5, mean_loss(by_ns.alpha_x)) * (1 - once));
 
+    // Below Fresnel's reflection the matte lobe gets what is left.
     const auto schlick = [](double cosine) { return 0.04 + 0.96 * std::pow(1 - cosine, 5); };
     const RoughSurface by_pr{0.25, 0.25, cos_o, 0};
-    expect_albedo("Kd 0.6 0.6 0.6\nPm 0\nPr 0.5", cos_o, 0.6 + rough_reflection_albedo(by_pr, schlick));
+    const double lost = 1 - rough_reflection_albedo(by_pr, [](double) { return 1.0; });
+    const double above = rough_reflection_albedo(by_pr, schlick) +
+                         multiple_colour(0.04 + 0.96 / 21, mean_loss(by_pr.alpha_x)) * lost;
+    expect_albedo("Kd 0.6 0.6 0.6\nPm 0\nPr 0.5", cos_o, above + (1 - above) * 0.6);
 }
 
 TEST(Furnace, ARoughBoundaryOfGlassReflectsAndRefracts) {
@@ -191,7 +249,13 @@ TEST(Furnace, ARoughBoundaryOfGlassReflectsAndRefracts) {
         const double reflected =
             rough_reflection_albedo(surface, [&](double cosine) { return fresnel_reflectance(cosine, eta); });
         const double refracted = rough_transmission_albedo(surface, eta);
-        expect_albedo("Ni 1.5\nillum 7\nPr 0.5", cos_o, reflected + refracted * eta * eta);
+        // What more facets send on crosses with the mean transmittance of the facets, 1 - F: inside, less is
+        // lost.
+        const double more = 1 - reflected - refracted, crosses = 1 - 0.5 / (4.08567 + 1.00071 * 1.5);
+        const double share = crosses * std::min(1.0, glass_mean_loss(0.25, 1.5) / glass_mean_loss(0.25, eta));
+        expect_albedo("Ni 1.5\nillum 7\nPr 0.5", cos_o,
+                      reflected + refracted * eta * eta + more * (1 - share + share * eta * eta), 0,
+                      GLASS_ERROR);
     }
 }
 

@@ -31,6 +31,7 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     bsdf.lobes = lobes;
     bsdf.fresnel = fresnel;
     bsdf.flags = 0u;
+    bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
 }
@@ -58,6 +59,31 @@ kernel void probe_sample(PROBE_BSDF, global const vec4* in_a, global const vec4*
     const BsdfSample sample = bsdf_sample(&bsdf, (real)u.x, (real2)((real)u.y, (real)u.z));
     out_first[i] = (vec4)(convert_float3(frame_to_local(&bsdf.frame, sample.wi)), (float)sample.pdf_w);
     out_second[i] = (vec4)(convert_float3(sample.weight), sample.is_valid ? (float)sample.eta : 0.0f);
+}
+)";
+
+/// Appended to TEXT: what the tables of albedo.h say of a set's roughness and of directions.
+const char* const ALBEDO_TEXT = R"(
+kernel void probe_albedo(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
+                         global vec4* out_first, global vec4* out_second)
+{
+    const size_t i = get_global_id(0);
+    if (i >= count)
+        return;
+    const vec4 up = (vec4)(0.0f, 0.0f, 1.0f, 0.0f);
+    const Bsdf bsdf = probe_bsdf(PROBE_BSDF_ARGUMENTS, up);
+    const real3 w = vector_from(in_a[i]);
+    if (lobes & LOBE_DIELECTRIC) {
+        const real eta = w.z > REAL(0.0) ? bsdf.eta : REAL(1.0) / bsdf.eta;
+        out_first[i] = (vec4)((float)albedo_dielectric_loss(&bsdf.rough, eta, fabs(w.z)), 0.0f,
+                              (float)albedo_dielectric_mean_loss(&bsdf.rough, eta), 0.0f);
+        return;
+    }
+    const Albedo albedo = bsdf_energy_albedo(&bsdf, w);
+    Albedo mean = {REAL(0.0), FRESNEL_SCHLICK_MEAN};
+    if (bsdf.rough.alpha > REAL(0.0))
+        mean = albedo_reflection_mean(&bsdf.rough);
+    out_first[i] = (vec4)((float)albedo.loss, (float)albedo.schlick, (float)mean.loss, (float)mean.schlick);
 }
 )";
 
@@ -122,6 +148,7 @@ LobeSet lobe_set(const std::string& name) {
 
 BsdfProbe::BsdfProbe() : probe_(test_device(), {"scattering/bsdf.h"}) {
     probe_.add_text(TEXT);
+    probe_.add_text(ALBEDO_TEXT);
 }
 
 Kernel BsdfProbe::prepare(const char* name, const LobeSet& set, const std::vector<glm::dvec3>& a,
@@ -175,6 +202,19 @@ BsdfSamples BsdfProbe::sample(const LobeSet& set, const std::vector<glm::dvec3>&
         samples.weight.push_back(to_dvec3(v));
         samples.eta.push_back(v.w);
     }
+    return samples;
+}
+
+std::vector<AlbedoSample> BsdfProbe::albedos(const LobeSet& set, const std::vector<glm::dvec3>& w) {
+    Kernel kernel = prepare("probe_albedo", set, w, w, {0, 0, 1});
+    const cl::Buffer first = create_buffer(test_device(), "albedos", w.size() * sizeof(vec4));
+    const cl::Buffer second = create_buffer(test_device(), "nothing", w.size() * sizeof(vec4));
+    kernel.set("out_first", first);
+    kernel.set("out_second", second);
+    probe_.launch(kernel, w.size());
+    std::vector<AlbedoSample> samples;
+    for (const vec4& v : probe_.read<vec4>(first, w.size()))
+        samples.push_back({v.x, v.y, v.z, v.w});
     return samples;
 }
 

@@ -37,6 +37,12 @@ struct BsdfSamples {
     std::vector<double> pdf_w, eta; ///< eta 0: no direction was found
 };
 
+/// What rough facets lose of light from a direction and what Schlick's part of them reflects, and the means
+/// over all directions (scattering/albedo.h). Of dielectrics only the losses, on the direction's side.
+struct AlbedoSample {
+    double loss, schlick, mean_loss, mean_schlick;
+};
+
 /// The program; its surface is tilted, so that frames take part. Directions are local, z is the normal.
 class BsdfProbe {
 public:
@@ -48,6 +54,8 @@ public:
     /// `u`: the number that chooses the lobe and the two that choose the direction.
     BsdfSamples sample(const LobeSet& set, const std::vector<glm::dvec3>& wo,
                        const std::vector<glm::dvec3>& u, const glm::dvec3& normal_g = {0, 0, 1});
+    /// By the kernels' tables; for the roughness of a set.
+    std::vector<AlbedoSample> albedos(const LobeSet& set, const std::vector<glm::dvec3>& w);
     /// True if connecting such a BSDF to a light can succeed.
     bool has_smooth_lobe(const LobeSet& set);
 

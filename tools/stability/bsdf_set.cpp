@@ -37,6 +37,7 @@ std::string sets_text() {
            cases +
            "    }\n"
            "    if (alpha > REAL(0.0)) { bsdf.alpha_x = alpha; bsdf.alpha_y = alpha; }\n"
+           "    bsdf_energy_set(&bsdf);\n"
            "    bsdf_choose_lobes(&bsdf);\n"
            "    return bsdf;\n}\n";
 }

@@ -196,8 +196,8 @@ const std::vector<StabilityCase>& furnace_cases() {
          "a law: a path that loses light has left", shapes},
         {"F05", "EveryBsdf", "every BSDF under a white sky, a lattice of random numbers",
          "colours of lossless lobes, albedo of rough ones by quadrature in double",
-         "eight roundings; the lattice's error for rough lobes, larger where a random number chooses the "
-         "lobe: a jump",
+         "eight roundings; the lattice's error for rough lobes, where a random number chooses the lobe: a "
+         "jump; the error of the tables of albedos",
          bsdf_furnace},
         {"F06", "FacingMirrors", "two mirrors of 0.999, a thousand reflections", "0.999^1000",
          "two roundings a reflection", facing_mirrors},

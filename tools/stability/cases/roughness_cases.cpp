@@ -98,6 +98,15 @@ void weak_furnace(CaseRun& run) {
         }
 }
 
+/// a, b, c: the eye; d: alpha; e, f: random numbers. G2 / G1 of a facet's reflection, 0 where it is lost.
+const ProbedExpression WEIGHT = {
+    "weight", 6, 1,
+    "const real3 o = vector_make(a, b, c), h = microfacet_sample(o, d, d, (real2)(e, f)); const real3 w = "
+    "REAL(2.0) * "
+    "vector_dot(o, h) * h - o;"
+    "out[0] = w.z > REAL(0.0) ? microfacet_g2(o, w, d, d) / microfacet_g1(o, d, d) : REAL(0.0);",
+    ""};
+
 /// Index of a set of one glossy lobe of colour 0.9 without Fresnel.
 size_t glossy_set() {
     const std::vector<LobeSet> sets = all_lobe_sets();
@@ -112,24 +121,28 @@ constexpr double GLOSSY_COLOUR = 0.9;
 void visible_weights(CaseRun& run) {
     Figure& excess = run.figure("largest G2 / G1", 1 + 4 * FLOAT_U);
     Figure& bad = run.figure("weights that are no number", 0);
-    BsdfInputs inputs;
+    ProbeSet probes(run.device, {"scattering/microfacet.h"}, {WEIGHT});
+    Columns inputs(6);
     Random random(2);
     const size_t count = run.count(2e5, 2e6, 8e6);
     for (size_t i = 0; i < count; ++i) {
         const double alpha = std::abs(random.signed_log(1e-4, 1)),
                      cosine = std::abs(random.signed_log(1e-6, 1));
         const double x = random.unit();
-        inputs.add(glossy_set(), alpha, direction_at(cosine, 2 * PI * random.unit()),
-                   {0.5, x, random.unit()});
+        const dvec3 wo = direction_at(cosine, 2 * PI * random.unit());
+        push(inputs, {wo.x, wo.y, wo.z, alpha, x, random.unit()});
     }
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)
             continue;
-        const auto got = bsdf_probes(run.device).run(build, "sample", inputs.columns);
+        const std::vector<double> got = probes.run(build, "weight", inputs)[0];
         for (size_t i = 0; i < count; ++i) {
-            const double weight = got[SAMPLED_WEIGHT][i] / double(float(GLOSSY_COLOUR));
-            bad[build].count(!std::isfinite(weight) || weight < 0, [&] { return inputs.describe(i); });
-            excess[build].see(weight, [&] { return inputs.describe(i); });
+            const auto describe = [&] {
+                return fmt::format("alpha {}, wo {:a} {:a} {:a}", inputs[3][i], inputs[0][i], inputs[1][i],
+                                   inputs[2][i]);
+            };
+            bad[build].count(!std::isfinite(got[i]) || got[i] < 0, describe);
+            excess[build].see(got[i], describe);
         }
     }
 }
@@ -169,24 +182,25 @@ void towards_mirror(CaseRun& run) {
 }
 
 void full_roughness(CaseRun& run) {
-    Figure& error = run.figure("|albedo - quadrature|", 1e-4);
+    Figure& error = run.figure("|albedo of one facet - quadrature|", 1e-4);
+    ProbeSet probes(run.device, {"scattering/microfacet.h"}, {WEIGHT});
     const size_t side = run.count(512, 1024, 2048);
     for (const double cosine : {0.2, 0.4, 0.6, 0.8, 1.0}) {
-        BsdfInputs inputs;
+        Columns inputs(6);
+        const dvec3 wo = direction_at(cosine, 0);
         for (size_t i = 0; i < side; ++i)
             for (size_t j = 0; j < side; ++j)
-                inputs.add(glossy_set(), 1, direction_at(cosine, 0),
-                           {0.5, (double(i) + 0.5) / double(side), (double(j) + 0.5) / double(side)});
-        const double expected =
-            rough_reflection_albedo({1, 1, cosine, 0}, [](double) { return GLOSSY_COLOUR; });
+                push(inputs, {wo.x, wo.y, wo.z, 1, (double(i) + 0.5) / double(side),
+                              (double(j) + 0.5) / double(side)});
+        const double expected = rough_reflection_albedo({1, 1, cosine, 0}, [](double) { return 1.0; });
         for (const Build build : run.builds()) {
             if (build == Build::NAIVE)
                 continue;
-            const auto got = bsdf_probes(run.device).run(build, "sample", inputs.columns);
+            const std::vector<double> weights = probes.run(build, "weight", inputs)[0];
             double sum = 0;
-            for (size_t i = 0; i < inputs.size(); ++i)
-                sum += got[SAMPLED_ETA][i] == 0 ? 0 : got[SAMPLED_WEIGHT][i];
-            error[build].see(std::abs(sum / double(inputs.size()) - expected),
+            for (const double weight : weights)
+                sum += weight;
+            error[build].see(std::abs(sum / double(side * side) - expected),
                              [&] { return fmt::format("cos {}", cosine); });
         }
     }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// What keeps the lobes of a BSDF from losing and from creating light. All of it is reciprocal and built from directional
+// albedos (albedo.h); a white surface under a white sky is white.
+//
+// Between rough facets light is reflected more than once. What the first facet does not send on, the loss L(wo), leaves with the
+// cosine lobe L(wo) L(wi) / (pi mean(L)), times the colour that it takes on the way (Kelemen and Szirmay-Kalos 2001; Kulla and
+// Conty 2017). At a dielectric it leaves on both sides.
+//
+// Below a reflection by Schlick's Fresnel lies the matte lobe. It gets what the reflection does not take and gives it back the
+// same way: f_matte = Kd/pi (1 - E(wo)) (1 - E(wi)) / (1 - mean(E)) with the reflection's albedo E. Every 1 - E has the factor
+// 1 - F0: 1 - E = (1 - F0) g, g(w) = 1 - B(w) + c L(w), c = (F0 - F_ms) / (1 - F0), so F0 = 1 needs no care.
+//
+// A stretched rough dielectric has no table and loses what it lost.
+#ifndef CLRT_SCATTERING_BSDF_ENERGY_H
+#define CLRT_SCATTERING_BSDF_ENERGY_H
+
+#include "albedo.h"
+#include "bsdf_types.h"
+#include "fresnel.h"
+#include "numerics/warp.h"
+
+/* The facets' reflectance in light from everywhere. */
+static inline real3 bsdf_energy_facet_mean(const Bsdf* bsdf)
+{
+    return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick_mean(bsdf->specular) : bsdf->specular;
+}
+
+/* The albedo of the reflection lobes' facets towards a local direction; a mirror loses nothing. */
+static inline Albedo bsdf_energy_albedo(const Bsdf* bsdf, real3 w)
+{
+    if (HAS(EFFECT_GLOSSY) && bsdf->rough.alpha > REAL(0.0))
+        return albedo_reflection(&bsdf->rough, w);
+    Albedo albedo;
+    albedo.loss = REAL(0.0);
+    albedo.schlick = fresnel_schlick_grazing(fabs(w.z));
+    return albedo;
+}
+
+/* g(w) of the coupling. */
+static inline real3 bsdf_energy_passing(const Bsdf* bsdf, Albedo albedo)
+{
+    return (real3)(REAL(1.0) - albedo.schlick) + bsdf->passing_loss * albedo.loss;
+}
+
+/* True where the matte lobe lies below a reflection that depends on the angle. */
+static inline bool bsdf_energy_is_coupled(const Bsdf* bsdf)
+{
+    return HAS(EFFECT_GLOSSY | EFFECT_MIRROR) && (bsdf->flags & BSDF_COUPLED);
+}
+
+/* What the reflection above leaves of the matte lobe towards wi. */
+static inline real3 bsdf_energy_coupling(const Bsdf* bsdf, real3 wi)
+{
+    return bsdf->passing * bsdf_energy_passing(bsdf, bsdf_energy_albedo(bsdf, wi));
+}
+
+/* Light that leaves after more than one facet: BSDF times |cos_i|. */
+static inline real3 bsdf_energy_multiple(const Bsdf* bsdf, real3 wi)
+{
+    const real cos_i = fabs(wi.z);
+    if (!(bsdf->lobes & LOBE_DIELECTRIC))
+        return bsdf->multiple * (albedo_reflection(&bsdf->rough, wi).loss * cos_i * REAL_INVERSE_PI);
+    const real eta = wi.z > REAL(0.0) ? bsdf->eta : REAL(1.0) / bsdf->eta;
+    const real loss = albedo_dielectric_loss(&bsdf->rough, eta, fmin(cos_i, REAL(1.0)));
+    return (wi.z > REAL(0.0) ? bsdf->multiple : bsdf->multiple_through) * (loss * cos_i * REAL_INVERSE_PI);
+}
+
+/* Samples it: L(wi) cos_i is flat for rough facets and highest near the horizon for smooth ones, so all directions of the side
+   are alike. A cosine lobe would meet weights of 1 / alpha^2 there. */
+static inline real3 bsdf_energy_multiple_sample(real2 u) { return warp_hemisphere(u); }
+
+static inline real bsdf_energy_multiple_pdf_w(void) { return warp_hemisphere_pdf_w(); }
+
+/* Of the reflection lobes: the colour of what is reflected more than once, F_avg^2 (1 - l) / (1 - F_avg l) with the mean loss l
+   (Kulla and Conty 2017), and the matte lobe's coupling. */
+static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
+{
+    const bool is_glossy = HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY);
+    const bool is_coupled = (bsdf->lobes & LOBE_MATTE) && bsdf->fresnel == FRESNEL_SCHLICK;
+    bsdf->matte_size = vector_color_size(bsdf->matte);
+    if (!is_glossy && !is_coupled)
+        return;
+    const real3 one = (real3)(REAL(1.0));
+    Albedo mean;
+    mean.loss = REAL(0.0);
+    mean.schlick = FRESNEL_SCHLICK_MEAN;
+    real3 color = (real3)(REAL(0.0));
+    const real3 facet = bsdf_energy_facet_mean(bsdf);
+    if (is_glossy) {
+        bsdf->rough = albedo_roughness(bsdf->alpha_x, bsdf->alpha_y);
+        mean = albedo_reflection_mean(&bsdf->rough);
+        color = facet * facet * (REAL(1.0) - mean.loss) / (one - facet * mean.loss);
+    }
+    const Albedo albedo = bsdf_energy_albedo(bsdf, bsdf->wo);
+    bsdf->multiple = color * (albedo.loss / mean.loss);
+    bsdf->multiple_size = vector_color_size(color) * albedo.loss;
+    if (!is_coupled)
+        return;
+    bsdf->flags |= BSDF_COUPLED;
+    /* c with its factor 1 - F0 cancelled: (1 - F_ms) / (1 - F0) - 1. */
+    const real seen = REAL(1.0) - mean.loss;
+    bsdf->passing_loss = (REAL(1.0) - FRESNEL_SCHLICK_MEAN) * (one + facet * seen) / (one - facet * mean.loss) - one;
+    const real3 albedo_left = (one - bsdf->specular) * bsdf_energy_passing(bsdf, albedo);
+    bsdf->passing = albedo_left / bsdf_energy_passing(bsdf, mean);
+    bsdf->matte_size = vector_color_size(bsdf->matte * albedo_left);
+}
+
+/* Of a rough dielectric. The share of what is lost that crosses is 1 - F_avg where both sides lose alike, less on the side that
+   loses more: then f / eta^2 is the same in both directions. */
+static inline void bsdf_energy_set_dielectric(Bsdf* bsdf)
+{
+    bsdf->rough = albedo_roughness(bsdf->alpha_x, bsdf->alpha_y);
+    const real loss = albedo_dielectric_loss(&bsdf->rough, bsdf->eta, fmin(bsdf->wo.z, REAL(1.0)));
+    const real here = albedo_dielectric_mean_loss(&bsdf->rough, bsdf->eta);
+    const real there = albedo_dielectric_mean_loss(&bsdf->rough, REAL(1.0) / bsdf->eta);
+    const real crossing = (REAL(1.0) - fresnel_dielectric_mean(bsdf->eta)) / fmax(here, there);
+    const real crosses = crossing * there;
+    bsdf->multiple = bsdf->specular * ((REAL(1.0) - crosses) * loss / here);
+    bsdf->multiple_through = bsdf->transmission * (crossing * loss * bsdf->eta * bsdf->eta);
+    bsdf->multiple_size = loss;
+    bsdf->multiple_reflects = REAL(1.0) - crosses;
+}
+
+/* Sets all of it for wo; the lobes are those of the material, before a path filter takes some away. */
+static inline void bsdf_energy_set(Bsdf* bsdf)
+{
+    bsdf->flags &= ~BSDF_COUPLED;
+    bsdf->rough.alpha = REAL(0.0);
+    bsdf->multiple = (real3)(REAL(0.0));
+    bsdf->multiple_size = REAL(0.0);
+    if (HAS(EFFECT_GLOSSY | EFFECT_MIRROR) && (bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
+        bsdf_energy_set_reflection(bsdf);
+    if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) && bsdf->alpha_x > REAL(0.0) &&
+        bsdf->alpha_x == bsdf->alpha_y && bsdf->eta != REAL(1.0))
+        bsdf_energy_set_dielectric(bsdf);
+}
+
+#endif
