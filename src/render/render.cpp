@@ -66,6 +66,7 @@ private:
     double rays_per_second_now(double samples) const;
     void measure();
     void read_back();
+    void take_host_memory();
     void begin_hits();
     void advance_hits(const char* phase = nullptr);
     void give_up_hits(const DeviceError& error);
@@ -110,6 +111,7 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
                                                      : std::optional(options.checkpoint_seconds)),
       launch_size_(device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
+    take_host_memory();
     first_ = options.first_sample;
     if (!result.film.ranges.empty()) {
         film_buffers_.write_sums(result);
@@ -125,6 +127,15 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     launcher_.run(0, 0, 0, 0);
     begin_hits();
     result.first_launch_seconds = seconds_since(start);
+}
+
+/// Takes what reading the film at the end needs, once the device is known to hold it.
+void Passes::take_host_memory() {
+    Film& film = result_.film;
+    film.sums.resize(size_t(film.replicates) * film_plane(film));
+    result_.path_layers.resize(programs_.paths.layers.size());
+    for (Film& layer : result_.path_layers)
+        layer.sums.resize(film_plane(film));
 }
 
 /// Takes the memory of the layers of hits. Without them the picture is rendered all the same.
@@ -417,12 +428,6 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
             fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
                         "a smaller --size or --crop, or fewer --replicates",
                         options.replicates, film.replicates));
-
-    // All memory is taken before the first sample.
-    film.sums.resize(size_t(film.replicates) * film_plane(film));
-    result.path_layers.resize(programs.paths.layers.size());
-    for (Film& layer : result.path_layers)
-        layer.sums.resize(film_plane(film));
 
     progress.update({"compile", -1, 0, -1, -1});
     Passes passes(device, programs, buffers, options, params, progress, hooks, result);
