@@ -47,15 +47,15 @@ static inline Hit visible_hit(const Scene* scene, const RenderParams* params, co
     return hit;
 }
 
-/* Looks again at a hit near an edge. There the ray meets two walls at one distance but for roundings, which may call the far one
-   first: the one that is seen from behind, at the outline of a solid. Its point, drawn in from the edge, lies behind the near
-   wall, so the same ray shifted to that point meets the near wall before it. True if so; `hit` is then there. */
-static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                            const Ray* ray, Hit* hit)
+/* Looks again at a hit near an edge, whose point, off its wall by the error bound, is `point`. There the ray meets two walls at
+   one distance but for roundings, which may call the far one first: the one that is seen from behind, at the outline of a
+   solid. Its point, drawn in from the edge, lies behind the near wall, so the same ray shifted to that point meets the near
+   wall before it. True if so; `hit` is then there. */
+static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderParams* params, real3 point, const Ray* ray,
+                                            Hit* hit)
 {
     /* Half of the ray: a wall that it grazes is far before the point, and its start may lie on a wall, too. */
     const real reach = REAL(0.5) * hit->t;
-    const real3 point = surface->position + surface->normal_g * surface->offset;
     Ray shifted = ray_make(point - ray->direction * reach, ray->direction);
     shifted.t_max = reach;
     const Hit after = hit_none(REAL(0.0));
@@ -78,7 +78,7 @@ static inline Surface visible_surface(const Scene* scene, const RenderParams* pa
 {
     Surface surface = surface_at(scene, hit, -ray->direction);
     for (int i = 1; i < VISIBLE_CORNER_WALLS && surface.is_near_edge; ++i) {
-        if (!visible_is_hidden(scene, params, &surface, ray, hit))
+        if (!visible_is_hidden(scene, params, surface.position + surface.normal_g * surface.offset, ray, hit))
             break;
         surface = surface_at(scene, hit, -ray->direction);
     }
