@@ -81,8 +81,10 @@ void take_out_textures(Scene& scene) {
 }
 
 void take_out_normal_maps(Scene& scene) {
-    for (Material& material : scene.materials)
+    for (Material& material : scene.materials) {
         material.map_normal = material.map_bump = NO_INDEX;
+        material.bump_scale = 0;
+    }
 }
 
 void take_out_cut_outs(Scene& scene) {

@@ -55,6 +55,7 @@ BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const Render
 CutPaths cut_paths(const RenderProgress& render, const std::optional<double>& radiance) {
     CutPaths cut;
     cut.paths = render.counts.cut_paths;
+    cut.all = film_all_samples(render.film);
     cut.light_bound = cut.relative_bound = 0;
     if (cut.paths == 0)
         return cut;
@@ -74,8 +75,8 @@ CutPaths cut_paths(const RenderProgress& render, const std::optional<double>& ra
 std::string format_cut(const CutPaths& cut) {
     if (cut.paths == 0)
         return "";
-    std::string text = fmt::format("cut      {} path{} ended by --max-depth: beside the error, the picture ",
-                                   cut.paths, cut.paths == 1 ? "" : "s");
+    std::string text = fmt::format(
+        "cut      {} of {} paths ended by --max-depth: beside the error, the picture ", cut.paths, cut.all);
     if (cut.relative_bound)
         return text + fmt::format("lacks up to {:.3g} % of its mean\n", 100 * *cut.relative_bound);
     if (cut.light_bound)
@@ -89,6 +90,7 @@ nlohmann::ordered_json cut_json(const CutPaths& cut) {
         return value ? Json(*value) : Json(nullptr);
     };
     return {{"paths", cut.paths},
+            {"of", cut.all},
             {"light_bound", number(cut.light_bound)},
             {"rel_light_bound", number(cut.relative_bound)}};
 }

@@ -151,7 +151,8 @@ TEST_F(ErrorReport, WhatMaxDepthCutsIsABiasBesideTheError) {
     EXPECT_GT(whole["cut"]["paths"], 0);
     EXPECT_NEAR(whole["cut"]["light_bound"], std::pow(0.98, 64), 0.05);
     EXPECT_EQ(whole["error"]["complete"], false);
-    EXPECT_TRUE(holds(result.out, {"cut      " + std::to_string(whole["cut"]["paths"].get<int>()),
+    EXPECT_TRUE(holds(result.out, {"cut      " + std::to_string(whole["cut"]["paths"].get<int>()) + " of " +
+                                       std::to_string(whole["cut"]["of"].get<int>()),
                                    " paths ended by --max-depth: beside the error, the picture lacks up to ",
                                    "the error covers what was sampled, not what was cut"}));
     EXPECT_EQ(ReadPicture(folder.file("a.exr")).spec.get_string_attribute("clrt.cut.paths"),

@@ -106,7 +106,7 @@ TEST(CutPaths, TheBoundIsTheMeanOverThePicture) {
     EXPECT_EQ(cut_paths(render, 10).light_bound, 2.5) << "2 of weight on 8 samples";
     EXPECT_EQ(cut_paths(render, 10).relative_bound, 1.25);
     EXPECT_EQ(cut_paths(render, std::nullopt).light_bound, std::nullopt);
-    EXPECT_NE(format_cut(cut_paths(render, 10)).find("3 paths ended by --max-depth"), std::string::npos);
+    EXPECT_NE(format_cut(cut_paths(render, 10)).find("3 of 8 paths ended by --max-depth"), std::string::npos);
     // An adaptive film, whose tiles have 2 to 6 samples.
     render.film.replicates = 2;
     render.film.sums.assign(12, 4);

@@ -367,7 +367,7 @@ TEST(MaterialRules, TheReflectanceOfTheDielectricPartCanBeGiven) {
     };
     const Material plain = with_f0("Kd 1\nPm 0\nPr 0.5\n", 0.2, nullptr);
     expect_colour(plain.specular, 0.2, 0.2, 0.2);
-    EXPECT_FLOAT_EQ(plain.matte.x, 0.8f);
+    EXPECT_EQ(plain.matte.x, 1.0f);
     const Material mixed = with_f0("Kd 0.6\nPm 0.5\nPr 0.5\n", 0.2, nullptr);
     expect_colour(mixed.specular, 0.4, 0.4, 0.4);
     const Material mapped = with_f0("Kd 0.6\nPm 0.5\nPr 0.5\n", 0.2, "f0.png");

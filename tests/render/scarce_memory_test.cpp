@@ -65,7 +65,7 @@ TEST(ScarceMemory, CostsLayersAndNeverThePicture) {
         FinalFiles files;
         successes_left = failed;
         const Report report{options, scene, effects, test_device().info,
-                            facts,   bvh,   render,  make_error_report(render, 0, 0),
+                            facts,   bvh,   render,  make_error_report(render, {}, 0, 0),
                             "",      {},    0,       0,
                             0};
         write_outputs(report, files);
