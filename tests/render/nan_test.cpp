@@ -41,7 +41,8 @@ std::vector<Value> light_values() {
 std::vector<Place> path_places() {
     const char* const file = "integrators/path.h";
     return {
-        {file, "const Surface surface = surface_at(scene, &path->hit, wo);", surface_values()},
+        {file, "const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);",
+         surface_values()},
         {file,
          "Bsdf bsdf = material_bsdf(scene, &surface, wo);",
          {{"bsdf.wo.z", {"glossy", "mirror", "glass", "rough glass"}},
@@ -58,7 +59,7 @@ std::vector<Place> path_places() {
          {{"path->throughput.y"}},
          Reached::IF_CONTINUED},
         {file,
-         "path->ray = ray_make(surface_origin(&surface, next.wi), next.wi);",
+         "path->ray = ray_make(surface_origin(&surface, next.reflects), next.wi);",
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
         {file,
@@ -68,23 +69,27 @@ std::vector<Place> path_places() {
     };
 }
 
-/// Those of the integrators that light locally; `file` has the rest of the vertex.
-std::vector<Place> direct_places(const char* file) {
-    return {{"integrators/direct.h",
-             "const LightSample light =\n            emitter_sample(scene, params, surface->position, "
-             "words.x, alias_word, sampler_unit(words.y));",
-             light_values(), Reached::IF_LIT},
-            {file, "const Surface surface = surface_at(scene, &hit, wo);", surface_values()},
-            {file,
-             "const Bsdf bsdf = material_bsdf(scene, &surface, wo);",
-             {{"bsdf.wo.z"},
-              {"bsdf.frame.z.y", {"matte", "glossy"}},
-              {"bsdf.matte.x", {"matte", "glossy"}},
-              {"bsdf.specular.y", {"glossy"}}}}};
+/// Those of the integrators that light locally; `file` has the rest of the vertex, from the statement `first`
+/// on.
+std::vector<Place> direct_places(const char* file, const char* first) {
+    return {
+        {"integrators/direct.h",
+         "const LightSample light =\n            emitter_sample(scene, params, from, words.x, alias_word, "
+         "sampler_unit(words.y));",
+         light_values(), Reached::IF_LIT},
+        {file, first, surface_values()},
+        {file,
+         "const Bsdf bsdf = material_bsdf(scene, &surface, wo);",
+         {{"bsdf.wo.z"},
+          {"bsdf.frame.z.y", {"matte", "glossy"}},
+          {"bsdf.matte.x", {"matte", "glossy"}},
+          {"bsdf.specular.y", {"glossy"}}}}};
 }
 
 std::vector<Place> whitted_places() {
-    std::vector<Place> places = direct_places("integrators/whitted.h");
+    std::vector<Place> places =
+        direct_places("integrators/whitted.h",
+                      "const Surface surface = visible_surface(scene, params, &current.ray, &hit);");
     places.push_back(
         {"integrators/whitted.h",
          "uint whitted_push(const RenderParams* params, WhittedRay child, WhittedRay* stack, uint top)\n{",
@@ -197,7 +202,9 @@ TEST(Nan, TheTreeOfRaysCountsItWhereverItArises) {
 }
 
 TEST(Nan, RayCastingCountsItWhereverItArises) {
-    expect_all_counted(Integrator::RAYCAST, direct_places("integrators/raycast.h"));
+    expect_all_counted(Integrator::RAYCAST,
+                       direct_places("integrators/raycast.h",
+                                     "const Surface surface = visible_surface(scene, params, &ray, &hit);"));
 }
 
 TEST(Nan, TheSideOfALampDoesNotHideIt) {

@@ -155,7 +155,7 @@ std::string SceneBuilder::obj(const std::string& library, double scale) const {
     std::string text = "mtllib " + library + "\n";
     for (const Statement& statement : statements_) {
         const glm::dvec3 p = glm::dvec3(glm::vec3(statement.position)) * scale; // exact for powers of two
-        text += statement.is_position ? fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z)
+        text += statement.is_position ? fmt::format("v {:.17g} {:.17g} {:.17g}\n", p.x, p.y, p.z)
                                       : statement.text + "\n";
     }
     return text;

@@ -153,7 +153,7 @@ void pdf_mass(CaseRun& run) {
     Figure& narrow = run.figure("the same of rough glass, and seen at a cosine of 0.05", 1e-3);
     const SphereCells cells(64, 64, 12);
     const std::vector<dvec3> nodes = cells.nodes();
-    const size_t count = run.count(1u << 18, 1u << 20, 1u << 22);
+    const size_t count = run.count(1u << 19, 1u << 20, 1u << 22);
     for_each_density([&](size_t set, const dvec3& wo) {
         BsdfInputs inputs; // Roberts' lattice
         for (size_t i = 0; i < count; ++i) {

@@ -19,11 +19,18 @@ const ProbedExpression SCHLICK = {"schlick", 2, 1, "out[0] = fresnel_schlick((re
                                   "out[0] = a + (REAL(1.0) - a) * pow(REAL(1.0) - b, REAL(5.0));"};
 
 /// What a sample's weight may reach: |a| + |b| for lobes chosen by their sizes, 1 for one lobe, eta^2 where
-/// radiance is compressed.
+/// radiance is compressed. Light that leaves after several facets is sampled uniformly: its weight is cos
+/// L(cos) over the mean of that, at most 2, where the loss L is flat; beside the first facet's reflection it
+/// is one lobe more, of at most the same size.
 double weight_bound(const LobeSet& set) {
+    const double peak = set.alpha_x > 0 ? 2 : 1;
     if (set.lobes & LOBE_DIELECTRIC)
-        return std::max(1.0, set.eta * set.eta);
-    return (set.lobes & LOBE_MATTE) && set.lobes != LOBE_MATTE ? glm::length(set.matte) + std::sqrt(3.0) : 1;
+        return peak * std::max(1.0, set.eta * set.eta);
+    const bool is_rough = (set.lobes & LOBE_GLOSSY) != 0;
+    if ((set.lobes & LOBE_MATTE) && set.lobes != LOBE_MATTE)
+        return is_rough ? peak * (glm::length(set.matte) + 2 * std::sqrt(3.0))
+                        : glm::length(set.matte) + std::sqrt(3.0);
+    return is_rough ? 2 * peak : 1;
 }
 
 void grazing_bsdfs(CaseRun& run) {
