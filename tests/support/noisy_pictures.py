@@ -13,7 +13,8 @@ sys.dont_write_bytecode = True
 TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools")
 sys.path.insert(0, TOOLS)
 
-from clrt_tools.picture_file import Picture, Window  # noqa: E402 (needs the path above)
+from clrt_tools.film_file import FORMAT_VERSION  # noqa: E402 (needs the path above)
+from clrt_tools.picture_file import Picture, Window  # noqa: E402
 
 REPLICATES = 8
 
@@ -58,7 +59,7 @@ def write_exr(path, mean, variance=None, samples=None, attributes=(), origin=(0,
     output.close()
 
 
-def film_bytes(sums, quantum, ranges, version=1, seed=0, window=None, size=None):
+def film_bytes(sums, quantum, ranges, version=FORMAT_VERSION, seed=0, window=None, size=None):
     """A film file as src/render/film_file.h describes it; sums: int64 (replicates, height, width, 3)."""
     replicates, height, width, _ = sums.shape
     header = json.dumps({

@@ -7,7 +7,7 @@ import struct
 import numpy
 
 MAGIC = b"CLRTFILM"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 CHECKSUM_BYTES = 16
 
 
