@@ -178,6 +178,10 @@ static inline real albedo_contrast(real eta)
     return real_sqrt(fabs(eta - REAL(1.0)) / ((eta + REAL(1.0)) * ALBEDO_LARGEST_CONTRAST));
 }
 
+/* Between the first contrasts, indices that differ by less than 1.4 %, the loss bends more than the table follows: head-on at
+   alpha 1 it gave 0.011 for 0.008. This share is taken off where the indices are equal, less and less up to the next node. */
+#define ALBEDO_DIELECTRIC_EXCESS REAL(0.25)
+
 /* What a dielectric boundary neither reflects nor refracts of light with this cosine; eta: index on the light's side over the
    index on the other. */
 static inline real albedo_dielectric_loss(const AlbedoRoughness* rough, real eta, real cos_w)
@@ -191,7 +195,8 @@ static inline real albedo_dielectric_loss(const AlbedoRoughness* rough, real eta
                                          ALBEDO_INSIDE_H_LOW)
                                    : fma(albedo_block(ALBEDO_OUTSIDE_H, first, slice, row, z, y, x),
                                          ALBEDO_OUTSIDE_H_STEP, ALBEDO_OUTSIDE_H_LOW);
-    return albedo_loss(h, cos_w, rough->alpha);
+    const real excess = z.node == 0u ? ALBEDO_DIELECTRIC_EXCESS * (REAL(1.0) - z.part) : REAL(0.0);
+    return albedo_loss(h, cos_w, rough->alpha) * (REAL(1.0) - excess);
 }
 
 /* Its mean. */

@@ -218,3 +218,14 @@ TEST(BsdfEnergy, NothingIsLostWhereNothingAbsorbs) {
             << made.keys << "wo " << wo.x << " " << wo.y << " " << wo.z;
     });
 }
+
+TEST(BsdfEnergy, GlassOfAnyIndexMakesNoLight) {
+    Materials materials(1);
+    for (const double index : {1.001, 1.01, 1.03, 1.05, 1.08, 1.1, 1.3, 1.5, 2.4})
+        for (const double roughness : {0.0317, 0.1, 0.2, 0.32, 0.45, 0.58, 0.7, 0.84, 1.0})
+            for (const double ni : {index, 1 / index})
+                materials.add(fmt::format("illum 7\nNi {:.6f}\nPr {}\n", ni, roughness));
+    materials.for_each([&](const Case& made, const dvec3& wo, const dvec3& albedo) {
+        EXPECT_LE(albedo.x, MOST + LATTICE_ERROR) << made.keys << "wo " << wo.x << " " << wo.y << " " << wo.z;
+    });
+}
