@@ -41,8 +41,8 @@ void set_driver_environment(const Options& options);
 bool driver_caches_programs(const DeviceInfo& device);
 
 /// All platforms in `clinfo -l` order. Empty and failing platforms are listed with a note, never thrown.
-/// No ICD loader entry at all gives an empty list. Throws DeviceError where a limit of the address space leaves
-/// drivers too little (address_space.h).
+/// No ICD loader entry at all gives an empty list. Throws DeviceError where a limit of the address space
+/// leaves drivers too little (address_space.h).
 std::vector<PlatformInfo> list_platforms();
 
 /// The table that --list-devices prints, one line a device, notes below.

@@ -41,7 +41,7 @@ BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const Render
 /// What --max-depth cut from a picture.
 struct CutPaths {
     std::uint64_t paths = 0;
-    std::uint64_t all = 0; ///< paths of the film
+    std::uint64_t all = 0;                ///< paths of the film
     std::optional<double> light_bound;    ///< mean radiance over pixels and channels; 0 where nothing was cut
     std::optional<double> relative_bound; ///< the same over the picture's mean; none of a black picture
 };

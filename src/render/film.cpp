@@ -27,7 +27,8 @@ double brightest_disc(const Scene& scene) {
     double brightest = 0;
     for (const Light& light : scene.lights)
         if (light.kind == LIGHT_SUN)
-            brightest = std::max(brightest, largest_component({light.emission.x, light.emission.y, light.emission.z}));
+            brightest = std::max(brightest,
+                                 largest_component({light.emission.x, light.emission.y, light.emission.z}));
     return brightest;
 }
 
