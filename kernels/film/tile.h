@@ -36,7 +36,7 @@ static inline uint tile_launch_slot(void)
     return group * TILE_PIXELS + (uint)(get_local_id(1) * TILE_SIZE + get_local_id(0));
 }
 
-/* Where a slot begins in an array of `words` a slot: three words of 1.4 billion pixels are beyond 32 bits. */
+/* Where a slot begins in an array of `words` a slot: six words of 716 million pixels are beyond 32 bits. */
 static inline ulong tile_index(uint slot, uint words)
 {
     return (ulong)words * slot;

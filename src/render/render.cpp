@@ -296,7 +296,7 @@ void Passes::measure() {
     const auto start = Clock::now();
     film_buffers_.read_sums(result_);
     last_error_ = film_squared_error(result_.film);
-    // Beside the sums of all replicates, three words a pixel are read in no time.
+    // Beside the sums of all replicates, a few words a pixel are read in no time.
     const RenderCounts counts = film_buffers_.read_counts();
     const std::uint64_t samples = film_all_samples(result_.film) - earlier_samples_;
     if (samples > 0)

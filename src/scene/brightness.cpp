@@ -54,13 +54,14 @@ std::pair<double, double> texel_range(const Scene& scene, const Texture& texture
     return {as_float(scene.texel_words[low]), as_float(scene.texel_words[high])}; // the sRGB curve
 }
 
-/// The largest value of a map, which multiplies a colour; 1 without a map.
+/// The largest value of a map that multiplies a reflectance, at most 1 as in kernels/scattering/material.h; 1
+/// without a map.
 double largest_factor(const Scene& scene, u32 map) {
     if (map == NO_INDEX)
         return 1;
     const Texture& texture = scene.textures[map];
     const auto [low, high] = texel_range(scene, texture);
-    return std::max(0.0, texture.base + std::max(texture.gain * low, texture.gain * high));
+    return std::clamp(texture.base + std::max(texture.gain * low, texture.gain * high), 0.0, 1.0);
 }
 
 double albedo(const Scene& scene, const Material& m) {

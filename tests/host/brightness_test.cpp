@@ -43,7 +43,7 @@ TEST(Brightness, TheLargestAlbedoIsThatOfTheUsedMaterials) {
 TEST(Brightness, MapsCount) {
     Floor mapped("Kd 0.5 0.5 0.5\nmap_Kd k.exr");
     mapped.texture("k.exr", 2, 1, 3, {0.1f, 0.2f, 0.3f, 0.4f, 1.5f, 0.2f});
-    EXPECT_FLOAT_EQ(float(mapped.albedo()), 0.75f);
+    EXPECT_FLOAT_EQ(float(mapped.albedo()), 0.5f) << "values above 1 count as 1, as in the kernels";
     Floor bytes("Kd 0.5 0.5 0.5\nmap_Kd k.png");
     bytes.texture8("k.png", 2, 1, 3, {10, 20, 30, 188, 0, 0}); // sRGB 188 is about 0.503
     EXPECT_NEAR(bytes.albedo(), 0.2515, 0.001);
