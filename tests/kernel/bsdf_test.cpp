@@ -2,6 +2,7 @@
 // scattering/bsdf.h and the lobes below it: formulas in double precision, sample against eval, reciprocity,
 // energy.
 #include "support/bsdf_probe.h"
+#include "support/bsdf_reference.h"
 #include "support/reference.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
@@ -29,112 +30,6 @@ double tolerance(const LobeSet& set, const dvec3& wo, const dvec3& wi) {
 BsdfProbe& probe() {
     static BsdfProbe instance;
     return instance;
-}
-
-struct Reference {
-    dvec3 value{0};
-    double pdf_w = 0;
-};
-
-dvec3 reflection_color(const LobeSet& set, double cosine) {
-    const auto channel = [&](double f0) {
-        return set.fresnel == FRESNEL_SCHLICK ? reference::fresnel_schlick(f0, cosine) : f0;
-    };
-    return {channel(set.specular.x), channel(set.specular.y), channel(set.specular.z)};
-}
-
-/// Walter et al. 2007, eqs. 20, 21, 14 and 17, with |cos_i| inside and radiance scaled by eta^2.
-Reference rough_dielectric(const LobeSet& set, const dvec3& wo, const dvec3& wi) {
-    dvec3 h = wi.z > 0 ? wo + wi : set.eta * wo + wi;
-    h = glm::normalize(h.z < 0 ? -h : h);
-    const double oh = glm::dot(wo, h), ih = glm::dot(wi, h);
-    if (oh <= 0 || ih * wi.z <= 0)
-        return {};
-    const double f = reference::fresnel_dielectric(oh, set.eta),
-                 d = reference::ggx_d(h, set.alpha_x, set.alpha_y);
-    const double g1 = reference::ggx_g1(wo, set.alpha_x, set.alpha_y);
-    const double g2 = reference::ggx_g2(wo, wi, set.alpha_x, set.alpha_y);
-    const double visible = g1 * oh * d / wo.z;
-    if (wi.z > 0)
-        return {set.specular * (f * d * g2 / (4 * wo.z * wi.z) * wi.z), f * visible / (4 * oh)};
-    const double denominator = std::pow(set.eta * oh + ih, 2);
-    // (index on wi's side)^2 of eq. 21 is 1 where eta is the index on wo's side.
-    const double btdf = std::abs(oh * ih) / std::abs(wo.z * wi.z) * (1 - f) * g2 * d / denominator;
-    return {set.transmission * (btdf * std::abs(wi.z) * set.eta * set.eta),
-            (1 - f) * visible * std::abs(ih) / denominator};
-}
-
-/// Colour of the light that meets more than one facet (Kulla and Conty 2017), by the mean loss.
-dvec3 multiple_color(const LobeSet& set, double mean_loss) {
-    const dvec3 f =
-        set.fresnel == FRESNEL_SCHLICK ? set.specular + (dvec3(1) - set.specular) / 21.0 : set.specular;
-    return f * f * (1 - mean_loss) / (dvec3(1) - f * mean_loss);
-}
-
-bool is_coupled(const LobeSet& set) {
-    return (set.lobes & LOBE_MATTE) && (set.lobes & ~LOBE_MATTE) && set.fresnel == FRESNEL_SCHLICK;
-}
-
-/// 1 - E of the reflection above the matte lobe: what one facet, Schlick's part and more facets leave.
-dvec3 passing(const LobeSet& set, double loss, double schlick, double mean_loss) {
-    const dvec3 one(1), multiple = mean_loss > 0 ? multiple_color(set, mean_loss) : dvec3(0);
-    return one - set.specular * (1 - loss) - (one - set.specular) * schlick - multiple * loss;
-}
-
-/// Albedo of the matte lobe beside the others.
-dvec3 matte_albedo(const LobeSet& set, const AlbedoSample& o) {
-    return is_coupled(set) ? set.matte * passing(set, o.loss, o.schlick, o.mean_loss) : set.matte;
-}
-
-/// What the facets of a rough dielectric do not send on, leaves on both sides: the reflected share by which
-/// the squared index times the transmission is the same both ways.
-double multiple_reflects(double eta, double here, double there) {
-    const double n = std::max(eta, 1 / eta), outside = (n - 1) / (4.08567 + 1.00071 * n);
-    const double crossing = eta > 1 ? (1 - outside) / (n * n) : 1 - outside;
-    return 1 - crossing * there / std::max(here, there);
-}
-
-Reference dielectric_eval(const LobeSet& set, const dvec3& wo, const dvec3& wi, const AlbedoSample& o,
-                          const AlbedoSample& i, double there) {
-    Reference sum = rough_dielectric(set, wo, wi);
-    const double reflects = multiple_reflects(set.eta, o.mean_loss, there),
-                 side = wi.z > 0 ? reflects : 1 - reflects;
-    const dvec3 color = wi.z > 0 ? set.specular : set.transmission * (set.eta * set.eta);
-    sum.value += color * (side * o.loss * i.loss / i.mean_loss * std::abs(wi.z) / PI);
-    sum.pdf_w = (1 - o.loss) * sum.pdf_w + o.loss * side / (2 * PI);
-    return sum;
-}
-
-/// `there`: the mean loss on the other side of a dielectric.
-Reference reference_eval(const LobeSet& set, const dvec3& wo, const dvec3& wi, const AlbedoSample& o,
-                         const AlbedoSample& i, double there) {
-    if (set.lobes == LOBE_DIELECTRIC)
-        return dielectric_eval(set, wo, wi, o, i, there);
-    if (wi.z <= 0)
-        return {};
-    const bool has_matte = set.lobes & LOBE_MATTE;
-    const bool glossy = set.lobes & LOBE_GLOSSY;
-    const dvec3 more = glossy ? multiple_color(set, o.mean_loss) : dvec3(0);
-    const double matte = has_matte ? glm::length(matte_albedo(set, o)) : 0;
-    const double reflection = set.lobes == LOBE_MATTE ? 0 : glm::length(reflection_color(set, wo.z));
-    const double multiple = glm::length(more) * o.loss, sizes = matte + reflection + multiple;
-    const double choose_matte = matte / sizes, choose_multiple = multiple / sizes;
-    Reference sum{set.matte * (wi.z / PI), choose_matte * wi.z / PI};
-    if (is_coupled(set))
-        sum.value *= passing(set, o.loss, o.schlick, o.mean_loss) *
-                     passing(set, i.loss, i.schlick, o.mean_loss) /
-                     passing(set, o.mean_loss, o.mean_schlick, o.mean_loss);
-    if (glossy) {
-        sum.value += more * (o.loss * i.loss / o.mean_loss * wi.z / PI);
-        sum.pdf_w += choose_multiple / (2 * PI);
-        const dvec3 h = glm::normalize(wo + wi);
-        const double d = reference::ggx_d(h, set.alpha_x, set.alpha_y);
-        const double g1 = reference::ggx_g1(wo, set.alpha_x, set.alpha_y);
-        const double g2 = reference::ggx_g2(wo, wi, set.alpha_x, set.alpha_y);
-        sum.value += reflection_color(set, glm::dot(wo, h)) * (d * g2 / (4 * wo.z));
-        sum.pdf_w += (1 - choose_matte - choose_multiple) * g1 * d / (4 * wo.z);
-    }
-    return sum;
 }
 
 std::vector<LobeSet> smooth_sets() {
@@ -176,38 +71,6 @@ Moments energy(const BsdfSamples& samples, double eta) {
     return moments_of(weights);
 }
 
-/// The same by quadrature over visible normals, in double: F G2 / G1 where the reflection leaves above the
-/// surface, (1 - F) G2 / G1 where the refraction leaves below.
-double reference_energy(const LobeSet& set, const dvec3& wo, size_t radii, size_t angles) {
-    double sum = 0;
-    for (size_t i = 0; i < radii; ++i)
-        for (size_t j = 0; j < angles; ++j) {
-            const double q = (double(i) + 0.5) / double(radii) * PI / 2,
-                         phi = (double(j) + 0.5) / double(angles) * 2 * PI;
-            const double r = std::tan(q);
-            const dvec3 h =
-                glm::normalize(dvec3(set.alpha_x * r * std::cos(phi), set.alpha_y * r * std::sin(phi), 1));
-            const double oh = glm::dot(wo, h);
-            if (oh <= 0)
-                continue;
-            const double jacobian =
-                set.alpha_x * set.alpha_y * r * std::pow(h.z, 3) / std::pow(std::cos(q), 2);
-            const double density = oh * reference::ggx_d(h, set.alpha_x, set.alpha_y) / wo.z * jacobian;
-            const double f = set.lobes == LOBE_DIELECTRIC ? reference::fresnel_dielectric(oh, set.eta)
-                                                          : reflection_color(set, oh).x;
-            const dvec3 mirrored = 2 * oh * h - wo;
-            if (mirrored.z > 0)
-                sum += density * f * reference::ggx_g2(wo, mirrored, set.alpha_x, set.alpha_y);
-            const double cos_t_squared = 1 - set.eta * set.eta * (1 - oh * oh);
-            if (set.lobes != LOBE_DIELECTRIC || cos_t_squared <= 0)
-                continue;
-            const dvec3 refracted = h * (set.eta * oh - std::sqrt(cos_t_squared)) - set.eta * wo;
-            if (refracted.z < 0)
-                sum += density * (1 - f) * reference::ggx_g2(wo, refracted, set.alpha_x, set.alpha_y);
-        }
-    return sum * (PI / 2 / double(radii)) * (2 * PI / double(angles));
-}
-
 bool is_finite(const dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -222,7 +85,8 @@ TEST(Bsdf, ValueAndDensityAreTheTextbooks) {
         const std::vector<AlbedoSample> from = probe().albedos(set, wo), to = probe().albedos(set, wi);
         const double there = probe().albedos(set, {{0, 0, -1}})[0].mean_loss;
         for (size_t i = 0; i < COUNT; ++i) {
-            const Reference exact = reference_eval(set, wo[i], wi[i], from[i], to[i], there);
+            const reference::BsdfReference exact =
+                reference::bsdf_eval(set, wo[i], wi[i], from[i], to[i], there);
             // Where the microfacet is seen edge-on, the sign of a cosine is decided by rounding.
             if (set.lobes == LOBE_DIELECTRIC && (got.pdf_w[i] == 0) != (exact.pdf_w == 0)) {
                 ASSERT_LT(std::max(got.pdf_w[i], exact.pdf_w), 1e-3) << set.name;
@@ -316,7 +180,7 @@ TEST(Bsdf, MatteAndMirrorLobesReturnTheirColourExactly) {
         ASSERT_EQ(reflected.weight[i], mirror.specular);
         ASSERT_EQ(reflected.pdf_w[i], 0);
         ASSERT_LE(glm::length(reflected.wi[i] - dvec3(-wo[i].x, -wo[i].y, wo[i].z)), 16 * FLOAT_U);
-        ASSERT_LE(glm::length(tinted.weight[i] - reflection_color(schlick, wo[i].z)), 1e-6);
+        ASSERT_LE(glm::length(tinted.weight[i] - reference::reflection_color(schlick, wo[i].z)), 1e-6);
     }
 }
 
@@ -327,14 +191,16 @@ TEST(Bsdf, AMirrorBesideAMatteLobeSharesTheSamples) {
         const LobeSet set = lobe_set(name);
         const BsdfSamples samples = probe().sample(set, wo, u);
         for (size_t i = 0; i < COUNT; ++i) {
-            const dvec3 color = reflection_color(set, wo[i].z);
+            const dvec3 color = reference::reflection_color(set, wo[i].z);
             // Below Schlick's mirror (1 - E) (1 - E') / mean(1 - E), and 1 - E = (1 - F0) (1 - (1 - cos)^5).
             const auto left = [&](double cosine) {
-                return is_coupled(set) ? 1 - std::pow(1 - cosine, 5) : 1.0;
+                return reference::is_coupled(set) ? 1 - std::pow(1 - cosine, 5) : 1.0;
             };
-            const dvec3 seen =
-                is_coupled(set) ? set.matte * (dvec3(1) - set.specular) * left(wo[i].z) : set.matte;
-            const dvec3 matte = is_coupled(set) ? seen * left(samples.wi[i].z) * (21.0 / 20) : seen;
+            const dvec3 seen = reference::is_coupled(set)
+                                   ? set.matte * (dvec3(1) - set.specular) * left(wo[i].z)
+                                   : set.matte;
+            const dvec3 matte =
+                reference::is_coupled(set) ? seen * left(samples.wi[i].z) * (21.0 / 20) : seen;
             const double choose_matte = glm::length(seen) / (glm::length(seen) + glm::length(color));
             const bool spread = samples.pdf_w[i] > 0;
             ASSERT_TRUE(std::abs(u[i].x - choose_matte) < 1e-6 || spread == (u[i].x < choose_matte)) << name;
@@ -382,8 +248,9 @@ TEST(Bsdf, EnergyIsNeverGainedAndIsThatOfTheQuadrature) {
             EXPECT_LE(got.mean, 1 + 1e-3 + 6 * std::sqrt(got.variance_of_mean())) << set.name;
             // 2e-4: the quadrature's error where directions disappear below the horizon.
             const AlbedoSample o = probe().albedos(set, {wo})[0];
-            const double more = set.lobes == LOBE_DIELECTRIC ? 1 : multiple_color(set, o.mean_loss).x;
-            const double expected = reference_energy(set, wo, 512, 512) + more * o.loss;
+            const double more =
+                set.lobes == LOBE_DIELECTRIC ? 1 : reference::multiple_color(set, o.mean_loss).x;
+            const double expected = reference::first_facet_albedo(set, wo, 512, 512) + more * o.loss;
             EXPECT_NEAR(got.mean, expected, 2e-4 + 6 * std::sqrt(got.variance_of_mean()))
                 << set.name << " cos " << z;
         }
@@ -402,8 +269,9 @@ TEST(Bsdf, SumsOfLobesReflectTheSumOfTheirEnergies) {
             const Moments got = energy(probe().sample(set, repeated(wo, COUNT), u), 1);
             const AlbedoSample o = probe().albedos(set, {wo})[0];
             EXPECT_NEAR(got.mean,
-                        matte_albedo(set, o).x + multiple_color(set, o.mean_loss).x * o.loss +
-                            reference_energy(glossy, wo, 512, 256),
+                        reference::matte_albedo(set, o).x +
+                            reference::multiple_color(set, o.mean_loss).x * o.loss +
+                            reference::first_facet_albedo(glossy, wo, 512, 256),
                         2e-4 + 6 * std::sqrt(got.variance_of_mean()))
                 << name << " cos " << z;
         }
