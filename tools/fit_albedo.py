@@ -25,6 +25,7 @@ LARGEST_CONTRAST = 0.45   # of the indices, |eta - 1| / (eta + 1): beyond eta = 
 TOLERANCE = 2e-4
 TOLERANCE_STRETCHED = -5e-4  # too few nodes to check all the places between them
 CODE_MAX = 65535
+WIDTH = 124               # columns of a table's lines
 KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "kernels", "scattering")
 
 
@@ -229,8 +230,8 @@ def means(table, shape, place, places, seed, turns=1):
     return loss.reshape(shape), lower(exact[:, 1], shape, between, checked[:, 1]).reshape(shape)
 
 
-def rows(codes, width):
-    """Numbers in lines of at most 120 columns."""
+def rows(codes, width=WIDTH):
+    """Numbers in lines of at most `width` columns."""
     lines, line = [], "   "
     for code in codes:
         if len(line) + len(code) + 2 > width:
@@ -244,11 +245,11 @@ def code_text(table, which):
     codes, low, step = getattr(table, "code_" + which)
     name = "ALBEDO_%s_%s" % (table.name, which.upper())
     return "#define %s_LOW REAL(%r)\n#define %s_STEP REAL(%r)\nconstant ushort %s[] = {\n%s};\n" % (
-        name, low, name, step, name, rows(["%d" % code for code in codes.ravel()], 120))
+        name, low, name, step, name, rows(["%d" % code for code in codes.ravel()]))
 
 
 def mean_text(name, values):
-    return "constant float ALBEDO_%s[] = {\n%s};\n" % (name, rows(["%.6ef" % v for v in values.ravel()], 120))
+    return "constant float ALBEDO_%s[] = {\n%s};\n" % (name, rows(["%.6ef" % v for v in values.ravel()]))
 
 
 def write(name, summary, text):
