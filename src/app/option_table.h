@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every option once: its names, its help, and how its value enters Options. The command line, the options
-// file and
-// --help are all read from this table.
+// Every option once: its names, its help, and how its value enters Options. The command line, the options file
+// and --help are all read from this table.
 #pragma once
 
 #include "app/option_values.h"

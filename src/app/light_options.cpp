@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of the group "Light".
+#include "app/option_rows.h"
+
+namespace clrt {
+
+namespace {
+
+bool is_colour(const glm::dvec3& c) {
+    return c.x >= 0 && c.y >= 0 && c.z >= 0;
+}
+
+void apply_environment(Options& o, const OptionValue& v) {
+    o.light.environment_file.clear();
+    o.light.environment.reset();
+    if (!looks_like_numbers(v.text)) {
+        o.light.environment_file = parse_path(v);
+        return;
+    }
+    const std::string expected = "an image file or a radiance r,g,b of numbers from 0";
+    const glm::dvec3 radiance = parse_vector(v, expected);
+    if (!is_colour(radiance))
+        reject_value(v, expected);
+    o.light.environment = radiance;
+}
+
+void apply_sun(Options& o, const OptionValue& v) {
+    const std::string expected =
+        "x,y,z,r,g,b[,deg]: a direction other than 0,0,0, an irradiance of numbers from 0, "
+        "and a diameter from 0 to 90 degrees";
+    const std::vector<double> n = parse_numbers(v, 6, 7, expected);
+    const SunOptions sun{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n.size() == 7 ? n[6] : 0};
+    const bool diameter_fits = sun.diameter_degrees >= 0 && sun.diameter_degrees <= 90;
+    if (sun.towards == glm::dvec3(0) || !is_colour(sun.irradiance) || !diameter_fits)
+        reject_value(v, expected);
+    o.light.suns.push_back(sun);
+}
+
+void apply_point(Options& o, const OptionValue& v) {
+    const std::string expected = "x,y,z,r,g,b: a position and an intensity of numbers from 0";
+    const std::vector<double> n = parse_numbers(v, 6, 6, expected);
+    const PointOptions point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    if (!is_colour(point.intensity))
+        reject_value(v, expected);
+    o.light.points.push_back(point);
+}
+
+} // namespace
+
+std::vector<OptionSpec> light_options() {
+    const char* const group = "Light";
+    return {
+        {group, "", "--env", "FILE|R,G,B",
+         "environment: a latitude-longitude picture or one radiance (default 1,1,1 where nothing else gives "
+         "light)",
+         apply_environment},
+        {group, "", "--env-scale", "X", "factor on the environment's radiance (default 1)",
+         [](Options& o, const OptionValue& v) {
+             o.light.environment_scale = parse_number(v, "a factor from 0", not_negative);
+         }},
+        {group, "", "--env-rotate", "DEG", "turn of the environment about +Y, degrees (default 0)",
+         [](Options& o, const OptionValue& v) {
+             o.light.environment_rotation_degrees = parse_number(v, "an angle in degrees");
+         }},
+        {group, "", "--sun", "X,Y,Z,R,G,B[,DEG]",
+         "direction to the sun, irradiance, angular diameter in degrees; repeatable", apply_sun, REPEATABLE},
+        {group, "", "--point", "X,Y,Z,R,G,B", "point light: position, intensity in W/sr; repeatable",
+         apply_point, REPEATABLE},
+        {group, "", "--two-sided-lights", "", "emissive faces shine on both sides (default: on their front)",
+         [](Options& o, const OptionValue&) { o.light.two_sided = true; }},
+    };
+}
+
+} // namespace clrt

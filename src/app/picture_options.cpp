@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of the group "Picture".
+#include "app/layer_option.h"
+#include "app/option_rows.h"
+#include "output/image.h"
+
+namespace clrt {
+
+namespace {
+
+/// Stops: 2^100 times any float radiance still is a double.
+constexpr double LARGEST_EXPOSURE = 100;
+/// Pixels; a wider filter is a blurred picture.
+constexpr double LARGEST_FILTER_RADIUS = 100;
+
+void apply_filter(Options& o, const OptionValue& v) {
+    const size_t colon = v.text.find(':');
+    OptionValue name = v, radius = v;
+    name.text = v.text.substr(0, colon);
+    o.filter = parse_choice<Filter>(
+        name, {{"box", Filter::BOX}, {"tent", Filter::TENT}, {"gaussian", Filter::GAUSSIAN}});
+    o.filter_radius.reset();
+    if (colon == std::string::npos)
+        return;
+    radius.text = v.text.substr(colon + 1);
+    o.filter_radius = parse_number(radius, "a radius in pixels above 0 and up to 100 after the ':'",
+                                   [](double r) { return r > 0 && r <= LARGEST_FILTER_RADIUS; });
+}
+
+void apply_output(Options& o, const OptionValue& v) {
+    const std::string path = parse_path(v);
+    if (!is_output_path(path))
+        reject_value(v, std::string("a file name that ends in ") + OUTPUT_EXTENSIONS);
+    o.outputs.push_back(path);
+}
+
+} // namespace
+
+std::vector<OptionSpec> picture_options() {
+    const char* const group = "Picture";
+    return {
+        {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",
+         [](Options& o, const OptionValue& v) { o.size = parse_size(v); }},
+        {group, "o", "--output", "FILE",
+         ".png .jpg .bmp .tga .ppm (8-bit sRGB), .exr .hdr .pfm .tif (linear); repeatable (default SCENE.png "
+         "in the current folder)",
+         apply_output, REPEATABLE},
+        {group, "", "--crop", "X0,Y0,X1,Y1",
+         "render this window only; pixels from the top left, end excluded",
+         [](Options& o, const OptionValue& v) { o.crop = parse_crop(v); }},
+        {group, "", "--filter", "NAME[:RADIUS]",
+         "box, tent or gaussian; radius in pixels (default box; radius 0.5, 1 or 1.5)", apply_filter},
+        {group, "", "--exposure", "EV", "brighten 8-bit pictures by 2^EV (default 0)",
+         [](Options& o, const OptionValue& v) {
+             o.exposure_ev = parse_number(v, "stops from -100 to 100", [](double ev) {
+                 return ev >= -LARGEST_EXPOSURE && ev <= LARGEST_EXPOSURE;
+             });
+         }},
+        {group, "", "--tonemap", "NAME", "curve of 8-bit pictures: none, reinhard or aces (default none)",
+         [](Options& o, const OptionValue& v) {
+             o.tonemap = parse_choice<Tonemap>(
+                 v, {{"none", Tonemap::NONE}, {"reinhard", Tonemap::REINHARD}, {"aces", Tonemap::ACES}});
+         }},
+        {group, "", "--aov", "LIST",
+         "layers of EXR files, such as albedo,N or none: albedo N Z P objectId materialId variance samples "
+         "badSamples alpha, and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable "
+         "(default: all but alpha, badSamples where there are any)",
+         apply_aov, REPEATABLE},
+    };
+}
+
+} // namespace clrt

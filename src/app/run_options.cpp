@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of the group "Runs".
+#include "app/option_rows.h"
+
+#include <cctype>
+
+namespace clrt {
+
+namespace {
+
+void no_effect(Options&, const OptionValue&) {}
+
+/// FILE or FILE,DURATION: a comma in the name counts where no digit follows it.
+void apply_checkpoint(Options& o, const OptionValue& v) {
+    const size_t comma = v.text.rfind(',');
+    const bool has_interval = comma != std::string::npos && comma + 1 < v.text.size() &&
+                              std::isdigit(static_cast<unsigned char>(v.text[comma + 1]));
+    OptionValue path = v, interval = v;
+    path.text = has_interval ? v.text.substr(0, comma) : v.text;
+    o.checkpoint_path = parse_path(path);
+    o.checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;
+    if (!has_interval)
+        return;
+    interval.text = v.text.substr(comma + 1);
+    o.checkpoint_seconds = parse_duration(interval);
+}
+
+Toggle parse_toggle(const OptionValue& v) {
+    return parse_choice<Toggle>(v, {{"auto", Toggle::AUTO}, {"on", Toggle::ON}, {"off", Toggle::OFF}});
+}
+
+} // namespace
+
+std::vector<OptionSpec> run_options() {
+    const char* const group = "Runs";
+    return {
+        {group, "", "--checkpoint", "FILE[,TIME]",
+         "write a film file, from which --resume goes on and which clrt-merge merges, at the end and so "
+         "often "
+         "(default: none; every 5m)",
+         apply_checkpoint},
+        {group, "", "--resume", "FILE",
+         "go on from a film file: with the same command, or alone with another --spp, --time or --error",
+         [](Options& o, const OptionValue& v) { o.resume_path = parse_path(v); }, Repeat::NO,
+         COMMAND_LINE_ONLY},
+        {group, "", "--save-every", "DURATION",
+         "write the pictures so far so often (default: at the end only)",
+         [](Options& o, const OptionValue& v) { o.save_every_seconds = parse_duration(v); }},
+        {group, "", "--kernels", "DIR", "take the kernels from here (default: those inside clrt)",
+         [](Options& o, const OptionValue& v) { o.kernels_folder = parse_path(v); }},
+        {group, "", "--dump-kernels", "DIR", "write here exactly what is compiled",
+         [](Options& o, const OptionValue& v) { o.dump_folder = parse_path(v); }},
+        {group, "", "--cache", "MODE",
+         "keep compiled kernels: on; auto: unless the driver does; off: neither (default auto)",
+         [](Options& o, const OptionValue& v) { o.cache = parse_toggle(v); }},
+        {group, "", "--no-cache", "", "same as --cache off",
+         [](Options& o, const OptionValue&) { o.cache = Toggle::OFF; }},
+        {group, "", "--cache-dir", "DIR", "where to keep them (default: clrt in the user's cache folder)",
+         [](Options& o, const OptionValue& v) { o.cache_folder = parse_path(v); }},
+        {group, "", "--progress", "MODE",
+         "auto (a line on a terminal, else one now and then), on, off (default auto)",
+         [](Options& o, const OptionValue& v) { o.progress = parse_toggle(v); }},
+        {group, "q", "--quiet", "", "errors only, no progress",
+         [](Options& o, const OptionValue&) { o.verbosity = -1; }},
+        {group, "v", "--verbose", "", "say everything",
+         [](Options& o, const OptionValue&) { o.verbosity = 1; }},
+        {group, "", "--no-sidecar", "", "leave the options file SCENE.clrt unread",
+         [](Options& o, const OptionValue&) { o.no_sidecar = true; }, Repeat::NO, COMMAND_LINE_ONLY},
+        {group, "h", "--help", "", "print this page and exit", no_effect, Repeat::NO, COMMAND_LINE_ONLY},
+        {group, "", "--version", "", "print the version and exit", no_effect, Repeat::NO, COMMAND_LINE_ONLY},
+    };
+}
+
+} // namespace clrt
