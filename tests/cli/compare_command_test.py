@@ -2,6 +2,7 @@
 """The command clrt-compare: exit codes, what it prints and writes, odd files."""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -89,6 +90,13 @@ class CompareCommand(unittest.TestCase):
             self.assertLess(content["smallest_p"], 0.01)
             self.assertEqual(content["rejected_tiles"], 4)
 
+    def test_says_its_version_and_helps(self):
+        self.assertRegex(self.run_command("--version")[1], r"^clrt-compare \d+\.\d+\.\d+\n$")
+        page = self.run_command("--help")[1]
+        self.assertEqual(re.findall(r"(?m)^([A-Z][a-z ]+):$", page), ["Example", "Arguments", "Options", "Exit codes"])
+        self.assertEqual(re.findall(r"(?m)^  (\d+) ", page), ["0", "1", "5", "2"])
+        self.assertIn("nearest is --margin", self.run_command("--margn", "1%")[2])
+
     def test_the_drawing_is_written_whole(self):
         a, b = self.exr("a.exr"), self.exr("b.exr", 1.1, seed=1)
         for show in ("signed", "error"):
@@ -135,6 +143,7 @@ class CompareCommand(unittest.TestCase):
                           (a, a, "--tile", "0"), (a, a, "--scale", "nan"), (a, a, "--unknown"), (a, a, "-o", "d.xyz")):
             code, _, error = self.run_command(*arguments)
             self.assertEqual((code, bool(error)), (USAGE, True), arguments)
+            self.assertTrue(error.startswith("clrt-compare: error: ") and error.count("\n") == 1, error)
         self.assertEqual(self.run_command("--help")[0], 0)
 
 
