@@ -143,7 +143,8 @@ class CompareCommand(unittest.TestCase):
     def test_an_8_bit_picture_is_no_half_and_no_equivalent_of_a_float_one(self):
         level = ((128 / 255 + 0.055) / 1.055) ** 2.4
         png, exr = self.display("a.png", numpy.full(SIZE, 128 / 255)), self.exr("a.exr", level, 1e-4)
-        self.assertEqual(self.run_command(exr, png)[0], UNDECIDED)
+        code, out, _ = self.run_command(exr, png)
+        self.assertEqual((code, "hint" in out, "compare EXR or film files" in out.splitlines()[-1]), (UNDECIDED, False, True), out)
         code, _, error = self.run_command(exr, png, "--halves", png)
         self.assertEqual((code, "--halves" in error), (USAGE, True), error)
 

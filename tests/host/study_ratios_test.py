@@ -152,6 +152,8 @@ class Words(unittest.TestCase):
         self.assertRegex(self.headline({**double, "second": 0.14}), r"Double precision buys nothing: the same error in 1\.4 times "
                                                                     r"\(1\.\d - 1\.\d\) the seconds\.")
         self.assertIn("Double precision buys nothing: the same error in about the same time", self.headline(double))
+        uncertain = self.headline({**double, "jitter": 0.3})
+        self.assertIn("Double precision buys nothing: the same error in about the same time", uncertain)
         self.assertIn("Double precision takes 0.5 times", self.headline({**double, "second": 0.05}))
         self.assertIn("Double precision gives 0.5 times", self.headline({**double, "error": 0.4}))
 

@@ -3,8 +3,10 @@
 import os
 import sys
 import tempfile
+import time
 import types
 import unittest
+import unittest.mock
 
 import numpy
 import OpenImageIO
@@ -41,6 +43,18 @@ class Sweep(unittest.TestCase):
         options.quick = False
         every = study_runs.combinations(options)
         self.assertEqual((every[:4], len(every), len(set(every))), (one_change, 8, 8))
+
+
+class ARun(unittest.TestCase):
+    def test_is_ended_when_its_time_is_over(self):
+        fake = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support", "fake_clrt.py")
+        settings = {"FAKE_CLRT_SAMPLES": "1e9", "FAKE_CLRT_START": "60"}
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, settings):
+            runner = study_runs.Runner(fake, "scene.obj", folder)
+            begin = time.monotonic()
+            with self.assertRaises(study_runs.OutOfTime):
+                runner.run("late", Point(SOBOL, 1, 1), (), 1.0)
+            self.assertLess(time.monotonic() - begin, 30)
 
 
 class Errors(unittest.TestCase):
