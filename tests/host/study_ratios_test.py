@@ -24,7 +24,8 @@ class Figures:
     """Runs of methods whose error and speed are chosen, with noise of their own."""
 
     def __init__(self, seed=1):
-        self.random, self.runs, self.shared = numpy.random.default_rng(seed), [], {}
+        self.random, self.noise = numpy.random.default_rng(seed), numpy.random.default_rng(-seed % 1000)
+        self.runs, self.shared = [], {}
 
     def add(self, method, counts, error, slope, second, repeats=3, jitter=0.0, own=1.0, like=None):
         """`error`: relative, of one sample; `second`: of a sample; `like`: a method whose random numbers it shares."""
@@ -39,6 +40,7 @@ class Figures:
                 run = Run(Point(method, spp, seed), "clrt", "", stats, seconds)
                 squares = deviation ** 2 * noise
                 run.mse = run.relmse = float(squares.mean())
+                run.noise_blocks = study_results.block_sums((own * deviation) ** 2 * self.noise.gamma(4, 0.25, SHAPE))
                 run.blocks, run.rel_rmse = study_results.block_sums(squares), study_results.relative_root(run.mse, REFERENCE)
                 self.runs.append(run)
         return self
@@ -106,6 +108,14 @@ class Times(unittest.TestCase):
     def test_of_a_method_that_levels_off_are_never_reached(self):
         study = Figures().add(WHITTED, (4, 16, 64), 0.4, 0, 0.1, own=0.01).conclude()
         self.assertEqual({time.kind for time in study.times[WHITTED]}, {study_ratios.NEVER})
+
+    def test_of_a_method_that_is_about_to_level_off_are_not_extrapolated_below_its_floor(self):
+        # Half of the squared error is noise: the rest stays.
+        study = Figures().add(SOBOL, (4, 16), 0.8, -0.5, 0.1).add(WHITTED, (4, 16), 0.8, -0.5, 0.1, own=0.5 ** 0.5).conclude()
+        self.assertAlmostEqual(study.ratios[WHITTED].floor, 0.2 * 0.5 ** 0.5, delta=0.01)
+        self.assertIsNone(study_ratios.floor(study.summaries[SOBOL]))
+        self.assertEqual(study.times[WHITTED][0].kind, study_ratios.NEVER)
+        self.assertEqual(study.times[SOBOL][0].kind, study_ratios.EXTRAPOLATED)
 
     def test_are_carried_over_to_the_scenes_own_size(self):
         scaled = self.times(OwnSize(800, 600, 100, 1.0))[0.10].seconds.value

@@ -7,7 +7,7 @@ from typing import Optional
 
 # What a quick study may do, dearest first: pixels, samples a pixel, repeats.
 QUICK_STEPS = ((320 * 240, (4, 16, 64, 256), 3), (320 * 240, (4, 16, 64), 3), (240 * 180, (4, 16, 64), 3),
-               (240 * 180, (4, 16, 64), 2), (160 * 120, (4, 16, 64), 2), (160 * 120, (4, 16), 2), (112 * 84, (4, 16), 2),
+               (240 * 180, (4, 16, 64), 2), (160 * 120, (4, 16, 64), 2), (128 * 96, (4, 16, 64), 2), (128 * 96, (4, 16), 2),
                (112 * 84, (4, 16), 1), (56 * 42, (4, 16), 1))
 # Part of the time left that a plan may take; the rest is for a machine that gets busier, and for dearer methods.
 PLANNED_SHARE = 0.65
@@ -109,13 +109,13 @@ class Budget:
         if point.spp >= self.known.get(point.method, (0,))[0]:
             self.known[point.method] = (point.spp, render_seconds, seconds - render_seconds)
 
-    def estimate(self, point):
+    def estimate(self, point, larger=1.0):
         """Seconds that a run will take: as its method took, else as the slowest method took and compiling; 0 where nothing is
-        known."""
+        known. `larger`: times the pixels of the runs so far."""
         own = self.known.get(point.method)
-        times = [others + rendering * point.spp / spp for spp, rendering, others in ([own] if own else self.known.values())]
+        times = [others + rendering * larger * point.spp / spp for spp, rendering, others in ([own] if own else self.known.values())]
         return max(times, default=0.0) + (0.0 if own else self.compiling)
 
     def fits(self, point, larger=1.0):
-        """Whether it ends in time even on a machine that has become slower; `larger`: times the pixels of the runs so far."""
-        return self.seconds is None or self.elapsed() + CAUTION * self.pace * larger * self.estimate(point) <= self.seconds
+        """Whether it ends in time even on a machine that has become slower."""
+        return self.seconds is None or self.elapsed() + CAUTION * self.pace * self.estimate(point, larger) <= self.seconds

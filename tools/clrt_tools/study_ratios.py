@@ -18,8 +18,8 @@ SHORTEST = 0.1
 TARGETS = (0.10, 0.05, 0.02, 0.01)
 # Slope of the error over the samples of white noise, and the flattest that is still taken to fall.
 WHITE_SLOPE, FLAT_SLOPE = -0.5, -0.2
-# A method whose error is so many times its own noise simulates something else than the reference.
-BEYOND_NOISE = 1.5
+# A method whose squared error is surely more than so many times its own noise simulates something else than the reference.
+BEYOND_NOISE = 1.15
 
 
 @dataclasses.dataclass(frozen=True)
@@ -77,7 +77,7 @@ class Ratio:
     error: Optional[Interval]    # RMSE over RMSE; None: lost in the reference's noise
     seconds: Interval            # a sample
     cost: Optional[Interval]     # MSE x seconds: seconds for the same error, where it falls with the root of the samples
-    levels_off: bool = False     # its error is no noise: it does not simulate what the reference shows
+    floor: Optional[float] = None  # relative error at which it levels off: it does not simulate what the reference shows
 
 
 def compare(summaries, default):
@@ -88,7 +88,7 @@ def compare(summaries, default):
         spp = max(set(own) & set(its), default=None)
         if spp is not None:
             ratios[method] = _ratio(method, own[spp], its[spp], _seconds_ratio(points, summaries[default]))
-            ratios[method].levels_off = levels_off(points)
+            ratios[method].floor = floor(points)
     return ratios
 
 
@@ -113,10 +113,16 @@ def _seconds_ratio(points, default_points):
     return of_logarithm(float(logs.mean()), quantile * float(logs.std(ddof=1)) / math.sqrt(logs.size))
 
 
-def levels_off(points):
-    """Whether the error at most samples is more than noise, as clrt itself estimates it."""
+def floor(points):
+    """The relative error that no number of samples takes away: what is left of the error at most samples without its noise, as
+    clrt's variance layers tell it; None where that is not surely there."""
     last = points[-1]
-    return bool(last.error and last.own_error and last.error > BEYOND_NOISE * last.own_error)
+    if not last.error or last.noise_blocks is None or last.noise_blocks.sum() <= 0:
+        return None
+    value, width = jackknife(lambda squares: _log(squares[0]) - _log(squares[1]), numpy.array([last.blocks, last.noise_blocks]))
+    if width is None or value - width <= math.log(BEYOND_NOISE):
+        return None
+    return last.error * math.sqrt(1 - math.exp(-value))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -171,7 +177,7 @@ def time_to(points, target, size):
     if points[0].error * size.error <= target:
         return TimeTo(target, BELOW, Interval(points[0].spp * second))
     reached = last.error * size.error <= target
-    if not reached and levels_off(points):
+    if not reached and target < (floor(points) or 0) * size.error:
         return TimeTo(target, NEVER)
     samples, scale = [math.log(point.spp) for point in points], last.error ** 2 / last.blocks.sum() * size.error ** 2
     value, width = jackknife(lambda mse: samples_to(math.log(target), (samples, [0.5 * _log(m * scale) for m in mse])),

@@ -22,7 +22,7 @@ class Study:
 
     @property
     def headline(self):
-        return study_sentence.headline(self.times[self.default], self.own_size, self.ratios, self.default, self.summaries)
+        return study_sentence.headline(self.times[self.default], self.own_size, self.ratios, self.default)
 
     @property
     def is_extrapolated(self):

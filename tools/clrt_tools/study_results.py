@@ -50,7 +50,8 @@ def reference_of_files(paths):
 
 def measure(run, reference):
     """Fills in the errors of a run."""
-    x = read_picture(run.picture).mean
+    picture = read_picture(run.picture)
+    x = picture.mean
     if x.shape != reference.mean.shape:
         raise ValueError(f"expected a reference of {x.shape[1]}x{x.shape[0]} pixels like the renders, found "
                          f"{reference.mean.shape[1]}x{reference.mean.shape[0]}")
@@ -62,6 +63,7 @@ def measure(run, reference):
         square = (x - reference.mean) ** 2 - (0 if reference.variance is None else reference.variance)
     run.mse, run.relmse = float(square.mean()), float((square * weight).mean())
     run.blocks = block_sums(square.mean(axis=-1))
+    run.noise_blocks = None if picture.variance is None else block_sums(picture.variance.mean(axis=-1))
     run.rel_rmse = relative_root(run.mse, reference)
 
 
@@ -100,6 +102,12 @@ class Summary:
     def blocks(self):
         """Squared errors of the blocks of the picture, mean of the repeats."""
         return sum(run.blocks for run in self.runs) / len(self.runs)
+
+    @property
+    def noise_blocks(self):
+        """The part of them that is noise, as clrt's variance layers tell; None where one is missing."""
+        known = [run.noise_blocks for run in self.runs if run.noise_blocks is not None]
+        return sum(known) / len(known) if len(known) == len(self.runs) else None
 
 
 def summarise(runs, reference):

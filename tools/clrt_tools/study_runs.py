@@ -68,6 +68,7 @@ class Run:
     rel_rmse: Optional[float] = None
     relmse: Optional[float] = None
     blocks: Optional[numpy.ndarray] = None  # sums of the squared error over blocks of the picture
+    noise_blocks: Optional[numpy.ndarray] = None  # of the variance that clrt itself estimates
 
     @property
     def render_seconds(self):

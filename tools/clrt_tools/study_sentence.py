@@ -49,8 +49,8 @@ def _same(interval):
 
 def cost_words(ratio):
     """A method's cost over the default's, for a table."""
-    if ratio.levels_off:
-        return "levels off"
+    if ratio.floor:
+        return f"levels off at {number(100 * ratio.floor)} %"
     if ratio.cost is None:
         return "below the noise"
     if ratio.cost.includes_one:
@@ -105,12 +105,12 @@ def _precision(name, ratio):
     return f"{name} takes {number(seconds.value)} times{_in_brackets(ends(seconds))} the seconds for the same error"
 
 
-def _clause(ratio, default, error):
-    """What one change to the default does; `error`: of the method at most samples, relative."""
+def _clause(ratio, default):
+    """What one change to the default does."""
     (field, value), = ratio.method.changes(default).items()
     name = NAMES.get(value, value)
-    if ratio.levels_off:
-        return f"{name} levels off at {number(100 * error)} %: it does not simulate all that the reference shows"
+    if ratio.floor:
+        return f"{name} levels off at {number(100 * ratio.floor)} %: it does not simulate all that the reference shows"
     if ratio.error is None:
         return f"{name} lies below the noise of the reference"
     if field == "precision":
@@ -118,10 +118,9 @@ def _clause(ratio, default, error):
     return _than(name, NAMES.get(getattr(default, field), getattr(default, field)), ratio.cost)
 
 
-def headline(times, size, ratios, default, summaries):
+def headline(times, size, ratios, default):
     """What a study says, in two sentences: the price of an error, and what each single change to the default does."""
-    clauses = [_clause(ratio, default, summaries[method][-1].error or 0) for method, ratio in ratios.items()
-               if len(method.changes(default)) == 1]
+    clauses = [_clause(ratio, default) for method, ratio in ratios.items() if len(method.changes(default)) == 1]
     sentence = price_sentence(times, size)
     if clauses:
         sentence += " " + clauses[0][0].upper() + "; ".join(clauses)[1:] + "."
