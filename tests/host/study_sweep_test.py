@@ -13,7 +13,7 @@ import OpenImageIO
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from noisy_pictures import write_exr  # noqa: E402
-from clrt_tools import study_results, study_runs  # noqa: E402
+from clrt_tools import study_pictures, study_results, study_runs  # noqa: E402
 from clrt_tools.study_runs import Method, Point, Run  # noqa: E402
 
 SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "independent")
@@ -43,6 +43,21 @@ class Sweep(unittest.TestCase):
         options.quick = False
         every = study_runs.combinations(options)
         self.assertEqual((every[:4], len(every), len(set(every))), (one_change, 8, 8))
+
+
+class Pictures(unittest.TestCase):
+    def test_are_exposed_for_the_typical_pixel_and_not_for_the_lamp(self):
+        room = numpy.full((20, 20, 3), 0.05)
+        self.assertEqual(study_pictures.exposure_for(room), 2)
+        room[0, :4] = 100
+        room[10:] = 0
+        self.assertEqual(study_pictures.exposure_for(room), 2)
+        self.assertEqual(study_pictures.exposure_for(numpy.zeros((4, 4, 3))), 0)
+
+    def test_share_one_scale_of_differences(self):
+        values = numpy.linspace(-0.09, 0.09, 100)
+        self.assertEqual(study_pictures.scale_for(values), 0.1)
+        self.assertEqual(study_pictures.scale_for(100 * values), 5.0)
 
 
 class ARun(unittest.TestCase):

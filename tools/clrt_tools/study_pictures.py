@@ -15,6 +15,8 @@ from clrt_tools.study_charts import WIDTH, svg  # noqa: E402
 # Pixels above which a picture is stored as JPEG: noise makes PNG files of megabytes.
 PNG_PIXELS = 200_000
 JPEG_QUALITY = 92
+# Part of the mean below which a pixel counts as black when the exposure is chosen.
+BLACK = 0.01
 DIFFERENCE_COLOURS = "RdBu_r"
 # Largest values of the differences' colours, in parts of the reference's mean, and the part of the default's pixels that lies
 # within.
@@ -42,9 +44,11 @@ def picture_uri(mean, exposure):
 
 
 def exposure_for(mean):
-    """Half stops that put the picture's mean near a fifth of white."""
-    level = float(numpy.nanmean(mean))
-    return round(2 * numpy.log2(0.2 / level)) / 2 if level > 0 else 0.0
+    """Half stops that put the typical pixel near a fifth of white: the median of those that are not black beside the mean, which a
+    window or a lamp does not move."""
+    luminance = numpy.nan_to_num(mean @ LUMINANCE)
+    seen = luminance[luminance > BLACK * luminance.mean()]
+    return round(2 * numpy.log2(0.2 / float(numpy.median(seen)))) / 2 if seen.size and numpy.median(seen) > 0 else 0.0
 
 
 def difference(mean, reference):

@@ -162,11 +162,16 @@ class Session:
         for half, seed in zip("ab", REFERENCE_SEEDS):
             self.progress.step(f"reference, half {half}: {plan.reference_spp} spp")
             limit = ("-t", f"{self.budget.seconds * HALF_REFERENCE_SHARE:g}") if self.budget.seconds else ()
-            halves.append(self.runner.run(f"reference_{half}", Point(CLRT_DEFAULT, plan.reference_spp, seed), limit,
-                                          self.budget.left()))
+            try:
+                halves.append(self.runner.run(f"reference_{half}", Point(CLRT_DEFAULT, plan.reference_spp, seed), limit,
+                                              self.budget.left()))
+            except OutOfTime:
+                if not halves:
+                    raise
+                self.notes.append("no time for the second half of the reference: the variance layer of the first tells its noise")
         reference = study_results.reference_of_files([run.picture for run in halves])
-        reference.text = (f"{CLRT_DEFAULT}, two halves of {' and '.join(str(run.stats['spp']) for run in halves)} spp, seeds "
-                          f"{' and '.join(map(str, REFERENCE_SEEDS))}")
+        reference.text = (f"{CLRT_DEFAULT}, {' and '.join(str(run.stats['spp']) for run in halves)} spp, seeds "
+                          f"{' and '.join(str(run.point.seed) for run in halves)}")
         reference.seconds = sum(run.render_seconds for run in halves)
         return reference
 
