@@ -101,6 +101,12 @@ class Times(unittest.TestCase):
             self.assertLess(time.seconds.low, truth)
             self.assertGreater(time.seconds.high, 0.8 * white)
 
+    def test_do_not_follow_a_slope_that_cannot_go_on(self):
+        times = self.times(slope=-2.0, error=8)
+        self.assertEqual(times[0.01].kind, study_ratios.MEASURED)
+        times = self.times(slope=-2.0, error=80)  # 2 % at 64 samples, 1 % at twice as many and no fewer
+        self.assertAlmostEqual(times[0.01].seconds.value / 12.8, 1, delta=0.1)
+
     def test_below_the_fewest_samples_are_an_upper_end(self):
         time = self.times(error=0.1)[0.05]
         self.assertEqual((time.kind, round(time.seconds.value, 9)), (study_ratios.BELOW, 0.4))

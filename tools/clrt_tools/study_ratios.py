@@ -16,8 +16,9 @@ NORMAL_95 = 1.96
 SHORTEST = 0.1
 # Errors of pictures, relative, that people ask for.
 TARGETS = (0.10, 0.05, 0.02, 0.01)
-# Slope of the error over the samples of white noise, and the flattest that is still taken to fall.
-WHITE_SLOPE, FLAT_SLOPE = -0.5, -0.2
+# Slope of the error over the samples of white noise, the flattest that is still taken to fall, and the steepest that is taken to
+# go on: the rate of points of low discrepancy (Niederreiter 1992); few samples may show a steeper one by chance.
+WHITE_SLOPE, FLAT_SLOPE, STEEP_SLOPE = -0.5, -0.2, -1.0
 # A method whose squared error is surely more than so many times its own noise simulates something else than the reference.
 BEYOND_NOISE = 1.15
 
@@ -163,7 +164,7 @@ def samples_to(target, logs):
         if errors[index] <= target:
             part = (errors[index - 1] - target) / max(errors[index - 1] - errors[index], 1e-12)
             return samples[index - 1] + max(part, 0.0) * (samples[index] - samples[index - 1])
-    slope = min(slope_at_end(logs), FLAT_SLOPE) if len(samples) > 1 else WHITE_SLOPE
+    slope = min(max(slope_at_end(logs), STEEP_SLOPE), FLAT_SLOPE) if len(samples) > 1 else WHITE_SLOPE
     return samples[-1] + (target - errors[-1]) / slope
 
 
