@@ -4,7 +4,7 @@
 
 Reads the layout of src/app/help_text.cpp: usage lines, paragraphs (those indented are examples), then headings that end in
 ':' at the left edge; below them entries whose text begins after two blanks or on the next line and goes on in lines
-further in, or plain text. Help of Python's argparse is brought into this layout first.
+further in, or plain text. tools/clrt_tools/help_page.py writes the same layout.
 """
 import os
 import re
@@ -24,19 +24,6 @@ def escaped(text):
     """Text that troff prints as it is: backslashes, dashes, and no leading control character."""
     text = text.replace("\\", "\\e").replace("-", "\\-")
     return "\\&" + text if text.startswith((".", "'")) else text
-
-
-def from_argparse(help_text):
-    """The help of a Python program in the layout of the others: usage in one line, headings with a capital, exit codes as
-    entries."""
-    usage, _, rest = help_text.partition("\n\n")
-    usage = " ".join(usage.replace("usage:", "Usage:").split())
-    codes = re.search(r"\nexit codes: (.*)", rest)
-    if codes:
-        entries_text = "\n".join("  " + "  ".join(code.split(" ", 1)) for code in codes.group(1).split(", "))
-        rest = rest[:codes.start()] + "\nExit codes:\n" + entries_text + "\n"
-    rest = rest.replace("positional arguments:", "Arguments:").replace("\noptions:", "\nOptions:")
-    return usage + "\n\n" + rest
 
 
 def sections(help_text):
@@ -123,10 +110,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit("usage: manpage.py PATH/clrt VERSION > clrt.1")
     program, version = sys.argv[1:]
-    wide = dict(os.environ, COLUMNS="2000")  # argparse breaks its lines at this width
-    help_text = subprocess.run([program, "--help"], check=True, capture_output=True, text=True, env=wide).stdout
-    if help_text.startswith("usage:"):
-        help_text = from_argparse(help_text)
+    help_text = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout
     sys.stdout.write(page(os.path.basename(program), help_text, version))
 
 

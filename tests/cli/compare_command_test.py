@@ -2,12 +2,14 @@
 """The command clrt-compare: exit codes, what it prints and writes, odd files."""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
 import numpy
+import OpenImageIO
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from noisy_pictures import TOOLS, film_bytes, noisy_replicates, picture_of, write_exr  # noqa: E402
@@ -30,6 +32,17 @@ class CompareCommand(unittest.TestCase):
         random = numpy.random.default_rng(seed)
         picture = picture_of(noisy_replicates(random, numpy.full(SIZE, level), deviation))
         write_exr(self.path(name), picture.mean, picture.variance if layers else None, 64 if layers else None)
+        return self.path(name)
+
+    def display(self, name, values):
+        """Writes encoded values (height, width, channels) of 0 to 1 as an 8-bit file."""
+        spec = OpenImageIO.ImageSpec(values.shape[1], values.shape[0], values.shape[2], OpenImageIO.UINT8)
+        spec.attribute("CompressionQuality", 100)
+        spec.attribute("oiio:UnassociatedAlpha", 1)
+        output = OpenImageIO.ImageOutput.create(self.path(name))
+        self.assertTrue(output.open(self.path(name), spec), output.geterror())
+        output.write_image(values.astype(numpy.float32))
+        output.close()
         return self.path(name)
 
     def film(self, name, level, seed):
@@ -89,6 +102,72 @@ class CompareCommand(unittest.TestCase):
             self.assertLess(content["smallest_p"], 0.01)
             self.assertEqual(content["rejected_tiles"], 4)
 
+    def numbers(self, *arguments):
+        """(exit code, JSON, stdout)."""
+        code, out, error = self.run_command(*arguments, "--stats", "out.json")
+        self.assertEqual(error, "")
+        with open(self.path("out.json"), encoding="utf-8") as file:
+            return code, json.load(file), out
+
+    def test_8_bit_pictures_give_metrics_of_decoded_values_and_no_verdict(self):
+        grey = numpy.full(SIZE, 0.5)
+        a, b = self.display("a.png", grey), self.display("b.png", grey + 0.1)
+        code, content, out = self.numbers(a, b)
+        self.assertEqual((code, content["verdict"]), (UNDECIDED, "undecided"), out)
+
+        def decoded(encoded):
+            return ((round(255 * encoded) / 255 + 0.055) / 1.055) ** 2.4
+        values = {metric["name"]: metric["value"] for metric in content["metrics"]}
+        self.assertAlmostEqual(values["RMSE"], decoded(0.6) - decoded(0.5), places=5)
+        self.assertEqual(content["a"]["encoding"], "8-bit, decoded as sRGB")
+        for words in ("clipping", "tone curve", "quantised", "EXR"):
+            self.assertIn(words, out)
+        self.assertNotIn("--margin", out)
+        self.assertEqual(self.run_command(a, b, "--exact")[0], DIFFERENT)
+        self.assertEqual(self.run_command(a, b, "--exact", "--margin", "50%")[0], EQUIVALENT)
+
+    def test_the_same_8_bit_pictures_are_the_same(self):
+        values = numpy.random.default_rng(1).random(SIZE)
+        code, _, out = self.numbers(self.display("a.png", values), self.display("b.tif", values))
+        self.assertEqual((code, "the same" in out), (EQUIVALENT, True), out)
+
+    def test_8_bit_files_of_all_kinds_are_read(self):
+        # Grey is red, green and blue; what is transparent lies over black, by linear coverage.
+        grey = self.display("grey.png", numpy.full(SIZE[:2] + (1,), 0.5))
+        rgba = self.display("rgba.png", numpy.concatenate([numpy.full(SIZE, 0.5), numpy.full(SIZE[:2] + (1,), 0.2)], axis=-1))
+        jpeg = self.display("a.jpg", numpy.full(SIZE, 0.5))
+        self.assertEqual(self.run_command(grey, jpeg)[0], EQUIVALENT)
+        values = {m["name"]: m["value"] for m in self.numbers(rgba, grey)[1]["metrics"]}
+        self.assertAlmostEqual(values["bias"], -0.8, places=3)
+
+    def test_an_8_bit_picture_is_no_half_and_no_equivalent_of_a_float_one(self):
+        level = ((128 / 255 + 0.055) / 1.055) ** 2.4
+        png, exr = self.display("a.png", numpy.full(SIZE, 128 / 255)), self.exr("a.exr", level, 1e-4)
+        code, out, _ = self.run_command(exr, png)
+        self.assertEqual((code, "hint" in out, "compare EXR or film files" in out.splitlines()[-1]), (UNDECIDED, False, True), out)
+        code, _, error = self.run_command(exr, png, "--halves", png)
+        self.assertEqual((code, "--halves" in error), (USAGE, True), error)
+
+    def test_hints_at_the_margin_that_would_decide(self):
+        a = self.exr("a.exr")
+        for level, deviation, margin in ((1, 0.2, "0.2%"), (1.05, 0.01, "0.5%"), (1, 0.01, "30%")):
+            b = self.exr("b.exr", level, deviation, 1)
+            code, out, _ = self.run_command(a, b, "--margin", margin)
+            hint = re.search(r"(?m)^hint .*--margin ([\d.]+)%", out)
+            self.assertTrue(hint, out)
+            if margin != "30%":
+                self.assertNotEqual(code, EQUIVALENT)
+            self.assertEqual(self.run_command(a, b, "--margin", hint.group(1) + "%")[0], EQUIVALENT, out)
+            self.assertNotEqual(self.run_command(a, b, "--margin", f"{0.8 * float(hint.group(1)):g}%")[0], EQUIVALENT, out)
+        self.assertNotIn("hint", self.run_command(a, a)[1])
+
+    def test_says_its_version_and_helps(self):
+        self.assertRegex(self.run_command("--version")[1], r"^clrt-compare \d+\.\d+\.\d+\n$")
+        page = self.run_command("--help")[1]
+        self.assertEqual(re.findall(r"(?m)^([A-Z][a-z ]+):$", page), ["Example", "Arguments", "Options", "Exit codes"])
+        self.assertEqual(re.findall(r"(?m)^  (\d+) ", page), ["0", "1", "5", "2"])
+        self.assertIn("nearest is --margin", self.run_command("--margn", "1%")[2])
+
     def test_the_drawing_is_written_whole(self):
         a, b = self.exr("a.exr"), self.exr("b.exr", 1.1, seed=1)
         for show in ("signed", "error"):
@@ -135,6 +214,7 @@ class CompareCommand(unittest.TestCase):
                           (a, a, "--tile", "0"), (a, a, "--scale", "nan"), (a, a, "--unknown"), (a, a, "-o", "d.xyz")):
             code, _, error = self.run_command(*arguments)
             self.assertEqual((code, bool(error)), (USAGE, True), arguments)
+            self.assertTrue(error.startswith("clrt-compare: error: ") and error.count("\n") == 1, error)
         self.assertEqual(self.run_command("--help")[0], 0)
 
 

@@ -3,12 +3,15 @@
 import csv
 import html.parser
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools")
+FAKE_CLRT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support", "fake_clrt.py")
 CLRT = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "clrt"
 DEVICE = os.environ.get("CLRT_TEST_DEVICE", "pocl")
 
@@ -46,9 +49,9 @@ class StudyCommand(unittest.TestCase):
             with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
 
-    def run_command(self, *arguments):
+    def run_command(self, *arguments, **settings):
         done = subprocess.run([sys.executable, os.path.join(TOOLS, "clrt-study"), *arguments], cwd=self.folder,
-                              capture_output=True, text=True, timeout=300, check=False)
+                              capture_output=True, text=True, timeout=300, check=False, env={**os.environ, **settings})
         self.assertNotIn("Traceback", done.stderr)
         return done
 
@@ -61,8 +64,11 @@ class StudyCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("[10/10]", done.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["page.csv", "page.html", "scene.mtl", "scene.obj"])
+        self.assertRegex(done.stdout, r"^An error of \d+ % costs .* at 16x12\. .*(Sobol points|white noise|Too few|not told apart)")
+        for target in (10, 5, 2, 1):
+            self.assertRegex(done.stdout, rf"(?m)^ +{target} %  \S")
         self.check_table()
-        self.check_page()
+        self.check_page(done.stdout.splitlines()[0])
 
     def check_table(self):
         with open(os.path.join(self.folder, "page.csv"), newline="", encoding="utf-8") as file:
@@ -77,7 +83,7 @@ class StudyCommand(unittest.TestCase):
             self.assertIn("--exposure 1", row["command"])
         self.assertEqual(sum(int(row["cold"]) for row in rows), 2)
 
-    def check_page(self):
+    def check_page(self, headline):
         with open(os.path.join(self.folder, "page.html"), encoding="utf-8") as file:
             text = file.read()
         self.assertNotRegex(text, r"https?:|url\((?!#)|@import")
@@ -85,9 +91,13 @@ class StudyCommand(unittest.TestCase):
         parts.feed(text)
         for source in parts.sources:
             self.assertRegex(source, r"^(data:image/png;base64,|#)")
-        self.assertEqual(parts.tags["svg"], 4)
-        self.assertEqual(parts.tags["figure"], 2)
-        self.assertEqual(text.count("<tr><td>"), 4)
+        self.assertEqual(parts.tags["svg"], 3)
+        self.assertEqual(parts.tags["figure"], 5)
+        self.assertEqual(text.count('<tr class="number">'), 4)
+        self.assertEqual(text.count('<tr class="ratio">'), 1)
+        # The answer comes first: the sentence, then the table of seconds, then everything else.
+        self.assertLess(text.index(headline), text.index('<table id="times">'))
+        self.assertLess(text.index('<table id="times">'), text.index('<table id="ratios">'))
         self.assertIn("path, single, independent", text)
         self.assertIn("--sampler independent", text)
 
@@ -101,12 +111,63 @@ class StudyCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("reference, half", done.stderr)
 
+    def quick(self, budget, samples, *arguments, **settings):
+        """A quick study with a clrt of known speed: (result, seconds, the sweep's rows)."""
+        begin = time.monotonic()
+        done = self.run_command("scene.obj", "--clrt", FAKE_CLRT, "--quick", "--budget", str(budget), "-o", "page.html", *arguments,
+                                FAKE_CLRT_SAMPLES=str(samples), **settings)
+        seconds = time.monotonic() - begin
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(os.path.join(self.folder, "page.csv"), newline="", encoding="utf-8") as file:
+            return done, seconds, list(csv.DictReader(file))
+
+    def check_seconds(self, done, budget):
+        """The renders ended within the budget, by the study's own clock, which leaves out the start of Python and the page; a run
+        that is ended at the deadline may take a second to die."""
+        used = int(re.search(r"(\d+) runs in (\d+) s", done.stdout).group(2))
+        self.assertLessEqual(used, budget + 1, done.stdout)
+
+    def test_a_quick_study_on_a_fast_machine_drops_nothing(self):
+        done, _, rows = self.quick(150, 4e6, "--spp", "4,16,64", "--repeats", "1")
+        self.check_seconds(done, 150)
+        self.assertNotIn("dropped", done.stdout)
+        self.assertEqual({(row["precision"], row["sampler"]) for row in rows},
+                         {("single", "sobol"), ("single", "independent"), ("double", "sobol"), ("fast", "sobol")})
+        self.assertRegex(done.stdout, r"Sobol points are \d+ times .* better than white noise; "
+                                      r"double precision buys nothing: the same error in \S+ times .* the seconds")
+
+    def test_a_quick_study_on_a_slow_machine_ends_in_time_and_says_what_it_dropped(self):
+        done, _, rows = self.quick(30, 1e5, FAKE_CLRT_START="1")
+        self.check_seconds(done, 30)
+        self.assertRegex(done.stdout, "note: dropped, because there is no time for them: .*path, fast, sobol")
+        self.assertIn(("single", "sobol"), {(row["precision"], row["sampler"]) for row in rows})
+        with open(os.path.join(self.folder, "page.html"), encoding="utf-8") as file:
+            self.assertIn("dropped, because there is no time", file.read())
+
+    def test_a_quick_study_ends_in_time_where_the_machine_gets_ten_times_slower(self):
+        done, _, _ = self.quick(30, 1e6, FAKE_CLRT_START="0.2", FAKE_CLRT_SLOW_AFTER="8")
+        self.check_seconds(done, 30)
+        self.assertRegex(done.stdout, r"note: (\d+ of \d+ runs were )?dropped")
+
+    def test_says_its_version_and_helps(self):
+        done = self.run_command("--version")
+        self.assertRegex(done.stdout, r"^clrt-study \d+\.\d+\.\d+\n$")
+        page = self.run_command("--help").stdout
+        self.assertEqual(re.findall(r"(?m)^([A-Z][a-z ]+):$", page), ["Example", "Arguments", "Options", "Exit codes"])
+        self.assertEqual(re.findall(r"(?m)^  (\d+) ", page), ["0", "1", "2", "130"])
+
+    def test_names_the_option_that_was_meant(self):
+        self.assertIn("unknown option --quik; the nearest is --quick", self.run_command("--quik").stderr)
+        self.assertIn("expected scene.obj, found none", self.run_command().stderr)
+
     def test_says_what_it_cannot_do(self):
         for arguments, code in (((), 2), (("none.obj",), 2), (("scene.obj", "--spp", "0"), 2), (("scene.obj", "-i", "none"), 2),
-                                (("scene.obj", "-o", "page.txt"), 2), (("scene.obj", "--clrt", "./none"), 1),
+                                (("scene.obj", "-o", "page.txt"), 2), (("scene.obj", "--quik"), 2),
+                                (("scene.obj", "--clrt", "./none"), 1),
                                 (("scene.obj", "--clrt", CLRT, "-d", "no such device"), 1)):
             done = self.run_command(*arguments)
             self.assertEqual((done.returncode, bool(done.stderr)), (code, True), arguments)
+            self.assertRegex(done.stderr.splitlines()[-1], "^clrt-study: error: ", arguments)
         self.assertEqual(sorted(os.listdir(self.folder)), ["scene.mtl", "scene.obj"])
 
 

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""clrt_tools/study_*.py without clrt: order of the runs, the budget, errors and their sums."""
+"""clrt_tools/study_runs.py and study_results.py without clrt: order of the runs, errors and their sums."""
 import os
 import sys
 import tempfile
+import time
+import types
 import unittest
+import unittest.mock
 
 import numpy
+import OpenImageIO
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from noisy_pictures import write_exr  # noqa: E402
-from clrt_tools import study_results, study_runs  # noqa: E402
+from clrt_tools import study_pictures, study_results, study_runs  # noqa: E402
 from clrt_tools.study_runs import Method, Point, Run  # noqa: E402
 
 SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "independent")
@@ -17,6 +21,10 @@ SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "inde
 
 def stats(render):
     return {"seconds": {"load": 0.1, "bvh": 0.2, "compile": 0.3, "first_launch": 0.4, "render": render, "total": 2.0}}
+
+
+def truth_pixels(truth):
+    return truth.shape[0] * truth.shape[1]
 
 
 class Sweep(unittest.TestCase):
@@ -27,23 +35,41 @@ class Sweep(unittest.TestCase):
         self.assertEqual([p.method for p in points if p.cold], [SOBOL, WHITE])
         self.assertFalse({p.seed for p in points} & set(study_runs.REFERENCE_SEEDS))
 
-    def test_runs_beyond_the_budget_do_not_start(self):
-        now = [0.0]
-        budget = study_runs.Budget(100, lambda: now[0])
-        self.assertTrue(budget.fits(Point(SOBOL, 4096, 1)))  # nothing is known yet
-        budget.note(Point(SOBOL, 16, 1), 9.0, 5.0)
-        self.assertTrue(budget.fits(Point(SOBOL, 256, 1)))   # 4 + 80 s
-        self.assertFalse(budget.fits(Point(SOBOL, 320, 1)))  # 4 + 100 s
-        now[0] = 30
-        self.assertFalse(budget.fits(Point(SOBOL, 256, 2)))
-        self.assertTrue(study_runs.Budget(None).fits(Point(SOBOL, 4096, 1)))
+    def test_of_a_quick_study_changes_one_thing_at_a_time(self):
+        options = types.SimpleNamespace(integrators=["path", "whitted"], precisions=["single", "double"],
+                                        samplers=["independent", "sobol"], quick=True)
+        one_change = [SOBOL, WHITE, Method("path", "double", "sobol"), Method("whitted", "single", "sobol")]
+        self.assertEqual(study_runs.combinations(options), one_change)
+        options.quick = False
+        every = study_runs.combinations(options)
+        self.assertEqual((every[:4], len(every), len(set(every))), (one_change, 8, 8))
 
-    def test_compiling_once_is_not_expected_again(self):
-        budget = study_runs.Budget(100, lambda: 40.0)
-        budget.note(Point(SOBOL, 4, 1, cold=True), 71.0, 1.0, 68.0)
-        budget.start = 0
-        self.assertTrue(budget.fits(Point(SOBOL, 4, 2)))     # 40 + 3 s
-        self.assertFalse(budget.fits(Point(SOBOL, 256, 2)))  # 40 + 66 s
+
+class Pictures(unittest.TestCase):
+    def test_are_exposed_for_the_typical_pixel_and_not_for_the_lamp(self):
+        room = numpy.full((20, 20, 3), 0.05)
+        self.assertEqual(study_pictures.exposure_for(room), 2)
+        room[0, :4] = 100
+        room[10:] = 0
+        self.assertEqual(study_pictures.exposure_for(room), 2)
+        self.assertEqual(study_pictures.exposure_for(numpy.zeros((4, 4, 3))), 0)
+
+    def test_share_one_scale_of_differences(self):
+        values = numpy.linspace(-0.09, 0.09, 100)
+        self.assertEqual(study_pictures.scale_for(values), 0.1)
+        self.assertEqual(study_pictures.scale_for(100 * values), 5.0)
+
+
+class ARun(unittest.TestCase):
+    def test_is_ended_when_its_time_is_over(self):
+        fake = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support", "fake_clrt.py")
+        settings = {"FAKE_CLRT_SAMPLES": "1e9", "FAKE_CLRT_START": "60"}
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, settings):
+            runner = study_runs.Runner(fake, "scene.obj", folder)
+            begin = time.monotonic()
+            with self.assertRaises(study_runs.OutOfTime):
+                runner.run("late", Point(SOBOL, 1, 1), (), 1.0)
+            self.assertLess(time.monotonic() - begin, 30)
 
 
 class Errors(unittest.TestCase):
@@ -77,6 +103,15 @@ class Errors(unittest.TestCase):
         with self.assertRaises(ValueError):
             study_results.measure(self.run_of("x.exr", 0.05), reference)
 
+    def test_need_a_reference_of_radiance(self):
+        path = os.path.join(self.folder, "a.png")
+        image = OpenImageIO.ImageOutput.create(path)
+        image.open(path, OpenImageIO.ImageSpec(80, 60, 3, OpenImageIO.UINT8))
+        image.write_image(self.truth.astype(numpy.float32))
+        image.close()
+        with self.assertRaisesRegex(ValueError, "linear radiance"):
+            study_results.reference_of_files([path])
+
     def test_of_repeats_are_averaged_as_squares(self):
         reference = study_results.Reference(self.truth)
         runs = [self.run_of(f"{i}.exr", deviation, i, render=render) for i, deviation, render in
@@ -89,7 +124,7 @@ class Errors(unittest.TestCase):
         self.assertAlmostEqual(summary.low, 0.06, delta=0.002)
         self.assertAlmostEqual(summary.high, 0.1, delta=0.002)
         self.assertEqual((summary.seconds, summary.repeats), (2.0, 3))
-        self.assertAlmostEqual(summary.efficiency, 1 / (summary.error ** 2 * 2.0))
+        self.assertAlmostEqual(summary.blocks.sum() / truth_pixels(self.truth), summary.error ** 2 * 0.25)
 
     def test_below_the_references_noise_have_no_number(self):
         self.assertIsNone(study_results.relative_root(-1e-9, study_results.Reference(self.truth)))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The result of a comparison as text and as JSON."""
 import math
+from fractions import Fraction
 
 import numpy
 
@@ -9,6 +10,8 @@ from clrt_tools import verdict as verdicts
 CHANNELS = "RGB"
 # Half width of a 95 % interval of a normal variable, in standard deviations.
 NORMAL_95 = 1.96
+# A margin so many times the smallest that passes tells less than the pictures do.
+WIDE_MARGIN = 4
 AS_PERCENT = ("rel. RMSE", "bias")
 
 
@@ -23,12 +26,20 @@ def _two_digits(value):
 
 def picture_line(label, picture):
     """What a file holds."""
-    facts = [str(picture.window)]
+    facts = [str(picture.window)] + ([picture.encoding] if picture.encoding else [])
     if picture.samples:
         facts.append(f"{picture.samples} spp")
     if picture.seed:
         facts.append(f"seed {picture.seed}")
     return f"{label}  {picture.path}: {', '.join(facts)}; noise: {picture.noise}"
+
+
+def display_lines(pictures):
+    """What numbers of files made to be looked at cannot tell; nothing where there are none."""
+    if not any(picture.encoding for picture in pictures):
+        return []
+    return ["note  8- and 16-bit files carry clipping, exposure and tone curve, and are quantised: the numbers are of their values",
+            "      decoded as sRGB, not of radiance; compare EXR or film files for those"]
 
 
 def metric_lines(metrics, noise, half_error):
@@ -87,6 +98,25 @@ def verdict_line(verdict):
     return line
 
 
+def _percent_above(value):
+    """The next decimal number of two digits above a fraction, in percent: a margin at which it passes."""
+    percent = 100 * value
+    unit = Fraction(10) ** (math.floor(math.log10(percent)) - 1)
+    return f"{float(math.ceil(Fraction(percent) / unit) * unit):g}%"
+
+
+def margin_line(verdict):
+    """The margin that would decide, or that an equivalence needs not have been so wide for; nothing where none would."""
+    if not verdict.margin_decides or not 0 < verdict.within < 1:
+        return []
+    smallest = _percent_above(verdict.within)
+    if verdict.name != verdicts.EQUIVALENT:
+        return [f"hint      the smallest margin that would make them equivalent is --margin {smallest}"]
+    if verdict.within * WIDE_MARGIN <= verdict.margin:
+        return [f"hint      the margin is wide: they pass down to --margin {smallest}"]
+    return []
+
+
 def _optional(value):
     """JSON has no infinity."""
     return None if value is None or not math.isfinite(value) else float(value)
@@ -97,7 +127,7 @@ def as_json(pictures, metrics, noise, half_error, verdict):
     def picture_json(picture):
         window = picture.window
         return {"path": picture.path, "x": window.x, "y": window.y, "width": window.width, "height": window.height,
-                "samples": picture.samples, "seed": picture.seed, "noise": picture.noise}
+                "samples": picture.samples, "seed": picture.seed, "noise": picture.noise, "encoding": picture.encoding}
 
     tiles = verdict.tiles
     return {

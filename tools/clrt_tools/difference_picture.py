@@ -62,7 +62,7 @@ def draw_difference(a, b, verdict, path, kind=SIGNED, scale=None):
                         cmap="RdBu_r" if signed else "viridis", vmin=-scale if signed else 0, vmax=scale)
     left.set_title("a - b, luminance (red: a is brighter)" if signed else "|a - b| / (|b| + 0.01), mean of channels")
     figure.colorbar(image, ax=left, extend="both" if signed else "max", shrink=0.8,
-                    label="radiance" if signed else "relative error")
+                    label=("decoded value" if a.encoding or b.encoding else "radiance") if signed else "relative error")
     _draw_tiles(figure, right, window, verdict, (x0, x1, y1, y0))
     for axes in (left, right):
         axes.set_xlabel("x, pixels")

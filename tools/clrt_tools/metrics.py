@@ -25,10 +25,13 @@ def relative_mse(a, b):
     return float(numpy.mean((a - b) ** 2 / (b ** 2 + SMALL_SQUARE)))
 
 
-def all_metrics(a, b):
-    """Metrics of the finite pixels (height, width, 3) of a against b."""
+def all_metrics(a, b, radiance=True):
+    """Metrics of the finite pixels (height, width, 3) of a against b. `radiance`: both are; else there is no HDR-FLIP."""
     finite = numpy.isfinite(a).all(axis=-1) & numpy.isfinite(b).all(axis=-1)
-    flip = _flip(a, b) if finite.all() else Metric("FLIP", "HDR-FLIP", None, "not for non-finite pixels")
+    if radiance and finite.all():
+        flip = _flip(a, b)
+    else:
+        flip = Metric("FLIP", "HDR-FLIP", None, "not for non-finite pixels" if radiance else "needs radiance")
     a, b = a[finite], b[finite]
     if a.size == 0:
         return []

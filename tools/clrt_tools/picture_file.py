@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads pictures with what is known about their noise: linear float files (EXR, PFM, HDR, TIFF) and clrt's film files."""
+"""Reads pictures with what is known about their noise: linear float files (EXR, PFM, HDR, TIFF), clrt's film files, and files
+made to be looked at (PNG, JPEG), of which nothing is known."""
 import dataclasses
 from typing import Optional
 
@@ -44,6 +45,7 @@ class Picture:
     samples: Optional[int] = None                # a pixel
     seed: Optional[str] = None
     noise: str = "not known"                     # where the variance comes from, in words
+    encoding: Optional[str] = None               # of a file of whole numbers, in words; None: linear radiance
 
 
 def read_picture(path):
@@ -78,20 +80,37 @@ def _read_image(path):
     import OpenImageIO
     with open(path, "rb"):
         pass  # the system's own words where there is nothing to read
-    image = OpenImageIO.ImageInput.open(path)
+    settings = OpenImageIO.ImageSpec()
+    settings.attribute("oiio:UnassociatedAlpha", 1)
+    image = OpenImageIO.ImageInput.open(path, settings)
     if image is None:
         raise UnreadableFile(f"{path}: expected a picture or a film file, found: {OpenImageIO.geterror().strip()}")
     try:
         spec = image.spec()
-        if spec.format.basetype not in (OpenImageIO.HALF, OpenImageIO.FLOAT, OpenImageIO.DOUBLE):
-            raise UnreadableFile(f"{path}: expected linear radiance in floating point (EXR, HDR, PFM, float TIFF), "
-                                 f"found {spec.format} channels")
+        bits = {OpenImageIO.UINT8: 8, OpenImageIO.UINT16: 16}.get(spec.format.basetype)
+        if not bits and spec.format.basetype not in (OpenImageIO.HALF, OpenImageIO.FLOAT, OpenImageIO.DOUBLE):
+            raise UnreadableFile(f"{path}: expected floating point, 8 or 16 bits a channel, found {spec.format} channels")
         values = image.read_image(OpenImageIO.FLOAT)
         if values is None:
             raise UnreadableFile(f"{path}: damaged or truncated: {image.geterror().strip()}")
     finally:
         image.close()
-    return _picture_of_channels(path, spec, values.reshape(spec.height, spec.width, spec.nchannels))
+    values = values.reshape(spec.height, spec.width, spec.nchannels)
+    return _picture_of_display(path, spec, values, bits) if bits else _picture_of_channels(path, spec, values)
+
+
+def _window(spec):
+    return Window(spec.x, spec.y, spec.width, spec.height, spec.full_width, spec.full_height)
+
+
+def _picture_of_display(path, spec, values, bits):
+    """A file made to be looked at: its values decoded as sRGB (IEC 61966-2-1), over black where it has alpha."""
+    colours = 3 if spec.nchannels >= 3 else 1
+    encoded = values[..., :colours].astype(float)
+    linear = numpy.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    if spec.nchannels in (2, 4):
+        linear *= values[..., -1:]
+    return Picture(path, _window(spec), numpy.repeat(linear, 3 // colours, axis=-1), encoding=f"{bits}-bit, decoded as sRGB")
 
 
 def _picture_of_channels(path, spec, values):
@@ -103,8 +122,7 @@ def _picture_of_channels(path, spec, values):
     mean = layer("RGB")
     if mean is None:
         raise UnreadableFile(f"{path}: expected channels R, G and B, found {', '.join(names) or 'none'}")
-    window = Window(spec.x, spec.y, spec.width, spec.height, spec.full_width, spec.full_height)
-    picture = Picture(path, window, mean, seed=spec.get_string_attribute("clrt.seed") or None)
+    picture = Picture(path, _window(spec), mean, seed=spec.get_string_attribute("clrt.seed") or None)
     samples = layer(["samples"])
     if samples is not None:
         picture.samples = int(numpy.median(samples))

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The drawings of a study, as SVG text and PNG bytes to put into the page."""
-import base64
+"""The curves and bars of a study, as SVG text to put into the page."""
 import io
 import re
 
@@ -13,25 +12,28 @@ from matplotlib import pyplot, ticker  # noqa: E402 (needs the backend above)
 from clrt_tools.metrics import SMALL_RADIANCE  # noqa: E402
 
 # Okabe and Ito's colours, which people who see fewer colours tell apart as well.
-COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31"]
 SAMPLER_STYLES = {"sobol": ("-", "o"), "independent": ("--", "s")}
 STAGES = [("load", "load scene"), ("bvh", "build tree"), ("compile", "compile"), ("first_launch", "first launch"),
           ("render", "render")]
 STAGE_COLOURS = ["#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#0072b2"]
-# Relative error at the top of the error maps' colours.
-MAP_SCALE = 0.5
-matplotlib.rcParams.update({"svg.hashsalt": "clrt", "font.size": 11, "axes.grid": True, "grid.alpha": 0.35,
-                            "axes.axisbelow": True})
+# Drawn in this colour, which nothing else has, is what takes the colour of the page's text, dark or light.
+INK = "#010203"
+# Inches of a drawing: narrow, so that its letters can still be read at the width of a telephone.
+WIDTH = 7.0
+matplotlib.rcParams.update({"svg.hashsalt": "clrt", "font.size": 12, "axes.grid": True, "grid.alpha": 0.35, "grid.color": "#888888",
+                            "axes.axisbelow": True, "figure.facecolor": "none", "axes.facecolor": "none",
+                            **{f"{name}color": INK for name in ("text.", "axes.edge", "axes.label", "xtick.", "ytick.")}})
 
 
-def _svg(figure):
+def svg(figure):
     """An SVG element for HTML: without XML declaration, metadata and names of namespaces, which HTML does not need."""
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None})
     pyplot.close(figure)
     text = buffer.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.DOTALL)
-    text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text)
+    text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text).replace(INK, "currentColor")
     return re.sub(r'width="[^"]*pt" height="[^"]*pt"|height="[^"]*pt" width="[^"]*pt"', "", text, count=1)
 
 
@@ -48,9 +50,9 @@ def _plain(axis):
     axis.set_minor_formatter(ticker.NullFormatter())
 
 
-def error_chart(summaries):
-    """Error against seconds, log-log, with the range of the repeats and guides of slope -1/2."""
-    figure, axes = pyplot.subplots(figsize=(10, 5.2), layout="constrained")
+def error_chart(summaries, labels):
+    """Error against seconds, log-log, with the range of the repeats and guides of slope -1/2. `labels`: {method: words}."""
+    figure, axes = pyplot.subplots(figsize=(WIDTH, 5 + 0.13 * len(summaries)), layout="constrained")
     points = []
     for method, style in _styles(summaries).items():
         known = [s for s in summaries[method] if s.error]
@@ -61,7 +63,7 @@ def error_chart(summaries):
         y_range = [[e - 100 * s.low for e, s in zip(errors, known)], [100 * s.high - e for e, s in zip(errors, known)]]
         x_range = [[s.seconds - s.seconds_low for s in known], [s.seconds_high - s.seconds for s in known]]
         axes.errorbar(seconds, errors, yerr=numpy.maximum(y_range, 0), xerr=x_range, color=style[0], linestyle=style[1],
-                      marker=style[2], markersize=5, capsize=3, linewidth=1.6, elinewidth=0.9, label=str(method))
+                      marker=style[2], markersize=5, capsize=3, linewidth=1.6, elinewidth=0.9, label=labels[method])
     axes.set_xscale("log")
     axes.set_yscale("log")
     if points:
@@ -71,9 +73,8 @@ def error_chart(summaries):
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
         _plain(axis)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=10, frameon=False,
-                handlelength=3.5)
-    return _svg(figure)
+    axes.legend(loc="upper left", bbox_to_anchor=(-0.1, -0.13), ncols=2, fontsize=11, frameon=False, handlelength=3)
+    return svg(figure)
 
 
 def _draw_guides(axes, points):
@@ -89,42 +90,9 @@ def _draw_guides(axes, points):
     axes.set_ylim(y0, y1)
 
 
-def efficiency_chart(summaries):
-    """1 / (error^2 x seconds) of each method at its most samples."""
-    rows = [(method, known[-1]) for method, known in (
-        (method, [s for s in points if s.efficiency]) for method, points in summaries.items()) if known]
-    figure, axes = pyplot.subplots(figsize=(10, 0.9 + 0.42 * max(len(rows), 1)), layout="constrained")
-    styles = _styles(summaries)
-    for row, (method, summary) in enumerate(rows):
-        axes.barh(row, summary.efficiency, color=styles[method][0], height=0.7,
-                  alpha=1 if method.sampler == "sobol" else 0.5)
-        axes.annotate(f" {summary.efficiency:.3g}", (summary.efficiency, row), va="center")
-    axes.set_yticks(range(len(rows)), [f"{method}, {summary.spp} spp" for method, summary in rows])
-    axes.invert_yaxis()
-    axes.margins(x=0.12)
-    axes.grid(axis="y", visible=False)
-    axes.set_xlabel("efficiency: 1 / ((RMSE / mean)² x render seconds), 1/s; longer is better")
-    return _svg(figure)
-
-
-def stage_seconds(runs):
-    """{method: seconds of each stage}: compile and first launch of its cold run, the rest of a run with most samples."""
-    result = {}
-    for method in dict.fromkeys(run.point.method for run in runs):
-        own = [run for run in runs if run.point.method == method]
-        longest = max(own, key=lambda run: run.point.spp)
-        cold = next((run for run in own if run.point.cold), longest)
-        seconds = dict(longest.stats["seconds"])
-        for stage in ("compile", "first_launch"):
-            seconds[stage] = cold.stats["seconds"][stage]
-        result[method] = (longest.point.spp, seconds)
-    return result
-
-
-def stages_chart(runs):
-    """Where the seconds go."""
-    rows = stage_seconds(runs)
-    figure, axes = pyplot.subplots(figsize=(10, 1.5 + 0.42 * max(len(rows), 1)), layout="constrained")
+def stages_chart(rows, labels):
+    """Where the seconds go. `rows`: {method: (samples a pixel, seconds of each stage)}; `labels`: {method: words}."""
+    figure, axes = pyplot.subplots(figsize=(WIDTH, 1.7 + 0.42 * max(len(rows), 1)), layout="constrained")
     left = numpy.zeros(len(rows))
     for (stage, label), colour in zip(STAGES, STAGE_COLOURS):
         widths = numpy.array([seconds[stage] for _, seconds in rows.values()])
@@ -132,46 +100,10 @@ def stages_chart(runs):
         left += widths
     for row, total in enumerate(left):
         axes.annotate(f" {total:.2f} s", (total, row), va="center")
-    axes.set_yticks(range(len(rows)), [f"{method}, {spp} spp" for method, (spp, _) in rows.items()])
+    axes.set_yticks(range(len(rows)), [f"{labels[method]}\n{spp} spp" for method, (spp, _) in rows.items()], fontsize=10)
     axes.invert_yaxis()
-    axes.margins(x=0.1)
+    axes.margins(x=0.12)
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("seconds (wall clock); compile without any cache")
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(STAGES), fontsize=10, frameon=False)
-    return _svg(figure)
-
-
-def _png(values, **options):
-    buffer = io.BytesIO()
-    matplotlib.image.imsave(buffer, values, format="png", **options)
-    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
-
-
-def picture_png(mean, exposure):
-    """8-bit sRGB of radiance times 2^exposure; not finite values in magenta."""
-    bad = ~numpy.isfinite(mean).all(axis=-1)
-    x = numpy.clip(numpy.nan_to_num(mean * 2.0 ** exposure), 0, 1)
-    values = numpy.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
-    values[bad] = (1, 0, 1)
-    return _png(values)
-
-
-def exposure_for(mean):
-    """Half stops that put the picture's mean near a fifth of white."""
-    level = float(numpy.nanmean(mean))
-    return round(2 * numpy.log2(0.2 / level)) / 2 if level > 0 else 0.0
-
-
-def error_map_png(mean, reference):
-    """|x - r| / (r + small), mean of channels, in false colours up to MAP_SCALE."""
-    error = (numpy.abs(mean - reference) / (numpy.abs(reference) + SMALL_RADIANCE)).mean(axis=-1)
-    return _png(numpy.nan_to_num(error, nan=MAP_SCALE), cmap="viridis", vmin=0, vmax=MAP_SCALE)
-
-
-def scale_svg():
-    """The colours of the error maps."""
-    figure, axes = pyplot.subplots(figsize=(6, 0.75), layout="constrained")
-    mappable = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 100 * MAP_SCALE), "viridis")
-    figure.colorbar(mappable, cax=axes, orientation="horizontal", extend="max",
-                    label=f"|x - r| / (r + {SMALL_RADIANCE}), mean of channels, %")
-    return _svg(figure)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, fontsize=10, frameon=False)
+    return svg(figure)

@@ -3,14 +3,19 @@
 import csv
 import dataclasses
 import io
+import math
 import statistics
 from typing import Optional
 
 import numpy
 
 from clrt_tools.atomic_text import write_text
-from clrt_tools.metrics import SMALL_SQUARE, squared_error_without_noise
+from clrt_tools.metrics import SMALL_SQUARE
 from clrt_tools.picture_file import read_picture
+from clrt_tools.verdict import tile_sums
+
+# Parts of a picture, along its longer side, whose errors are taken as independent: enough for a jackknife over them.
+BLOCKS = 12
 
 
 @dataclasses.dataclass
@@ -34,6 +39,10 @@ class Reference:
 def reference_of_files(paths):
     """One file, or two halves."""
     pictures = [read_picture(path) for path in paths]
+    for picture in pictures:
+        if picture.encoding:
+            raise ValueError(f"expected a reference of linear radiance (EXR, HDR, PFM, float TIFF), found {picture.path} with "
+                             f"{picture.encoding}")
     mean = sum(picture.mean for picture in pictures) / len(pictures)
     halves = tuple(picture.mean for picture in pictures) if len(pictures) == 2 else None
     return Reference(mean, halves, None if halves else pictures[0].variance, " + ".join(paths))
@@ -41,19 +50,27 @@ def reference_of_files(paths):
 
 def measure(run, reference):
     """Fills in the errors of a run."""
-    x = read_picture(run.picture).mean
+    picture = read_picture(run.picture)
+    x = picture.mean
     if x.shape != reference.mean.shape:
         raise ValueError(f"expected a reference of {x.shape[1]}x{x.shape[0]} pixels like the renders, found "
                          f"{reference.mean.shape[1]}x{reference.mean.shape[0]}")
     weight = 1 / (reference.mean ** 2 + SMALL_SQUARE)
     if reference.halves:
         a, b = reference.halves
-        run.mse = squared_error_without_noise(x, a, b)
-        run.relmse = float(numpy.mean((x - a) * (x - b) * weight))
+        square = (x - a) * (x - b)
     else:
         square = (x - reference.mean) ** 2 - (0 if reference.variance is None else reference.variance)
-        run.mse, run.relmse = float(square.mean()), float((square * weight).mean())
+    run.mse, run.relmse = float(square.mean()), float((square * weight).mean())
+    run.blocks = block_sums(square.mean(axis=-1))
+    run.noise_blocks = None if picture.variance is None else block_sums(picture.variance.mean(axis=-1))
     run.rel_rmse = relative_root(run.mse, reference)
+
+
+def block_sums(values):
+    """Sums over BLOCKS x BLOCKS parts of a picture, of (height, width) values; fewer where it has fewer pixels."""
+    size = max(1, math.ceil(max(values.shape) / BLOCKS))
+    return tile_sums(values[..., None], size).ravel()
 
 
 def relative_root(mse, reference):
@@ -66,7 +83,7 @@ def relative_root(mse, reference):
 class Summary:
     """The repeats of a method at one number of samples."""
     spp: int
-    repeats: int
+    runs: list
     error: Optional[float]      # relative RMSE from the mean of their MSE
     low: Optional[float]        # range of the repeats
     high: Optional[float]
@@ -75,7 +92,22 @@ class Summary:
     seconds_low: float
     seconds_high: float
     cpu_seconds: float          # median, of the whole process
-    efficiency: Optional[float]  # 1 / (error^2 x seconds)
+    own_error: Optional[float]  # what clrt itself says, root of the mean square
+
+    @property
+    def repeats(self):
+        return len(self.runs)
+
+    @property
+    def blocks(self):
+        """Squared errors of the blocks of the picture, mean of the repeats."""
+        return sum(run.blocks for run in self.runs) / len(self.runs)
+
+    @property
+    def noise_blocks(self):
+        """The part of them that is noise, as clrt's variance layers tell; None where one is missing."""
+        known = [run.noise_blocks for run in self.runs if run.noise_blocks is not None]
+        return sum(known) / len(known) if len(known) == len(self.runs) else None
 
 
 def summarise(runs, reference):
@@ -90,12 +122,12 @@ def summarise(runs, reference):
 def _summary(spp, group, reference):
     error = relative_root(statistics.fmean(run.mse for run in group), reference)
     each = [run.rel_rmse for run in group if run.rel_rmse is not None]
+    own = [run.own_error for run in group]
     seconds = [run.render_seconds for run in group]
-    median = statistics.median(seconds)
-    return Summary(spp, len(group), error, min(each, default=None), max(each, default=None),
-                   statistics.fmean(run.relmse for run in group), median, min(seconds), max(seconds),
+    return Summary(spp, group, error, min(each, default=None), max(each, default=None),
+                   statistics.fmean(run.relmse for run in group), statistics.median(seconds), min(seconds), max(seconds),
                    statistics.median(run.cpu_seconds for run in group),
-                   1 / (error ** 2 * median) if error and median > 0 else None)
+                   math.sqrt(statistics.fmean(e * e for e in own)) if all(own) else None)
 
 
 COLUMNS = ["scene", "device", "integrator", "precision", "sampler", "seed", "spp", "width", "height", "cold", "load_s", "bvh_s",
@@ -114,7 +146,7 @@ def _row(run, scene):
             point.spp, stats["width"], stats["height"], int(point.cold), *(f"{seconds[name]:.6f}" for name in (
                 "load", "bvh", "compile", "first_launch", "render", "total")), f"{run.cpu_seconds:.6f}",
             repr(run.mse), "" if run.rel_rmse is None else repr(run.rel_rmse), repr(run.relmse),
-            stats.get("error", {}).get("rel_rmse") or "", sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES), run.command]
+            run.own_error or "", sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES), run.command]
 
 
 def write_csv(path, runs, scene):

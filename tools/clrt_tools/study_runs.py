@@ -5,15 +5,23 @@ import json
 import os
 import shlex
 import subprocess
-import time
+import threading
 from typing import Optional
+
+import numpy
 
 # Seeds of the reference's halves: far from those of the repeats, which count from 1.
 REFERENCE_SEEDS = (1000001, 1000002)
+# Folders of compiled kernels: clrt's own and PoCL's (XDG), PoCL's where it is set by hand, NVIDIA's, Intel's for GPUs.
+CACHE_VARIABLES = ("XDG_CACHE_HOME", "POCL_CACHE_DIR", "CUDA_CACHE_PATH", "NEO_CACHE_DIR")
 
 
 class RunError(Exception):
     """clrt ended without a picture; the message is its own."""
+
+
+class OutOfTime(Exception):
+    """The run was ended because its time was over."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,6 +34,18 @@ class Method:
     def __str__(self):
         return f"{self.integrator}, {self.precision}, {self.sampler}"
 
+    def changes(self, other):
+        """{field: value of this method} where it differs from the other."""
+        return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)
+                if getattr(self, field.name) != getattr(other, field.name)}
+
+    def label(self, default):
+        """The method in few words: what differs from the default."""
+        return ", ".join(self.changes(default).values()) or f"default ({self})"
+
+
+CLRT_DEFAULT = Method("path", "single", "sobol")
+
 
 @dataclasses.dataclass(frozen=True)
 class Point:
@@ -33,7 +53,7 @@ class Point:
     method: Method
     spp: int
     seed: int
-    cold: bool = False  # compiles its kernels anew
+    cold: bool = False  # the first of its program: it compiles
 
 
 @dataclasses.dataclass
@@ -47,10 +67,17 @@ class Run:
     mse: Optional[float] = None
     rel_rmse: Optional[float] = None
     relmse: Optional[float] = None
+    blocks: Optional[numpy.ndarray] = None  # sums of the squared error over blocks of the picture
+    noise_blocks: Optional[numpy.ndarray] = None  # of the variance that clrt itself estimates
 
     @property
     def render_seconds(self):
         return self.stats["seconds"]["render"]
+
+    @property
+    def own_error(self):
+        """What clrt itself says about the picture's error; None where it does not."""
+        return (self.stats.get("error") or {}).get("rel_rmse")
 
 
 @dataclasses.dataclass
@@ -62,35 +89,64 @@ class Runner:
     size: Optional[str] = None
     device: Optional[str] = None
     extra: tuple = ()
+    caches: Optional[str] = None  # folder of compiled kernels, empty at first: each program compiles once, whatever ran before
 
-    def command(self, name, spp, seed, method, cold=False):
-        words = [self.program, self.scene, "-q", "-s", str(spp), "--seed", str(seed), "-i", method.integrator,
-                 "--precision", method.precision, "--sampler", method.sampler, "--aov", "variance,samples"]
-        words += ["-r", self.size] if self.size else []
+    def command(self, name, point, size=None):
+        words = [self.program, self.scene, "-q", "-s", str(point.spp), "--seed", str(point.seed), "-i", point.method.integrator,
+                 "--precision", point.method.precision, "--sampler", point.method.sampler, "--aov", "variance,samples"]
+        size = size or self.size
+        words += ["-r", size] if size else []
         words += ["-d", self.device] if self.device else []
-        words += ["--no-cache"] if cold else []
         path = os.path.join(self.folder, name)
         return words + list(self.extra) + ["-o", path + ".exr", "--stats", path + ".json"], path
 
-    def run(self, name, point, more=()):
-        """Renders, with `more` options; raises RunError with clrt's own words."""
-        words, path = self.command(name, point.spp, point.seed, point.method, point.cold)
+    def run(self, name, point, more=(), seconds=None, size=None):
+        """Renders, with `more` options, at most for `seconds`; raises RunError with clrt's own words, or OutOfTime."""
+        words, path = self.command(name, point, size)
         words += more
+        code, said, cpu_seconds = self._call(words, seconds)
+        if code != 0:
+            lines = said.strip().splitlines()
+            raise RunError(lines[-1] if lines else f"{self.program} ended with exit code {code}")
+        with open(path + ".json", encoding="utf-8") as file:
+            stats = json.load(file)
+        return Run(point, shlex.join(words), path + ".exr", stats, cpu_seconds)
+
+    def _call(self, words, seconds):
+        """Exit code, what it said, user and system seconds."""
+        settings = {**os.environ, **{name: self.caches for name in CACHE_VARIABLES}} if self.caches else None
         with subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                              text=True, errors="replace") as process:
+                              text=True, errors="replace", env=settings) as process:
+            late = threading.Event()
+            timer = threading.Timer(max(seconds, 0), lambda: (late.set(), process.kill())) if seconds is not None else None
             try:
+                if timer:
+                    timer.start()
                 said = process.stderr.read()
                 _, status, usage = os.wait4(process.pid, 0)
             except BaseException:
                 process.terminate()
                 raise
+            finally:
+                if timer:
+                    timer.cancel()
             process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode != 0:
-            lines = said.strip().splitlines()
-            raise RunError(lines[-1] if lines else f"{self.program} ended with exit code {process.returncode}")
-        with open(path + ".json", encoding="utf-8") as file:
-            stats = json.load(file)
-        return Run(point, shlex.join(words), path + ".exr", stats, usage.ru_utime + usage.ru_stime)
+        if late.is_set() and process.returncode != 0:
+            raise OutOfTime(f"ended after {seconds:.0f} s")
+        return process.returncode, said, usage.ru_utime + usage.ru_stime
+
+
+def combinations(options):
+    """The methods of a study, the default first: all combinations, or in quick studies one change at a time."""
+    every = [Method(i, p, s) for i in options.integrators for p in options.precisions for s in options.samplers]
+    default = CLRT_DEFAULT if CLRT_DEFAULT in every else every[0]
+    # Samplers first, then precisions, then integrators: the last are dropped first where time is short.
+    order = ("sampler", "precision", "integrator")
+    one_change = [default] + sorted((m for m in every if len(m.changes(default)) == 1),
+                                    key=lambda m: order.index(*m.changes(default)))
+    if options.quick:
+        return one_change
+    return one_change + [method for method in every if method not in one_change]
 
 
 def sweep(methods, samples, repeats):
@@ -98,29 +154,3 @@ def sweep(methods, samples, repeats):
     is cold: it shows what compiling costs."""
     return [Point(method, spp, repeat, cold=repeat == 1 and spp == min(samples))
             for repeat in range(1, repeats + 1) for spp in sorted(samples) for method in methods]
-
-
-class Budget:
-    """Tells whether a run still fits, from the runs of its method so far."""
-
-    def __init__(self, seconds, clock=time.monotonic):
-        self.clock, self.start, self.seconds = clock, clock(), seconds
-        self.known = {}  # method: (spp, seconds of rendering, all other seconds) of its longest run
-
-    def elapsed(self):
-        return self.clock() - self.start
-
-    def note(self, point, seconds, render_seconds, compile_seconds=0.0):
-        """Notes a run; only a cold run's compiling is not to be expected again."""
-        if point.cold:
-            seconds -= compile_seconds
-        if point.spp >= self.known.get(point.method, (0,))[0]:
-            self.known[point.method] = (point.spp, render_seconds, seconds - render_seconds)
-
-    def estimate(self, point):
-        """Seconds that a run will take; 0 where nothing is known."""
-        spp, rendering, others = self.known.get(point.method, (point.spp, 0.0, 0.0))
-        return others + rendering * point.spp / spp
-
-    def fits(self, point):
-        return self.seconds is None or self.elapsed() + self.estimate(point) <= self.seconds

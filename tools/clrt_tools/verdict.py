@@ -57,6 +57,7 @@ class Verdict:
     within: float = float("inf")   # the smallest margin that would show equivalence
     needs: Optional[float] = None  # times the samples, where undecided
     noise_known: bool = True       # of both pictures; else p-values say nothing
+    margin_decides: bool = True    # a margin of `within` gives the verdict 'equivalent'
 
     @property
     def rejected_tiles(self):
@@ -150,10 +151,10 @@ def judge(a, b, tile_size=32, alpha=0.01, margin=0.005, exact=False):
     verdict.within = float(max(family.within.max() for family in families))
     rejected = verdict.smallest_p <= alpha
     if numpy.all(numpy.abs(a.mean - b.mean) <= FLOAT_ROUNDING * (numpy.abs(a.mean) + numpy.abs(b.mean))):
-        verdict.name, verdict.reason = EQUIVALENT, "all pixels are the same"
+        verdict.name, verdict.reason, verdict.margin_decides = EQUIVALENT, "all pixels are the same", False
     elif unknown and not exact:
         verdict.noise_known = False
-        _judge_without_noise(verdict, unknown)
+        _judge_without_noise(verdict, unknown, any(p.encoding for p in (a, b)))
     elif verdict.within <= margin:
         verdict.name = EQUIVALENT
         verdict.reason = "every tile's difference lies within the margin" + (
@@ -166,10 +167,15 @@ def judge(a, b, tile_size=32, alpha=0.01, margin=0.005, exact=False):
     return verdict
 
 
-def _judge_without_noise(verdict, unknown):
-    """'Different' is out of reach where a picture's own noise could be the difference."""
+def _judge_without_noise(verdict, unknown, displayed):
+    """'Different' is out of reach where a picture's own noise could be the difference. `displayed`: one is a file made to be
+    looked at, which is not even equivalent where it lies within the margin."""
     names = " and ".join(unknown)
-    if len(unknown) == 1 and verdict.within <= verdict.margin:
+    verdict.margin_decides = len(unknown) == 1 and not displayed
+    if displayed:
+        verdict.reason = (f"the noise of {names} is not known, so a difference can be that noise; compare EXR or film files, or give "
+                          "--exact if there is none")
+    elif verdict.margin_decides and verdict.within <= verdict.margin:
         verdict.name = EQUIVALENT
         verdict.reason = f"every tile lies within the margin of {names} as it stands, whose own noise is not known"
     else:
