@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the command line refuses, and in which words.
 #include "app/option_table.h"
+#include "app/peer_names.h"
 #include "host/command_line_support.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
+#include <regex>
 
 namespace clrt {
 
@@ -24,6 +26,38 @@ TEST(CommandLine, UnknownOptionsNameTheNearest) {
               std::string::npos);
     EXPECT_NE(refusal({"--dev", "pocl", "s.obj"}).find("the nearest is --device"), std::string::npos);
     EXPECT_EQ(refusal({"-x", "s.obj"}), "unknown option -x; `clrt --help` lists all");
+}
+
+TEST(CommandLine, UnknownOptionsWithoutANearOneNameNone) {
+    for (const char* name : {"--xyzzy", "--frobnicate", "--caustics"})
+        EXPECT_EQ(refusal({name, "s.obj"}),
+                  std::string("unknown option ") + name + "; `clrt --help` lists all");
+}
+
+TEST(CommandLine, NamesOfOtherRenderersLeadToTheirNameHere) {
+    EXPECT_EQ(refusal({"--resolution", "640x480", "s.obj"}),
+              "unknown option --resolution; clrt calls it --size WxH, and `clrt --help` lists all");
+    const std::vector<std::pair<std::string, std::string>> names = {
+        {"--width=640", "--size WxH"},      {"--samples", "--spp N"},
+        {"--samplesPerPixel", "--spp N"},   {"--output-file", "--output FILE"},
+        {"--gpu", "--device gpu"},          {"--max_bounces=3", "--max-depth N"},
+        {"--nthreads", "--threads N"},      {"--cropwindow", "--crop X0,Y0,X1,Y1"},
+        {"--hdri", "--env FILE"},           {"--EnvMap", "--env FILE"},
+        {"--noise-threshold", "--error X"}, {"--view-transform", "--tonemap NAME"}};
+    for (const auto& [typed, here] : names)
+        EXPECT_NE(refusal({typed, "s.obj"}).find("; clrt calls it " + here + ", and "), std::string::npos)
+            << refusal({typed, "s.obj"});
+}
+
+TEST(CommandLine, EveryNameOfOtherRenderersIsForeignAndLeadsToAnOption) {
+    for (const auto& [peer, here] : peer_names()) {
+        EXPECT_FALSE(find_option(std::string("--") + peer)) << peer << " is an option here";
+        EXPECT_EQ(name_here(peer), here) << peer << " is listed twice";
+        const std::string text = here;
+        const std::regex option("--[a-z-]+");
+        for (std::sregex_iterator found(text.begin(), text.end(), option), end; found != end; ++found)
+            EXPECT_TRUE(find_option(found->str())) << peer << ": " << found->str();
+    }
 }
 
 TEST(CommandLine, MissingValuesAreNamed) {
