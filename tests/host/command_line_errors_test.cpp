@@ -178,7 +178,9 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"--film-width", "35"}, "option --film-width: expected together with --focal-length");
     expect({"--crop", "0,0,801,10"}, "option --crop: expected a window inside the picture of 800x600 pixels");
     expect({"-r", "65501x2", "-o", "a.JPG"},
-           "option --output: expected at most 65500 pixels a side for 'a.JPG'");
+           "option --size: expected at most 65500 pixels a side for 'a.JPG', found 65501x2");
+    expect({"-r", "65535x2", "--crop", "9,0,65512,1", "-o", "a.jpg"},
+           "option --crop: expected at most 65500 pixels a side for 'a.jpg', found 65503x1");
     expect({"-i", "whitted", "--max-depth", "65"}, "option --max-depth: expected at most 64");
     expect({"--first-sample", "4294967232"}, "expected a sum below 4294967296, found 4294967296");
     expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
