@@ -20,7 +20,7 @@ enum class Toggle { AUTO, ON, OFF };
 enum class BvhChoice { AUTO, BVH8, BVH2, CWBVH };
 enum class QualityChoice { AUTO, FAST, HIGH };
 enum class Filter { BOX, TENT, GAUSSIAN };
-enum class Tonemap { NONE, REINHARD, ACES };
+enum class Tonemap { NONE, REINHARD, ACES, FILMIC, AGX };
 enum class Check { OFF, COUNT, STRICT };
 enum class MtlReading { AUTO, PLAIN };
 enum class Explain { NO, TABLE, JSON };
@@ -104,6 +104,7 @@ struct Options {
     Filter filter = Filter::BOX;
     std::optional<double> filter_radius; ///< pixels; box 0.5, tent 1, gaussian 1.5
     double exposure_ev = 0;              ///< stops, PNG and other 8-bit files only
+    bool auto_exposure = false;          ///< exposure_ev is added to what the picture asks for
     Tonemap tonemap = Tonemap::NONE;
     std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
     std::vector<PathLayerOption> path_layers;     ///< further EXR layers, made from the picture's light

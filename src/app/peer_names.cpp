@@ -92,9 +92,12 @@ const std::vector<std::pair<const char*, const char*>>& peer_names() {
         {"reconstruction-filter", "--filter NAME"},
         {"rfilter", "--filter NAME"},
         {"ev", "--exposure EV"},
+        {"auto-exposure", "--exposure auto"},
         {"tone-mapping", "--tonemap NAME"},
         {"tonemapper", "--tonemap NAME"},
         {"view-transform", "--tonemap NAME"},
+        {"filmic", "--tonemap filmic"},
+        {"agx", "--tonemap agx"},
         {"layers", "--aov LIST"},
         {"render-passes", "--aov LIST"},
         // camera

@@ -184,6 +184,14 @@ TEST(CommandLine, PictureOptionsArrive) {
     EXPECT_EQ(o.tonemap, Tonemap::REINHARD);
     EXPECT_EQ(o.aovs, (std::vector<std::string>{"N", "Z"}));
     EXPECT_TRUE(parse({"--aov", "none"}).aovs->empty());
+    EXPECT_FALSE(o.auto_exposure);
+    for (const auto& [text, ev] :
+         std::map<std::string, double>{{"auto", 0}, {"auto+1", 1}, {"auto-0.5", -0.5}}) {
+        EXPECT_TRUE(parse({"--exposure", text}).auto_exposure) << text;
+        EXPECT_EQ(parse({"--exposure", text}).exposure_ev, ev) << text;
+    }
+    EXPECT_EQ(parse({"--tonemap", "filmic"}).tonemap, Tonemap::FILMIC);
+    EXPECT_EQ(parse({"--tonemap", "agx"}).tonemap, Tonemap::AGX);
 }
 
 TEST(CommandLine, TreeTakesLayoutAndQuality) {
