@@ -23,6 +23,8 @@ enum class Filter { BOX, TENT, GAUSSIAN };
 enum class Tonemap { NONE, REINHARD, ACES, FILMIC, AGX };
 enum class Check { OFF, COUNT, STRICT };
 enum class MtlReading { AUTO, PLAIN };
+/// CLAY: matte grey in the place of every material (scene/material_override.h).
+enum class MaterialOverride { NONE, CLAY };
 enum class Explain { NO, TABLE, JSON };
 
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
@@ -96,6 +98,7 @@ struct Options {
     BvhChoice bvh = BvhChoice::AUTO;
     QualityChoice bvh_quality = QualityChoice::AUTO; ///< work put into the tree
     MtlReading mtl = MtlReading::AUTO;               ///< auto: as the writers of libraries mean them
+    MaterialOverride material_override = MaterialOverride::NONE;
 
     // Picture
     glm::ivec2 size{800, 600};

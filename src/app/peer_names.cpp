@@ -127,6 +127,8 @@ const std::vector<std::pair<const char*, const char*>>& peer_names() {
         {"world", "--env FILE"},
         {"point-light", "--point X,Y,Z,R,G,B"},
         {"sun-direction", "--sun X,Y,Z,R,G,B"},
+        {"override-shading", "--material clay"},
+        {"clay", "--material clay"},
         // runs
         {"continue", "--resume FILE"},
         {"film", "--checkpoint FILE"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How pictures look: exposure by the picture's tones.
+// How pictures look: exposure by the picture's tones, tone curves, clay.
 #include "clrt_command.h"
 
 #include <nlohmann/json.hpp>
@@ -59,6 +59,36 @@ TEST_F(LookCommand, AutoExposureIsSaidAsAFlagThatGivesTheSamePicture) {
                            folder.file("merged.ppm")})
                   .exit_code,
               2);
+}
+
+TEST_F(LookCommand, ClayKeepsLightAndCoverageAndNothingElse) {
+    write_room();
+    folder.write("scene.clrt", "--eye 0,1.2,6\n--material clay\n");
+    const auto plan = clrt({"scene.obj", "--explain"});
+    EXPECT_TRUE(holds(plan.out, {"present  area lights", "present  cut-outs",
+                                 "no material reflects roughly, by --material (scene.clrt:2) clay",
+                                 "no material is a dielectric, by --material", "no material has a map, by",
+                                 "no material has one, by", "clay: matte Kd 0.8, emission and coverage kept",
+                                 "scene.mtl:10: --material clay: glass is opaque"}));
+    EXPECT_TRUE(holds(clrt({"scene.obj", "--explain", "--material", "none"}).out,
+                      {"present  refraction", "present  textures", "present  normal and bump maps"}));
+
+    // A library of clay's own words is the same scene.
+    ASSERT_EQ(look({"-o", "clay.exr", "--aov", "none", "--checkpoint", "clay.film"}).exit_code, 0);
+    const auto other = look({"-o", "x.exr", "--material", "none", "--resume", "clay.film"});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_TRUE(holds(other.err, {"clay.film", "scene: expected"}));
+    folder.write("scene.mtl", "newmtl lamp\nKd 0.8 0.8 0.8\nKe 8 8 8\nnewmtl floor\nKd 0.8 0.8 0.8\n"
+                              "newmtl glass\nKd 0.8 0.8 0.8\nnewmtl veil\nKd 0.8 0.8 0.8\nd 0.5\n");
+    ASSERT_EQ(look({"-o", "words.exr", "--aov", "none", "--material", "none"}).exit_code, 0);
+    EXPECT_EQ(ReadPicture(folder.file("clay.exr")).values, ReadPicture(folder.file("words.exr")).values);
+}
+
+TEST_F(LookCommand, ClayCoversColoursOfVerticesAndFacesWithoutAMaterial) {
+    folder.write("scene.obj", "v -1 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+    const auto plan = clrt({"scene.obj", "--explain", "--material", "clay"});
+    EXPECT_TRUE(holds(plan.out, {"clay: matte Kd 0.8", "no material has a map, by --material clay"}));
+    EXPECT_EQ(plan.out.find("vertex colours"), std::string::npos) << plan.out;
 }
 
 } // namespace clrt

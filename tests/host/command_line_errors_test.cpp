@@ -104,6 +104,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--bvh", "high,fast"},
         {"--bvh", "auto,high"},
         {"--bvh", ""},
+        {"--material", "wood"},
         {"--size", "800"},
         {"--size", "0x600"},
         {"--size", "800x65536"},

@@ -38,6 +38,7 @@ const std::map<std::string, std::string>& samples() {
         {"--threads", "2"},
         {"--bvh", "bvh2"},
         {"--mtl", "plain"},
+        {"--material", "clay"},
         {"--size", "320x200"},
         {"--output", "a.exr"},
         {"--crop", "10,20,30,40"},
@@ -192,6 +193,8 @@ TEST(CommandLine, PictureOptionsArrive) {
     }
     EXPECT_EQ(parse({"--tonemap", "filmic"}).tonemap, Tonemap::FILMIC);
     EXPECT_EQ(parse({"--tonemap", "agx"}).tonemap, Tonemap::AGX);
+    EXPECT_EQ(o.material_override, MaterialOverride::NONE);
+    EXPECT_EQ(parse({"--material", "clay"}).material_override, MaterialOverride::CLAY);
 }
 
 TEST(CommandLine, TreeTakesLayoutAndQuality) {
