@@ -53,9 +53,9 @@ double auto_exposure_ev(const std::vector<float>& rgb) {
     for (const float log : logs)
         mean += std::clamp(double(log), darkest, brightest) / double(logs.size());
 
-    // Where the mean lies between both, from -1 to 1; a picture of one tone is in the middle.
+    // How far above the middle of both the mean lies, from 0 to 1; a picture of one tone is in the middle.
     const double range = brightest - darkest;
-    const double place = range > 0 ? std::clamp((2 * mean - darkest - brightest) / range, -1.0, 1.0) : 0;
+    const double place = range > 0 ? std::clamp((2 * mean - darkest - brightest) / range, 0.0, 1.0) : 0;
     const double key = MIDDLE_GREY * std::pow(4, place);
     return rounded(std::log2(key) - mean);
 }

@@ -12,10 +12,11 @@ namespace clrt {
 /// Stops that suit a picture of linear RGB, by E. Reinhard, "Parameter Estimation for Photographic Tone
 /// Reproduction" (Journal of Graphics Tools 7(1), 2002): its mean of logarithms becomes a key value, 0.18
 /// where it lies midway between the darkest and the brightest luminance, up to 0.72 where bright tones
-/// prevail, down to 0.045 where dark ones do. Of the pixels that show light: a black backdrop counts for
-/// nothing, and the darkest and the brightest hundredth only as much as those next to them. 0 where no pixel
-/// shows light. A whole number of hundredths of a stop, so that --exposure with the printed number gives the
-/// same picture; k times the radiance is log2 k stops less.
+/// prevail. Where dark ones do Reinhard goes down to 0.045, here 0.18 stays: a window in view makes no room
+/// one that is meant to be dark. Of the pixels that show light: a black backdrop counts for nothing, and the
+/// darkest and the brightest hundredth only as much as those next to them. 0 where no pixel shows light. A
+/// whole number of hundredths of a stop, so that --exposure with the printed number gives the same picture; k
+/// times the radiance is log2 k stops less.
 double auto_exposure_ev(const std::vector<float>& rgb);
 
 /// The stops that the options ask for, for this picture; with auto exposure, a whole number of hundredths.
