@@ -49,8 +49,13 @@ clrt_test(cli stability_command_test clrt_stability_core)
 target_compile_definitions(stability_command_test PRIVATE
   CLRT_EXECUTABLE="$<TARGET_FILE:clrt-stability>" CLRT_KERNELS_FOLDER="${PROJECT_SOURCE_DIR}/kernels")
 add_dependencies(stability_command_test clrt-stability)
-clrt_python_test(cli man_page_test $<TARGET_FILE:clrt> $<TARGET_FILE:clrt-merge> $<TARGET_FILE:clrt-stability>
-  ${PROJECT_SOURCE_DIR}/tools/clrt-compare ${PROJECT_SOURCE_DIR}/tools/clrt-study)
+set(clrt_documented_programs clrt clrt-merge clrt-stability)
+if(TARGET clrt-bench)
+  list(APPEND clrt_documented_programs clrt-bench)
+endif()
+list(TRANSFORM clrt_documented_programs REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+clrt_python_test(cli man_page_test ${clrt_documented_programs} ${PROJECT_SOURCE_DIR}/tools/clrt-compare
+  ${PROJECT_SOURCE_DIR}/tools/clrt-study)
 clrt_python_test(cli compare_command_test)
 clrt_python_test(cli installed_tools_test ${CMAKE_COMMAND} ${CMAKE_CPACK_COMMAND} ${CMAKE_BINARY_DIR})
 clrt_python_test(cli integrator_pairs_test $<TARGET_FILE:clrt>)
