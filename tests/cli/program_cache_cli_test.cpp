@@ -4,6 +4,7 @@
 #include "support/instruction_sets.h"
 
 #include <cstdlib>
+#include <fstream>
 
 namespace clrt {
 
@@ -16,6 +17,13 @@ protected:
         std::vector<std::string> words = quick({"scene.obj", "--cache", "on", "--cache-dir", "cache", "-v"});
         words.insert(words.end(), {"-o", picture});
         return words;
+    }
+    /// PoCL's cache in a new folder: it compiles.
+    CommandSettings cold_cache(const std::string& name) const {
+        CommandSettings settings;
+        settings.environment["POCL_CACHE_DIR"] = folder.file(name);
+        std::filesystem::create_directory(folder.file(name));
+        return settings;
     }
     size_t entries() const {
         size_t count = 0;
@@ -69,9 +77,7 @@ TEST_F(ProgramCacheCommand, ADamagedEntryIsAMissAndNoErrorAndOffKeepsNothing) {
 TEST_F(ProgramCacheCommand, ACompilerSaysNothingOfItsOwnOnAnyInstructionSet) {
     write_square("scene");
     const auto expect_silence = [&](const std::string& set, const std::string& precision) {
-        CommandSettings cold;
-        cold.environment["POCL_CACHE_DIR"] = folder.file("pocl-" + set + precision);
-        std::filesystem::create_directory(cold.environment["POCL_CACHE_DIR"]);
+        CommandSettings cold = cold_cache("pocl-" + set + precision);
         cold.environment[InstructionSet::VARIABLE] = set;
         const auto result = clrt(quick({"scene.obj", "-q", "--precision", precision}), cold);
         EXPECT_EQ(result.exit_code, 0) << set << " " << precision;
@@ -81,6 +87,18 @@ TEST_F(ProgramCacheCommand, ACompilerSaysNothingOfItsOwnOnAnyInstructionSet) {
         expect_silence(set.name, "double");
     if (!instruction_sets().empty()) // the oldest: in single precision newer ones hold all vectors
         expect_silence(instruction_sets().front().name, "single");
+}
+
+// Of kernels that somebody changes, PoCL says "1 warning generated." and not which.
+TEST_F(ProgramCacheCommand, WhatTheCompilerSaysAboutOnesOwnKernelsIsInTheVerboseLog) {
+    write_square("scene");
+    std::filesystem::copy(CLRT_KERNELS_FOLDER, folder.file("kernels"),
+                          std::filesystem::copy_options::recursive);
+    std::ofstream(folder.file("kernels/integrators/raycast.cl"), std::ios::app)
+        << "\n#warning an_unfinished_idea\n";
+    const auto result = clrt(quick({"scene.obj", "--kernels", "kernels", "-v"}), cold_cache("pocl"));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(holds(result.err, {"the compiler about the program raycast", "an_unfinished_idea"}));
 }
 
 } // namespace clrt
