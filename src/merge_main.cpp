@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-merge: film files of disjoint sample ranges -> one picture or film, with the bits of a single run.
 #include "app/log.h"
+#include "app/look_option.h"
 #include "app/run_program.h"
 #include "error.h"
 #include "exit_code.h"
+#include "output/exposure.h"
 #include "output/image.h"
 #include "render/error_report.h"
 #include "render/merge_films.h"
@@ -22,8 +24,7 @@ namespace {
 /// What the command line asks for.
 struct MergeOptions {
     std::vector<std::string> films, outputs;
-    double exposure_ev = 0;
-    std::string tonemap = "none";
+    std::string exposure = "0", tonemap = "none";
     bool quiet = false, help = false, version = false;
 };
 
@@ -31,8 +32,12 @@ bool is_film_path(const std::string& path) {
     return path.size() > 5 && path.compare(path.size() - 5, 5, ".film") == 0;
 }
 
-Tonemap tonemap_named(const std::string& name) {
-    return name == "reinhard" ? Tonemap::REINHARD : name == "aces" ? Tonemap::ACES : Tonemap::NONE;
+/// What the command line says about 8-bit pictures.
+Options look_of(const MergeOptions& merge) {
+    Options options;
+    apply_exposure(options, {"--exposure", merge.exposure, "", ""});
+    apply_tonemap(options, {"--tonemap", merge.tonemap, "", ""});
+    return options;
 }
 
 /// In the layout of clrt's own, from which the man page is made.
@@ -50,8 +55,8 @@ Example:
 Options:
   -o, --output FILE            picture ({})
                                or .film; repeatable
-      --exposure EV            brighten 8-bit pictures by 2^EV (default 0)
-      --tonemap NAME           curve of 8-bit pictures: none, reinhard or aces (default none)
+      --exposure auto|EV       {}
+      --tonemap NAME           {}
   -q, --quiet                  errors only
   -h, --help                   print this page and exit
       --version                print the version and exit
@@ -61,7 +66,7 @@ Exit codes:
   1    a film cannot be read, or films do not belong together
   2    wrong command line
 )",
-                       OUTPUT_EXTENSIONS);
+                       OUTPUT_EXTENSIONS, EXPOSURE_HELP, TONEMAP_HELP);
 }
 
 void declare(CLI::App& app, MergeOptions& options) {
@@ -72,8 +77,8 @@ void declare(CLI::App& app, MergeOptions& options) {
         ->expected(1)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--exposure", options.exposure_ev)->check(CLI::Range(-100.0, 100.0));
-    app.add_option("--tonemap", options.tonemap)->check(CLI::IsMember({"none", "reinhard", "aces"}));
+    app.add_option("--exposure", options.exposure);
+    app.add_option("--tonemap", options.tonemap);
     app.add_flag("-q,--quiet", options.quiet);
     app.add_flag("--version", options.version);
 }
@@ -88,7 +93,7 @@ void check(const MergeOptions& options) {
     }
 }
 
-void merge(const MergeOptions& options) {
+void merge(const MergeOptions& options, const Options& look) {
     // One film after the other: two are in memory at a time.
     FilmFile sum = read_film_file(options.films.front());
     std::string names = options.films.front();
@@ -102,13 +107,16 @@ void merge(const MergeOptions& options) {
         spdlog::warn("samples {} to {} are in no film", film.ranges[i - 1].end, film.ranges[i].first - 1);
 
     const Picture picture = film_picture(sum);
+    const double exposure_ev = chosen_exposure_ev(look, picture.layers[0].values);
+    if (look.auto_exposure)
+        spdlog::info("{}", exposure_notice(exposure_ev));
     FinalFiles files;
     for (const std::string& path : options.outputs)
         files.write(path, [&] {
             if (is_film_path(path))
                 write_film_file(path, sum);
             else
-                write_picture(picture, path, options.exposure_ev, tonemap_named(options.tonemap));
+                write_picture(picture, path, exposure_ev, look.tonemap);
         });
     files.finish();
     if (options.quiet)
@@ -137,7 +145,7 @@ int run(int argc, const char* const* argv) {
     }
     start_log(options.quiet ? -1 : 0);
     check(options);
-    merge(options);
+    merge(options, look_of(options));
     return EXIT_DONE;
 }
 

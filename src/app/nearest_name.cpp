@@ -7,6 +7,14 @@
 
 namespace clrt {
 
+namespace {
+
+bool starts_with(const std::string& name, const std::string& start) {
+    return name.compare(0, start.size(), start) == 0;
+}
+
+} // namespace
+
 int edit_distance(const std::string& a, const std::string& b) {
     // distance[i][j] turns the first i letters of a into the first j letters of b.
     std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
@@ -27,11 +35,19 @@ int edit_distance(const std::string& a, const std::string& b) {
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& known) {
     assert(!known.empty());
     const auto distance = [&](const std::string& name) {
-        return name.compare(0, typed.size(), typed) == 0 ? -1 : edit_distance(typed, name);
+        return starts_with(name, typed) ? -1 : edit_distance(typed, name);
     };
     return *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
         return distance(a) < distance(b);
     });
+}
+
+bool is_misspelling(const std::string& typed, const std::string& name) {
+    const size_t dashes = std::min(typed.find_first_not_of('-'), typed.size());
+    const size_t letters = typed.size() - dashes;
+    if (letters < 2) // one letter is near to everything
+        return false;
+    return starts_with(name, typed) || size_t(edit_distance(typed, name)) <= (letters + 2) / 3;
 }
 
 } // namespace clrt

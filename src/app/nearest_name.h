@@ -15,4 +15,7 @@ int edit_distance(const std::string& a, const std::string& b);
 /// The first of equals wins. `known` is not empty.
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& known);
 
+/// Whether `name` starts with `typed` or at most every third letter is wrong; dashes in front are no letters.
+bool is_misspelling(const std::string& typed, const std::string& name);
+
 } // namespace clrt

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
+#include <vector>
 
 namespace clrt {
 
@@ -22,9 +24,24 @@ constexpr int FEWEST_ADAPTIVE_REPLICATES = 4;
 /// Samples a pixel are counted in 32 bits.
 constexpr std::uint64_t SAMPLE_LIMIT = std::uint64_t(1) << 32;
 
+/// The names of options in a message, each once, in their order.
+std::vector<std::string> options_named(const std::string& message) {
+    static const std::regex name("--[a-z][a-z-]*");
+    std::vector<std::string> names;
+    for (std::sregex_iterator found(message.begin(), message.end(), name), end; found != end; ++found)
+        if (std::find(names.begin(), names.end(), found->str()) == names.end())
+            names.push_back(found->str());
+    return names;
+}
+
+/// Adds where those of the named options come from that are not on the command line.
 [[noreturn]] void reject(const Options& options, const std::string& message) {
-    const bool from_file = !options.sidecar_path.empty();
-    throw UsageError(message + (from_file ? " (options also come from " + options.sidecar_path + ")" : ""));
+    std::string origins;
+    for (const std::string& name : options_named(message))
+        if (const auto given = options.given.find(name);
+            given != options.given.end() && !given->second.empty())
+            origins += (origins.empty() ? " (" : ", ") + name + " is from " + given->second;
+    throw UsageError(message + (origins.empty() ? "" : origins + ")"));
 }
 
 void check_crop(const Options& options) {
@@ -35,8 +52,8 @@ void check_crop(const Options& options) {
         return;
     const auto text = [](int x) { return std::to_string(x); };
     reject(options, "option --crop: expected a window inside the picture of " + text(options.size.x) + "x" +
-                        text(options.size.y) + " pixels, found " + text(c.x0) + "," + text(c.y0) + "," +
-                        text(c.x1) + "," + text(c.y1));
+                        text(options.size.y) + " pixels (--size), found " + text(c.x0) + "," + text(c.y0) +
+                        "," + text(c.x1) + "," + text(c.y1));
 }
 
 void check_output_sizes(const Options& options) {
@@ -46,9 +63,10 @@ void check_output_sizes(const Options& options) {
     for (const std::string& path : options.outputs) {
         const int limit = largest_output_side(path);
         if (window.x > limit || window.y > limit)
-            reject(options, "option --output: expected at most " + std::to_string(limit) +
-                                " pixels a side for '" + path + "', found " + std::to_string(window.x) + "x" +
-                                std::to_string(window.y));
+            reject(options, std::string("option ") + (options.crop ? "--crop" : "--size") +
+                                ": expected at most " + std::to_string(limit) + " pixels a side for '" +
+                                path + "', found " + std::to_string(window.x) + "x" +
+                                std::to_string(window.y) + "; .png and .exr hold it");
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/nearest_name.h"
 #include "app/option_rows.h"
+#include "app/peer_names.h"
 #include "error.h"
 
 namespace clrt {
@@ -37,13 +38,16 @@ const std::vector<std::pair<std::string, std::string>>& exclusive_options() {
 void reject_unknown_option(const std::string& origin, const std::string& given) {
     const std::string advice = "`clrt --help` lists all";
     const std::string name = given.substr(0, given.find('='));
-    if (name.size() <= 2) // one letter is near to everything
-        throw UsageError(origin + "unknown option " + name + "; " + advice);
+    const std::string start = origin + "unknown option " + name + "; ";
+    if (const std::string here = name_here(name); !here.empty())
+        throw UsageError(start + "clrt calls it " + here + ", and " + advice);
     std::vector<std::string> known;
     for (const OptionSpec& spec : option_table())
         known.emplace_back(spec.long_name);
-    throw UsageError(origin + "unknown option " + name + "; the nearest is " + nearest_name(name, known) +
-                     ", and " + advice);
+    const std::string nearest = nearest_name(name, known);
+    if (!is_misspelling(name, nearest))
+        throw UsageError(start + advice);
+    throw UsageError(start + "the nearest is " + nearest + ", and " + advice);
 }
 
 } // namespace clrt

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every option once: its names, its help, and how its value enters Options. The command line, the options file
-// and --help are all read from this table.
+// Every option once: its names, its help, and how its value enters Options. The command line, the options
+// file and --help are all read from this table.
 #pragma once
 
 #include "app/option_values.h"
@@ -42,7 +42,8 @@ const OptionSpec* find_option(const std::string& long_name);
 /// them replaces the other one of the options file.
 const std::vector<std::pair<std::string, std::string>>& exclusive_options();
 
-/// Throws UsageError "unknown option ..." that names the nearest option.
+/// Throws UsageError "unknown option ..." that names what other renderers' name for it is here, else the
+/// nearest option where there is a near one.
 [[noreturn]] void reject_unknown_option(const std::string& origin, const std::string& given);
 
 /// Whether the option takes no value, or one only after '='.

@@ -20,9 +20,11 @@ enum class Toggle { AUTO, ON, OFF };
 enum class BvhChoice { AUTO, BVH8, BVH2, CWBVH };
 enum class QualityChoice { AUTO, FAST, HIGH };
 enum class Filter { BOX, TENT, GAUSSIAN };
-enum class Tonemap { NONE, REINHARD, ACES };
+enum class Tonemap { NONE, REINHARD, ACES, FILMIC, AGX };
 enum class Check { OFF, COUNT, STRICT };
 enum class MtlReading { AUTO, PLAIN };
+/// CLAY: matte grey in the place of every material (scene/material_override.h).
+enum class MaterialOverride { NONE, CLAY };
 enum class Explain { NO, TABLE, JSON };
 
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
@@ -96,6 +98,7 @@ struct Options {
     BvhChoice bvh = BvhChoice::AUTO;
     QualityChoice bvh_quality = QualityChoice::AUTO; ///< work put into the tree
     MtlReading mtl = MtlReading::AUTO;               ///< auto: as the writers of libraries mean them
+    MaterialOverride material_override = MaterialOverride::NONE;
 
     // Picture
     glm::ivec2 size{800, 600};
@@ -104,6 +107,7 @@ struct Options {
     Filter filter = Filter::BOX;
     std::optional<double> filter_radius; ///< pixels; box 0.5, tent 1, gaussian 1.5
     double exposure_ev = 0;              ///< stops, PNG and other 8-bit files only
+    bool auto_exposure = false;          ///< exposure_ev is added to what the picture asks for
     Tonemap tonemap = Tonemap::NONE;
     std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
     std::vector<PathLayerOption> path_layers;     ///< further EXR layers, made from the picture's light

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "Picture".
 #include "app/layer_option.h"
+#include "app/look_option.h"
 #include "app/option_rows.h"
 #include "output/image.h"
 
@@ -8,8 +9,6 @@ namespace clrt {
 
 namespace {
 
-/// Stops: 2^100 times any float radiance still is a double.
-constexpr double LARGEST_EXPOSURE = 100;
 /// Pixels; a wider filter is a blurred picture.
 constexpr double LARGEST_FILTER_RADIUS = 100;
 
@@ -50,17 +49,8 @@ std::vector<OptionSpec> picture_options() {
          [](Options& o, const OptionValue& v) { o.crop = parse_crop(v); }},
         {group, "", "--filter", "NAME[:RADIUS]",
          "box, tent or gaussian; radius in pixels (default box; radius 0.5, 1 or 1.5)", apply_filter},
-        {group, "", "--exposure", "EV", "brighten 8-bit pictures by 2^EV (default 0)",
-         [](Options& o, const OptionValue& v) {
-             o.exposure_ev = parse_number(v, "stops from -100 to 100", [](double ev) {
-                 return ev >= -LARGEST_EXPOSURE && ev <= LARGEST_EXPOSURE;
-             });
-         }},
-        {group, "", "--tonemap", "NAME", "curve of 8-bit pictures: none, reinhard or aces (default none)",
-         [](Options& o, const OptionValue& v) {
-             o.tonemap = parse_choice<Tonemap>(
-                 v, {{"none", Tonemap::NONE}, {"reinhard", Tonemap::REINHARD}, {"aces", Tonemap::ACES}});
-         }},
+        {group, "", "--exposure", "auto|EV", EXPOSURE_HELP, apply_exposure},
+        {group, "", "--tonemap", "NAME", TONEMAP_HELP, apply_tonemap},
         {group, "", "--aov", "LIST",
          "layers of EXR files, such as albedo,N or none: albedo N Z P objectId materialId variance samples "
          "badSamples alpha, and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable "

@@ -32,7 +32,7 @@ int run_program(const char* name, const std::function<int()>& program) {
     } catch (const std::bad_alloc&) {
         return report(EXIT_SCENE,
                       "not enough memory: expected a smaller scene, smaller textures or a smaller "
-                      "picture (--size, --crop)");
+                      "--size; --crop renders a large picture in parts");
     } catch (const std::exception& error) {
         return report(EXIT_SCENE, error.what());
     }

@@ -133,6 +133,14 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.mtl = parse_choice<MtlReading>(v, {{"auto", MtlReading::AUTO}, {"plain", MtlReading::PLAIN}});
          }},
+        {group, "", "--material", "NAME",
+         "what everything is made of: none (as the libraries say) or clay (matte grey, to show shape and "
+         "light "
+         "alone; lights and cut-outs stay) (default none)",
+         [](Options& o, const OptionValue& v) {
+             o.material_override = parse_choice<MaterialOverride>(
+                 v, {{"none", MaterialOverride::NONE}, {"clay", MaterialOverride::CLAY}});
+         }},
     };
 }
 

@@ -25,20 +25,24 @@ constexpr size_t HUGE_PAGE_BYTES = size_t(1) << 21;
 /// Smaller buffers fit the processor's table of ordinary pages.
 constexpr size_t HUGE_PAGES_FROM_BYTES = 2 * HUGE_PAGE_BYTES;
 
+/// What is uploaded is the scene's, what is made empty the picture's.
+const char* const SMALLER_SCENE = "a smaller scene or smaller textures";
+const char* const SMALLER_PICTURE = "a smaller --size (--crop renders a large picture in parts)";
+
 double mebibytes(size_t bytes) {
     return static_cast<double>(bytes) / (1 << 20);
 }
 
-/// Throws when `bytes` exceed the device's largest allocation or its memory.
-void check_size(const DeviceInfo& device, const char* name, size_t bytes) {
+/// Throws when `bytes` exceed the device's largest allocation or its memory; `remedy` ends the message.
+void check_size(const DeviceInfo& device, const char* name, size_t bytes, const char* remedy) {
     const size_t possible = std::min(device.largest_buffer_bytes, device.memory_bytes);
     if (bytes > possible)
         throw DeviceError(
             fmt::format("The buffer \"{}\" needs {:.1f} MiB, but device {}:{} ({}) allows {:.1f} MiB for "
-                        "one buffer and has {:.1f} MiB of memory. Choose a device with more memory "
-                        "(--list-devices), a smaller picture or a smaller scene.",
+                        "one buffer and has {:.1f} MiB of memory. Choose {} or a device with more memory "
+                        "(--list-devices).",
                         name, mebibytes(bytes), device.platform_index, device.device_index, device.name,
-                        mebibytes(device.largest_buffer_bytes), mebibytes(device.memory_bytes)));
+                        mebibytes(device.largest_buffer_bytes), mebibytes(device.memory_bytes), remedy));
 }
 
 std::string making(const char* name, size_t bytes) {
@@ -75,7 +79,7 @@ cl::Buffer upload_on_huge_pages(const Device& device, const char* name, const vo
 cl::Buffer upload_buffer(const Device& device, const char* name, const void* data, size_t bytes) {
     if (bytes == 0)
         return create_buffer(device, name, 0);
-    check_size(device.info, name, bytes);
+    check_size(device.info, name, bytes, SMALLER_SCENE);
     if (device.info.type == "CPU" && bytes >= HUGE_PAGES_FROM_BYTES) {
         const cl::Buffer buffer = upload_on_huge_pages(device, name, data, bytes);
         if (buffer())
@@ -90,7 +94,7 @@ cl::Buffer upload_buffer(const Device& device, const char* name, const void* dat
 
 cl::Buffer create_buffer(const Device& device, const char* name, size_t bytes) {
     const size_t size = bytes == 0 ? EMPTY_BUFFER_BYTES : bytes;
-    check_size(device.info, name, size);
+    check_size(device.info, name, size, SMALLER_PICTURE);
     return check_opencl(making(name, size), [&] {
         cl::Buffer buffer(device.context, CL_MEM_READ_WRITE, size);
         // Written in pieces, not by enqueueFillBuffer: Oclgrind takes filled memory for uninitialised.

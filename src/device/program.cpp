@@ -213,6 +213,9 @@ Program build_program(const Device& device, const ProgramRequest& request) {
             store(*program, folder, key);
     }
     program->log = build_log(device, program->handle);
+    if (program->log.find_first_not_of(" \t\r\n") != std::string::npos)
+        spdlog::debug("the compiler about the program {}:\n{}", request.name,
+                      first_lines(program->log, LOG_LINES_SHOWN));
     program->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(*program);
 }

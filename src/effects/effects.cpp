@@ -2,6 +2,7 @@
 #include "effects/effects.h"
 
 #include "paths/path_report.h"
+#include "scene/material_override.h"
 #include "scene/material_rules.h"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ public:
     }
 
     /// An effect that the first used material with a property calls for.
-    void material(u32 bit, const char* absent, const std::function<bool(const Material&)>& calls) {
+    void material(u32 bit, const std::string& absent, const std::function<bool(const Material&)>& calls) {
         const size_t i = first_material(calls);
         if (i == used_.size())
             return fact(bit, false, absent);
@@ -63,7 +64,8 @@ public:
     }
 
     /// An effect that a map of the first used material with one of these maps calls for.
-    void map(u32 bit, const char* absent, const std::function<std::vector<u32>(const Material&)>& maps_of) {
+    void map(u32 bit, const std::string& absent,
+             const std::function<std::vector<u32>(const Material&)>& maps_of) {
         for (size_t i = 0; i < used_.size(); ++i)
             for (const u32 map : used_[i] ? maps_of(scene_.materials[i]) : std::vector<u32>())
                 if (map != NO_INDEX)
@@ -135,21 +137,27 @@ void find_light_effects(const Scene& scene, const Options& options, EffectFinder
     find_environment(scene, options, finder);
 }
 
-void find_material_effects(EffectFinder& finder) {
-    const auto lobe = [&](u32 bit, u32 lobe_bit, const char* absent) {
-        finder.material(bit, absent, [lobe_bit](const Material& m) { return (m.lobes & lobe_bit) != 0; });
+/// --material may be the reason why effects of materials are absent.
+void find_material_effects(const Options& options, EffectFinder& finder) {
+    const MaterialReplacement* replacement = find_replacement(options.material_override);
+    const std::string by =
+        replacement ? fmt::format(", by {} {}", describe_option(options, "--material"), replacement->name)
+                    : "";
+    const auto lobe = [&](u32 bit, u32 lobe_bit, const std::string& absent) {
+        finder.material(bit, absent + by,
+                        [lobe_bit](const Material& m) { return (m.lobes & lobe_bit) != 0; });
     };
     lobe(EFFECT_MATTE, LOBE_MATTE, "no material has Kd above 0");
     lobe(EFFECT_GLOSSY, LOBE_GLOSSY, "no material reflects roughly");
     lobe(EFFECT_MIRROR, LOBE_MIRROR, "no material is a mirror");
     lobe(EFFECT_REFRACTION, LOBE_DIELECTRIC, "no material is a dielectric");
-    finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough",
+    finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough" + by,
                     [](const Material& m) { return (m.lobes & LOBE_DIELECTRIC) && m.alpha_x > 0; });
-    finder.map(EFFECT_TEXTURES, "no material has a map", [](const Material& m) {
+    finder.map(EFFECT_TEXTURES, "no material has a map" + by, [](const Material& m) {
         return std::vector<u32>{m.map_matte,     m.map_specular, m.map_emission, m.map_coverage,
                                 m.map_roughness, m.map_metallic, m.map_normal,   m.map_bump};
     });
-    finder.map(EFFECT_NORMAL_MAP, "no material has one", [](const Material& m) {
+    finder.map(EFFECT_NORMAL_MAP, "no material has one" + by, [](const Material& m) {
         return std::vector<u32>{m.map_normal, m.map_bump};
     });
 }
@@ -206,7 +214,7 @@ u32 chosen_effects(const Options& options, u32 needed) {
 Effects find_effects(const Scene& scene, const Options& options) {
     EffectFinder finder(scene);
     find_light_effects(scene, options, finder);
-    find_material_effects(finder);
+    find_material_effects(options, finder);
     find_smooth_normals(scene, finder);
     find_cut_outs(finder);
     find_filter(options, finder);

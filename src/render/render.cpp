@@ -426,7 +426,7 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     if (options.adaptive && film.replicates != options.replicates)
         throw DeviceError(
             fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
-                        "a smaller --size or --crop, or fewer --replicates",
+                        "a smaller --size or fewer --replicates",
                         options.replicates, film.replicates));
 
     progress.update({"compile", -1, 0, -1, -1});

@@ -207,6 +207,7 @@ std::string report_json(const Report& report) {
         json["bad_samples"].push_back({{"x", pixel % u32(report.options.size.x)},
                                        {"y", pixel / u32(report.options.size.x)},
                                        {"sample", sample}});
+    json["exposure_ev"] = report.exposure_ev;
     json["device"] = device_json(report);
     json["bvh"] = {{"layout", layout_name(report.bvh.layout)},
                    {"quality", quality_name(report.bvh.quality)},
@@ -251,6 +252,7 @@ Metadata report_metadata(const Report& report) {
                       {"overflow", std::to_string(render.counts.overflow)}};
     if (const glm::dvec3 origin = position_origin(report.scene.normalisation); origin != glm::dvec3(0))
         metadata.emplace_back("P.origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z));
+    metadata.emplace_back("exposure_ev", fmt::format("{:g}", report.exposure_ev));
     add_facts(report, metadata);
     if (is_adaptive(render.film)) {
         const TileSpread spread = tile_spread(render.film);

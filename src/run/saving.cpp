@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/saving.h"
 
+#include "output/exposure.h"
 #include "output/image.h"
 #include "render/picture.h"
 
@@ -11,9 +12,11 @@ namespace clrt {
 
 namespace {
 
+/// Auto exposure is that of the samples so far.
 void write_pictures(const Picture& picture, const Options& options) {
+    const double exposure_ev = chosen_exposure_ev(options, picture.layers[0].values);
     for (const std::string& path : options.outputs)
-        write_picture(picture, path, options.exposure_ev, options.tonemap);
+        write_picture(picture, path, exposure_ev, options.tonemap);
 }
 
 /// Saves while the render goes on, whatever happens to the file.
@@ -65,12 +68,15 @@ void FinalFiles::finish() const {
         throw SceneError(*first_error_);
 }
 
-void write_outputs(const Report& report, FinalFiles& files) {
+void write_outputs(Report& report, FinalFiles& files) {
     const Options& options = report.options;
     Picture picture = picture_within_memory(report, files);
+    report.exposure_ev = chosen_exposure_ev(options, picture.layers[0].values);
     picture.metadata = report_metadata(report);
+    if (options.auto_exposure)
+        spdlog::info("{}", exposure_notice(report.exposure_ev));
     for (const std::string& path : options.outputs)
-        files.write(path, [&] { write_picture(picture, path, options.exposure_ev, options.tonemap); });
+        files.write(path, [&] { write_picture(picture, path, report.exposure_ev, options.tonemap); });
     if (!options.stats_path.empty())
         files.write(options.stats_path, [&] { write_text_file(options.stats_path, report_json(report)); });
 }

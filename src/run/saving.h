@@ -27,8 +27,8 @@ private:
     std::optional<SceneError> first_error_;
 };
 
-/// Pictures and the statistics of a finished render.
-void write_outputs(const Report& report, FinalFiles& files);
+/// Pictures and the statistics of a finished render; chooses the exposure first and puts it into the report.
+void write_outputs(Report& report, FinalFiles& files);
 
 /// Film files and pictures beside a render, and the film that it goes on from. Refers to the arguments of its
 /// constructor. A save on the way that fails does not end the render: a full disk may have room later.

@@ -9,6 +9,7 @@
 #include "scene/environment.h"
 #include "scene/far_notices.h"
 #include "scene/lights.h"
+#include "scene/material_override.h"
 #include "scene/material_rules.h"
 #include "scene/mtl_libraries.h"
 #include "scene/mtl_repair.h"
@@ -43,7 +44,8 @@ struct MaterialReader {
     std::map<std::string, MtlMaterial> library;
     MaterialContext context;
     LoadMap load_map;
-    std::optional<MapFacts> facts; ///< for the repairs; absent: --mtl plain
+    std::optional<MapFacts> facts;                    ///< for the repairs; absent: --mtl plain
+    const MaterialReplacement* replacement = nullptr; ///< of all materials; null: each is itself
 };
 
 /// The material behind a usemtl name; a name that no library defines is grey, with a notice. `first_colour`
@@ -54,21 +56,29 @@ RuledMaterial material_by_name(const std::string& name, size_t line, const std::
     const auto coloured = [&](const MtlMaterial& material) {
         return first_colour ? with_vertex_colours(material, *first_colour, notices) : material;
     };
+    const auto rule = [&](const MtlMaterial& material) {
+        if (!reader.replacement)
+            return rule_material(coloured(material), reader.context, reader.load_map, notices);
+        const MtlMaterial replaced = replace_material(material, *reader.replacement, notices);
+        RuledMaterial ruled = rule_material(replaced, reader.context, reader.load_map, notices);
+        ruled.rule = reader.replacement->rule;
+        return ruled;
+    };
     const auto found = reader.library.find(name);
     if (found != reader.library.end()) {
         const MtlMaterial& mtl = found->second;
         place = mtl.place;
-        return rule_material(coloured(reader.facts ? repair_material(mtl, *reader.facts, notices) : mtl),
-                             reader.context, reader.load_map, notices);
+        return rule(reader.facts ? repair_material(mtl, *reader.facts, notices) : mtl);
     }
     place = {obj_path, line};
     if (!name.empty())
         notices.add(fmt::format("usemtl {}: no library defines it, matte {} is taken", clrt::quoted(name),
                                 first_colour ? "with the colours of the vertices" : "grey (Kd 0.8)"),
                     place);
+    if (reader.replacement)
+        return rule({});
     if (first_colour)
-        return {rule_material(coloured({}), reader.context, reader.load_map, notices).material,
-                "no material: matte, Kd of the vertices"};
+        return {rule({}).material, "no material: matte, Kd of the vertices"};
     return default_material();
 }
 
@@ -76,6 +86,10 @@ RuledMaterial material_by_name(const std::string& name, size_t line, const std::
 /// luminance, mean over its map, times coverage, doubled where both sides shine.
 std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progress& progress, Scene& scene,
                                    NoticeList& notices) {
+    MaterialReader reader;
+    reader.replacement = find_replacement(options.material_override);
+    if (reader.replacement)
+        mesh.colours.clear();
     std::vector<bool> coloured = coloured_materials(mesh);
     decode_vertex_colours(mesh, options.scene_path, notices);
     if (mesh.colours.empty())
@@ -87,7 +101,6 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         scene.statistics.texture_seconds += watch.seconds();
         return answer;
     };
-    MaterialReader reader;
     reader.library = read_mtl_libraries(options.scene_path, mesh.libraries, notices);
     reader.context = {scene.normalisation.scale, options.light.two_sided};
     reader.load_map = [&](const MtlTexture& use, TextureRole role) {

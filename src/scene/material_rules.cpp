@@ -12,7 +12,7 @@
 namespace clrt {
 namespace {
 
-constexpr double DEFAULT_NS = 10, DEFAULT_NI = 1.5, DEFAULT_KD = 0.8;
+constexpr double DEFAULT_NS = 10, DEFAULT_NI = 1.5;
 
 /// What a model reflects besides its matte part.
 enum class Reflection {
@@ -362,6 +362,10 @@ std::vector<MaterialRow> material_rows() {
 RuledMaterial rule_material(const MtlMaterial& mtl, const MaterialContext& context, const LoadMap& load_map,
                             NoticeList& notices) {
     return MaterialRule(mtl, context, load_map, notices).apply();
+}
+
+bool is_dielectric(const MtlMaterial& mtl) {
+    return find_rule(mtl).reflection == Reflection::DIELECTRIC;
 }
 
 RuledMaterial default_material() {

@@ -26,6 +26,9 @@ constexpr double SMALLEST_PHONG_EXPONENT = 1e-3;
 /// Up to this roughness `whitted` follows the reflection of a metallic-roughness material as a mirror's.
 constexpr double WHITTED_MIRROR_PR = 0.1;
 
+/// Matte reflectance of a material that says nothing about itself, and of faces without one.
+constexpr double DEFAULT_KD = 0.8;
+
 /// An index of 1.5 reflects 4 % head-on: the F0 of metallic-roughness materials that are no metal and do not
 /// say otherwise.
 constexpr double DIELECTRIC_F0 = 0.04;
@@ -58,6 +61,9 @@ struct MaterialContext {
 /// loaded.
 RuledMaterial rule_material(const MtlMaterial& mtl, const MaterialContext& context, const LoadMap& load_map,
                             NoticeList& notices);
+
+/// Whether the rules make glass of the material's keys.
+bool is_dielectric(const MtlMaterial& mtl);
 
 /// The material of faces without one: matte, Kd 0.8.
 RuledMaterial default_material();

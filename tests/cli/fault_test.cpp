@@ -203,7 +203,7 @@ TEST_F(Fault, AFilmThatNoDeviceHoldsIsAnErrorOfTheDevice) {
     const CommandResult result =
         clrt({"scene.obj", "-i", "raycast", "-s", "1", "-r", "65535x65535", "-o", "a.pfm"});
     EXPECT_EQ(result.exit_code, 3);
-    EXPECT_TRUE(holds(result.err, {"clrt: error: ", "\"film\" needs", "a smaller picture"}));
+    EXPECT_TRUE(holds(result.err, {"clrt: error: ", "\"film\" needs", "Choose a smaller --size (--crop"}));
     EXPECT_EQ(listing(), (std::vector<std::string>{"scene.obj"}));
 }
 

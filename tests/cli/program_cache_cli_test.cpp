@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cache of compiled programs as a user meets it.
 #include "clrt_command.h"
+#include "support/instruction_sets.h"
 
 #include <cstdlib>
+#include <fstream>
 
 namespace clrt {
 
@@ -15,6 +17,13 @@ protected:
         std::vector<std::string> words = quick({"scene.obj", "--cache", "on", "--cache-dir", "cache", "-v"});
         words.insert(words.end(), {"-o", picture});
         return words;
+    }
+    /// PoCL's cache in a new folder: it compiles.
+    CommandSettings cold_cache(const std::string& name) const {
+        CommandSettings settings;
+        settings.environment["POCL_CACHE_DIR"] = folder.file(name);
+        std::filesystem::create_directory(folder.file(name));
+        return settings;
     }
     size_t entries() const {
         size_t count = 0;
@@ -61,6 +70,35 @@ TEST_F(ProgramCacheCommand, ADamagedEntryIsAMissAndNoErrorAndOffKeepsNothing) {
     EXPECT_FALSE(holds(clrt(cached("c.ppm")).err, {"is damaged"}));
     EXPECT_EQ(clrt(quick({"scene.obj", "--no-cache", "--cache-dir", "none"})).exit_code, 0);
     EXPECT_FALSE(exists("none"));
+}
+
+// Compilers count their warnings on stderr whoever asked for the program. On processors without 512-bit or
+// 256-bit vectors kernels in double, and without the latter all, once had dozens.
+TEST_F(ProgramCacheCommand, ACompilerSaysNothingOfItsOwnOnAnyInstructionSet) {
+    write_square("scene");
+    const auto expect_silence = [&](const std::string& set, const std::string& precision) {
+        CommandSettings cold = cold_cache("pocl-" + set + precision);
+        cold.environment[InstructionSet::VARIABLE] = set;
+        const auto result = clrt(quick({"scene.obj", "-q", "--precision", precision}), cold);
+        EXPECT_EQ(result.exit_code, 0) << set << " " << precision;
+        EXPECT_EQ(result.err, "") << set << " " << precision;
+    };
+    for (const InstructionSet& set : instruction_sets())
+        expect_silence(set.name, "double");
+    if (!instruction_sets().empty()) // the oldest: in single precision newer ones hold all vectors
+        expect_silence(instruction_sets().front().name, "single");
+}
+
+// Of kernels that somebody changes, PoCL says "1 warning generated." and not which.
+TEST_F(ProgramCacheCommand, WhatTheCompilerSaysAboutOnesOwnKernelsIsInTheVerboseLog) {
+    write_square("scene");
+    std::filesystem::copy(CLRT_KERNELS_FOLDER, folder.file("kernels"),
+                          std::filesystem::copy_options::recursive);
+    std::ofstream(folder.file("kernels/integrators/raycast.cl"), std::ios::app)
+        << "\n#warning an_unfinished_idea\n";
+    const auto result = clrt(quick({"scene.obj", "--kernels", "kernels", "-v"}), cold_cache("pocl"));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(holds(result.err, {"the compiler about the program raycast", "an_unfinished_idea"}));
 }
 
 } // namespace clrt

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the command line refuses, and in which words.
 #include "app/option_table.h"
+#include "app/peer_names.h"
 #include "host/command_line_support.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
+#include <regex>
 
 namespace clrt {
 
@@ -24,6 +26,38 @@ TEST(CommandLine, UnknownOptionsNameTheNearest) {
               std::string::npos);
     EXPECT_NE(refusal({"--dev", "pocl", "s.obj"}).find("the nearest is --device"), std::string::npos);
     EXPECT_EQ(refusal({"-x", "s.obj"}), "unknown option -x; `clrt --help` lists all");
+}
+
+TEST(CommandLine, UnknownOptionsWithoutANearOneNameNone) {
+    for (const char* name : {"--xyzzy", "--frobnicate", "--caustics"})
+        EXPECT_EQ(refusal({name, "s.obj"}),
+                  std::string("unknown option ") + name + "; `clrt --help` lists all");
+}
+
+TEST(CommandLine, NamesOfOtherRenderersLeadToTheirNameHere) {
+    EXPECT_EQ(refusal({"--resolution", "640x480", "s.obj"}),
+              "unknown option --resolution; clrt calls it --size WxH, and `clrt --help` lists all");
+    const std::vector<std::pair<std::string, std::string>> names = {
+        {"--width=640", "--size WxH"},      {"--samples", "--spp N"},
+        {"--samplesPerPixel", "--spp N"},   {"--output-file", "--output FILE"},
+        {"--gpu", "--device gpu"},          {"--max_bounces=3", "--max-depth N"},
+        {"--nthreads", "--threads N"},      {"--cropwindow", "--crop X0,Y0,X1,Y1"},
+        {"--hdri", "--env FILE"},           {"--EnvMap", "--env FILE"},
+        {"--noise-threshold", "--error X"}, {"--view-transform", "--tonemap NAME"}};
+    for (const auto& [typed, here] : names)
+        EXPECT_NE(refusal({typed, "s.obj"}).find("; clrt calls it " + here + ", and "), std::string::npos)
+            << refusal({typed, "s.obj"});
+}
+
+TEST(CommandLine, EveryNameOfOtherRenderersIsForeignAndLeadsToAnOption) {
+    for (const auto& [peer, here] : peer_names()) {
+        EXPECT_FALSE(find_option(std::string("--") + peer)) << peer << " is an option here";
+        EXPECT_EQ(name_here(peer), here) << peer << " is listed twice";
+        const std::string text = here;
+        const std::regex option("--[a-z-]+");
+        for (std::sregex_iterator found(text.begin(), text.end(), option), end; found != end; ++found)
+            EXPECT_TRUE(find_option(found->str())) << peer << ": " << found->str();
+    }
 }
 
 TEST(CommandLine, MissingValuesAreNamed) {
@@ -70,6 +104,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--bvh", "high,fast"},
         {"--bvh", "auto,high"},
         {"--bvh", ""},
+        {"--material", "wood"},
         {"--size", "800"},
         {"--size", "0x600"},
         {"--size", "800x65536"},
@@ -85,7 +120,10 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--filter", "tent:nan"},
         {"--exposure", "1e9"},
         {"--exposure", "bright"},
-        {"--tonemap", "filmic"},
+        {"--exposure", "automatic"},
+        {"--exposure", "auto+"},
+        {"--exposure", "auto+101"},
+        {"--tonemap", "film"},
         {"--aov", "albedo,depth"},
         {"--aov", "N,N"},
         {"--aov", "N,none"},
@@ -144,7 +182,9 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"--film-width", "35"}, "option --film-width: expected together with --focal-length");
     expect({"--crop", "0,0,801,10"}, "option --crop: expected a window inside the picture of 800x600 pixels");
     expect({"-r", "65501x2", "-o", "a.JPG"},
-           "option --output: expected at most 65500 pixels a side for 'a.JPG'");
+           "option --size: expected at most 65500 pixels a side for 'a.JPG', found 65501x2");
+    expect({"-r", "65535x2", "--crop", "9,0,65512,1", "-o", "a.jpg"},
+           "option --crop: expected at most 65500 pixels a side for 'a.jpg', found 65503x1");
     expect({"-i", "whitted", "--max-depth", "65"}, "option --max-depth: expected at most 64");
     expect({"--first-sample", "4294967232"}, "expected a sum below 4294967296, found 4294967296");
     expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");

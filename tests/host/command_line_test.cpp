@@ -38,6 +38,7 @@ const std::map<std::string, std::string>& samples() {
         {"--threads", "2"},
         {"--bvh", "bvh2"},
         {"--mtl", "plain"},
+        {"--material", "clay"},
         {"--size", "320x200"},
         {"--output", "a.exr"},
         {"--crop", "10,20,30,40"},
@@ -184,6 +185,16 @@ TEST(CommandLine, PictureOptionsArrive) {
     EXPECT_EQ(o.tonemap, Tonemap::REINHARD);
     EXPECT_EQ(o.aovs, (std::vector<std::string>{"N", "Z"}));
     EXPECT_TRUE(parse({"--aov", "none"}).aovs->empty());
+    EXPECT_FALSE(o.auto_exposure);
+    for (const auto& [text, ev] :
+         std::map<std::string, double>{{"auto", 0}, {"auto+1", 1}, {"auto-0.5", -0.5}}) {
+        EXPECT_TRUE(parse({"--exposure", text}).auto_exposure) << text;
+        EXPECT_EQ(parse({"--exposure", text}).exposure_ev, ev) << text;
+    }
+    EXPECT_EQ(parse({"--tonemap", "filmic"}).tonemap, Tonemap::FILMIC);
+    EXPECT_EQ(parse({"--tonemap", "agx"}).tonemap, Tonemap::AGX);
+    EXPECT_EQ(o.material_override, MaterialOverride::NONE);
+    EXPECT_EQ(parse({"--material", "clay"}).material_override, MaterialOverride::CLAY);
 }
 
 TEST(CommandLine, TreeTakesLayoutAndQuality) {

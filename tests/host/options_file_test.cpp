@@ -137,6 +137,24 @@ TEST_F(OptionsFile, ContradictionsWithTheCommandLineNameTheFile) {
     EXPECT_NE(message.find(folder.file("hall.clrt")), std::string::npos) << message;
 }
 
+TEST_F(OptionsFile, IsNamedOnlyWhereTheContradictionIsWithAnOptionOfIt) {
+    const std::string place = folder.file("hall.clrt") + ":2";
+    EXPECT_EQ(refusal("--spp 4\n--size 100x100\n", {"--crop", "0,0,500,500"}),
+              "option --crop: expected a window inside the picture of 100x100 pixels (--size), found "
+              "0,0,500,500 (--size is from " +
+                  place + ")");
+    EXPECT_EQ(refusal("--fov 4\n--replicates 3\n", {"--error", "1%"}),
+              "option --error: expected --replicates 4 or more, whose spread is the error, found 3 "
+              "(--replicates is from " +
+                  place + ")");
+    for (const char* content : {"--spp 4\n", "--size 600x400\n"})
+        EXPECT_EQ(refusal(content, {"--focal-length", "35"}),
+                  "option --focal-length: expected together with --film-width, found alone");
+    EXPECT_EQ(refusal("--size 64x64\n", {"--size", "100x100", "--crop", "0,0,500,500"}),
+              "option --crop: expected a window inside the picture of 100x100 pixels (--size), found "
+              "0,0,500,500");
+}
+
 TEST_F(OptionsFile, AFolderOfThatNameIsNoOptionsFile) {
     std::filesystem::create_directory(folder.file("room.clrt"));
     const std::string scene = folder.file("room.obj");

@@ -124,7 +124,8 @@ TEST(Tonemap, ExposureIsInStopsAndWhiteClamps) {
 }
 
 TEST(Tonemap, OddNumbersBecomeBlackOrWhite) {
-    for (const Tonemap tonemap : {Tonemap::NONE, Tonemap::REINHARD, Tonemap::ACES}) {
+    for (const Tonemap tonemap :
+         {Tonemap::NONE, Tonemap::REINHARD, Tonemap::ACES, Tonemap::FILMIC, Tonemap::AGX}) {
         EXPECT_EQ(grey(NOT_A_NUMBER, 1, tonemap), 0);
         EXPECT_EQ(grey(-1, 1, tonemap), 0);
         EXPECT_EQ(grey(-INFINITE, 1, tonemap), 0);
@@ -152,6 +153,22 @@ TEST(Tonemap, AcesFitHasItsPublishedValuesAndRises) {
         EXPECT_GT(now, before);
         before = now;
     }
+}
+
+// The talk's quotient is 0.7251294 at its white of 11.2; the exposure bias is 2.
+TEST(Tonemap, HablesCurveHasItsPublishedValuesAndRisesToItsWhite) {
+    const auto curve = [](double x) { return tonemap_curve(glm::dvec3(x), Tonemap::FILMIC).y; };
+    EXPECT_NEAR(curve(0), 0, 1e-15);
+    EXPECT_NEAR(curve(0.18),
+                (0.36 * 0.104 + 0.004) / (0.36 * 0.554 + 0.06) / 0.7251294 - 0.02 / 0.30 / 0.7251294, 1e-6);
+    EXPECT_NEAR(curve(1), (2 * 0.35 + 0.004) / (2 * 0.8 + 0.06) / 0.7251294 - 0.02 / 0.30 / 0.7251294, 1e-6);
+    EXPECT_NEAR(curve(5.6), 1, 1e-12);
+    EXPECT_NEAR(curve(1e30), 1, 1e-12);
+    for (double x = 0; x < 5.5; x += 0.01)
+        EXPECT_LT(curve(x), curve(x + 0.01));
+    // A shoulder: the brighter, the flatter.
+    for (double x = 0.01; x < 3; x *= 1.5)
+        EXPECT_GT(curve(x) / x, curve(1.5 * x) / (1.5 * x));
 }
 
 TEST(Output, KnownExtensionsAreAcceptedInAnyCase) {

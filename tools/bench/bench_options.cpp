@@ -129,8 +129,10 @@ std::string help_page() {
     std::vector<std::string> names;
     for (const BenchOption& option : table())
         names.emplace_back(option.name);
-    throw UsageError(fmt::format("unknown option {}; the nearest is {}, and `clrt-bench --help` lists all",
-                                 given, nearest_name(given.substr(0, given.find('=')), names)));
+    const std::string name = given.substr(0, given.find('='));
+    const std::string nearest = nearest_name(name, names);
+    const std::string hint = is_misspelling(name, nearest) ? "the nearest is " + nearest + ", and " : "";
+    throw UsageError(fmt::format("unknown option {}; {}`clrt-bench --help` lists all", name, hint));
 }
 
 /// Collects the texts of every option by CLI11; gives what is no option.
