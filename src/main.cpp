@@ -16,6 +16,7 @@
 #include "render/render_params.h"
 #include "render/report.h"
 #include "replay/replay_pixel.h"
+#include "run/run_files.h"
 #include "run/saving.h"
 #include "run/simulate.h"
 #include "scene/load_scene.h"
@@ -72,6 +73,14 @@ int finish(const Report& report) {
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
 }
 
+/// The scene of a run, whose results are known not to replace what it was loaded from.
+Scene load_for_run(const Options& options, Progress& progress) {
+    Scene scene = load_scene(options, progress);
+    progress.finish();
+    check_run_files(options, scene);
+    return scene;
+}
+
 /// Prints what would be rendered and why.
 int run_explain(const Options& options) {
     Progress progress(options.progress, options.verbosity < 0);
@@ -92,7 +101,7 @@ int run_explain(const Options& options) {
 int run_ledger(const Options& options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
-    const Scene scene = load_scene(options, progress);
+    const Scene scene = load_for_run(options, progress);
     const Ledger ledger = make_ledger(device, scene, options, progress);
     progress.finish();
     fmt::print("{}", format_ledger(ledger, options, device.info));
@@ -105,8 +114,7 @@ int run_ledger(const Options& options) {
 int run_replay(const Options& options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
-    Scene scene = load_scene(options, progress);
-    progress.finish();
+    Scene scene = load_for_run(options, progress);
     if (options.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
     const PixelReplay replay = replay_pixel(device, std::move(scene), options);
@@ -120,9 +128,8 @@ int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
-    Scene scene = load_scene(options, progress);
+    Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
-    progress.finish();
     for (const std::string& notice : scene.notices)
         spdlog::info("{}", notice);
     Effects effects = find_effects(scene, options);

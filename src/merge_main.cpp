@@ -5,6 +5,7 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "output/written_files.h"
 #include "render/error_report.h"
 #include "render/merge_films.h"
 #include "run/saving.h"
@@ -86,6 +87,12 @@ void check(const MergeOptions& options) {
             check_output_path(path);
         check_output_folder(path);
     }
+    std::vector<NamedFile> read, written;
+    for (const std::string& path : options.films)
+        read.push_back({"the film", path});
+    for (const std::string& path : options.outputs)
+        written.push_back({"--output", path});
+    check_written_files(written, read);
 }
 
 void merge(const MergeOptions& options) {

@@ -4,10 +4,11 @@
 
 #include "error.h"
 #include "output/image.h"
+#include "output/written_files.h"
 #include "render/adaptive.h"
+#include "run/run_files.h"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace clrt {
 
@@ -101,23 +102,6 @@ void check_adaptive(const Options& options) {
                         "of equal samples");
 }
 
-void check_written_paths(const Options& options) {
-    std::error_code error; // a file that is not there yet is no other file
-    for (const std::string& input : {options.scene_path, options.sidecar_path}) {
-        if (!options.stats_path.empty() && std::filesystem::equivalent(options.stats_path, input, error))
-            reject(options, "option --stats: expected a file to write, found the input " + input);
-        if (!options.checkpoint_path.empty() &&
-            std::filesystem::equivalent(options.checkpoint_path, input, error))
-            reject(options, "option --checkpoint: expected a file to write, found the input " + input);
-    }
-    const std::string& film = options.checkpoint_path;
-    const bool is_output =
-        std::find(options.outputs.begin(), options.outputs.end(), film) != options.outputs.end();
-    if (!film.empty() && (is_output || film == options.stats_path))
-        reject(options,
-               "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
-}
-
 /// --pixel and --sample name a sample of the picture.
 void check_replay(const Options& options) {
     if (!options.pixel) {
@@ -166,7 +150,7 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
-    check_written_paths(options);
+    check_written_files(files_to_write(options), files_to_read(options));
     check_paths(options);
     check_replay(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)

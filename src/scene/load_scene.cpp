@@ -88,7 +88,7 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         return answer;
     };
     MaterialReader reader;
-    reader.library = read_mtl_libraries(options.scene_path, mesh.libraries, notices);
+    reader.library = read_mtl_libraries(options.scene_path, mesh.libraries, notices, scene.files);
     reader.context = {scene.normalisation.scale, options.light.two_sided};
     reader.load_map = [&](const MtlTexture& use, TextureRole role) {
         return timed([&] { return store.add(use, role, notices); });
@@ -119,6 +119,8 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         scene.material_places.push_back(place);
         scene.material_rules.push_back(ruled.rule);
     }
+    for (const std::string& path : store.files())
+        scene.files.push_back({"the texture", path});
     scene.textures = store.take_textures();
     scene.texture_names = store.take_names();
     scene.texture_places = store.take_places();

@@ -377,7 +377,7 @@ TEST(CommandLine, HelpAndVersionNeedNoScene) {
 TEST(CommandLine, StatisticsNeverReplaceTheScene) {
     ScratchFolder folder;
     const std::string scene = folder.write("box.obj", "v 0 0 0\n");
-    EXPECT_NE(refusal({"--stats", folder.file("./box.obj"), scene}).find("found the input"),
+    EXPECT_NE(refusal({"--stats", folder.file("./box.obj"), scene}).find("would replace the scene"),
               std::string::npos);
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run_files.h"
+
+#include "device/kernel_source.h"
+#include "output/written_files.h"
+#include "render/kernels.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+
+namespace clrt {
+
+std::vector<NamedFile> files_to_write(const Options& options) {
+    std::vector<NamedFile> files;
+    if (options.explain != Explain::NO)
+        return files;
+    const bool has_picture = !options.pixel && !options.ledger;
+    const bool is_default = options.given.count("--output") == 0;
+    if (has_picture)
+        for (const std::string& path : options.outputs)
+            files.push_back({is_default ? "--output (by default)" : "--output", path});
+    if (has_picture && !options.checkpoint_path.empty())
+        files.push_back({"--checkpoint", options.checkpoint_path});
+    if (!options.stats_path.empty())
+        files.push_back({"--stats", options.stats_path});
+    for (const std::string& path : dumped_files(options))
+        files.push_back({"--dump-kernels", path});
+    return files;
+}
+
+std::vector<NamedFile> files_to_read(const Options& options) {
+    std::vector<NamedFile> files = {{"the scene", options.scene_path},
+                                    {"the options file", options.sidecar_path},
+                                    {"the environment map", options.light.environment_file}};
+    if (!is_same_file(options.resume_path, options.checkpoint_path))
+        files.push_back({"the film to go on from", options.resume_path});
+    return files;
+}
+
+void check_run_files(const Options& options, const Scene& scene) {
+    std::vector<NamedFile> read = files_to_read(options);
+    read.insert(read.end(), scene.files.begin(), scene.files.end());
+    if (!options.kernels_folder.empty())
+        for (const auto& [name, text] : read_kernel_files(options.kernels_folder))
+            read.push_back(
+                {"the kernel file", (std::filesystem::path(options.kernels_folder) / name).string()});
+    check_written_files(files_to_write(options), read);
+}
+
+} // namespace clrt
