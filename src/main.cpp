@@ -126,6 +126,7 @@ int run_replay(const Options& options) {
 
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
+    check_checkpoint(options);
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
     Scene scene = load_for_run(options, progress);
@@ -153,10 +154,8 @@ int run_render(Options options) {
         return 128 + done.render.stop_signal;
     }
     FinalFiles files;
-    if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0)
-        files.write(options.checkpoint_path, [&] {
-            write_film_file(options.checkpoint_path, saving.film_file(done.render, options, device.info));
-        });
+    if (saving.needs_film(done.render))
+        files.write(options.checkpoint_path, [&] { saving.write_film(done.render); });
 
     const Crop window = render_window(options);
     Report report{

@@ -6,6 +6,7 @@
 #include "exit_code.h"
 #include "output/image.h"
 #include "output/written_files.h"
+#include "render/checkpoint.h"
 #include "render/error_report.h"
 #include "render/merge_films.h"
 #include "run/saving.h"
@@ -25,7 +26,7 @@ struct MergeOptions {
     std::vector<std::string> films, outputs;
     double exposure_ev = 0;
     std::string tonemap = "none";
-    bool quiet = false, help = false, version = false;
+    bool quiet = false, force = false, help = false, version = false;
 };
 
 bool is_film_path(const std::string& path) {
@@ -53,6 +54,8 @@ Options:
                                or .film; repeatable
       --exposure EV            brighten 8-bit pictures by 2^EV (default 0)
       --tonemap NAME           curve of 8-bit pictures: none, reinhard or aces (default none)
+      --force                  let a .film replace what is there, be it a film of more samples, one
+                               of another scene, or no film
   -q, --quiet                  errors only
   -h, --help                   print this page and exit
       --version                print the version and exit
@@ -60,7 +63,7 @@ Options:
 Exit codes:
   0    every output is written
   1    a film cannot be read, or films do not belong together
-  2    wrong command line
+  2    wrong command line, or an output that would replace a film
 )",
                        OUTPUT_EXTENSIONS);
 }
@@ -75,6 +78,7 @@ void declare(CLI::App& app, MergeOptions& options) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--exposure", options.exposure_ev)->check(CLI::Range(-100.0, 100.0));
     app.add_option("--tonemap", options.tonemap)->check(CLI::IsMember({"none", "reinhard", "aces"}));
+    app.add_flag("--force", options.force);
     app.add_flag("-q,--quiet", options.quiet);
     app.add_flag("--version", options.version);
 }
@@ -95,6 +99,16 @@ void check(const MergeOptions& options) {
     check_written_files(written, read);
 }
 
+/// Throws UsageError where an output is a film that holds what the merged one lacks.
+void check_replaced_films(const MergeOptions& options, const FilmFile& film) {
+    for (const std::string& path : options.outputs)
+        if (const auto obstacle = is_film_path(path) && !options.force
+                                      ? replacement_obstacle(path, {film.identity, film.render.film.ranges})
+                                      : std::nullopt)
+            throw UsageError(fmt::format("option --output: '{}' cannot be replaced: {}; --force replaces it",
+                                         path, *obstacle));
+}
+
 void merge(const MergeOptions& options) {
     // One film after the other: two are in memory at a time.
     FilmFile sum = read_film_file(options.films.front());
@@ -108,6 +122,7 @@ void merge(const MergeOptions& options) {
     for (size_t i = 1; i < film.ranges.size(); ++i)
         spdlog::warn("samples {} to {} are in no film", film.ranges[i - 1].end, film.ranges[i].first - 1);
 
+    check_replaced_films(options, sum);
     const Picture picture = film_picture(sum);
     FinalFiles files;
     for (const std::string& path : options.outputs)
