@@ -6,6 +6,7 @@
 #include "app/run_program.h"
 #include "app/signals.h"
 #include "device/device.h"
+#include "device/program_cache.h"
 #include "effects/effects.h"
 #include "effects/explain.h"
 #include "effects/take_out.h"
@@ -38,13 +39,20 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// The device that the options name, open.
 Device open_chosen_device(const Options& options) {
     const std::vector<PlatformInfo> platforms = list_platforms();
-    for (const PlatformInfo& platform : platforms)
-        if (!platform.note.empty())
-            spdlog::debug("platform {}: {}", platform.name, platform.note);
     std::string notice;
     const DeviceInfo info = choose_device(platforms, options.device, notice);
+    for (const PlatformInfo& platform : platforms)
+        if (!platform.note.empty())
+            spdlog::log(platform.index == info.platform_index ? spdlog::level::warn : spdlog::level::debug,
+                        "platform {}: {}", platform.name, platform.note);
     if (!notice.empty())
         spdlog::info("{}", notice);
+    const ProgramCache cache{options.cache, options.cache_folder};
+    if (const std::string obstacle = program_cache_obstacle(cache); !obstacle.empty())
+        spdlog::warn(
+            "The program cache's folder {} cannot be written ({}): what is compiled and measured is not "
+            "kept for the next run; --cache-dir names another",
+            program_cache_folder(cache), obstacle);
     return open_device(info);
 }
 
