@@ -112,7 +112,7 @@ int run_ledger(const Options& options) {
     const Scene scene = load_for_run(options, progress);
     const Ledger ledger = make_ledger(device, scene, options, progress);
     progress.finish();
-    fmt::print("{}", format_ledger(ledger, options, device.info));
+    print_report(options, format_ledger(ledger, options, device.info));
     if (!options.stats_path.empty())
         write_text_file(options.stats_path, ledger_json(ledger, options, device.info));
     return EXIT_DONE;
@@ -126,7 +126,7 @@ int run_replay(const Options& options) {
     if (options.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
     const PixelReplay replay = replay_pixel(device, std::move(scene), options);
-    fmt::print("{}", replay.text);
+    print_report(options, replay.text);
     if (!options.stats_path.empty())
         write_text_file(options.stats_path, replay.json);
     return EXIT_DONE;
@@ -183,7 +183,7 @@ int run_render(Options options) {
     write_outputs(report, files);
     files.finish();
     if (options.verbosity >= 0)
-        fmt::print("{}", format_report(report));
+        print_report(options, format_report(report));
     return finish(report);
 }
 
@@ -205,9 +205,10 @@ int run(int argc, const char* const* argv) {
     }
     if (!options.sidecar_path.empty())
         spdlog::info("options file: {}", options.sidecar_path);
-    catch_stop_signals();
-    if (options.explain != Explain::NO)
+    if (options.explain != Explain::NO) // has nothing to save
         return run_explain(options);
+    catch_stop_signals();
+    report_broken_pipes();
     if (options.pixel)
         return run_replay(options);
     return options.ledger ? run_ledger(options) : run_render(options);

@@ -2,15 +2,18 @@
 // clrt-merge: film files of disjoint sample ranges -> one picture or film, with the bits of a single run.
 #include "app/log.h"
 #include "app/run_program.h"
+#include "app/signals.h"
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/checkpoint.h"
 #include "render/error_report.h"
 #include "render/merge_films.h"
 #include "run/saving.h"
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
@@ -51,7 +54,7 @@ Example:
 
 Options:
   -o, --output FILE            picture ({})
-                               or .film; repeatable
+                               or .film; png:-, exr:- and so on for the standard output; repeatable
       --exposure EV            brighten 8-bit pictures by 2^EV (default 0)
       --tonemap NAME           curve of 8-bit pictures: none, reinhard or aces (default none)
       --force                  let a .film replace what is there, be it a film of more samples, one
@@ -135,9 +138,10 @@ void merge(const MergeOptions& options) {
     files.finish();
     if (options.quiet)
         return;
-    fmt::print("{} x {}, {} spp of {} films, {} s of rendering\n", film.width, film.height,
-               film_samples(film), options.films.size(), fmt::format("{:.1f}", sum.render.seconds));
-    fmt::print("{}", format_error_report(make_error_report(sum.render, sum.bias, picture.x0, picture.y0)));
+    const bool is_piped = std::any_of(options.outputs.begin(), options.outputs.end(), is_standard_output);
+    fmt::print(is_piped ? stderr : stdout, "{} x {}, {} spp of {} films, {:.1f} s of rendering\n{}",
+               film.width, film.height, film_samples(film), options.films.size(), sum.render.seconds,
+               format_error_report(make_error_report(sum.render, sum.bias, picture.x0, picture.y0)));
 }
 
 int run(int argc, const char* const* argv) {
@@ -158,6 +162,7 @@ int run(int argc, const char* const* argv) {
         return EXIT_DONE;
     }
     start_log(options.quiet ? -1 : 0);
+    report_broken_pipes();
     check(options);
     merge(options);
     return EXIT_DONE;

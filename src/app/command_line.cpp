@@ -9,6 +9,7 @@
 #include "app/terminal.h"
 #include "error.h"
 #include "output/image.h"
+#include "output/standard_streams.h"
 #include "render/film_file.h"
 
 #include <algorithm>
@@ -153,7 +154,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     options.resumable_command = resumable_command(arguments);
     const bool list_devices = is_given(arguments.options, "--list-devices");
     options.scene_path = only_scene(arguments.scenes, list_devices);
-    if (!list_devices && !is_given(arguments.options, "--no-sidecar"))
+    if (!list_devices && !is_given(arguments.options, "--no-sidecar") &&
+        !is_standard_input(options.scene_path))
         options.sidecar_path = find_options_file(options.scene_path);
     std::vector<GivenOption> given;
     if (!options.sidecar_path.empty()) {
@@ -174,7 +176,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         options.given[option.value.option] = origin.substr(0, origin.find_last_not_of(": ") + 1);
     }
     if (options.outputs.empty() && !options.scene_path.empty())
-        options.outputs.push_back(std::filesystem::path(options.scene_path).stem().string() + ".png");
+        options.outputs.push_back(std::filesystem::path(input_name(options.scene_path)).stem().string() +
+                                  ".png");
     if (!options.resume_path.empty() && !names_checkpoint)
         options.checkpoint_path = options.resume_path;
     // A ledger's compile seconds are those of a first start; its samples are its own unless the command line

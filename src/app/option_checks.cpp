@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "output/image.h"
+#include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/adaptive.h"
 #include "run/run_files.h"
@@ -102,6 +103,14 @@ void check_adaptive(const Options& options) {
                         "of equal samples");
 }
 
+/// The standard output takes one picture, at the end.
+void check_save_every(const Options& options) {
+    if (options.save_every_seconds && !options.outputs.empty() &&
+        std::all_of(options.outputs.begin(), options.outputs.end(), is_standard_output))
+        reject(options,
+               "option --save-every: expected an --output to a file, found the standard output alone");
+}
+
 /// --pixel and --sample name a sample of the picture.
 void check_replay(const Options& options) {
     if (!options.pixel) {
@@ -151,6 +160,7 @@ void check_combinations(const Options& options) {
     check_error_target(options);
     check_adaptive(options);
     check_written_files(files_to_write(options), files_to_read(options));
+    check_save_every(options);
     check_paths(options);
     check_replay(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)

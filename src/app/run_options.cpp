@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "Runs".
 #include "app/option_rows.h"
+#include "output/standard_streams.h"
 
 #include <cctype>
 
@@ -18,6 +19,8 @@ void apply_checkpoint(Options& o, const OptionValue& v) {
     OptionValue path = v, interval = v;
     path.text = has_interval ? v.text.substr(0, comma) : v.text;
     o.checkpoint_path = parse_path(path);
+    if (is_standard_output(path.text))
+        reject_value(v, "a file: films are read again, the standard output is not");
     o.checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;
     if (!has_interval)
         return;

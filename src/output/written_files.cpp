@@ -2,6 +2,7 @@
 #include "output/written_files.h"
 
 #include "error.h"
+#include "output/standard_streams.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -27,9 +28,11 @@ struct FileKey {
     }
 };
 
-FileKey key_of(const std::string& path) {
+/// Streams and devices are none of them.
+FileKey key_of(const std::string& name) {
+    const std::string path = is_standard_output(name) ? "/dev/stdout" : name;
     struct stat status {};
-    if (stat(path.c_str(), &status) == 0)
+    if (stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
         return {std::pair(status.st_dev, status.st_ino), {}};
     std::error_code error; // a place that cannot be followed is that of its name
     const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
@@ -54,7 +57,13 @@ void check_written_files(const std::vector<NamedFile>& written, const std::vecto
             throw UsageError(fmt::format("option {}: expected a file of its own, found '{}', which would "
                                          "replace {} '{}'",
                                          file.name, file.path, input->second->name, input->second->path));
-        if (const auto [other, is_new] = results.emplace(key, &file); !is_new)
+        const auto [other, is_new] = results.emplace(key, &file);
+        if (!is_new && is_standard_output(file.path) && is_standard_output(other->second->path))
+            throw UsageError(
+                fmt::format("options {} and {}: expected one result for the standard output, found "
+                            "'{}' and '{}'",
+                            other->second->name, file.name, other->second->path, file.path));
+        if (!is_new)
             throw UsageError(
                 fmt::format("option {}: expected a file of its own, found '{}', which is '{}' of "
                             "option {} too",

@@ -2,11 +2,15 @@
 #include "run/run_files.h"
 
 #include "device/kernel_source.h"
+#include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/kernels.h"
 #include "scene/scene.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace clrt {
 
@@ -29,12 +33,22 @@ std::vector<NamedFile> files_to_write(const Options& options) {
 }
 
 std::vector<NamedFile> files_to_read(const Options& options) {
-    std::vector<NamedFile> files = {{"the scene", options.scene_path},
+    const bool is_piped = is_standard_input(options.scene_path);
+    std::vector<NamedFile> files = {{"the scene", is_piped ? "/dev/stdin" : options.scene_path},
                                     {"the options file", options.sidecar_path},
                                     {"the environment map", options.light.environment_file}};
     if (!is_same_file(options.resume_path, options.checkpoint_path))
         files.push_back({"the film to go on from", options.resume_path});
     return files;
+}
+
+void print_report(const Options& options, const std::string& text) {
+    const std::vector<NamedFile> results = files_to_write(options);
+    if (std::any_of(results.begin(), results.end(),
+                    [](const NamedFile& file) { return is_standard_output(file.path); }))
+        std::fputs(text.c_str(), stderr);
+    else
+        fmt::print("{}", text);
 }
 
 void check_run_files(const Options& options, const Scene& scene) {

@@ -2,6 +2,7 @@
 #include "run/saving.h"
 
 #include "output/image.h"
+#include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/picture.h"
 
@@ -15,7 +16,8 @@ namespace {
 
 void write_pictures(const Picture& picture, const Options& options) {
     for (const std::string& path : options.outputs)
-        write_picture(picture, path, options.exposure_ev, options.tonemap);
+        if (!is_standard_output(path)) // which takes one picture, at the end
+            write_picture(picture, path, options.exposure_ev, options.tonemap);
 }
 
 /// Saves while the render goes on, whatever happens to the file.
