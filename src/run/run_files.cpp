@@ -14,11 +14,20 @@
 
 namespace clrt {
 
+namespace {
+
+/// A replay and a ledger write neither pictures nor films.
+bool writes_pictures(const Options& options) {
+    return !options.pixel && !options.ledger;
+}
+
+} // namespace
+
 std::vector<NamedFile> files_to_write(const Options& options) {
     std::vector<NamedFile> files;
     if (options.explain != Explain::NO)
         return files;
-    const bool has_picture = !options.pixel && !options.ledger;
+    const bool has_picture = writes_pictures(options);
     const bool is_default = options.given.count("--output") == 0;
     if (has_picture)
         for (const std::string& path : options.outputs)
@@ -37,7 +46,7 @@ std::vector<NamedFile> files_to_read(const Options& options) {
     std::vector<NamedFile> files = {{"the scene", is_piped ? "/dev/stdin" : options.scene_path},
                                     {"the options file", options.sidecar_path},
                                     {"the environment map", options.light.environment_file}};
-    if (!is_same_file(options.resume_path, options.checkpoint_path))
+    if (!writes_pictures(options) || !is_same_file(options.resume_path, options.checkpoint_path))
         files.push_back({"the film to go on from", options.resume_path});
     return files;
 }

@@ -126,6 +126,8 @@ TEST_F(FileSafety, FilmsThatAreMergedOrResumedAreRead) {
     std::filesystem::remove(folder.file("link.film"));
     EXPECT_TRUE(contents() == before);
     expect_refusal({"scene.obj", "--resume", "0.film", "--stats", "0.film"}, {"--stats", "0.film"});
+    expect_refusal({"scene.obj", "--resume", "0.film", "--pixel", "3,3", "--stats", "./0.film"},
+                   {"--stats", "0.film"});
 }
 
 } // namespace clrt
