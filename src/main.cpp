@@ -6,6 +6,7 @@
 #include "app/run_program.h"
 #include "app/signals.h"
 #include "device/device.h"
+#include "device/program_cache.h"
 #include "effects/effects.h"
 #include "effects/explain.h"
 #include "effects/take_out.h"
@@ -16,6 +17,7 @@
 #include "render/render_params.h"
 #include "render/report.h"
 #include "replay/replay_pixel.h"
+#include "run/run_files.h"
 #include "run/saving.h"
 #include "run/simulate.h"
 #include "scene/load_scene.h"
@@ -37,13 +39,20 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// The device that the options name, open.
 Device open_chosen_device(const Options& options) {
     const std::vector<PlatformInfo> platforms = list_platforms();
-    for (const PlatformInfo& platform : platforms)
-        if (!platform.note.empty())
-            spdlog::debug("platform {}: {}", platform.name, platform.note);
     std::string notice;
     const DeviceInfo info = choose_device(platforms, options.device, notice);
+    for (const PlatformInfo& platform : platforms)
+        if (!platform.note.empty())
+            spdlog::log(platform.index == info.platform_index ? spdlog::level::warn : spdlog::level::debug,
+                        "platform {}: {}", platform.name, platform.note);
     if (!notice.empty())
         spdlog::info("{}", notice);
+    const ProgramCache cache{options.cache, options.cache_folder};
+    if (const std::string obstacle = program_cache_obstacle(cache); !obstacle.empty())
+        spdlog::warn(
+            "The program cache's folder {} cannot be written ({}): what is compiled and measured is not "
+            "kept for the next run; --cache-dir names another",
+            program_cache_folder(cache), obstacle);
     return open_device(info);
 }
 
@@ -72,6 +81,14 @@ int finish(const Report& report) {
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
 }
 
+/// The scene of a run, whose results are known not to replace what it was loaded from.
+Scene load_for_run(const Options& options, Progress& progress) {
+    Scene scene = load_scene(options, progress);
+    progress.finish();
+    check_run_files(options, scene);
+    return scene;
+}
+
 /// Prints what would be rendered and why.
 int run_explain(const Options& options) {
     Progress progress(options.progress, options.verbosity < 0);
@@ -92,10 +109,10 @@ int run_explain(const Options& options) {
 int run_ledger(const Options& options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
-    const Scene scene = load_scene(options, progress);
+    const Scene scene = load_for_run(options, progress);
     const Ledger ledger = make_ledger(device, scene, options, progress);
     progress.finish();
-    fmt::print("{}", format_ledger(ledger, options, device.info));
+    print_report(options, format_ledger(ledger, options, device.info));
     if (!options.stats_path.empty())
         write_text_file(options.stats_path, ledger_json(ledger, options, device.info));
     return EXIT_DONE;
@@ -105,12 +122,11 @@ int run_ledger(const Options& options) {
 int run_replay(const Options& options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
-    Scene scene = load_scene(options, progress);
-    progress.finish();
+    Scene scene = load_for_run(options, progress);
     if (options.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
     const PixelReplay replay = replay_pixel(device, std::move(scene), options);
-    fmt::print("{}", replay.text);
+    print_report(options, replay.text);
     if (!options.stats_path.empty())
         write_text_file(options.stats_path, replay.json);
     return EXIT_DONE;
@@ -118,11 +134,11 @@ int run_replay(const Options& options) {
 
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
+    check_checkpoint(options);
     const Device device = open_chosen_device(options);
     Progress progress(options.progress, options.verbosity < 0);
-    Scene scene = load_scene(options, progress);
+    Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
-    progress.finish();
     for (const std::string& notice : scene.notices)
         spdlog::info("{}", notice);
     Effects effects = find_effects(scene, options);
@@ -146,10 +162,8 @@ int run_render(Options options) {
         return 128 + done.render.stop_signal;
     }
     FinalFiles files;
-    if (!options.checkpoint_path.empty() && film_samples(done.render.film) > 0)
-        files.write(options.checkpoint_path, [&] {
-            write_film_file(options.checkpoint_path, saving.film_file(done.render, options, device.info));
-        });
+    if (saving.needs_film(done.render))
+        files.write(options.checkpoint_path, [&] { saving.write_film(done.render); });
 
     const Crop window = render_window(options);
     Report report{
@@ -169,7 +183,7 @@ int run_render(Options options) {
     write_outputs(report, files);
     files.finish();
     if (options.verbosity >= 0)
-        fmt::print("{}", format_report(report));
+        print_report(options, format_report(report));
     return finish(report);
 }
 
@@ -191,9 +205,10 @@ int run(int argc, const char* const* argv) {
     }
     if (!options.sidecar_path.empty())
         spdlog::info("options file: {}", options.sidecar_path);
-    catch_stop_signals();
-    if (options.explain != Explain::NO)
+    if (options.explain != Explain::NO) // has nothing to save
         return run_explain(options);
+    catch_stop_signals();
+    report_broken_pipes();
     if (options.pixel)
         return run_replay(options);
     return options.ledger ? run_ledger(options) : run_render(options);

@@ -3,14 +3,19 @@
 #include "app/log.h"
 #include "app/look_option.h"
 #include "app/run_program.h"
+#include "app/signals.h"
 #include "error.h"
 #include "exit_code.h"
 #include "output/exposure.h"
 #include "output/image.h"
+#include "output/standard_streams.h"
+#include "output/written_files.h"
+#include "render/checkpoint.h"
 #include "render/error_report.h"
 #include "render/merge_films.h"
 #include "run/saving.h"
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
@@ -25,7 +30,7 @@ namespace {
 struct MergeOptions {
     std::vector<std::string> films, outputs;
     std::string exposure = "0", tonemap = "none";
-    bool quiet = false, help = false, version = false;
+    bool quiet = false, force = false, help = false, version = false;
 };
 
 bool is_film_path(const std::string& path) {
@@ -54,9 +59,11 @@ Example:
 
 Options:
   -o, --output FILE            picture ({})
-                               or .film; repeatable
+                               or .film; png:-, exr:- and so on for the standard output; repeatable
       --exposure auto|EV       {}
       --tonemap NAME           {}
+      --force                  let a .film replace what is there, be it a film of more samples, one
+                               of another scene, or no film
   -q, --quiet                  errors only
   -h, --help                   print this page and exit
       --version                print the version and exit
@@ -64,7 +71,7 @@ Options:
 Exit codes:
   0    every output is written
   1    a film cannot be read, or films do not belong together
-  2    wrong command line
+  2    wrong command line, or an output that would replace a film
 )",
                        OUTPUT_EXTENSIONS, EXPOSURE_HELP, TONEMAP_HELP);
 }
@@ -79,6 +86,7 @@ void declare(CLI::App& app, MergeOptions& options) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--exposure", options.exposure);
     app.add_option("--tonemap", options.tonemap);
+    app.add_flag("--force", options.force);
     app.add_flag("-q,--quiet", options.quiet);
     app.add_flag("--version", options.version);
 }
@@ -91,6 +99,22 @@ void check(const MergeOptions& options) {
             check_output_path(path);
         check_output_folder(path);
     }
+    std::vector<NamedFile> read, written;
+    for (const std::string& path : options.films)
+        read.push_back({"the film", path});
+    for (const std::string& path : options.outputs)
+        written.push_back({"--output", path});
+    check_written_files(written, read);
+}
+
+/// Throws UsageError where an output is a film that holds what the merged one lacks.
+void check_replaced_films(const MergeOptions& options, const FilmFile& film) {
+    for (const std::string& path : options.outputs)
+        if (const auto obstacle = is_film_path(path) && !options.force
+                                      ? replacement_obstacle(path, {film.identity, film.render.film.ranges})
+                                      : std::nullopt)
+            throw UsageError(fmt::format("option --output: '{}' cannot be replaced: {}; --force replaces it",
+                                         path, *obstacle));
 }
 
 void merge(const MergeOptions& options, const Options& look) {
@@ -106,6 +130,7 @@ void merge(const MergeOptions& options, const Options& look) {
     for (size_t i = 1; i < film.ranges.size(); ++i)
         spdlog::warn("samples {} to {} are in no film", film.ranges[i - 1].end, film.ranges[i].first - 1);
 
+    check_replaced_films(options, sum);
     const Picture picture = film_picture(sum);
     const double exposure_ev = chosen_exposure_ev(look, picture.layers[0].values);
     if (look.auto_exposure)
@@ -121,9 +146,10 @@ void merge(const MergeOptions& options, const Options& look) {
     files.finish();
     if (options.quiet)
         return;
-    fmt::print("{} x {}, {} spp of {} films, {} s of rendering\n", film.width, film.height,
-               film_samples(film), options.films.size(), fmt::format("{:.1f}", sum.render.seconds));
-    fmt::print("{}", format_error_report(make_error_report(sum.render, sum.bias, picture.x0, picture.y0)));
+    const bool is_piped = std::any_of(options.outputs.begin(), options.outputs.end(), is_standard_output);
+    fmt::print(is_piped ? stderr : stdout, "{} x {}, {} spp of {} films, {:.1f} s of rendering\n{}",
+               film.width, film.height, film_samples(film), options.films.size(), sum.render.seconds,
+               format_error_report(make_error_report(sum.render, sum.bias, picture.x0, picture.y0)));
 }
 
 int run(int argc, const char* const* argv) {
@@ -144,6 +170,7 @@ int run(int argc, const char* const* argv) {
         return EXIT_DONE;
     }
     start_log(options.quiet ? -1 : 0);
+    report_broken_pipes();
     check(options);
     merge(options, look_of(options));
     return EXIT_DONE;

@@ -5,6 +5,7 @@
 #include "exit_code.h"
 
 #include <cstring>
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace clrt {
@@ -15,8 +16,18 @@ constexpr char MESSAGE[] =
     "clrt: error: not enough memory to start: expected a higher limit of the address space "
     "(ulimit -v), or none\n";
 
+/// A standard stream that is closed stays unusable: the next file that is opened would get its number, and
+/// be written by what is meant for the stream. What is logged goes nowhere.
+void reserve_standard_streams() {
+    constexpr int USELESS[] = {O_WRONLY, O_RDONLY, O_WRONLY}; // of stdin, stdout, stderr
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", USELESS[stream]) != stream)
+            _exit(EXIT_SCENE);
+}
+
 /// No library is ready yet: system calls only.
 void check_start() {
+    reserve_standard_streams();
     if (has_address_space(START_BYTES))
         return;
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, MESSAGE, std::strlen(MESSAGE));

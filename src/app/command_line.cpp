@@ -9,10 +9,12 @@
 #include "app/terminal.h"
 #include "error.h"
 #include "output/image.h"
+#include "output/standard_streams.h"
 #include "render/film_file.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <unistd.h>
 
 namespace clrt {
@@ -73,8 +75,14 @@ bool is_budget(const std::string& name) {
     return name == "--spp" || name == "--time" || name == "--error";
 }
 
+/// Whether an option is about one run alone: how it talks, what it may replace and where it started.
+bool is_of_one_run(const std::string& name) {
+    constexpr const char* NAMES[] = {"--resume", "--force", "--quiet", "--verbose", "--progress"};
+    return std::find(std::begin(NAMES), std::end(NAMES), name) != std::end(NAMES);
+}
+
 /// `clrt --resume FILM` and further options: the command that the film was rendered with, overruled by them.
-/// A new budget replaces the old one as a whole.
+/// A new budget replaces the old one as a whole. Films of earlier versions hold options of one run as well.
 Arguments continue_command(const Arguments& given) {
     const auto resume =
         std::find_if(given.options.begin(), given.options.end(),
@@ -91,18 +99,18 @@ Arguments continue_command(const Arguments& given) {
     Arguments earlier = split_arguments(int(words.size()), words.data());
     Arguments all{{}, earlier.scenes};
     for (const GivenOption& option : earlier.options)
-        if (!overruled(option, given.options) &&
+        if (!is_of_one_run(option.value.option) && !overruled(option, given.options) &&
             !(is_budget(option.value.option) && has_budget(given.options)))
             all.options.push_back(option);
     all.options.insert(all.options.end(), given.options.begin(), given.options.end());
     return all;
 }
 
-/// The words of a command line without --resume.
+/// The words of a command line without what is about one run alone.
 std::vector<std::string> resumable_command(const Arguments& arguments) {
     std::vector<std::string> words{"clrt"};
     for (const GivenOption& option : arguments.options)
-        if (option.value.option != "--resume")
+        if (!is_of_one_run(option.value.option))
             words.push_back(option.value.option + (option.value.text.empty() ? "" : "=" + option.value.text));
     words.emplace_back("--"); // scenes may start with a dash
     words.insert(words.end(), arguments.scenes.begin(), arguments.scenes.end());
@@ -135,7 +143,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         return result;
     reject_exclusive(arguments.options);
 
-    // A film without a scene brings its own command.
+    // A film without a scene brings its own command, but not the place of its film: it may be a copy.
+    const bool names_checkpoint = is_given(arguments.options, "--checkpoint");
     if (arguments.scenes.empty() && is_given(arguments.options, "--resume"))
         arguments = continue_command(arguments);
 
@@ -145,7 +154,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     options.resumable_command = resumable_command(arguments);
     const bool list_devices = is_given(arguments.options, "--list-devices");
     options.scene_path = only_scene(arguments.scenes, list_devices);
-    if (!list_devices && !is_given(arguments.options, "--no-sidecar"))
+    if (!list_devices && !is_given(arguments.options, "--no-sidecar") &&
+        !is_standard_input(options.scene_path))
         options.sidecar_path = find_options_file(options.scene_path);
     std::vector<GivenOption> given;
     if (!options.sidecar_path.empty()) {
@@ -166,7 +176,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         options.given[option.value.option] = origin.substr(0, origin.find_last_not_of(": ") + 1);
     }
     if (options.outputs.empty() && !options.scene_path.empty())
-        options.outputs.push_back(std::filesystem::path(options.scene_path).stem().string() + ".png");
+        options.outputs.push_back(std::filesystem::path(input_name(options.scene_path)).stem().string() +
+                                  ".png");
+    if (!options.resume_path.empty() && !names_checkpoint)
+        options.checkpoint_path = options.resume_path;
     // A ledger's compile seconds are those of a first start; its samples are its own unless the command line
     // says how many.
     if (options.ledger && options.cache == Toggle::AUTO)

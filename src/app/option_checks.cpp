@@ -4,11 +4,13 @@
 
 #include "error.h"
 #include "output/image.h"
+#include "output/standard_streams.h"
+#include "output/written_files.h"
 #include "render/adaptive.h"
+#include "run/run_files.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <regex>
+#include <string>
 #include <vector>
 
 namespace clrt {
@@ -26,11 +28,14 @@ constexpr std::uint64_t SAMPLE_LIMIT = std::uint64_t(1) << 32;
 
 /// The names of options in a message, each once, in their order.
 std::vector<std::string> options_named(const std::string& message) {
-    static const std::regex name("--[a-z][a-z-]*");
     std::vector<std::string> names;
-    for (std::sregex_iterator found(message.begin(), message.end(), name), end; found != end; ++found)
-        if (std::find(names.begin(), names.end(), found->str()) == names.end())
-            names.push_back(found->str());
+    size_t end = 0;
+    for (size_t start = message.find("--"); start != std::string::npos; start = message.find("--", end)) {
+        end = std::min(message.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", start), message.size());
+        const std::string name = message.substr(start, end - start);
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    }
     return names;
 }
 
@@ -119,21 +124,12 @@ void check_adaptive(const Options& options) {
                         "of equal samples");
 }
 
-void check_written_paths(const Options& options) {
-    std::error_code error; // a file that is not there yet is no other file
-    for (const std::string& input : {options.scene_path, options.sidecar_path}) {
-        if (!options.stats_path.empty() && std::filesystem::equivalent(options.stats_path, input, error))
-            reject(options, "option --stats: expected a file to write, found the input " + input);
-        if (!options.checkpoint_path.empty() &&
-            std::filesystem::equivalent(options.checkpoint_path, input, error))
-            reject(options, "option --checkpoint: expected a file to write, found the input " + input);
-    }
-    const std::string& film = options.checkpoint_path;
-    const bool is_output =
-        std::find(options.outputs.begin(), options.outputs.end(), film) != options.outputs.end();
-    if (!film.empty() && (is_output || film == options.stats_path))
+/// The standard output takes one picture, at the end.
+void check_save_every(const Options& options) {
+    if (options.save_every_seconds && !options.outputs.empty() &&
+        std::all_of(options.outputs.begin(), options.outputs.end(), is_standard_output))
         reject(options,
-               "option --checkpoint: expected a file of its own, found " + film + ", which is an output too");
+               "option --save-every: expected an --output to a file, found the standard output alone");
 }
 
 /// --pixel and --sample name a sample of the picture.
@@ -184,7 +180,8 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
-    check_written_paths(options);
+    check_written_files(files_to_write(options), files_to_read(options));
+    check_save_every(options);
     check_paths(options);
     check_replay(options);
     if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)

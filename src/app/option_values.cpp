@@ -3,6 +3,7 @@
 #include "app/option_values.h"
 
 #include "error.h"
+#include "output/standard_streams.h"
 
 #include <charconv>
 #include <cmath>
@@ -175,6 +176,10 @@ std::string parse_path(const OptionValue& value) {
     if (value.text.empty())
         reject_value(value, "a path");
     return (value.folder / value.text).string();
+}
+
+std::string parse_result(const OptionValue& value) {
+    return is_standard_output(value.text) ? value.text : parse_path(value);
 }
 
 bool looks_like_numbers(const std::string& text) {

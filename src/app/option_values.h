@@ -67,6 +67,9 @@ double parse_fraction(const OptionValue& value);
 /// A path, put in front of which is the options file's folder if it is relative. Not empty.
 std::string parse_path(const OptionValue& value);
 
+/// The same for a result, which may go to the standard output (standard_streams.h).
+std::string parse_result(const OptionValue& value);
+
 /// Whether the text starts with a number and a comma or is a number: then it is meant as numbers, not as a
 /// file name.
 bool looks_like_numbers(const std::string& text);

@@ -131,9 +131,10 @@ struct Options {
     std::string checkpoint_path;                            ///< film file to write; empty: none
     double checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS; ///< between two of them
     std::string resume_path;                                ///< film file to go on from; empty: none
-    std::optional<double> save_every_seconds;               ///< between two pictures so far
-    std::string kernels_folder;                             ///< replaces the embedded kernels
-    std::string dump_folder;                                ///< writes exactly what was compiled
+    bool force = false; ///< --checkpoint may replace films that hold more, and what is no film
+    std::optional<double> save_every_seconds; ///< between two pictures so far
+    std::string kernels_folder;               ///< replaces the embedded kernels
+    std::string dump_folder;                  ///< writes exactly what was compiled
     Toggle cache = Toggle::AUTO;
     std::string cache_folder; ///< default: the user's cache folder
     Toggle progress = Toggle::AUTO;

@@ -27,9 +27,9 @@ void apply_filter(Options& o, const OptionValue& v) {
 }
 
 void apply_output(Options& o, const OptionValue& v) {
-    const std::string path = parse_path(v);
+    const std::string path = parse_result(v);
     if (!is_output_path(path))
-        reject_value(v, std::string("a file name that ends in ") + OUTPUT_EXTENSIONS);
+        reject_value(v, expected_output());
     o.outputs.push_back(path);
 }
 
@@ -41,8 +41,9 @@ std::vector<OptionSpec> picture_options() {
         {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",
          [](Options& o, const OptionValue& v) { o.size = parse_size(v); }},
         {group, "o", "--output", "FILE",
-         ".png .jpg .bmp .tga .ppm (8-bit sRGB), .exr .hdr .pfm .tif (linear); repeatable (default SCENE.png "
-         "in the current folder)",
+         ".png .jpg .bmp .tga .ppm (8-bit sRGB), .exr .hdr .pfm .tif (linear), or to the standard output as "
+         "png:-, exr:- and so on, the report then to stderr; repeatable (default SCENE.png in the current "
+         "folder)",
          apply_output, REPEATABLE},
         {group, "", "--crop", "X0,Y0,X1,Y1",
          "render this window only; pixels from the top left, end excluded",

@@ -34,8 +34,10 @@ std::vector<OptionSpec> promise_options() {
          "it "
          "(default 60 s); writes no picture",
          [](Options& o, const OptionValue&) { o.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
-        {group, "", "--stats", "FILE", "write statistics of the run as JSON, in SI units",
-         [](Options& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
+        {group, "", "--stats", "FILE",
+         "write statistics of the run as JSON, in SI units; - is the standard output, the report then goes "
+         "to stderr",
+         [](Options& o, const OptionValue& v) { o.stats_path = parse_result(v); }},
         {group, "", "--check", "MODE", "non-finite samples: off, count, strict (exit 4) (default count)",
          [](Options& o, const OptionValue& v) {
              o.check = parse_choice<Check>(

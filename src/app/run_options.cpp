@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "Runs".
 #include "app/option_rows.h"
+#include "output/standard_streams.h"
 
 #include <cctype>
 
@@ -18,6 +19,8 @@ void apply_checkpoint(Options& o, const OptionValue& v) {
     OptionValue path = v, interval = v;
     path.text = has_interval ? v.text.substr(0, comma) : v.text;
     o.checkpoint_path = parse_path(path);
+    if (is_standard_output(path.text))
+        reject_value(v, "a file: films are read again, the standard output is not");
     o.checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;
     if (!has_interval)
         return;
@@ -36,13 +39,18 @@ std::vector<OptionSpec> run_options() {
     return {
         {group, "", "--checkpoint", "FILE[,TIME]",
          "write a film file, from which --resume goes on and which clrt-merge merges, at the end and so "
-         "often "
-         "(default: none; every 5m)",
+         "often; what is there already asks for --resume or --force (default: none, or the film of --resume; "
+         "every 5m)",
          apply_checkpoint},
         {group, "", "--resume", "FILE",
-         "go on from a film file: with the same command, or alone with another --spp, --time or --error",
+         "go on from a film file and write it anew: with the same command, or alone with another --spp, "
+         "--time or --error, and then without the -q, -v, --progress and --checkpoint of its command",
          [](Options& o, const OptionValue& v) { o.resume_path = parse_path(v); }, Repeat::NO,
          COMMAND_LINE_ONLY},
+        {group, "", "--force", "",
+         "let --checkpoint replace what is there, be it a film of more samples, one of another scene, or "
+         "no film",
+         [](Options& o, const OptionValue&) { o.force = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--save-every", "DURATION",
          "write the pictures so far so often (default: at the end only)",
          [](Options& o, const OptionValue& v) { o.save_every_seconds = parse_duration(v); }},

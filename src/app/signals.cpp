@@ -33,6 +33,10 @@ void catch_stop_signals() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
+void report_broken_pipes() {
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
 int stop_signal() {
     return received_signal;
 }

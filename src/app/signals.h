@@ -9,6 +9,9 @@ namespace clrt {
 /// crash.
 void catch_stop_signals();
 
+/// From now on a pipe whose reader has gone is an error of writing, with its message, and ends no process.
+void report_broken_pipes();
+
 /// 0, or the number of the signal that came.
 int stop_signal();
 

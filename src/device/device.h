@@ -4,12 +4,14 @@
 
 #include "device/opencl.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace clrt {
 
 struct Options;
+class DriverCacheFolder;
 
 /// What clrt asks a device about itself; nothing is guessed from names.
 struct DeviceInfo {
@@ -23,6 +25,7 @@ struct DeviceInfo {
     bool int64_atomics = false;              ///< cl_khr_int64_base_atomics
     bool correctly_rounded_division = false; ///< CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
     std::vector<std::string> extensions;
+    std::shared_ptr<const DriverCacheFolder> cache_folder; ///< that had to be made for its driver, or null
 };
 
 /// A platform, or the reason why it has nothing to offer.
@@ -30,7 +33,7 @@ struct PlatformInfo {
     int index = 0;
     std::string name, vendor, icd_suffix;
     std::vector<DeviceInfo> devices;
-    std::string note; ///< why devices is empty; else empty
+    std::string note; ///< why devices is empty, or what had to be done for them; else empty
 };
 
 /// Sets the environment variables by which drivers take --threads and --cache off. Drivers read them once, so
@@ -40,7 +43,11 @@ void set_driver_environment(const Options& options);
 /// True if the device's driver keeps compiled programs on disk by itself, so that a cache of ours only costs.
 bool driver_caches_programs(const DeviceInfo& device);
 
-/// All platforms in `clinfo -l` order. Empty and failing platforms are listed with a note, never thrown.
+/// True for a platform that may list no device because its driver has no place for its cache.
+bool may_lack_cache_folder(const PlatformInfo& platform);
+
+/// All platforms in `clinfo -l` order. Empty and failing platforms are listed with a note, never thrown. A
+/// driver that cannot make its cache folder gets a temporary one, which its note says.
 /// No ICD loader entry at all gives an empty list. Throws DeviceError where a limit of the address space
 /// leaves drivers too little (address_space.h).
 std::vector<PlatformInfo> list_platforms();

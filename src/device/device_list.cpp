@@ -3,6 +3,7 @@
 #include "device/device.h"
 
 #include "device/address_space.h"
+#include "device/driver_cache_folder.h"
 #include "device/opencl_error.h"
 
 #include <algorithm>
@@ -95,6 +96,28 @@ PlatformInfo describe_platform(const cl::Platform& platform, int index) {
     return info;
 }
 
+/// All platforms, as they answer now.
+std::vector<PlatformInfo> ask_platforms() {
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return {}; // the ICD loader reports an empty vendors folder as CL_PLATFORM_NOT_FOUND_KHR
+    }
+    std::vector<PlatformInfo> result;
+    for (const cl::Platform& platform : platforms)
+        result.push_back(describe_platform(platform, static_cast<int>(result.size())));
+    return result;
+}
+
+/// Gives a platform, whose devices need it, the folder.
+void use_cache_folder(PlatformInfo& platform, const std::shared_ptr<const DriverCacheFolder>& folder) {
+    platform.note = "its cache folder cannot be made (variable POCL_CACHE_DIR, else XDG_CACHE_HOME, else "
+                    ".cache in HOME): kernels are compiled for this run alone, into a temporary folder";
+    for (DeviceInfo& device : platform.devices)
+        device.cache_folder = folder;
+}
+
 std::string gibibytes(size_t bytes) {
     return fmt::format("{:.1f} GiB", static_cast<double>(bytes) / (1 << 30));
 }
@@ -118,16 +141,23 @@ Row table_row(const DeviceInfo& device) {
 
 std::vector<PlatformInfo> list_platforms() {
     require_address_space(DRIVER_BYTES, "an OpenCL driver");
-    std::vector<cl::Platform> platforms;
-    try {
-        cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {
-        return {}; // the ICD loader reports an empty vendors folder as CL_PLATFORM_NOT_FOUND_KHR
+    std::vector<PlatformInfo> platforms = ask_platforms();
+    if (std::none_of(platforms.begin(), platforms.end(), may_lack_cache_folder))
+        return platforms;
+    const auto folder = DriverCacheFolder::make();
+    if (!folder) {
+        for (PlatformInfo& platform : platforms)
+            if (may_lack_cache_folder(platform))
+                platform.note +=
+                    "; neither its cache folder nor one in the temporary folder can be made: set "
+                    "POCL_CACHE_DIR or TMPDIR to a folder that can be written";
+        return platforms;
     }
-    std::vector<PlatformInfo> result;
-    for (const cl::Platform& platform : platforms)
-        result.push_back(describe_platform(platform, static_cast<int>(result.size())));
-    return result;
+    std::vector<PlatformInfo> again = ask_platforms();
+    for (size_t i = 0; i < std::min(platforms.size(), again.size()); ++i)
+        if (may_lack_cache_folder(platforms[i]) && !again[i].devices.empty())
+            use_cache_folder(again[i], folder);
+    return again;
 }
 
 std::string format_device_table(const std::vector<PlatformInfo>& platforms) {
@@ -143,9 +173,12 @@ std::string format_device_table(const std::vector<PlatformInfo>& platforms) {
         if (!platform.note.empty())
             notes += fmt::format("platform {} ({}): {}\n", platform.index, platform.name, platform.note);
     }
-    if (rows.size() == 1)
-        return "No OpenCL device was found. On Debian, `apt install pocl-opencl-icd` makes the CPU one.\n" +
+    if (rows.size() == 1) {
+        const bool has_pocl = std::any_of(platforms.begin(), platforms.end(), may_lack_cache_folder);
+        return std::string("No OpenCL device was found.") +
+               (has_pocl ? "" : " On Debian, `apt install pocl-opencl-icd` makes the CPU one.") + "\n" +
                notes;
+    }
 
     std::array<size_t, COLUMNS> widths{};
     for (const Row& row : rows)

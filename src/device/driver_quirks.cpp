@@ -46,6 +46,12 @@ bool driver_caches_programs(const DeviceInfo& device) {
            std::end(CACHING_DRIVERS);
 }
 
+bool may_lack_cache_folder(const PlatformInfo& platform) {
+    // PoCL makes its cache folder before it lists a device, and lists none where it cannot. PoCL 3.1 looks
+    // for a place again when it is asked again.
+    return platform.devices.empty() && platform.icd_suffix == "POCL";
+}
+
 void set_driver_environment(const Options& options) {
     constexpr int REPLACE = 1;
     if (options.threads > 0)

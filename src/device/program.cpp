@@ -53,23 +53,20 @@ void write_text(const fs::path& path, const std::string& text) {
         throw SceneError(path.string(), 0, "the kernel source cannot be dumped here. Check --dump-kernels.");
 }
 
-fs::path dump_path(const ProgramRequest& request) {
-    return fs::path(request.dump_folder) / (request.name + ".cl");
-}
-
 /// Writes exactly what is compiled, and with which options.
 void dump(const ProgramRequest& request, const std::string& options) {
     std::error_code error;
     fs::create_directories(request.dump_folder, error);
-    write_text(dump_path(request), request.source);
-    write_text(fs::path(request.dump_folder) / (request.name + ".options.txt"), options + "\n");
+    const DumpPaths paths = dump_paths(request.dump_folder, request.name);
+    write_text(paths.source, request.source);
+    write_text(paths.options, options + "\n");
 }
 
 /// Where the source of a failed build is: in the dump folder, else in a new temporary one. Empty if it could
 /// not be written: that must not hide the compiler's message.
 std::string dump_after_failure(const ProgramRequest& request, const std::string& options) {
     if (!request.dump_folder.empty())
-        return dump_path(request).string();
+        return dump_paths(request.dump_folder, request.name).source;
     std::error_code error;
     std::string folder = (fs::temp_directory_path(error) / "clrt-XXXXXX").string();
     if (error || !mkdtemp(folder.data()))
@@ -167,6 +164,11 @@ void store(const Program& program, const std::string& folder, const std::string&
 }
 
 } // namespace
+
+DumpPaths dump_paths(const std::string& folder, const std::string& program) {
+    return {(fs::path(folder) / (program + ".cl")).string(),
+            (fs::path(folder) / (program + ".options.txt")).string()};
+}
 
 std::string build_options(const DeviceInfo& device, Precision precision) {
     std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";

@@ -46,6 +46,12 @@ struct Program {
 /// it for FAST only. Throws DeviceError when DOUBLE is asked of a device without fp64.
 std::string build_options(const DeviceInfo& device, Precision precision);
 
+/// Where --dump-kernels writes a program: its source, and the options that it is compiled with.
+struct DumpPaths {
+    std::string source, options;
+};
+DumpPaths dump_paths(const std::string& folder, const std::string& program);
+
 /// Builds or loads a program. Throws KernelBuildError with the compiler's log and the dumped source's path.
 Program build_program(const Device& device, const ProgramRequest& request);
 

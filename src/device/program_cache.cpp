@@ -4,10 +4,12 @@
 #include "device/program_cache.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -207,6 +209,17 @@ std::string program_cache_folder(const ProgramCache& cache) {
     if (const char* home = std::getenv("HOME"); home && *home)
         return (fs::path(home) / ".cache" / "clrt").string();
     return {};
+}
+
+std::string program_cache_obstacle(const ProgramCache& cache) {
+    const std::string folder = program_cache_folder(cache);
+    if (cache.use == Toggle::OFF || folder.empty())
+        return {};
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!error && faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+        error = std::error_code(errno, std::generic_category());
+    return error ? error.message() : std::string();
 }
 
 std::string program_cache_key(const DeviceInfo& device, const std::string& source,

@@ -25,6 +25,10 @@ bool uses_program_cache(const ProgramCache& cache, const DeviceInfo& device);
 /// HOME set).
 std::string program_cache_folder(const ProgramCache& cache);
 
+/// Why nothing can be kept there, in the system's words; empty where it can, or where nothing is to be kept.
+/// Makes the folder.
+std::string program_cache_obstacle(const ProgramCache& cache);
+
 /// 32 hexadecimal digits: the hash of all that decides about the binary, which is the expanded source, the
 /// options, platform, device, driver version, and the version of the entries' layout.
 std::string program_cache_key(const DeviceInfo& device, const std::string& source,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects/explain.h"
 
+#include "output/standard_streams.h"
 #include "paths/path_report.h"
 #include "scene/material_rules.h"
 
@@ -41,7 +42,7 @@ Json materials_json(const Scene& scene) {
 
 std::string explain_json(const Scene& scene, const Effects& effects, const Options& options) {
     Json json;
-    json["scene"] = options.scene_path;
+    json["scene"] = input_name(options.scene_path);
     json["triangles"] = scene.triangles.size();
     json["effects"] = Json::array();
     for (const Effect& effect : effects.list)
@@ -59,7 +60,7 @@ std::string explain_json(const Scene& scene, const Effects& effects, const Optio
 std::string explain(const Scene& scene, const Effects& effects, const Options& options) {
     if (options.explain == Explain::JSON)
         return explain_json(scene, effects, options);
-    std::string text = fmt::format("Effects of {} ({} triangles):\n{}", options.scene_path,
+    std::string text = fmt::format("Effects of {} ({} triangles):\n{}", input_name(options.scene_path),
                                    scene.triangles.size(), format_effects(effects));
     for (const std::string& line : describe_left_out(effects))
         text += line + "\n";

@@ -3,7 +3,7 @@
 #include "output/image.h"
 
 #include "error.h"
-#include "output/atomic_file.h"
+#include "output/standard_streams.h"
 #include "output/writers.h"
 
 #include <cassert>
@@ -23,18 +23,14 @@ enum class Kind { UNKNOWN, EXR, DISPLAY, LINEAR, PFM };
 /// 16-bit sizes of TGA; JPEG_MAX_DIMENSION of libjpeg.
 constexpr int LARGEST_SIDE = 65535, LARGEST_JPEG_SIDE = 65500;
 
-std::string lower_extension(const std::string& path) {
-    return OIIO::Strutil::lower(std::filesystem::path(path).extension().string());
-}
-
 Kind kind_of(const std::string& path) {
     static const std::vector<std::pair<std::string, Kind>> KINDS = {
-        {".exr", Kind::EXR},     {".png", Kind::DISPLAY}, {".jpg", Kind::DISPLAY}, {".jpeg", Kind::DISPLAY},
-        {".bmp", Kind::DISPLAY}, {".tga", Kind::DISPLAY}, {".ppm", Kind::DISPLAY}, {".tif", Kind::LINEAR},
-        {".tiff", Kind::LINEAR}, {".hdr", Kind::LINEAR},  {".pfm", Kind::PFM}};
-    const std::string extension = lower_extension(path);
+        {"exr", Kind::EXR},     {"png", Kind::DISPLAY}, {"jpg", Kind::DISPLAY}, {"jpeg", Kind::DISPLAY},
+        {"bmp", Kind::DISPLAY}, {"tga", Kind::DISPLAY}, {"ppm", Kind::DISPLAY}, {"tif", Kind::LINEAR},
+        {"tiff", Kind::LINEAR}, {"hdr", Kind::LINEAR},  {"pfm", Kind::PFM}};
+    const std::string format = output_format(path);
     for (const auto& [known, kind] : KINDS)
-        if (extension == known)
+        if (format == known)
             return kind;
     return Kind::UNKNOWN;
 }
@@ -50,6 +46,18 @@ void assert_consistent([[maybe_unused]] const Picture& picture) {
 
 } // namespace
 
+std::string output_format(const std::string& path) {
+    if (is_standard_output(path))
+        return OIIO::Strutil::lower(path.substr(0, path.find(':')));
+    const std::string extension = std::filesystem::path(path).extension().string();
+    return OIIO::Strutil::lower(extension.substr(extension.empty() ? 0 : 1));
+}
+
+std::string expected_output() {
+    return std::string("a file name that ends in ") + OUTPUT_EXTENSIONS +
+           ", or a format for the standard output: png:-, exr:- and so on";
+}
+
 bool is_output_path(const std::string& path) {
     return kind_of(path) != Kind::UNKNOWN;
 }
@@ -60,15 +68,17 @@ bool is_layered_output(const std::string& path) {
 
 void check_output_path(const std::string& path) {
     if (!is_output_path(path))
-        throw UsageError("output '" + path + "': expected a name that ends in " + OUTPUT_EXTENSIONS);
+        throw UsageError("output '" + path + "': expected " + expected_output());
 }
 
 int largest_output_side(const std::string& path) {
-    const std::string extension = lower_extension(path);
-    return extension == ".jpg" || extension == ".jpeg" ? LARGEST_JPEG_SIDE : LARGEST_SIDE;
+    const std::string format = output_format(path);
+    return format == "jpg" || format == "jpeg" ? LARGEST_JPEG_SIDE : LARGEST_SIDE;
 }
 
 void check_output_folder(const std::string& path) {
+    if (is_standard_output(path))
+        return;
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     const std::string inside = folder + "/."; // a file in the folder's place is refused, too
@@ -101,9 +111,9 @@ void write_picture(const Picture& picture, const std::string& path, double expos
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
-    AtomicFile file(path);
-    file.write_at(text.data(), text.size(), 0);
-    file.commit();
+    const std::unique_ptr<OutputFile> file = open_output(path);
+    file->write_at(text.data(), text.size(), 0);
+    file->commit();
 }
 
 } // namespace clrt

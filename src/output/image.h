@@ -36,10 +36,17 @@ struct Picture {
 inline constexpr const char* OUTPUT_EXTENSIONS =
     ".png, .jpg, .jpeg, .bmp, .tga, .ppm, .exr, .tif, .tiff, .hdr or .pfm";
 
-/// Whether the name ends in one of them.
+/// What a picture's name must be, for messages.
+std::string expected_output();
+
+/// The format that a picture's name asks for, in lower case: "png" of "a.PNG" and of "png:-", the standard
+/// output.
+std::string output_format(const std::string& path);
+
+/// Whether a picture can be written under this name: one of the extensions, or a format of them and ":-".
 bool is_output_path(const std::string& path);
 
-/// Throws UsageError when the name ends in none of them, before any work is done.
+/// Throws UsageError when it cannot, before any work is done.
 void check_output_path(const std::string& path);
 
 /// Whether such a picture holds layers beside the picture itself.
@@ -48,16 +55,17 @@ bool is_layered_output(const std::string& path);
 /// Pixels that a side of such a picture can have at most; libjpeg ends the process beyond its limit.
 int largest_output_side(const std::string& path);
 
-/// Throws SceneError when the file's folder is not there or cannot be written, before any work is done.
+/// Throws SceneError when the file's folder is not there or cannot be written, before any work is done. The
+/// standard output has none.
 void check_output_folder(const std::string& path);
 
 /// Writes the picture. 8-bit formats get exposure, tone map and the sRGB curve and only layer 0; .hdr, .pfm
 /// and float TIFF get linear layer 0; .exr gets every layer as float and the metadata. The file appears whole
-/// or not at all: temporary name in the same folder, flush, rename. Throws SceneError with the reason (no
-/// such folder, disk full, ...).
+/// or not at all: temporary name in the same folder, flush, rename; on the standard output likewise, all at
+/// once. Throws SceneError with the reason (no such folder, disk full, ...).
 void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap);
 
-/// Writes text under a temporary name and renames it. Throws SceneError.
+/// Writes text under a temporary name and renames it, or to the standard output. Throws SceneError.
 void write_text_file(const std::string& path, const std::string& text);
 
 } // namespace clrt

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of pixels -> OpenImageIO's encoder -> AtomicFile.
+// Rows of pixels -> OpenImageIO's encoder -> a file or the standard output.
 #pragma once
 
-#include "output/atomic_file.h"
+#include "output/output_file.h"
 
 #include <memory>
 #include <OpenImageIO/filesystem.h>
@@ -11,11 +11,10 @@
 
 namespace clrt {
 
-/// What an encoder writes to: the bytes of an AtomicFile. The encoder never sees a failed write; commit()
-/// does.
-class AtomicFileProxy : public OIIO::Filesystem::IOProxy {
+/// What an encoder writes to: the bytes of an output. The encoder never sees a failed write; commit() does.
+class OutputProxy : public OIIO::Filesystem::IOProxy {
 public:
-    AtomicFileProxy(const std::string& path, AtomicFile& file) : IOProxy(path, Write), file_(file) {}
+    OutputProxy(const std::string& path, OutputFile& file) : IOProxy(path, Write), file_(file) {}
 
     const char* proxytype() const override { return "clrt"; }
     size_t read(void* bytes, size_t count) override;
@@ -25,13 +24,13 @@ public:
     size_t size() const override { return static_cast<size_t>(file_.size()); }
 
 private:
-    AtomicFile& file_;
+    OutputFile& file_;
 };
 
 /// An image file that is being written, rows from the top. Without finish() no file appears.
 class ImageStream {
 public:
-    /// Opens the file; its extension decides the format. Throws SceneError.
+    /// Opens the output; its name decides the format (image.h). Throws SceneError.
     ImageStream(const std::string& path, const OIIO::ImageSpec& spec);
 
     /// Writes rows [first, first + count), counted from 0 at the window's top. Pixels are of type `type`;
@@ -46,8 +45,8 @@ private:
 
     std::string path_;
     int top_; ///< the window's first row in the file's coordinates
-    AtomicFile file_;
-    AtomicFileProxy proxy_;
+    std::unique_ptr<OutputFile> file_;
+    OutputProxy proxy_;
     std::unique_ptr<OIIO::ImageOutput> encoder_; // goes first: its destructor may still write
 };
 

@@ -5,14 +5,13 @@
 #include "output/writers.h"
 
 #include <cmath>
-#include <OpenImageIO/strutil.h>
 
 namespace clrt {
 
 void write_display(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap) {
     OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeUInt8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    if (OIIO::Strutil::iends_with(path, ".jpg") || OIIO::Strutil::iends_with(path, ".jpeg")) {
+    if (const std::string format = output_format(path); format == "jpg" || format == "jpeg") {
         spec.attribute("Compression", "jpeg:98");    // quality, of 100
         spec.attribute("jpeg:subsampling", "4:4:4"); // full resolution of colours
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linear pictures without layers.
 #include "output/image_stream.h"
+#include "output/standard_streams.h"
 #include "output/writers.h"
 
 #include <cmath>
@@ -23,7 +24,7 @@ void write_linear(const Picture& picture, const std::string& path) {
     OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeFloat);
     spec.attribute("oiio:ColorSpace", "Linear");
     ImageStream stream(path, spec);
-    const bool is_hdr = OIIO::Strutil::iends_with(path, ".hdr");
+    const bool is_hdr = output_format(path) == "hdr";
     const size_t row_length = 3 * static_cast<size_t>(picture.width);
     std::vector<float> row(row_length);
     for (int y = 0; y < picture.height; ++y) {
@@ -40,14 +41,14 @@ void write_pfm(const Picture& picture, const std::string& path) {
     // bottom up.
     const std::string header = "PF\n" + std::to_string(picture.width) + " " + std::to_string(picture.height) +
                                "\n" + (OIIO::littleendian() ? "-1.0\n" : "1.0\n");
-    AtomicFile file(path);
-    file.write_at(header.data(), header.size(), 0);
+    const std::unique_ptr<OutputFile> file = open_output(path);
+    file->write_at(header.data(), header.size(), 0);
     const size_t row_length = 3 * static_cast<size_t>(picture.width), row_bytes = row_length * sizeof(float);
     auto position = static_cast<std::int64_t>(header.size());
     for (int y = picture.height - 1; y >= 0; --y, position += static_cast<std::int64_t>(row_bytes))
-        file.write_at(picture.layers[0].values.data() + static_cast<size_t>(y) * row_length, row_bytes,
-                      position);
-    file.commit();
+        file->write_at(picture.layers[0].values.data() + static_cast<size_t>(y) * row_length, row_bytes,
+                       position);
+    file->commit();
 }
 
 } // namespace clrt

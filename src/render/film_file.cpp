@@ -118,6 +118,17 @@ Json header_json(const FilmFile& film) {
     return json;
 }
 
+std::vector<SampleRange> read_ranges(const Json& json) {
+    std::vector<SampleRange> ranges;
+    for (const Json& range : json.at("ranges"))
+        ranges.push_back({range.at(0), range.at(1)});
+    return ranges;
+}
+
+FilmContent read_content(const Json& json) {
+    return {json.at("identity"), read_ranges(json)};
+}
+
 FilmOrigin read_origin(const Json& json) {
     return {json.at("command"), json.at("folder"), json.at("device")};
 }
@@ -162,8 +173,7 @@ FilmFile read_header(const Json& json) {
     sums.height = window.y1 - window.y0;
     sums.scale = {film.identity.at("quantum"), film.identity.at("largest")};
     json.at("replicates").get_to(sums.replicates);
-    for (const Json& range : json.at("ranges"))
-        sums.ranges.push_back({range.at(0), range.at(1)});
+    sums.ranges = read_ranges(json);
     if (film.identity.value("adaptive", false))
         film.render.round = read_round(json.at("round"), sums);
     film.render.counts = read_counts(json.at("counts"));
@@ -331,6 +341,11 @@ FilmFile read_film_file(const std::string& path) {
 FilmOrigin read_film_origin(const std::string& path) {
     FilmReader reader(path);
     return parse_header(reader, read_origin);
+}
+
+FilmContent read_film_content(const std::string& path) {
+    FilmReader reader(path);
+    return parse_header(reader, read_content);
 }
 
 } // namespace clrt

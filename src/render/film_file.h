@@ -68,4 +68,13 @@ FilmFile read_film_file(const std::string& path);
 /// Reads the header only. Throws SceneError likewise.
 FilmOrigin read_film_origin(const std::string& path);
 
+/// Which samples of what picture a film holds.
+struct FilmContent {
+    FilmIdentity identity;
+    std::vector<SampleRange> ranges; ///< in order
+};
+
+/// Reads the header only. Throws SceneError likewise.
+FilmContent read_film_content(const std::string& path);
+
 } // namespace clrt

@@ -12,6 +12,9 @@ namespace clrt {
 
 namespace {
 
+/// The program of the layers of hits, and what tells the program of a replay from the picture's.
+const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay";
+
 /// Layers that come from the primary hits; the others are made from the film.
 bool is_hit_layer(const std::string& name) {
     return name != "variance" && name != "samples" && name != "alpha" && name != "badSamples";
@@ -98,7 +101,7 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     programs.paths = paths;
     programs.picture = build(integrator_name(options.integrator), path_defines(paths));
     if (wants_layers(options))
-        programs.layers = build("aov", {});
+        programs.layers = build(HIT_LAYERS_PROGRAM, {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return programs;
 }
@@ -107,12 +110,24 @@ Program build_replay_program(const Device& device, const Options& options, Preci
                              BvhLayout layout, const PathPlan& paths) {
     ProgramRequest request =
         make_request(kernel_files(options), integrator_name(options.integrator), options, effects, layout, 1);
-    request.name += "_replay";
+    request.name += REPLAY_ENDING;
     request.precision = precision;
     request.defines.emplace_back("CLRT_TRACE=1");
     const std::vector<std::string> automaton = path_defines(paths);
     request.defines.insert(request.defines.end(), automaton.begin(), automaton.end());
     return build_program(device, request);
+}
+
+std::vector<std::string> dumped_files(const Options& options) {
+    std::vector<std::string> paths;
+    if (options.dump_folder.empty())
+        return paths;
+    const std::string integrator = integrator_name(options.integrator);
+    for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING}) {
+        const auto [source, flags] = dump_paths(options.dump_folder, name);
+        paths.insert(paths.end(), {source, flags});
+    }
+    return paths;
 }
 
 } // namespace clrt

@@ -32,6 +32,9 @@ BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device);
 /// True if some output file can hold auxiliary layers and the options want one.
 bool wants_layers(const Options& options);
 
+/// What --dump-kernels may write, a replay included; empty without it.
+std::vector<std::string> dumped_files(const Options& options);
+
 /// Compiles what the options ask for with this effects mask and, where paths are told apart, the automaton of
 /// the plan.
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,

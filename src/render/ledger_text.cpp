@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ledger in words and as JSON.
+#include "output/standard_streams.h"
 #include "render/kernels.h"
 #include "render/ledger.h"
 
@@ -47,8 +48,8 @@ std::string format_ledger(const Ledger& ledger, const Options& options, const De
     std::string out =
         fmt::format("Ledger of {}: {} x {}, {}, on {}\n{} rounds of {} spp; {} for one sample a pixel; "
                     "medians with 96 % intervals\n\n",
-                    options.scene_path, ledger.width, ledger.height, integrator_name(options.integrator),
-                    device.name, LEDGER_ROUNDS, ledger.samples,
+                    input_name(options.scene_path), ledger.width, ledger.height,
+                    integrator_name(options.integrator), device.name, LEDGER_ROUNDS, ledger.samples,
                     ledger.is_processor_time ? "milliseconds of all threads together" : "milliseconds");
     const char* const row = "{:<22}  {:<26} {:<24} {:<24} {}\n";
     out += fmt::format(fmt::runtime(row), "", "    ms", "     % of time", "     % of light",
@@ -69,7 +70,7 @@ std::string format_ledger(const Ledger& ledger, const Options& options, const De
 std::string ledger_json(const Ledger& ledger, const Options& options, const DeviceInfo& device) {
     Json root;
     root["version"] = CLRT_VERSION;
-    root["scene"] = options.scene_path;
+    root["scene"] = input_name(options.scene_path);
     root["integrator"] = integrator_name(options.integrator);
     root["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
     root["width"] = ledger.width;

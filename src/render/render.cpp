@@ -371,7 +371,7 @@ void Passes::run() {
         launch_seconds_ = 0;    // no pass of this run
     }
     result_.stop = run_until_stopped();
-    result_.stop_text = rules_.describe(result_.stop);
+    result_.stop_text = rules_.describe(result_.stop, samples_);
     result_.stop_signal = result_.stop == StopRule::SIGNAL ? stop_signal() : 0;
     if (!gave_up_)
         read_back();

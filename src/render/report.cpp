@@ -179,6 +179,8 @@ std::string report_json(const Report& report) {
     json["height"] = render.film.height;
     json["spp"] = film_samples(render.film);
     json["passes"] = render.passes;
+    json["resumed_at_spp"] =
+        report.options.resume_path.empty() ? Json(nullptr) : Json(film_samples(render.film) - render.passes);
     json["first_sample"] = report.options.first_sample;
     json["adaptive"] = adaptive_json(render.film);
     json["sampler"] = sampler_name(report.options.sampler);

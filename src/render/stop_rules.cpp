@@ -87,9 +87,12 @@ double StopRules::fraction(double samples, double seconds, const std::optional<S
     return std::min(fraction, 1.0);
 }
 
-std::string StopRules::describe(StopRule rule) const {
+std::string StopRules::describe(StopRule rule, std::uint64_t samples) const {
     switch (rule) {
     case StopRule::SPP:
+        if (samples > last_samples_) // only a resumed film has more
+            return fmt::format("the film has {} spp already, more than {} {}: nothing was left to render",
+                               samples, options_.spp ? "--spp" : "the default of", last_samples_);
         if (options_.spp)
             return fmt::format("--spp {} is complete", *options_.spp);
         return fmt::format("the default of {} spp is complete", last_samples_);

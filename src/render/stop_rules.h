@@ -49,8 +49,9 @@ public:
     /// Progress in [0, 1] by the limit that is nearest; `check` is the last measured error, if any, and at
     /// how many samples.
     double fraction(double samples, double seconds, const std::optional<SquaredError>& check) const;
-    /// What ended the render, for the log and the report: "--spp 64 is complete".
-    std::string describe(StopRule rule) const;
+    /// What ended the render after so many samples a pixel, for the log and the report: "--spp 64 is
+    /// complete".
+    std::string describe(StopRule rule, std::uint64_t samples) const;
 
 private:
     const Options& options_;

@@ -3,8 +3,11 @@
 
 #include "output/exposure.h"
 #include "output/image.h"
+#include "output/standard_streams.h"
+#include "output/written_files.h"
 #include "render/picture.h"
 
+#include <fmt/format.h>
 #include <new>
 #include <spdlog/spdlog.h>
 
@@ -16,7 +19,8 @@ namespace {
 void write_pictures(const Picture& picture, const Options& options) {
     const double exposure_ev = chosen_exposure_ev(options, picture.layers[0].values);
     for (const std::string& path : options.outputs)
-        write_picture(picture, path, exposure_ev, options.tonemap);
+        if (!is_standard_output(path)) // which takes one picture, at the end
+            write_picture(picture, path, exposure_ev, options.tonemap);
 }
 
 /// Saves while the render goes on, whatever happens to the file.
@@ -83,23 +87,45 @@ void write_outputs(Report& report, FinalFiles& files) {
 
 Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,
                Progress& progress)
-    : scene_(scene), paths_(paths) {
-    if (!options.checkpoint_path.empty() || !options.resume_path.empty())
+    : scene_(scene), paths_(paths), options_(options), device_(device) {
+    if (!options.checkpoint_path.empty())
         identity = film_identity(scene, options, film_scale(scene));
     if (!options.resume_path.empty())
-        resumed = read_resumed_film(options, identity);
+        resume();
     hooks.resume = resumed ? &*resumed : nullptr;
     hooks.save_picture = [&](const Render& render) {
         save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
     };
-    hooks.save_film = [&](const Render& render) {
-        save_on_the_way(
-            progress, [&] { write_film_file(options.checkpoint_path, film_file(render, options, device)); });
-    };
+    hooks.save_film = [&](const Render& render) { save_on_the_way(progress, [&] { write_film(render); }); };
 }
 
-FilmFile Saving::film_file(const Render& render, const Options& options, const DeviceInfo& device) const {
-    return make_film_file(render, bias_sources(scene_, paths_, render), identity, options, device);
+/// Takes up the film of --resume. Whatever it is to replace must be part of it.
+void Saving::resume() {
+    resumed = read_resumed_film(options_, identity);
+    spdlog::info("resumed at {} spp: {}", film_samples(resumed->film), options_.resume_path);
+    if (options_.force)
+        return;
+    if (const auto obstacle =
+            replacement_obstacle(options_.checkpoint_path, {identity, resumed->film.ranges}))
+        throw UsageError(fmt::format("option --checkpoint: '{}' cannot be replaced: {}; --force replaces it",
+                                     options_.checkpoint_path, *obstacle));
+}
+
+bool Saving::needs_film(const Render& render) const {
+    const bool is_whole =
+        resumed && render.passes == 0 && is_same_file(options_.checkpoint_path, options_.resume_path);
+    return !options_.checkpoint_path.empty() && film_samples(render.film) > 0 && !is_whole;
+}
+
+void Saving::write_film(const Render& render) const {
+    const std::string& path = options_.checkpoint_path;
+    if (!options_.force)
+        if (const auto obstacle = replacement_obstacle(path, {identity, render.film.ranges}))
+            throw SceneError(
+                path, 0,
+                fmt::format("the film of this run is not written: {}; --force replaces it", *obstacle));
+    write_film_file(
+        path, make_film_file(render, bias_sources(scene_, paths_, render), identity, options_, device_));
 }
 
 } // namespace clrt

@@ -42,12 +42,20 @@ struct Saving {
     Saving(const Saving&) = delete;
     Saving& operator=(const Saving&) = delete;
 
-    /// Everything about a render that --resume and clrt-merge need.
-    FilmFile film_file(const Render& render, const Options& options, const DeviceInfo& device) const;
+    /// Whether --checkpoint is still to be written at the end: a resumed film that has gained nothing is
+    /// whole.
+    bool needs_film(const Render& render) const;
+    /// Writes the film of --checkpoint. Throws SceneError, also where the film that is there holds what this
+    /// one lacks and --force is not given.
+    void write_film(const Render& render) const;
 
 private:
+    void resume();
+
     const Scene& scene_;
     const PathPlan& paths_;
+    const Options& options_;
+    const DeviceInfo& device_;
 };
 
 } // namespace clrt

@@ -2,6 +2,7 @@
 #include "scene/load_scene.h"
 
 #include "error.h"
+#include "output/standard_streams.h"
 #include "scene/assemble_geometry.h"
 #include "scene/camera_fit.h"
 #include "scene/cut_vast.h"
@@ -91,7 +92,7 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
     if (reader.replacement)
         mesh.colours.clear();
     std::vector<bool> coloured = coloured_materials(mesh);
-    decode_vertex_colours(mesh, options.scene_path, notices);
+    decode_vertex_colours(mesh, input_name(options.scene_path), notices);
     if (mesh.colours.empty())
         coloured.assign(mesh.material_names.size(), false);
     TextureStore store;
@@ -101,7 +102,7 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         scene.statistics.texture_seconds += watch.seconds();
         return answer;
     };
-    reader.library = read_mtl_libraries(options.scene_path, mesh.libraries, notices);
+    reader.library = read_mtl_libraries(input_name(options.scene_path), mesh.libraries, notices, scene.files);
     reader.context = {scene.normalisation.scale, options.light.two_sided};
     reader.load_map = [&](const MtlTexture& use, TextureRole role) {
         return timed([&] { return store.add(use, role, notices); });
@@ -120,10 +121,10 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         SourcePlace place;
         std::optional<SourcePlace> first_colour;
         if (coloured[i])
-            first_colour = {options.scene_path, mesh.first_colour_line};
+            first_colour = {input_name(options.scene_path), mesh.first_colour_line};
         const RuledMaterial ruled =
-            material_by_name(mesh.material_names[i], mesh.material_lines[i], options.scene_path, reader,
-                             first_colour, place, notices);
+            material_by_name(mesh.material_names[i], mesh.material_lines[i], input_name(options.scene_path),
+                             reader, first_colour, place, notices);
         const Material& m = ruled.material;
         scene.emitted.push_back(emitted_radiance(m, store));
         exitance.push_back(emitted_luminance(m, scene.emitted.back()));
@@ -132,6 +133,8 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         scene.material_places.push_back(place);
         scene.material_rules.push_back(ruled.rule);
     }
+    for (const std::string& path : store.files())
+        scene.files.push_back({"the texture", path});
     scene.textures = store.take_textures();
     scene.texture_names = store.take_names();
     scene.texture_places = store.take_places();
@@ -168,16 +171,16 @@ Scene load_all(const Options& options, Progress& progress) {
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
     scene.normalisation = fit_normalisation(bounds);
-    note_coarse_digits(mesh, bounds, options.scene_path, notices);
+    note_coarse_digits(mesh, bounds, input_name(options.scene_path), notices);
     note_relative_positions(scene.normalisation, options, notices);
-    smooth_by_groups(mesh, options.scene_path, notices);
+    smooth_by_groups(mesh, input_name(options.scene_path), notices);
     const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
-    assemble_geometry(mesh, bounds, scene.normalisation, options.scene_path, scene, notices);
+    assemble_geometry(mesh, bounds, scene.normalisation, input_name(options.scene_path), scene, notices);
     const CutTriangles cut = cut_vast_triangles(scene);
     if (cut.vast)
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
-                                     options.scene_path, cut.vast, cut.vast + cut.added));
-    store_vertex_colours(scene, options.scene_path);
+                                     input_name(options.scene_path), cut.vast, cut.vast + cut.added));
+    store_vertex_colours(scene, input_name(options.scene_path));
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
     const bool whole_camera = options.camera.eye && options.camera.at;
@@ -195,7 +198,7 @@ Scene load_scene(const Options& options, Progress& progress) {
         return load_all(options, progress);
     } catch (const std::bad_alloc&) {
         throw SceneError(
-            options.scene_path, 0,
+            input_name(options.scene_path), 0,
             "not enough memory to load the scene: expected a smaller one, smaller textures, or a "
             "machine with more memory");
     }

@@ -73,7 +73,7 @@ std::vector<std::string> find_libraries(const std::string& obj_path, const ObjLi
 
 std::map<std::string, MtlMaterial> read_mtl_libraries(const std::string& obj_path,
                                                       const std::vector<ObjLibrary>& libraries,
-                                                      NoticeList& notices) {
+                                                      NoticeList& notices, std::vector<NamedFile>& files) {
     std::map<std::string, MtlMaterial> by_name;
     std::vector<std::string> seen;
     for (const ObjLibrary& library : libraries)
@@ -81,6 +81,7 @@ std::map<std::string, MtlMaterial> read_mtl_libraries(const std::string& obj_pat
             if (std::find(seen.begin(), seen.end(), path) != seen.end())
                 continue; // the same library again, as exporters write it for every object
             seen.push_back(path);
+            files.push_back({"the material library", path});
             for (MtlMaterial& material : read_mtl(path, notices)) {
                 const SourcePlace place = material.place;
                 std::string name = material.name;

@@ -13,10 +13,11 @@ namespace clrt {
 
 /// Reads all libraries. The text after mtllib is one name with spaces or several names: the longest run of
 /// words that names a file is taken first. A name defined twice keeps its first definition, as in the MTL
-/// specification's search order and in tinyobjloader. What is missing or defined twice is a notice.
+/// specification's search order and in tinyobjloader. What is missing or defined twice is a notice. The
+/// libraries that are read are added to `files`.
 std::map<std::string, MtlMaterial> read_mtl_libraries(const std::string& obj_path,
                                                       const std::vector<ObjLibrary>& libraries,
-                                                      NoticeList& notices);
+                                                      NoticeList& notices, std::vector<NamedFile>& files);
 
 /// The library files of one mtllib statement that exist, in order; what is missing is one notice.
 std::vector<std::string> find_libraries(const std::string& obj_path, const ObjLibrary& library,

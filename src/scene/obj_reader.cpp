@@ -4,6 +4,7 @@
 #include "scene/obj_reader.h"
 
 #include "error.h"
+#include "output/standard_streams.h"
 #include "scene/foreign_format.h"
 #include "scene/obj_chunk.h"
 #include "scene/text_encoding.h"
@@ -390,12 +391,13 @@ std::vector<std::string> make_notices(const std::string& path, const Pieces& pie
 
 } // namespace
 
-ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes) {
+ObjMesh read_obj(const std::string& file, Progress& progress, size_t chunk_bytes) {
+    const std::string path = input_name(file);
     ObjMesh mesh;
     progress.update({"load", 0});
     Pieces pieces;
     {
-        std::string bytes = read_file(path);
+        std::string bytes = read_file(file);
         mesh.bytes = bytes.size();
         if (const std::string other = foreign_format(bytes); !other.empty())
             throw SceneError(path, 0, "expected a Wavefront OBJ, found " + other);

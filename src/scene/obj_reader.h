@@ -51,12 +51,12 @@ struct ObjMesh {
 /// How much text one task reads: enough to hide the cost of a task, little enough for many of them.
 constexpr size_t OBJ_CHUNK_BYTES = size_t(1) << 20;
 
-/// Reads an OBJ file. Polygons become triangles (concave ones by ear clipping), negative indices count back,
-/// CR, LF and CRLF end lines, a backslash at a line's end continues it, UTF-16 is read as UTF-8. Points,
-/// lines, curves and unknown statements are counted in a notice. A vn or vt index out of range is dropped
-/// with a notice; a position index out of range or 0, a number that is none, a file of another format and one
-/// without a single face throw SceneError (file:line, what was expected, what was found). The result is the
-/// same for any number of threads and any `chunk_bytes` (at least 1).
-ObjMesh read_obj(const std::string& path, Progress& progress, size_t chunk_bytes = OBJ_CHUNK_BYTES);
+/// Reads an OBJ file, or the standard input ("-"). Polygons become triangles (concave ones by ear clipping),
+/// negative indices count back, CR, LF and CRLF end lines, a backslash at a line's end continues it, UTF-16
+/// is read as UTF-8. Points, lines, curves and unknown statements are counted in a notice. A vn or vt index
+/// out of range is dropped with a notice; a position index out of range or 0, a number that is none, a file
+/// of another format and one without a single face throw SceneError (file:line, what was expected, what was
+/// found). The result is the same for any number of threads and any `chunk_bytes` (at least 1).
+ObjMesh read_obj(const std::string& file, Progress& progress, size_t chunk_bytes = OBJ_CHUNK_BYTES);
 
 } // namespace clrt

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/shared/scene_types.h"
+#include "output/named_file.h"
 
 #include <glm/vec3.hpp>
 #include <string>
@@ -80,6 +81,7 @@ struct Scene {
     float extent = 0;                 ///< largest |coordinate| of the geometry, normalised frame
     double emitted_power = 0;         ///< luminance of all lights but the environment, normalised frame
     std::vector<std::string> notices; ///< every fallback, one line each, for the log and --explain
+    std::vector<NamedFile> files;     ///< all that were opened, those that could not be understood too
     LoadStatistics statistics;
 };
 

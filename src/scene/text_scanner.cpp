@@ -3,6 +3,7 @@
 #include "scene/text_scanner.h"
 
 #include "error.h"
+#include "output/standard_streams.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <system_error>
+#include <unistd.h>
 
 namespace clrt {
 
@@ -83,26 +85,32 @@ std::string system_message(int error) {
 } // namespace
 
 std::string read_file(const std::string& path) {
+    const bool is_piped = is_standard_input(path);
+    const std::string name = input_name(path);
     std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (std::filesystem::is_directory(status))
-        throw SceneError(path, 0, "expected a file, found a folder");
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-        !std::filesystem::is_fifo(status))
-        throw SceneError(path, 0, "expected a file, found a device or a socket");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!is_piped) {
+        const auto status = std::filesystem::status(path, error);
+        if (std::filesystem::is_directory(status))
+            throw SceneError(name, 0, "expected a file, found a folder");
+        if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+            !std::filesystem::is_fifo(status))
+            throw SceneError(name, 0, "expected a file, found a device or a socket");
+    }
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+        is_piped ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file)
-        throw SceneError(path, 0, "cannot be opened: " + system_message(errno));
+        throw SceneError(name, 0, "cannot be opened: " + system_message(errno));
 
     const auto size = std::filesystem::file_size(path, error);
+    const bool knows_size = !is_piped && !error;
     std::string text;
     size_t length = 0;
     // One byte more than the size, so that the first read of a regular file already meets its end.
-    for (size_t room = error ? READ_BYTES : size + 1;; room = READ_BYTES) {
+    for (size_t room = knows_size ? size + 1 : READ_BYTES;; room = READ_BYTES) {
         text.resize(length + room);
         length += std::fread(&text[length], 1, room, file.get());
         if (std::ferror(file.get()))
-            throw SceneError(path, 0, "cannot be read: " + system_message(errno));
+            throw SceneError(name, 0, "cannot be read: " + system_message(errno));
         if (length < text.size())
             break;
     }

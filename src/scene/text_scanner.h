@@ -8,7 +8,8 @@
 
 namespace clrt {
 
-/// All bytes of a file (or of a pipe). Throws SceneError for one that is missing, unreadable or a folder.
+/// All bytes of a file (or of a pipe, or of the standard input: "-"). Throws SceneError for one that is
+/// missing, unreadable or a folder.
 std::string read_file(const std::string& path);
 
 /// The text after a UTF-8 byte order mark, or all of it where there is none.

@@ -101,6 +101,7 @@ TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& use, Tex
     const auto known = images_.find({*path, encoding});
     if (known != images_.end())
         return &known->second;
+    files_.insert(*path);
     Image image;
     try {
         image = read_image(*path, encoding);

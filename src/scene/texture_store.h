@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,6 +57,8 @@ public:
     std::vector<u32> take_words() { return std::move(words_); }
     std::vector<std::string> take_names() { return std::move(names_); }
     std::vector<SourcePlace> take_places() { return std::move(places_); }
+    /// Every picture that was opened, those that cannot be read included.
+    const std::set<std::string>& files() const { return files_; }
     const std::vector<Texture>& textures() const { return textures_; }
     const std::vector<u32>& words() const { return words_; }
 
@@ -82,6 +85,7 @@ private:
     std::vector<std::string> names_;
     std::vector<SourcePlace> places_;
     std::vector<u32> words_;
+    std::set<std::string> files_;
     std::map<std::pair<std::string, ImageEncoding>, StoredImage> images_;
 };
 

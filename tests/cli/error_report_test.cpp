@@ -161,7 +161,7 @@ TEST_F(ErrorReport, WhatMaxDepthCutsIsABiasBesideTheError) {
     // A render that is gone on with, and one in parts, know the same.
     box({"--spp", "8", "--max-depth", "64", "--checkpoint", "half.film"});
     EXPECT_LT(stats()["cut"]["paths"], whole["cut"]["paths"]);
-    box({"--spp", "16", "--max-depth", "64", "--resume", "half.film"});
+    box({"--spp", "16", "--max-depth", "64", "--resume", "half.film", "--checkpoint", "on.film"});
     EXPECT_EQ(stats()["cut"], whole["cut"]);
     box({"--spp", "8", "--max-depth", "64", "--first-sample", "8", "--checkpoint", "rest.film"});
     const CommandResult merged = run_command({CLRT_MERGE_EXECUTABLE, folder.file("half.film"),

@@ -122,9 +122,9 @@ TEST_F(Fault, AFullDiskUnderTheReportIsAnError) {
 }
 
 TEST_F(Fault, AFullDiskCostsOnlyTheFilesThatDoNotFit) {
-    const std::vector<std::string> words = {"scene.obj", "-i",           "raycast", "-s",      "1",
-                                            "-o",        "a.pfm",        "-o",      "b.ppm",   "--checkpoint",
-                                            "a.film",    "--replicates", "1",       "--stats", "s.json"};
+    const std::vector<std::string> words = {
+        "scene.obj", "-i",           "raycast", "-s",           "1", "-o",      "a.pfm",  "-o",
+        "b.ppm",     "--checkpoint", "a.film",  "--replicates", "1", "--stats", "s.json", "--force"};
     folder.write("a.pfm", "older picture");
     folder.write("a.film", "older film");
     CommandSettings full;
@@ -174,8 +174,8 @@ TEST_F(Fault, FoldersThatNobodyCanWriteAreErrorsForResultsAndNoneForTheCache) {
 
 TEST_F(Fault, KillsAtAnyMomentLeaveWholeFilesAndOneTemporaryFileAtMost) {
     const std::vector<std::string> words = {
-        "scene.obj", "-i", "raycast", "-t",           "60",   "-s",           "4000000",    "-r",
-        "256x256",   "-o", "a.pfm",   "--save-every", "0.01", "--checkpoint", "a.film,0.01"};
+        "scene.obj", "-i", "raycast", "-t",           "60",   "-s",           "4000000",     "-r",
+        "256x256",   "-o", "a.pfm",   "--save-every", "0.01", "--checkpoint", "a.film,0.01", "--force"};
     ASSERT_EQ(clrt({"scene.obj", "-i", "raycast", "-s", "1", "-r", "256x256", "-o", "a.pfm", "--checkpoint",
                     "a.film"})
                   .exit_code,
@@ -195,7 +195,7 @@ TEST_F(Fault, KillsAtAnyMomentLeaveWholeFilesAndOneTemporaryFileAtMost) {
         EXPECT_EQ(ReadPicture(folder.file("a.pfm")).spec.width, 256) << "kill " << kill;
         EXPECT_LE(partial_files().size(), 2u) << "one for each file that is written";
     }
-    EXPECT_EQ(clrt(quick({"scene.obj", "-o", "a.pfm", "--checkpoint", "a.film"})).exit_code, 0);
+    EXPECT_EQ(clrt(quick({"scene.obj", "-o", "a.pfm", "--checkpoint", "a.film", "--force"})).exit_code, 0);
     EXPECT_EQ(partial_files(), std::vector<std::string>()) << "a run that ends removes what the others left";
 }
 

@@ -228,7 +228,7 @@ TEST_F(FilmCommand, AKilledRunLeavesAWholeFilm) {
         std::vector<std::string> command{CLRT_EXECUTABLE};
         command.insert(command.end(), LONG_RUN.begin(), LONG_RUN.end());
         // A film of 12 MB takes a while to write.
-        command.insert(command.end(), {"a.film,0.01", "--size", "256x256"});
+        command.insert(command.end(), {"a.film,0.01", "--size", "256x256", "--force"});
         CommandSettings settings;
         settings.folder = path();
         settings.signals = {{seconds, SIGKILL}};

@@ -39,6 +39,7 @@ protected:
                                               "p.exr",
                                               "--checkpoint",
                                               "p.film",
+                                              "--force",
                                               "--stats",
                                               "p.json",
                                               "-q"};

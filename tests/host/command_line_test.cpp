@@ -68,6 +68,7 @@ const std::map<std::string, std::string>& samples() {
         {"--sample", "5"},
         {"--checkpoint", "a.film,90s"},
         {"--resume", "a.film"},
+        {"--force", ""},
         {"--save-every", "1m"},
         {"--kernels", "kernels"},
         {"--dump-kernels", "dump"},
@@ -320,11 +321,19 @@ TEST(CommandLine, ACheckpointMayHaveAnInterval) {
               std::string::npos);
 }
 
-TEST(CommandLine, TheCommandOfAFilmLacksResume) {
-    const Options o = parse({"--resume", "a.film", "-s", "16", "--checkpoint=b.film", "-v"});
+TEST(CommandLine, TheCommandOfAFilmLacksWhatIsAboutOneRunAlone) {
+    const Options o =
+        parse({"--resume", "a.film", "-s", "16", "--checkpoint=b.film", "-v", "--force", "--progress", "on"});
     EXPECT_EQ(o.resume_path, "a.film");
-    EXPECT_EQ(o.resumable_command, (std::vector<std::string>{"clrt", "--spp=16", "--checkpoint=b.film",
-                                                             "--verbose", "--", "scene.obj"}));
+    EXPECT_EQ(o.checkpoint_path, "b.film");
+    EXPECT_TRUE(o.force);
+    EXPECT_EQ(o.resumable_command,
+              (std::vector<std::string>{"clrt", "--spp=16", "--checkpoint=b.film", "--", "scene.obj"}));
+}
+
+TEST(CommandLine, AResumedFilmIsWrittenAnewUnlessTheCommandLineNamesAnother) {
+    EXPECT_EQ(parse({"--resume", "a.film"}).checkpoint_path, "a.film");
+    EXPECT_EQ(parse({"-s", "16"}).checkpoint_path, "");
 }
 
 TEST(CommandLine, ShortOptionsCanBeGlued) {
@@ -388,7 +397,7 @@ TEST(CommandLine, HelpAndVersionNeedNoScene) {
 TEST(CommandLine, StatisticsNeverReplaceTheScene) {
     ScratchFolder folder;
     const std::string scene = folder.write("box.obj", "v 0 0 0\n");
-    EXPECT_NE(refusal({"--stats", folder.file("./box.obj"), scene}).find("found the input"),
+    EXPECT_NE(refusal({"--stats", folder.file("./box.obj"), scene}).find("would replace the scene"),
               std::string::npos);
 }
 

@@ -43,7 +43,8 @@ std::string error_of(const std::string& text) {
 
 std::map<std::string, MtlMaterial> libraries(const TemporaryFolder& folder, const std::string& names,
                                              NoticeList& notices) {
-    return read_mtl_libraries(folder.path("scene.obj"), {{names, 3}}, notices);
+    std::vector<NamedFile> files;
+    return read_mtl_libraries(folder.path("scene.obj"), {{names, 3}}, notices, files);
 }
 
 } // namespace
@@ -337,7 +338,10 @@ TEST(MtlLibraries, ALibraryNamedTwiceIsReadOnce) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl m\nKm 1\n");
     NoticeList notices;
-    read_mtl_libraries(folder.path("scene.obj"), {{"a.mtl", 1}, {"a.mtl", 9}}, notices);
+    std::vector<NamedFile> files;
+    read_mtl_libraries(folder.path("scene.obj"), {{"a.mtl", 1}, {"a.mtl", 9}}, notices, files);
     EXPECT_EQ(count_notices(notices, "Km has no effect here and is ignored"), 1);
     EXPECT_EQ(count_notices(notices, "more"), 0);
+    ASSERT_EQ(files.size(), 1u);
+    EXPECT_EQ(files[0].path, folder.path("a.mtl"));
 }

@@ -81,9 +81,11 @@ TEST(StopRules, TheFirstRuleThatHoldsIsNamed) {
     EXPECT_EQ(rules.ended(interrupted), StopRule::SIGNAL);
     interrupted.samples = 0;
     EXPECT_FALSE(rules.ended(interrupted)) << "no picture yet";
-    EXPECT_EQ(rules.describe(StopRule::SPP), "--spp 64 is complete");
-    EXPECT_EQ(rules.describe(StopRule::TIME), "--time 2 s is over");
-    EXPECT_EQ(rules.describe(StopRule::ERROR), "--error 2 % is reached");
+    EXPECT_EQ(rules.describe(StopRule::SPP, 64), "--spp 64 is complete");
+    EXPECT_EQ(rules.describe(StopRule::SPP, 100),
+              "the film has 100 spp already, more than --spp 64: nothing was left to render");
+    EXPECT_EQ(rules.describe(StopRule::TIME, 3), "--time 2 s is over");
+    EXPECT_EQ(rules.describe(StopRule::ERROR, 32), "--error 2 % is reached");
 }
 
 TEST(StopRules, TheErrorIsMeasuredAtDoublings) {

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run_files.h"
+
+#include "device/kernel_source.h"
+#include "output/standard_streams.h"
+#include "output/written_files.h"
+#include "render/kernels.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+/// A replay and a ledger write neither pictures nor films.
+bool writes_pictures(const Options& options) {
+    return !options.pixel && !options.ledger;
+}
+
+} // namespace
+
+std::vector<NamedFile> files_to_write(const Options& options) {
+    std::vector<NamedFile> files;
+    if (options.explain != Explain::NO)
+        return files;
+    const bool has_picture = writes_pictures(options);
+    const bool is_default = options.given.count("--output") == 0;
+    if (has_picture)
+        for (const std::string& path : options.outputs)
+            files.push_back({is_default ? "--output (by default)" : "--output", path});
+    if (has_picture && !options.checkpoint_path.empty())
+        files.push_back({"--checkpoint", options.checkpoint_path});
+    if (!options.stats_path.empty())
+        files.push_back({"--stats", options.stats_path});
+    for (const std::string& path : dumped_files(options))
+        files.push_back({"--dump-kernels", path});
+    return files;
+}
+
+std::vector<NamedFile> files_to_read(const Options& options) {
+    const bool is_piped = is_standard_input(options.scene_path);
+    std::vector<NamedFile> files = {{"the scene", is_piped ? "/dev/stdin" : options.scene_path},
+                                    {"the options file", options.sidecar_path},
+                                    {"the environment map", options.light.environment_file}};
+    if (!writes_pictures(options) || !is_same_file(options.resume_path, options.checkpoint_path))
+        files.push_back({"the film to go on from", options.resume_path});
+    return files;
+}
+
+void print_report(const Options& options, const std::string& text) {
+    const std::vector<NamedFile> results = files_to_write(options);
+    if (std::any_of(results.begin(), results.end(),
+                    [](const NamedFile& file) { return is_standard_output(file.path); }))
+        std::fputs(text.c_str(), stderr);
+    else
+        fmt::print("{}", text);
+}
+
+void check_run_files(const Options& options, const Scene& scene) {
+    std::vector<NamedFile> read = files_to_read(options);
+    read.insert(read.end(), scene.files.begin(), scene.files.end());
+    if (!options.kernels_folder.empty())
+        for (const auto& [name, text] : read_kernel_files(options.kernels_folder))
+            read.push_back(
+                {"the kernel file", (std::filesystem::path(options.kernels_folder) / name).string()});
+    check_written_files(files_to_write(options), read);
+}
+
+} // namespace clrt
