@@ -24,10 +24,14 @@ enum class Tonemap { NONE, REINHARD, ACES };
 enum class Check { OFF, COUNT, STRICT };
 enum class MtlReading { AUTO, PLAIN };
 enum class Explain { NO, TABLE, JSON };
+/// From where a scene is seen, in a frame whose up is the camera's and whose front is towards the eye of
+/// FRONT.
+enum class View { FRONT, BACK, LEFT, RIGHT, TOP, BOTTOM, ISO };
 
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
 struct CameraOptions {
     std::optional<glm::dvec3> eye, at, up;          ///< scene units
+    std::optional<View> view;                       ///< direction of a fitted eye; none: three quarters
     std::optional<double> fov_degrees;              ///< vertical angle of view
     std::optional<double> focal_length, film_width; ///< any common unit; fov = 2 atan(width H / (2 W focal))
 };

@@ -167,9 +167,7 @@ Scene load_all(const Options& options, Progress& progress) {
     store_vertex_colours(scene, options.scene_path);
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
-    const bool whole_camera = options.camera.eye && options.camera.at;
-    const BoxCover cover = whole_camera ? BoxCover{} : measure_box_cover(scene.positions, scene.triangles);
-    scene.camera = fit_camera(options.camera, options.size, bounds, cover, notices);
+    scene.camera = fit_camera(options.camera, options.size, scene, bounds, notices);
     note_far_options(scene.camera, bounds, options, notices);
     scene.notices = notices.lines();
     return scene;

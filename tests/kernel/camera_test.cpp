@@ -215,7 +215,7 @@ TEST(Camera, AnUpVectorNearTheViewLeavesTheFilmSquare) {
         given.up = tilted + angle * dvec3(0.5, 0.3, 0);
         NoticeList notices;
         const Bounds box{dvec3(-1), dvec3(1)};
-        const Camera camera = fit_camera(given, {64, 64}, box, {}, notices);
+        const Camera camera = fit_camera(given, {64, 64}, Scene(), box, notices);
         const RenderParams params = camera_params({camera.eye, tilted, camera.up, 90}, 64, 64);
         const dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0;
         EXPECT_NEAR(glm::length(x), 1, 4 * FLOAT_U) << angle;
