@@ -32,7 +32,7 @@ std::vector<OptionSpec> camera_options() {
         {group, "", "--at", "X,Y,Z", "point to look at, scene units (default: fitted to the scene)",
          [](Options& o, const OptionValue& v) { o.camera.at = parse_vector(v, "a position x,y,z"); }},
         {group, "", "--up", "x|y|z|X,Y,Z",
-         "direction that is up in the scene and the picture (default y)",
+         "direction that is up in the scene and the picture (default y; z where the file surely has z up)",
          [](Options& o, const OptionValue& v) { o.camera.up = up_direction(v); }},
         {group, "", "--view", "NAME",
          "from where to look where --eye is not given: front, back, left, right, top, bottom or iso; with "
