@@ -8,6 +8,7 @@
 #include "app/options_file.h"
 #include "app/terminal.h"
 #include "error.h"
+#include "output/file_name.h"
 #include "output/image.h"
 #include "render/film_file.h"
 
@@ -111,14 +112,24 @@ std::vector<std::string> resumable_command(const Arguments& arguments) {
 
 /// A render of minutes must not end in "no such folder".
 void check_folders(const Options& options) {
-    if (!options.stats_path.empty())
-        check_output_folder(options.stats_path);
+    const auto check = [&](const std::string& name) {
+        if (!name.empty())
+            check_output_folder(expand_file_name(name, {options.seed, 0, 1}));
+    };
+    check(options.stats_path);
     if (options.pixel) // writes nothing else
         return;
     for (const std::string& path : options.outputs)
-        check_output_folder(path);
-    if (!options.checkpoint_path.empty())
-        check_output_folder(options.checkpoint_path);
+        check(path);
+    check(options.checkpoint_path);
+}
+
+/// Every picture of a turn gets a name of its own.
+void number_names(Options& options) {
+    for (std::string& path : options.outputs)
+        path = with_frame_number(path);
+    if (!options.stats_path.empty())
+        options.stats_path = with_frame_number(options.stats_path);
 }
 
 } // namespace
@@ -166,7 +177,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         options.given[option.value.option] = origin.substr(0, origin.find_last_not_of(": ") + 1);
     }
     if (options.outputs.empty() && !options.scene_path.empty())
-        options.outputs.push_back(std::filesystem::path(options.scene_path).stem().string() + ".png");
+        options.outputs.push_back(
+            literal_file_name(std::filesystem::path(options.scene_path).stem().string() + ".png"));
     // A ledger's compile seconds are those of a first start; its samples are its own unless the command line
     // says how many.
     if (options.ledger && options.cache == Toggle::AUTO)
@@ -176,6 +188,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (options.ledger && !is_given(arguments.options, "--time"))
         options.time_seconds.reset();
     check_combinations(options);
+    if (options.frames)
+        number_names(options);
     if (!options.scene_path.empty() && !list_devices && options.explain == Explain::NO)
         check_folders(options);
     return result;

@@ -3,6 +3,7 @@
 #include "app/option_checks.h"
 
 #include "error.h"
+#include "output/file_name.h"
 #include "output/image.h"
 #include "render/adaptive.h"
 
@@ -101,6 +102,41 @@ void check_adaptive(const Options& options) {
                         "of equal samples");
 }
 
+/// Placeholders that are known; {frame} where there are frames.
+void check_name(const Options& options, const char* option, const std::string& name) {
+    bool has_frame = false;
+    try {
+        has_frame = names_frame(name);
+    } catch (const UsageError& error) {
+        reject(options, std::string("option ") + option + ": " + error.what());
+    }
+    if (has_frame && !options.frames)
+        reject(options,
+               std::string("option ") + option + ": expected --frames with '" + name + "', found none");
+}
+
+void check_names(const Options& options) {
+    for (const std::string& path : options.outputs)
+        check_name(options, "--output", path);
+    check_name(options, "--stats", options.stats_path);
+    check_name(options, "--checkpoint", options.checkpoint_path);
+}
+
+/// A turn is pictures, one after the other.
+void check_frames(const Options& options) {
+    if (!options.frames)
+        return;
+    const std::pair<const char*, bool> others[] = {{"--resume", !options.resume_path.empty()},
+                                                   {"--checkpoint", !options.checkpoint_path.empty()},
+                                                   {"--pixel", options.pixel.has_value()},
+                                                   {"--ledger", options.ledger},
+                                                   {"--explain", options.explain != Explain::NO}};
+    for (const auto& [name, is_given] : others)
+        if (is_given)
+            reject(options,
+                   std::string("options --frames and ") + name + ": expected one of them, found both");
+}
+
 void check_written_paths(const Options& options) {
     std::error_code error; // a file that is not there yet is no other file
     for (const std::string& input : {options.scene_path, options.sidecar_path}) {
@@ -166,6 +202,8 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
+    check_names(options);
+    check_frames(options);
     check_written_paths(options);
     check_paths(options);
     check_replay(options);

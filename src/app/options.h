@@ -103,7 +103,9 @@ struct Options {
 
     // Picture
     glm::ivec2 size{800, 600};
-    std::vector<std::string> outputs; ///< default STEM.png in the current folder
+    std::vector<std::string> outputs; ///< default STEM.png in the current folder; may hold {seed} and others
+    std::optional<int> frames;        ///< pictures of a turn around what the camera looks at
+    int frame = 0;                    ///< which of them this is, from 1; 0: none of them
     std::optional<Crop> crop;
     Filter filter = Filter::BOX;
     std::optional<double> filter_radius; ///< pixels; box 0.5, tent 1, gaussian 1.5

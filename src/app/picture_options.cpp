@@ -2,6 +2,7 @@
 // The options of the group "Picture".
 #include "app/layer_option.h"
 #include "app/option_rows.h"
+#include "output/file_name.h"
 #include "output/image.h"
 
 namespace clrt {
@@ -10,6 +11,8 @@ namespace {
 
 /// Stops: 2^100 times any float radiance still is a double.
 constexpr double LARGEST_EXPOSURE = 100;
+/// Pictures of a turn; more would differ by less than a tenth of a degree.
+constexpr int MOST_FRAMES = 9999;
 /// Pixels; a wider filter is a blurred picture.
 constexpr double LARGEST_FILTER_RADIUS = 100;
 
@@ -42,9 +45,19 @@ std::vector<OptionSpec> picture_options() {
         {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",
          [](Options& o, const OptionValue& v) { o.size = parse_size(v); }},
         {group, "o", "--output", "FILE",
-         ".png .jpg .bmp .tga .ppm (8-bit sRGB), .exr .hdr .pfm .tif (linear); repeatable (default SCENE.png "
-         "in the current folder)",
+         ".png .jpg .bmp .tga .ppm (8-bit sRGB), .exr .hdr .pfm .tif (linear); {seed}, {spp} and {frame} in "
+         "it, in "
+         "--stats and --checkpoint become numbers, {frame:4} one of four digits, {{ and }} braces; "
+         "repeatable "
+         "(default SCENE.png in the current folder)",
          apply_output, REPEATABLE},
+        {group, "", "--frames", "N",
+         "turntable: N pictures, the eye going once around --at about --up; lights stay with the scene; "
+         "names get "
+         "-0001 and so on, or say where by {frame}; -s, -t and -e count for each (default: one picture)",
+         [](Options& o, const OptionValue& v) {
+             o.frames = static_cast<int>(parse_whole(v, 1, MOST_FRAMES));
+         }},
         {group, "", "--crop", "X0,Y0,X1,Y1",
          "render this window only; pixels from the top left, end excluded",
          [](Options& o, const OptionValue& v) { o.crop = parse_crop(v); }},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/saving.h"
 
+#include "output/file_name.h"
 #include "output/image.h"
 #include "render/picture.h"
 
@@ -11,9 +12,9 @@ namespace clrt {
 
 namespace {
 
-void write_pictures(const Picture& picture, const Options& options) {
-    for (const std::string& path : options.outputs)
-        write_picture(picture, path, options.exposure_ev, options.tonemap);
+void write_pictures(const Picture& picture, const Options& options, const Film& film) {
+    for (const std::string& name : options.outputs)
+        write_picture(picture, output_name(name, options, film), options.exposure_ev, options.tonemap);
 }
 
 /// Saves while the render goes on, whatever happens to the file.
@@ -34,13 +35,17 @@ Picture picture_within_memory(const Report& report, FinalFiles& files) {
     try {
         return make_picture(report.render, report.scene, report.options);
     } catch (const std::bad_alloc&) {
-        files.fail(SceneError(report.options.outputs.front(), 0,
-                              "not enough memory for the layers: the picture is written without them"));
+        files.fail(SceneError(output_name(report.options.outputs.front(), report.options, report.render.film),
+                              0, "not enough memory for the layers: the picture is written without them"));
         return make_plain_picture(report.render, report.options);
     }
 }
 
 } // namespace
+
+std::string output_name(const std::string& name, const Options& options, const Film& film) {
+    return expand_file_name(name, {options.seed, film_samples(film), options.frame});
+}
 
 void FinalFiles::write(const std::string& path, const std::function<void()>& writer) {
     try {
@@ -69,10 +74,15 @@ void write_outputs(const Report& report, FinalFiles& files) {
     const Options& options = report.options;
     Picture picture = picture_within_memory(report, files);
     picture.metadata = report_metadata(report);
-    for (const std::string& path : options.outputs)
+    const Film& film = report.render.film;
+    for (const std::string& name : options.outputs) {
+        const std::string path = output_name(name, options, film);
         files.write(path, [&] { write_picture(picture, path, options.exposure_ev, options.tonemap); });
-    if (!options.stats_path.empty())
-        files.write(options.stats_path, [&] { write_text_file(options.stats_path, report_json(report)); });
+    }
+    if (options.stats_path.empty())
+        return;
+    const std::string stats = output_name(options.stats_path, options, film);
+    files.write(stats, [&] { write_text_file(stats, report_json(report)); });
 }
 
 Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,
@@ -84,11 +94,14 @@ Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options
         resumed = read_resumed_film(options, identity);
     hooks.resume = resumed ? &*resumed : nullptr;
     hooks.save_picture = [&](const Render& render) {
-        save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
+        save_on_the_way(progress,
+                        [&] { write_pictures(make_picture(render, scene, options), options, render.film); });
     };
     hooks.save_film = [&](const Render& render) {
-        save_on_the_way(
-            progress, [&] { write_film_file(options.checkpoint_path, film_file(render, options, device)); });
+        save_on_the_way(progress, [&] {
+            write_film_file(output_name(options.checkpoint_path, options, render.film),
+                            film_file(render, options, device));
+        });
     };
 }
 
