@@ -11,6 +11,7 @@
 #include "effects/take_out.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "render/dark_picture.h"
 #include "render/ledger.h"
 #include "render/render.h"
 #include "render/render_params.h"
@@ -169,12 +170,15 @@ int render_picture(const Job& job, const Options& options, Progress& progress,
         done->causes,
         job.load_seconds,
         done->compile_seconds,
-        seconds_since(job.start)};
+        seconds_since(job.start),
+        explain_empty_picture(job.scene, options, render)};
     write_outputs(report, files);
     files.finish();
     const bool is_frame = options.frame > 0 && options.verbosity == 0;
     if (options.verbosity >= 0)
         fmt::print("{}", is_frame ? format_frame(report) : format_report(report));
+    if (report.empty_picture)
+        spdlog::warn("{}", *report.empty_picture);
     return finish(report);
 }
 
