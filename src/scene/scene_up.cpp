@@ -104,14 +104,14 @@ double area_under(const std::vector<glm::dvec2>& corners, const glm::dvec2& cent
 }
 
 Touching measure_touching(const ObjMesh& mesh, const Bounds& bounds) {
-    const glm::dvec3 size = bounds.high - bounds.low;
+    const glm::dvec3 size = bounds.high - bounds.low, inverse = 1. / size;
     return tbb::parallel_reduce(
         tbb::blocked_range<size_t>(0, mesh.triangles.size(), GRAIN), Touching(),
         [&](const tbb::blocked_range<size_t>& range, Touching t) {
             for (size_t i = range.begin(); i < range.end(); ++i) {
                 glm::dvec3 p[3];
                 for (int c = 0; c < 3; ++c) {
-                    p[c] = (mesh.positions[mesh.triangles[i].v[c]] - bounds.low) / size;
+                    p[c] = (mesh.positions[mesh.triangles[i].v[c]] - bounds.low) * inverse;
                     for (int axis = 0; axis < 3; ++axis) {
                         const glm::dvec2 on_face(p[c][(axis + 1) % 3], p[c][(axis + 2) % 3]);
                         if (p[c][axis] <= TOUCHING)

@@ -35,8 +35,9 @@ Footing measure_footing(const ObjMesh& mesh, const Bounds& bounds);
 /// and
 ///   along x and y as well on the one end as on the other (walls of a house); where it stands on its lowest y
 ///   too, the lowest z must face down, which the back of a room does not.
-/// Where it stands on its lowest z and something speaks against it, z is likely, and not sure. In 75 files of
-/// models, scans, robots' links and rooms, 20 of them z-up, this was sure of 7 and wrong in none.
+/// Where it stands on its lowest z and something speaks against it, z is likely, and not sure. Of 80 files of
+/// models, scans, robots' links and rooms, some 18 of them z-up, this was sure of 6, hinted at 2, and wrong
+/// in none.
 FoundUp find_up(const ObjMesh& mesh, const Bounds& bounds);
 
 } // namespace clrt

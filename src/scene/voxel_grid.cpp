@@ -42,7 +42,9 @@ Corners corners_of(const Scene& scene, const Triangle& t) {
 int steps_of(const Corners& t, double cell) {
     const glm::dvec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
     const double longest = std::max({glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
-    return std::max(1, int(std::ceil(SAMPLES_PER_CELL * std::sqrt(longest) / cell)));
+    if (longest * SAMPLES_PER_CELL * SAMPLES_PER_CELL <= cell * cell) // most
+        return 1;
+    return int(std::ceil(SAMPLES_PER_CELL * std::sqrt(longest) / cell));
 }
 
 /// The scene's box, and the samples that its triangles take with cells of this side.
@@ -106,13 +108,13 @@ std::optional<VoxelGrid> VoxelGrid::make(const Scene& scene) {
 }
 
 VoxelGrid::VoxelGrid(const Bounds& box, double cell)
-    : box_(box), cell_(cell), count_(glm::ceil((box.high - box.low) / cell)) {
+    : box_(box), cell_(cell), inverse_cell_(1 / cell), count_(glm::ceil((box.high - box.low) / cell)) {
     count_ = glm::max(count_, glm::ivec3(1));
     sides_.resize(size_t(count_.x) * size_t(count_.y) * size_t(count_.z));
 }
 
 glm::ivec3 VoxelGrid::cell_of(const glm::dvec3& p) const {
-    return glm::clamp(glm::ivec3(glm::floor((p - box_.low) / cell_)), glm::ivec3(0), count_ - 1);
+    return glm::clamp(glm::ivec3((p - box_.low) * inverse_cell_), glm::ivec3(0), count_ - 1);
 }
 
 size_t VoxelGrid::index_of(const glm::ivec3& c) const {
@@ -132,6 +134,10 @@ void VoxelGrid::fill(const Scene& scene) {
             const Corners t = corners_of(scene, scene.triangles[i]);
             const std::uint8_t sides = sides_of(t);
             const int steps = steps_of(t, cell_);
+            if (steps == 1) { // its neighbours mark the cells beside
+                mark(t.a, sides);
+                continue;
+            }
             const glm::dvec3 ab = (t.b - t.a) / double(steps), ac = (t.c - t.a) / double(steps);
             for (int j = 0; j <= steps; ++j)
                 for (int k = 0; j + k <= steps; ++k)

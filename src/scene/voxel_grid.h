@@ -43,7 +43,7 @@ private:
     size_t index_of(const glm::ivec3& c) const;
 
     Bounds box_;
-    double cell_;
+    double cell_, inverse_cell_;
     glm::ivec3 count_;
     std::vector<std::uint8_t>
         sides_; ///< bit 2 a: faces the low end of axis a; 2 a + 1: the high end; 0: free
