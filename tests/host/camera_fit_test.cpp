@@ -386,6 +386,14 @@ TEST(CameraFit, AClosedRoomIsSeenFromInside) {
     }
 }
 
+TEST(CameraFit, ASetBackFrontWallIsNoOpenSide) {
+    Points room = box_points(CUBE, 0x3e, true);
+    for (glm::dvec3 p : box_points(CUBE, 0x01, true))
+        room.push_back({p.x, p.y, 0.7});
+    const Camera camera = fit_points({}, {800, 600}, room).camera;
+    EXPECT_LT(camera.eye.z, 0.7) << "else it sees the wall's back";
+}
+
 TEST(CameraFit, AClosedBoxWithThickWallsIsARoomIfItHasLamps) {
     Points walls = box_points(CUBE, 0x3f, true);
     const Bounds box{glm::dvec3(-1.05), glm::dvec3(1.05)};
