@@ -12,6 +12,7 @@
 #include "effects/take_out.h"
 #include "exit_code.h"
 #include "output/image.h"
+#include "render/dark_picture.h"
 #include "render/ledger.h"
 #include "render/render.h"
 #include "render/render_params.h"
@@ -20,6 +21,7 @@
 #include "run/run_files.h"
 #include "run/saving.h"
 #include "run/simulate.h"
+#include "run/turntable.h"
 #include "scene/load_scene.h"
 
 #include <chrono>
@@ -132,6 +134,83 @@ int run_replay(const Options& options) {
     return EXIT_DONE;
 }
 
+/// What a picture needs, loaded and proved.
+struct Job {
+    std::chrono::steady_clock::time_point start;
+    const Device& device;
+    Scene scene;
+    Effects effects;
+    double load_seconds;
+};
+
+/// Renders, or renders again with the tree and the program that are there.
+void simulate_job(const Job& job, const Options& options, Progress& progress, const RenderHooks& hooks,
+                  std::optional<Simulation>& done) {
+    if (job.effects.paths.is_empty)
+        done = simulate_nothing(job.scene, job.effects, options);
+    else if (!done)
+        done = simulate(job.device, job.scene, job.effects, options, progress, hooks);
+    else
+        simulate_again(job.device, job.scene, job.effects, options, progress, hooks, *done);
+}
+
+/// One picture with its files and its report.
+int render_picture(const Job& job, const Options& options, Progress& progress,
+                   std::optional<Simulation>& done) {
+    const DeviceInfo& device = job.device.info;
+    const Saving saving(job.scene, job.effects.paths, options, device, progress);
+    simulate_job(job, options, progress, saving.hooks, done);
+    progress.finish();
+    const Render& render = done->render;
+    if (render.stop_signal && film_samples(render.film) == 0) {
+        spdlog::warn("stopped by a signal before the first pass was complete: there is no picture");
+        return 128 + render.stop_signal;
+    }
+    FinalFiles files;
+    if (saving.needs_film(render))
+        files.write(options.checkpoint_path, [&] { saving.write_film(render); });
+
+    const Crop window = render_window(options);
+    Report report{
+        options,
+        job.scene,
+        job.effects,
+        device,
+        done->facts,
+        done->bvh,
+        render,
+        make_error_report(render, bias_sources(job.scene, job.effects.paths, render), window.x0, window.y0),
+        done->bvh_reason,
+        done->causes,
+        job.load_seconds,
+        done->compile_seconds,
+        seconds_since(job.start),
+        0,
+        explain_empty_picture(job.scene, options, render)};
+    write_outputs(report, files);
+    files.finish();
+    const bool is_frame = options.frame > 0 && options.verbosity == 0;
+    if (options.verbosity >= 0)
+        print_report(options, is_frame ? format_frame(report) : format_report(report));
+    if (report.empty_picture)
+        spdlog::warn("{}", *report.empty_picture);
+    return finish(report);
+}
+
+/// The pictures of --frames. The scene is loaded once, tree and program are made once.
+int render_turn(Job& job, Options options, Progress& progress) {
+    const Camera camera = job.scene.camera;
+    std::optional<Simulation> done;
+    int exit_code = EXIT_DONE;
+    for (options.frame = 1; options.frame <= *options.frames; ++options.frame) {
+        job.scene.camera = turned_camera(camera, options.frame, *options.frames);
+        exit_code = graver_exit(exit_code, render_picture(job, options, progress, done));
+        if (done->render.stop_signal)
+            break;
+    }
+    return exit_code;
+}
+
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     check_checkpoint(options);
@@ -151,40 +230,11 @@ int run_render(Options options) {
         spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
                      "with a diameter",
                      integrator_name(options.integrator), spot.paths, spot.cause);
-    const Saving saving(scene, effects.paths, options, device.info, progress);
-
-    const Simulation done = effects.paths.is_empty
-                                ? simulate_nothing(scene, effects, options)
-                                : simulate(device, scene, effects, options, progress, saving.hooks);
-    progress.finish();
-    if (done.render.stop_signal && film_samples(done.render.film) == 0) {
-        spdlog::warn("stopped by a signal before the first pass was complete: there is no picture");
-        return 128 + done.render.stop_signal;
-    }
-    FinalFiles files;
-    if (saving.needs_film(done.render))
-        files.write(options.checkpoint_path, [&] { saving.write_film(done.render); });
-
-    const Crop window = render_window(options);
-    Report report{
-        options,
-        scene,
-        effects,
-        device.info,
-        done.facts,
-        done.bvh,
-        done.render,
-        make_error_report(done.render, bias_sources(scene, effects.paths, done.render), window.x0, window.y0),
-        done.bvh_reason,
-        done.causes,
-        load_seconds,
-        done.compile_seconds,
-        seconds_since(start)};
-    write_outputs(report, files);
-    files.finish();
-    if (options.verbosity >= 0)
-        print_report(options, format_report(report));
-    return finish(report);
+    Job job{start, device, std::move(scene), std::move(effects), load_seconds};
+    if (options.frames)
+        return render_turn(job, options, progress);
+    std::optional<Simulation> done;
+    return render_picture(job, options, progress, done);
 }
 
 int run(int argc, const char* const* argv) {

@@ -8,6 +8,7 @@
 #include "app/options_file.h"
 #include "app/terminal.h"
 #include "error.h"
+#include "output/file_name.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
 #include "render/film_file.h"
@@ -117,16 +118,40 @@ std::vector<std::string> resumable_command(const Arguments& arguments) {
     return words;
 }
 
+/// The name of --checkpoint. A film is one file that grows, so of the placeholders only {seed} has one value.
+std::string film_name(const Options& options) {
+    const std::string& name = options.checkpoint_path;
+    try {
+        const std::string film = expand_file_name(name, {options.seed, 0, 1});
+        if (film != expand_file_name(name, {options.seed, 1, 2}))
+            throw UsageError("expected no placeholder but {seed}, found '" + name + "'");
+        return film;
+    } catch (const UsageError& error) {
+        throw UsageError(std::string("option --checkpoint: ") + error.what());
+    }
+}
+
 /// A render of minutes must not end in "no such folder".
 void check_folders(const Options& options) {
-    if (!options.stats_path.empty())
-        check_output_folder(options.stats_path);
+    const auto check = [&](const std::string& name) {
+        if (!name.empty())
+            check_output_folder(expand_file_name(name, {options.seed, 0, 1}));
+    };
+    check(options.stats_path);
     if (options.pixel) // writes nothing else
         return;
     for (const std::string& path : options.outputs)
-        check_output_folder(path);
+        check(path);
     if (!options.checkpoint_path.empty())
         check_output_folder(options.checkpoint_path);
+}
+
+/// Every picture of a turn gets a name of its own.
+void number_names(Options& options) {
+    for (std::string& path : options.outputs)
+        path = with_frame_number(path);
+    if (!options.stats_path.empty())
+        options.stats_path = with_frame_number(options.stats_path);
 }
 
 } // namespace
@@ -176,10 +201,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         options.given[option.value.option] = origin.substr(0, origin.find_last_not_of(": ") + 1);
     }
     if (options.outputs.empty() && !options.scene_path.empty())
-        options.outputs.push_back(std::filesystem::path(input_name(options.scene_path)).stem().string() +
-                                  ".png");
-    if (!options.resume_path.empty() && !names_checkpoint)
-        options.checkpoint_path = options.resume_path;
+        options.outputs.push_back(literal_file_name(
+            std::filesystem::path(input_name(options.scene_path)).stem().string() + ".png"));
+    options.checkpoint_path =
+        options.resume_path.empty() || names_checkpoint ? film_name(options) : options.resume_path;
     // A ledger's compile seconds are those of a first start; its samples are its own unless the command line
     // says how many.
     if (options.ledger && options.cache == Toggle::AUTO)
@@ -189,6 +214,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (options.ledger && !is_given(arguments.options, "--time"))
         options.time_seconds.reset();
     check_combinations(options);
+    if (options.frames)
+        number_names(options);
     if (!options.scene_path.empty() && !list_devices && options.explain == Explain::NO)
         check_folders(options);
     return result;

@@ -3,6 +3,7 @@
 #include "app/option_checks.h"
 
 #include "error.h"
+#include "output/file_name.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
 #include "output/written_files.h"
@@ -124,6 +125,44 @@ void check_adaptive(const Options& options) {
                         "of equal samples");
 }
 
+/// Placeholders that are known; {frame} where there are frames.
+void check_name(const Options& options, const char* option, const std::string& name) {
+    bool has_frame = false;
+    try {
+        has_frame = names_frame(name);
+    } catch (const UsageError& error) {
+        reject(options, std::string("option ") + option + ": " + error.what());
+    }
+    if (has_frame && !options.frames)
+        reject(options,
+               std::string("option ") + option + ": expected --frames with '" + name + "', found none");
+}
+
+void check_names(const Options& options) {
+    for (const std::string& path : options.outputs)
+        check_name(options, "--output", path);
+    check_name(options, "--stats", options.stats_path);
+}
+
+/// A turn is pictures, one after the other.
+void check_frames(const Options& options) {
+    if (!options.frames)
+        return;
+    const std::pair<const char*, bool> others[] = {{"--resume", !options.resume_path.empty()},
+                                                   {"--checkpoint", !options.checkpoint_path.empty()},
+                                                   {"--pixel", options.pixel.has_value()},
+                                                   {"--ledger", options.ledger},
+                                                   {"--explain", options.explain != Explain::NO}};
+    for (const auto& [name, is_given] : others)
+        if (is_given)
+            reject(options,
+                   std::string("options --frames and ") + name + ": expected one of them, found both");
+    std::vector<std::string> results = options.outputs;
+    results.push_back(options.stats_path);
+    if (std::any_of(results.begin(), results.end(), is_standard_output))
+        reject(options, "option --frames: expected files for its results, found the standard output");
+}
+
 /// The standard output takes one picture, at the end.
 void check_save_every(const Options& options) {
     if (options.save_every_seconds && !options.outputs.empty() &&
@@ -180,6 +219,8 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
+    check_names(options);
+    check_frames(options);
     check_written_files(files_to_write(options), files_to_read(options));
     check_save_every(options);
     check_paths(options);

@@ -26,10 +26,14 @@ enum class MtlReading { AUTO, PLAIN };
 /// CLAY: matte grey in the place of every material (scene/material_override.h).
 enum class MaterialOverride { NONE, CLAY };
 enum class Explain { NO, TABLE, JSON };
+/// From where a scene is seen, in a frame whose up is the camera's and whose front is towards the eye of
+/// FRONT.
+enum class View { FRONT, BACK, LEFT, RIGHT, TOP, BOTTOM, ISO };
 
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
 struct CameraOptions {
     std::optional<glm::dvec3> eye, at, up;          ///< scene units
+    std::optional<View> view;                       ///< direction of a fitted eye; none: three quarters
     std::optional<double> fov_degrees;              ///< vertical angle of view
     std::optional<double> focal_length, film_width; ///< any common unit; fov = 2 atan(width H / (2 W focal))
 };
@@ -102,7 +106,9 @@ struct Options {
 
     // Picture
     glm::ivec2 size{800, 600};
-    std::vector<std::string> outputs; ///< default STEM.png in the current folder
+    std::vector<std::string> outputs; ///< default STEM.png in the current folder; may hold {seed} and others
+    std::optional<int> frames;        ///< pictures of a turn around what the camera looks at
+    int frame = 0;                    ///< which of them this is, from 1; 0: none of them
     std::optional<Crop> crop;
     Filter filter = Filter::BOX;
     std::optional<double> filter_radius; ///< pixels; box 0.5, tent 1, gaussian 1.5

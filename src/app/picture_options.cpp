@@ -3,12 +3,15 @@
 #include "app/layer_option.h"
 #include "app/look_option.h"
 #include "app/option_rows.h"
+#include "output/file_name.h"
 #include "output/image.h"
 
 namespace clrt {
 
 namespace {
 
+/// Pictures of a turn; more would differ by less than a tenth of a degree.
+constexpr int MOST_FRAMES = 9999;
 /// Pixels; a wider filter is a blurred picture.
 constexpr double LARGEST_FILTER_RADIUS = 100;
 
@@ -42,9 +45,17 @@ std::vector<OptionSpec> picture_options() {
          [](Options& o, const OptionValue& v) { o.size = parse_size(v); }},
         {group, "o", "--output", "FILE",
          ".png .jpg .bmp .tga .ppm (8-bit sRGB), .exr .hdr .pfm .tif (linear), or to the standard output as "
-         "png:-, exr:- and so on, the report then to stderr; repeatable (default SCENE.png in the current "
-         "folder)",
+         "png:-, exr:- and so on, the report then to stderr; {seed}, {spp} and {frame} in it and in --stats "
+         "become numbers, {frame:4} one of four digits, {{ and }} braces; repeatable (default SCENE.png in "
+         "the current folder)",
          apply_output, REPEATABLE},
+        {group, "", "--frames", "N",
+         "turntable: N pictures, the eye going once around --at about --up; lights stay with the scene; "
+         "names get "
+         "-0001 and so on, or say where by {frame}; -s, -t and -e count for each (default: one picture)",
+         [](Options& o, const OptionValue& v) {
+             o.frames = static_cast<int>(parse_whole(v, 1, MOST_FRAMES));
+         }},
         {group, "", "--crop", "X0,Y0,X1,Y1",
          "render this window only; pixels from the top left, end excluded",
          [](Options& o, const OptionValue& v) { o.crop = parse_crop(v); }},

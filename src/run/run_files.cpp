@@ -2,6 +2,7 @@
 #include "run/run_files.h"
 
 #include "device/kernel_source.h"
+#include "output/file_name.h"
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/kernels.h"
@@ -21,6 +22,18 @@ bool writes_pictures(const Options& options) {
     return !options.pixel && !options.ledger;
 }
 
+/// The names that a result gets: one, or one a frame. Where --spp does not say, the number of samples is that
+/// of a render without limits.
+std::vector<std::string> planned_names(const std::string& name, const Options& options) {
+    const std::uint32_t spp = options.spp.value_or(DEFAULT_SPP);
+    if (!options.frames)
+        return {expand_file_name(name, {options.seed, spp, 0})};
+    std::vector<std::string> names;
+    for (int frame = 1; frame <= *options.frames; ++frame)
+        names.push_back(expand_file_name(with_frame_number(name), {options.seed, spp, frame}));
+    return names;
+}
+
 } // namespace
 
 std::vector<NamedFile> files_to_write(const Options& options) {
@@ -30,12 +43,14 @@ std::vector<NamedFile> files_to_write(const Options& options) {
     const bool has_picture = writes_pictures(options);
     const bool is_default = options.given.count("--output") == 0;
     if (has_picture)
-        for (const std::string& path : options.outputs)
-            files.push_back({is_default ? "--output (by default)" : "--output", path});
+        for (const std::string& name : options.outputs)
+            for (const std::string& path : planned_names(name, options))
+                files.push_back({is_default ? "--output (by default)" : "--output", path});
     if (has_picture && !options.checkpoint_path.empty())
         files.push_back({"--checkpoint", options.checkpoint_path});
     if (!options.stats_path.empty())
-        files.push_back({"--stats", options.stats_path});
+        for (const std::string& path : planned_names(options.stats_path, options))
+            files.push_back({"--stats", path});
     for (const std::string& path : dumped_files(options))
         files.push_back({"--dump-kernels", path});
     return files;

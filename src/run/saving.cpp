@@ -2,6 +2,7 @@
 #include "run/saving.h"
 
 #include "output/exposure.h"
+#include "output/file_name.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
 #include "output/written_files.h"
@@ -16,11 +17,11 @@ namespace clrt {
 namespace {
 
 /// Auto exposure is that of the samples so far.
-void write_pictures(const Picture& picture, const Options& options) {
+void write_pictures(const Picture& picture, const Options& options, const Film& film) {
     const double exposure_ev = chosen_exposure_ev(options, picture.layers[0].values);
-    for (const std::string& path : options.outputs)
-        if (!is_standard_output(path)) // which takes one picture, at the end
-            write_picture(picture, path, exposure_ev, options.tonemap);
+    for (const std::string& name : options.outputs)
+        if (!is_standard_output(name)) // which takes one picture, at the end
+            write_picture(picture, output_name(name, options, film), exposure_ev, options.tonemap);
 }
 
 /// Saves while the render goes on, whatever happens to the file.
@@ -41,13 +42,17 @@ Picture picture_within_memory(const Report& report, FinalFiles& files) {
     try {
         return make_picture(report.render, report.scene, report.options);
     } catch (const std::bad_alloc&) {
-        files.fail(SceneError(report.options.outputs.front(), 0,
-                              "not enough memory for the layers: the picture is written without them"));
+        files.fail(SceneError(output_name(report.options.outputs.front(), report.options, report.render.film),
+                              0, "not enough memory for the layers: the picture is written without them"));
         return make_plain_picture(report.render, report.options);
     }
 }
 
 } // namespace
+
+std::string output_name(const std::string& name, const Options& options, const Film& film) {
+    return expand_file_name(name, {options.seed, film_samples(film), options.frame});
+}
 
 void FinalFiles::write(const std::string& path, const std::function<void()>& writer) {
     try {
@@ -79,10 +84,15 @@ void write_outputs(Report& report, FinalFiles& files) {
     picture.metadata = report_metadata(report);
     if (options.auto_exposure)
         spdlog::info("{}", exposure_notice(report.exposure_ev));
-    for (const std::string& path : options.outputs)
+    const Film& film = report.render.film;
+    for (const std::string& name : options.outputs) {
+        const std::string path = output_name(name, options, film);
         files.write(path, [&] { write_picture(picture, path, report.exposure_ev, options.tonemap); });
-    if (!options.stats_path.empty())
-        files.write(options.stats_path, [&] { write_text_file(options.stats_path, report_json(report)); });
+    }
+    if (options.stats_path.empty())
+        return;
+    const std::string stats = output_name(options.stats_path, options, film);
+    files.write(stats, [&] { write_text_file(stats, report_json(report)); });
 }
 
 Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,
@@ -94,7 +104,8 @@ Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options
         resume();
     hooks.resume = resumed ? &*resumed : nullptr;
     hooks.save_picture = [&](const Render& render) {
-        save_on_the_way(progress, [&] { write_pictures(make_picture(render, scene, options), options); });
+        save_on_the_way(progress,
+                        [&] { write_pictures(make_picture(render, scene, options), options, render.film); });
     };
     hooks.save_film = [&](const Render& render) { save_on_the_way(progress, [&] { write_film(render); }); };
 }

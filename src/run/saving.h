@@ -14,6 +14,9 @@
 
 namespace clrt {
 
+/// An output's name with the render's numbers in the place of {seed}, {spp} and {frame}.
+std::string output_name(const std::string& name, const Options& options, const Film& film);
+
 /// Writes the files at the end of a render. One that cannot be written must not cost the others.
 class FinalFiles {
 public:

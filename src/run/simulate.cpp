@@ -72,13 +72,19 @@ Simulation simulate(const Device& device, const Scene& scene, const Effects& eff
     done.bvh_reason = quality.reason;
     if (done.bvh.quality != quality.quality)
         done.bvh_reason += ", but cutting triangles gains too little here";
-    const RenderPrograms programs = compiling.get();
+    done.programs = compiling.get();
+    done.compile_seconds = done.programs->seconds;
     done.facts = ask_facts(device, options, progress);
-    const SceneBuffers buffers = upload_scene(device, scene, done.bvh);
-    done.render = render(device, programs, buffers, scene, options, progress, hooks);
-    done.compile_seconds = programs.seconds;
-    done.causes = explain_bad_samples(device, scene, effects, options, layout, buffers, done.render);
+    done.buffers = upload_scene(device, scene, done.bvh);
+    simulate_again(device, scene, effects, options, progress, hooks, done);
     return done;
+}
+
+void simulate_again(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
+                    Progress& progress, const RenderHooks& hooks, Simulation& done) {
+    done.render = render(device, *done.programs, *done.buffers, scene, options, progress, hooks);
+    done.causes =
+        explain_bad_samples(device, scene, effects, options, done.bvh.layout, *done.buffers, done.render);
 }
 
 Simulation simulate_nothing(const Scene& scene, const Effects& effects, const Options& options) {

@@ -6,7 +6,9 @@
 #include "bvh/bvh.h"
 #include "device/device_facts.h"
 #include "effects/effects.h"
+#include "render/kernels.h"
 #include "render/render.h"
+#include "render/scene_buffers.h"
 #include "replay/causes.h"
 
 #include <optional>
@@ -23,11 +25,19 @@ struct Simulation {
     Render render;
     double compile_seconds = 0;
     std::vector<CauseCount> causes; ///< of bad samples
+    /// On the device, for further renders; empty where nothing was simulated.
+    std::optional<RenderPrograms> programs;
+    std::optional<SceneBuffers> buffers;
 };
 
 /// Renders. What cannot be told about the device or about bad samples is only said. Throws DeviceError.
 Simulation simulate(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
                     Progress& progress, const RenderHooks& hooks);
+
+/// Renders again with the tree and the program of an earlier render of the scene, from which only the camera
+/// may differ. Replaces render and causes. Throws DeviceError.
+void simulate_again(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
+                    Progress& progress, const RenderHooks& hooks, Simulation& done);
 
 /// The black picture, when no path of the scene is asked for.
 Simulation simulate_nothing(const Scene& scene, const Effects& effects, const Options& options);

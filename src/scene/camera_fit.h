@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera of the options; parts that are not given are fitted to the scene. +Y is up.
+// The camera of the options; parts that are not given are fitted to the scene.
 #pragma once
 
 #include "app/options.h"
@@ -7,29 +7,22 @@
 #include "scene/notices.h"
 #include "scene/scene.h"
 
-#include <array>
-#include <vector>
-
 namespace clrt {
 
-/// How much of each face of the scene's box is covered by triangles that lie near it and face inwards, 0..1,
-/// in the order +Z, -Z, +X, -X, +Y, -Y. A room covers four to six of them, a solid thing none.
-using BoxCover = std::array<double, 6>;
-
-/// Measures the cover on a grid of points per face. `positions` and `triangles` are in the normalised frame.
-BoxCover measure_box_cover(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles);
-
-/// The vertical angle of view in degrees: --fov, or 2 atan(film width * H / (2 W * focal length)), or 40.
-/// Throws UsageError for angles that are not between 0 and 180, lengths that are not positive, or half a
-/// pair.
+/// The vertical angle of view in degrees: --fov, or 2 atan(film width * H / (2 W * focal length)), or 40 (a
+/// camera that is fitted into a room has 60). Throws UsageError for angles that are not between 0 and 180,
+/// lengths that are not positive, or half a pair.
 double field_of_view(const CameraOptions& options, glm::ivec2 size);
 
-/// Completes the camera: each missing part is fitted on its own. `at` becomes the box's centre. `eye` lies
-/// along (0.5, 0.35, 1) where the bounding sphere fits the narrower angle of view with a margin of 5 %; in
-/// front of the open side of a room; inside a closed one. The result is announced as flags to copy if eye or
-/// at was fitted. Throws UsageError where eye equals at, for values that are not finite, and for an up vector
-/// of length 0.
-Camera fit_camera(const CameraOptions& options, glm::ivec2 size, const Bounds& bounds, const BoxCover& cover,
+/// Completes the camera: each missing part is fitted on its own. The eye lies where --view says, or to the
+/// right, above and in front, as near as the scene's points fit the picture with 4 % free at the edges
+/// (framing.h); `at` lies before it, amid the scene. A room is seen through its open side, or from within
+/// (room_view.h). With
+/// --at, the eye's direction counts from there; with --eye, `at` is the box's centre. All directions turn
+/// with `up`, +Y if it is not given. Reads positions, triangles and normalisation of the scene, whose box
+/// `bounds` is (world units). The result is announced as flags to copy if eye or at was fitted. Throws
+/// UsageError where eye equals at, for values that are not finite, and for an up vector of length 0.
+Camera fit_camera(const CameraOptions& options, glm::ivec2 size, const Scene& scene, const Bounds& bounds,
                   NoticeList& notices);
 
 } // namespace clrt

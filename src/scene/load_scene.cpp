@@ -16,6 +16,7 @@
 #include "scene/mtl_repair.h"
 #include "scene/normalise.h"
 #include "scene/obj_reader.h"
+#include "scene/scene_up.h"
 #include "scene/smoothing.h"
 #include "scene/text_scanner.h"
 #include "scene/texture_store.h"
@@ -154,13 +155,30 @@ void load_lights(const Options& options, const std::vector<double>& exitance, do
     scene.environment = load_environment(options.light, has_light, sky_sampling(options.integrator), notices);
 }
 
-Scene load_all(const Options& options, Progress& progress) {
+/// The options with the scene's own up where none is given.
+Options with_up(const Options& given, const ObjMesh& mesh, const Bounds& bounds, NoticeList& notices) {
+    Options options = given;
+    if (options.camera.up)
+        return options;
+    const FoundUp found = find_up(mesh, bounds);
+    const bool is_fitted = !options.camera.eye;
+    if (found.is_sure && is_fitted)
+        options.camera.up = UP_Z;
+    if (found.is_z_likely)
+        notices.add_line(fmt::format(options.camera.up
+                                         ? "{}: z is taken as up, --up z, since {}; --up y keeps y"
+                                         : "{}: it looks as if z is up, since {}: --up z turns it",
+                                     options.scene_path, found.reason));
+    return options;
+}
+
+Scene load_all(const Options& given, Progress& progress) {
     Scene scene;
     NoticeList notices;
 
     // Geometry and names.
     const Stopwatch watch;
-    ObjMesh mesh = read_obj(options.scene_path, progress);
+    ObjMesh mesh = read_obj(given.scene_path, progress);
     scene.statistics.obj_seconds = watch.seconds();
     scene.statistics.obj_bytes = mesh.bytes;
     scene.statistics.dropped_faces = mesh.dropped_faces;
@@ -170,6 +188,7 @@ Scene load_all(const Options& options, Progress& progress) {
 
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
+    const Options options = with_up(given, mesh, bounds, notices);
     scene.normalisation = fit_normalisation(bounds);
     note_coarse_digits(mesh, bounds, input_name(options.scene_path), notices);
     note_relative_positions(scene.normalisation, options, notices);
@@ -183,9 +202,7 @@ Scene load_all(const Options& options, Progress& progress) {
     store_vertex_colours(scene, input_name(options.scene_path));
     load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
 
-    const bool whole_camera = options.camera.eye && options.camera.at;
-    const BoxCover cover = whole_camera ? BoxCover{} : measure_box_cover(scene.positions, scene.triangles);
-    scene.camera = fit_camera(options.camera, options.size, bounds, cover, notices);
+    scene.camera = fit_camera(options.camera, options.size, scene, bounds, notices);
     note_far_options(scene.camera, bounds, options, notices);
     scene.notices = notices.lines();
     return scene;

@@ -402,6 +402,7 @@ ObjMesh read_obj(const std::string& file, Progress& progress, size_t chunk_bytes
         if (const std::string other = foreign_format(bytes); !other.empty())
             throw SceneError(path, 0, "expected a Wavefront OBJ, found " + other);
         const std::string text = as_utf8(std::move(bytes));
+        mesh.head = text.substr(0, OBJ_HEAD_BYTES);
         progress.update({"load", PROGRESS_READ});
         pieces = parse_text(path, without_byte_order_mark(text), chunk_bytes, progress);
     }

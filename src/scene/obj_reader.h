@@ -43,13 +43,17 @@ struct ObjMesh {
     size_t first_normals_line = 0;     ///< and the line of its face; 0 where no triangle has any
     std::vector<ObjLibrary> libraries;
     std::vector<std::string>
-        notices; ///< "file:line: ..." or "file: ..." one line each, every kind once with a count
+        notices;      ///< "file:line: ..." or "file: ..." one line each, every kind once with a count
+    std::string head; ///< the file's first OBJ_HEAD_BYTES at most: writers name themselves there
     size_t bytes = 0;
     size_t dropped_faces = 0; ///< fewer than three corners, or a non-finite position
 };
 
 /// How much text one task reads: enough to hide the cost of a task, little enough for many of them.
 constexpr size_t OBJ_CHUNK_BYTES = size_t(1) << 20;
+
+/// How much of a file's text its mesh keeps: comments of writers are shorter.
+constexpr size_t OBJ_HEAD_BYTES = 1024;
 
 /// Reads an OBJ file, or the standard input ("-"). Polygons become triangles (concave ones by ear clipping),
 /// negative indices count back, CR, LF and CRLF end lines, a backslash at a line's end continues it, UTF-16

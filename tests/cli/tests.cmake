@@ -11,6 +11,7 @@ clrt_command_test(error_report_test)
 target_compile_definitions(error_report_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes"
                                                      CLRT_MERGE_EXECUTABLE="$<TARGET_FILE:clrt-merge>")
 add_dependencies(error_report_test clrt-merge)
+clrt_command_test(camera_command_test)
 clrt_command_test(compile_time_test)
 clrt_command_test(exit_code_test)
 clrt_command_test(fault_test)

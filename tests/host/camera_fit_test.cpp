@@ -2,6 +2,8 @@
 #include "scene/camera_fit.h"
 
 #include "error.h"
+#include "scene/box_cover.h"
+#include "scene/framing.h"
 #include "scene_support.h"
 
 #include <cmath>
@@ -10,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
 
 using namespace clrt;
 
@@ -22,58 +25,204 @@ struct Fitted {
     std::vector<std::string> notices;
 };
 
-Fitted fit(const CameraOptions& options, glm::ivec2 size = {800, 600}, const Bounds& box = BOX,
-           const BoxCover& cover = {}) {
+/// Points of a scene, three by three its triangles, in world units.
+using Points = std::vector<glm::dvec3>;
+
+Bounds bounds_of(const Points& points) {
+    Bounds box{points.front(), points.front()};
+    for (const glm::dvec3& p : points)
+        box = {glm::min(box.low, p), glm::max(box.high, p)};
+    return box;
+}
+
+Scene scene_of(const Points& points) {
+    Scene scene;
+    scene.normalisation = fit_normalisation(bounds_of(points));
+    for (const glm::dvec3& world : points) {
+        const glm::dvec3 p = to_normalised(scene.normalisation, world);
+        scene.positions.push_back({float(p.x), float(p.y), float(p.z), 0});
+        for (int axis = 0; axis < 3; ++axis)
+            scene.extent = std::max(scene.extent, float(std::fabs(p[axis])));
+    }
+    for (u32 i = 0; i + 2 < u32(points.size()); i += 3) {
+        Triangle triangle{};
+        triangle.v0 = i;
+        triangle.v1 = i + 1;
+        triangle.v2 = i + 2;
+        scene.triangles.push_back(triangle);
+    }
+    return scene;
+}
+
+Fitted fit_points(const CameraOptions& options, glm::ivec2 size, const Points& points) {
     NoticeList notices;
-    const Camera camera = fit_camera(options, size, box, cover, notices);
+    const Camera camera = fit_camera(options, size, scene_of(points), bounds_of(points), notices);
     return {camera, notices.lines()};
 }
 
 /// A box of 12 triangles; faces whose bit is set in `faces` (order +Z -Z +X -X +Y -Y), fronts inwards or
 /// outwards.
-struct BoxMesh {
-    std::vector<vec4> positions;
-    std::vector<Triangle> triangles;
+Points box_points(const Bounds& box, unsigned faces = 0x3f, bool inwards = false) {
+    const auto corner = [&](int i) {
+        return glm::dvec3((i & 1 ? box.high : box.low).x, (i & 2 ? box.high : box.low).y,
+                          (i & 4 ? box.high : box.low).z);
+    };
+    const int outward[6][4] = {{4, 5, 7, 6}, {1, 0, 2, 3}, {5, 1, 3, 7},
+                               {0, 4, 6, 2}, {6, 7, 3, 2}, {0, 1, 5, 4}};
+    Points points;
+    for (int f = 0; f < 6; ++f)
+        if (faces >> f & 1)
+            for (const int i : {0, 1, 2, 0, 2, 3})
+                points.push_back(corner(outward[f][inwards ? (4 - i) % 4 : i]));
+    return points;
+}
 
-    BoxMesh(unsigned faces, bool inwards) {
-        for (int i = 0; i < 8; ++i)
-            positions.push_back({i & 1 ? 1.f : -1.f, i & 2 ? 1.f : -1.f, i & 4 ? 1.f : -1.f, 0});
-        const u32 outward[6][4] = {{4, 5, 7, 6}, {1, 0, 2, 3}, {5, 1, 3, 7},
-                                   {0, 4, 6, 2}, {6, 7, 3, 2}, {0, 1, 5, 4}};
-        for (int f = 0; f < 6; ++f)
-            if (faces >> f & 1) {
-                add(outward[f][0], outward[f][1], outward[f][2], inwards);
-                add(outward[f][0], outward[f][2], outward[f][3], inwards);
-            }
-    }
-    void add(u32 a, u32 b, u32 c, bool flip) {
-        Triangle triangle{};
-        triangle.v0 = a;
-        triangle.v1 = flip ? c : b;
-        triangle.v2 = flip ? b : c;
-        triangles.push_back(triangle);
-    }
-    BoxCover cover() const { return measure_box_cover(positions, triangles); }
-};
+Fitted fit(const CameraOptions& options, glm::ivec2 size = {800, 600}, const Bounds& box = BOX) {
+    return fit_points(options, size, box_points(box));
+}
+
+BoxCover cover_of(const Points& points) {
+    const Scene scene = scene_of(points);
+    return measure_box_cover(scene.positions, scene.triangles);
+}
 
 const Bounds CUBE{glm::dvec3(-1), glm::dvec3(1)};
 
+/// Where points are in the picture: -1 to 1 from edge to edge; the largest value on either axis.
+struct InPicture {
+    glm::dvec2 low{1e9}, high{-1e9};
+    double nearest = 1e9; ///< along the view
+};
+
+InPicture project(const Camera& camera, glm::ivec2 size, const Points& points) {
+    const PictureAxes axes = picture_axes(camera.at - camera.eye, camera.up);
+    const double vertical = std::tan(glm::radians(camera.fov_degrees) / 2),
+                 horizontal = vertical * size.x / size.y;
+    InPicture picture;
+    for (const glm::dvec3& p : points) {
+        const glm::dvec3 way = p - camera.eye;
+        const double depth = glm::dot(way, axes.look);
+        const glm::dvec2 at(glm::dot(way, axes.right) / depth / horizontal,
+                            glm::dot(way, axes.up) / depth / vertical);
+        picture.low = glm::min(picture.low, at);
+        picture.high = glm::max(picture.high, at);
+        picture.nearest = std::min(picture.nearest, depth);
+    }
+    return picture;
+}
+
+const Points ROD = box_points({glm::dvec3(-5, 0, 0), glm::dvec3(5, 0.1, 0.1)});
+const Points PLATE = box_points({glm::dvec3(-5, 0, -5), glm::dvec3(5, 0.01, 5)});
+const Points TOWER = box_points({glm::dvec3(100, 0, 7), glm::dvec3(101, 30, 8)});
+
+Points random_points() {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    Points points;
+    for (int i = 0; i < 600; ++i)
+        points.emplace_back(3 * normal(random), normal(random) - 7, 0.5 * normal(random));
+    return points;
+}
+
 } // namespace
 
-TEST(CameraFit, TheBoundingSphereFitsWithAMarginOfFivePercent) {
-    for (const glm::ivec2 size : {glm::ivec2(800, 600), glm::ivec2(300, 900), glm::ivec2(64, 64)})
-        for (double fov : {10.0, 40.0, 120.0}) {
+TEST(CameraFit, EverythingIsInThePictureAndTouchesTheMargin) {
+    const std::optional<View> views[] = {std::nullopt, View::FRONT, View::TOP, View::ISO};
+    for (const Points& points : {ROD, PLATE, TOWER, random_points()})
+        for (const glm::ivec2 size : {glm::ivec2(800, 600), glm::ivec2(300, 900), glm::ivec2(1920, 400)})
+            for (const glm::dvec3& up : {glm::dvec3(0, 1, 0), {0, 0, 1}, {1, 0, 0}, {0, -2, 0}, {1, 2, -3}})
+                for (const auto& view : views) {
+                    CameraOptions options;
+                    options.up = up;
+                    options.view = view;
+                    const InPicture seen = project(fit_points(options, size, points).camera, size, points);
+                    const double widest = std::max(seen.high.x - seen.low.x, seen.high.y - seen.low.y) / 2;
+                    const Scene scene = scene_of(points);
+                    const double radius =
+                        find_framed(scene, glm::normalize(up)).box.radius() / scene.normalisation.scale;
+                    EXPECT_GT(seen.nearest, (LEAST_DISTANCE - 1e-4) * radius);
+                    // Points see the picture's edges, or the eye is as near as it may come.
+                    if (seen.nearest > (LEAST_DISTANCE + 1e-4) * radius) {
+                        EXPECT_NEAR(widest, FRAMED_SHARE, 1e-5) << size.x << " " << up.x << up.y << up.z;
+                    }
+                    for (int axis = 0; axis < 2; ++axis) // in the middle
+                        EXPECT_NEAR(seen.low[axis], -seen.high[axis], 1e-3);
+                    EXPECT_LT(std::max({seen.high.x, seen.high.y, -seen.low.x, -seen.low.y}),
+                              FRAMED_SHARE + 1e-5);
+                }
+}
+
+TEST(CameraFit, ARodAlongTheViewIsSeenFromADistance) {
+    CameraOptions options;
+    options.view = View::RIGHT;
+    const Camera camera = fit_points(options, {800, 600}, ROD).camera;
+    EXPECT_NEAR(camera.eye.x - 5, LEAST_DISTANCE * bounds_of(ROD).radius(), 1e-5);
+}
+
+TEST(CameraFit, PointsThatNoTriangleUsesAreNotFramed) {
+    Scene scene = scene_of(box_points(CUBE));
+    NoticeList notices;
+    const Camera camera = fit_camera({}, {800, 600}, scene, CUBE, notices);
+    scene.positions.push_back({100, 100, 100, 0});
+    EXPECT_EQ(fit_camera({}, {800, 600}, scene, CUBE, notices).eye, camera.eye);
+}
+
+TEST(CameraFit, AVastFloorIsNotFramed) {
+    Points points = box_points(CUBE);
+    const Points ground = box_points({glm::dvec3(-50, -1.001, -50), glm::dvec3(50, -1, 50)}, 0x10);
+    points.insert(points.end(), ground.begin(), ground.end());
+    const Camera camera = fit_points({}, {800, 600}, points).camera;
+    const InPicture seen = project(camera, {800, 600}, box_points(CUBE));
+    EXPECT_NEAR(std::max(seen.high.x - seen.low.x, seen.high.y - seen.low.y) / 2, FRAMED_SHARE, 1e-4);
+}
+
+TEST(CameraFit, APlinthIsFramed) {
+    Points points = box_points(CUBE);
+    const Points plinth = box_points({glm::dvec3(-1.5, -1.01, -1.5), glm::dvec3(1.5, -1, 1.5)});
+    points.insert(points.end(), plinth.begin(), plinth.end());
+    const InPicture seen = project(fit_points({}, {800, 600}, points).camera, {800, 600}, points);
+    EXPECT_LT(std::max({seen.high.x, seen.high.y, -seen.low.x, -seen.low.y}), FRAMED_SHARE + 1e-4);
+}
+
+TEST(CameraFit, ViewsAreNamedInTheFrameOfUp) {
+    const struct {
+        View view;
+        glm::dvec3 y_up, z_up;
+    } rows[] = {{View::FRONT, {0, 0, 1}, {0, -1, 0}},
+                {View::BACK, {0, 0, -1}, {0, 1, 0}},
+                {View::LEFT, {-1, 0, 0}, {-1, 0, 0}},
+                {View::RIGHT, {1, 0, 0}, {1, 0, 0}},
+                {View::TOP, {0, 1, 0}, {0, 0, 1}},
+                {View::BOTTOM, {0, -1, 0}, {0, 0, -1}},
+                {View::ISO, glm::normalize(glm::dvec3(1, 1, 1)), glm::normalize(glm::dvec3(1, -1, 1))}};
+    for (const auto& row : rows)
+        for (const bool is_z : {false, true}) {
             CameraOptions options;
-            options.fov_degrees = fov;
-            const Camera camera = fit(options, size).camera;
-            EXPECT_EQ(camera.at, BOX.centre());
-            const double vertical = std::tan(glm::radians(fov) / 2);
-            const double narrow = std::atan(std::min(vertical, vertical * size.x / size.y));
-            const double distance = glm::distance(camera.eye, camera.at);
-            EXPECT_NEAR(distance * std::sin(narrow), 1.05 * BOX.radius(), 1e-12 * distance);
-            const glm::dvec3 direction = (camera.eye - camera.at) / distance;
-            EXPECT_NEAR(glm::dot(direction, glm::normalize(glm::dvec3(0.5, 0.35, 1))), 1, 1e-12);
+            options.view = row.view;
+            if (is_z)
+                options.up = glm::dvec3(0, 0, 1);
+            const Fitted fitted = fit(options, {400, 400}, CUBE);
+            const glm::dvec3 direction = glm::normalize(fitted.camera.eye - fitted.camera.at);
+            EXPECT_NEAR(glm::distance(direction, is_z ? row.z_up : row.y_up), 0, 1e-12) << int(row.view);
+            EXPECT_EQ(fitted.notices.size(), 1u) << "the view needs another up, and that is no fallback";
         }
+    CameraOptions options;
+    options.view = View::TOP;
+    EXPECT_EQ(fit(options).camera.up, glm::dvec3(0, 0, -1)); // the front is at the bottom of the picture
+    options.up = glm::dvec3(0, 0, 1);
+    EXPECT_EQ(fit(options).camera.up, glm::dvec3(0, 1, 0));
+}
+
+TEST(CameraFit, TurningTheSceneAndUpTurnsTheCamera) {
+    Points turned = TOWER; // y up becomes z up: (x, y, z) -> (x, -z, y)
+    for (glm::dvec3& p : turned)
+        p = {p.x, -p.z, p.y};
+    CameraOptions options;
+    const Camera y_up = fit_points(options, {800, 600}, TOWER).camera;
+    options.up = glm::dvec3(0, 0, 1);
+    const Camera z_up = fit_points(options, {800, 600}, turned).camera;
+    EXPECT_NEAR(glm::distance(z_up.eye, {y_up.eye.x, -y_up.eye.z, y_up.eye.y}), 0, 1e-5);
+    EXPECT_NEAR(glm::distance(z_up.at, {y_up.at.x, -y_up.at.z, y_up.at.y}), 0, 1e-5);
 }
 
 TEST(CameraFit, DefaultsAreFortyDegreesAndYUp) {
@@ -95,9 +244,8 @@ TEST(CameraFit, EachMissingPartIsFittedOnItsOwn) {
     camera = fit(options).camera;
     EXPECT_EQ(camera.at, glm::dvec3(2, 1, 0));
     EXPECT_EQ(camera.up, glm::dvec3(0, 0, 1));
-    // The sphere around `at` that holds the box fits.
-    const double radius = BOX.radius() + glm::distance(glm::dvec3(2, 1, 0), BOX.centre());
-    EXPECT_NEAR(glm::distance(camera.eye, camera.at) * std::sin(glm::radians(20.)), 1.05 * radius, 1e-9);
+    const InPicture seen = project(camera, {800, 600}, box_points(BOX));
+    EXPECT_NEAR(std::max({seen.high.x, seen.high.y, -seen.low.x, -seen.low.y}), FRAMED_SHARE, 1e-5);
 }
 
 TEST(CameraFit, FocalLengthAndFilmWidthGiveTheAngle) {
@@ -193,18 +341,20 @@ TEST(CameraFit, ScalingTheSceneByAPowerOfTwoScalesTheCameraExactly) {
 }
 
 TEST(CameraFit, ASinglePointIsSeenFromADistance) {
-    const Camera camera = fit({}, {800, 600}, {glm::dvec3(5), glm::dvec3(5)}).camera;
+    const Points point(3, glm::dvec3(5));
+    const Camera camera = fit_points({}, {800, 600}, point).camera;
     EXPECT_GT(glm::distance(camera.eye, camera.at), 1);
+    EXPECT_EQ(camera.at, glm::dvec3(5));
 }
 
 TEST(CameraFit, RoomsAreCoveredFromInsideAndSolidsAreNot) {
-    const BoxCover room = BoxMesh(0x3f, true).cover(), solid = BoxMesh(0x3f, false).cover();
+    const BoxCover room = cover_of(box_points(CUBE, 0x3f, true)), solid = cover_of(box_points(CUBE));
     for (size_t f = 0; f < 6; ++f) {
         EXPECT_EQ(room[f], 1);
         EXPECT_EQ(solid[f], 0);
     }
     for (unsigned open = 0; open < 6; ++open) {
-        const BoxCover cover = BoxMesh(0x3f & ~(1u << open), true).cover();
+        const BoxCover cover = cover_of(box_points(CUBE, 0x3f & ~(1u << open), true));
         for (unsigned f = 0; f < 6; ++f)
             EXPECT_EQ(cover[f], f == open ? 0 : 1) << "open " << open << ", face " << f;
     }
@@ -213,27 +363,68 @@ TEST(CameraFit, RoomsAreCoveredFromInsideAndSolidsAreNot) {
 TEST(CameraFit, ARoomIsSeenThroughItsOpenSide) {
     const glm::dvec3 sides[6] = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
     for (unsigned open = 0; open < 6; ++open) {
-        const Fitted fitted = fit({}, {600, 600}, CUBE, BoxMesh(0x3f & ~(1u << open), true).cover());
+        const Fitted fitted = fit_points({}, {600, 600}, box_points(CUBE, 0x3f & ~(1u << open), true));
         // The open side, 2 x 2 at distance 1 from the centre, fills the view of 40 degrees but for the
         // margin.
-        const double distance = 1 + 1.05 / std::tan(glm::radians(20.));
-        EXPECT_NEAR(glm::distance(fitted.camera.eye, sides[open] * distance), 0, 1e-12) << open;
+        const double distance = 1 + 1 / (FRAMED_SHARE * std::tan(glm::radians(20.)));
+        EXPECT_NEAR(glm::distance(fitted.camera.eye, sides[open] * distance), 0, 1e-6) << open;
     }
 }
 
 TEST(CameraFit, AClosedRoomIsSeenFromInside) {
-    const Camera camera = fit({}, {800, 600}, CUBE, BoxMesh(0x3f, true).cover()).camera;
-    EXPECT_EQ(camera.eye, glm::dvec3(0, 0, 0.9));
+    for (const glm::dvec3& up : {glm::dvec3(0, 1, 0), {0, 0, 1}}) {
+        CameraOptions options;
+        options.up = up;
+        const Camera camera = fit_points(options, {800, 600}, box_points(CUBE, 0x3f, true)).camera;
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_LT(std::fabs(camera.eye[axis]), 1);
+        EXPECT_NEAR(glm::dot(glm::normalize(camera.at - camera.eye), up), -0.12, 0.01) << "nearly level";
+        EXPECT_EQ(camera.fov_degrees, 60);
+        options.fov_degrees = 35;
+        EXPECT_EQ(fit_points(options, {800, 600}, box_points(CUBE, 0x3f, true)).camera.fov_degrees, 35);
+        EXPECT_GT(glm::distance(camera.at, camera.eye), 1) << "it looks where there is space";
+    }
+}
+
+TEST(CameraFit, ASetBackFrontWallIsNoOpenSide) {
+    Points room = box_points(CUBE, 0x3e, true);
+    for (glm::dvec3 p : box_points(CUBE, 0x01, true))
+        room.push_back({p.x, p.y, 0.7});
+    const Camera camera = fit_points({}, {800, 600}, room).camera;
+    EXPECT_LT(camera.eye.z, 0.7) << "else it sees the wall's back";
+}
+
+TEST(CameraFit, AClosedBoxWithThickWallsIsARoomIfItHasLamps) {
+    Points walls = box_points(CUBE, 0x3f, true);
+    const Bounds box{glm::dvec3(-1.05), glm::dvec3(1.05)};
+    const Points outside = box_points(box);
+    walls.insert(walls.end(), outside.begin(), outside.end());
+    for (const bool has_lamps : {false, true}) {
+        Scene scene = scene_of(walls);
+        scene.emitters.resize(has_lamps ? 1 : 0);
+        NoticeList notices;
+        const Camera camera = fit_camera({}, {800, 600}, scene, box, notices);
+        EXPECT_EQ(std::fabs(camera.eye.z) < 1 && std::fabs(camera.eye.x) < 1, has_lamps);
+    }
+}
+
+TEST(CameraFit, SolidThingsAreSeenFromOutside) {
+    for (const Points& points : {box_points(CUBE), TOWER}) {
+        const Bounds box = bounds_of(points);
+        const Camera camera = fit_points({}, {800, 600}, points).camera;
+        EXPECT_GT(camera.eye.x, box.high.x);
+        EXPECT_GT(camera.eye.y, box.low.y);
+        EXPECT_GT(camera.eye.z, box.high.z);
+    }
 }
 
 TEST(CameraFit, FewerThanFourWallsAreNoRoom) {
-    const Camera camera = fit({}, {800, 600}, CUBE, BoxMesh(0x2a, true).cover()).camera;
+    const Camera camera = fit_points({}, {800, 600}, box_points(CUBE, 0x2a, true)).camera;
     EXPECT_GT(camera.eye.x, 0);
     EXPECT_GT(camera.eye.y, 0);
 }
 
 TEST(CameraFit, FlatScenesAreNoRoom) {
-    BoxMesh mesh(0x20, true); // the floor only
-    for (double cover : mesh.cover())
+    for (double cover : cover_of(box_points(CUBE, 0x20, true))) // the floor only
         EXPECT_EQ(cover, 0);
 }

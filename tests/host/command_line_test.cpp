@@ -41,6 +41,7 @@ const std::map<std::string, std::string>& samples() {
         {"--material", "clay"},
         {"--size", "320x200"},
         {"--output", "a.exr"},
+        {"--frames", "36"},
         {"--crop", "10,20,30,40"},
         {"--filter", "gaussian:2"},
         {"--exposure", "-1.5"},
@@ -49,6 +50,7 @@ const std::map<std::string, std::string>& samples() {
         {"--eye", "-1,2,-3.5"},
         {"--at", "-0,.5,1e2"},
         {"--up", "0,0,1"},
+        {"--view", "iso"},
         {"--fov", "35"},
         {"--focal-length", "50"},
         {"--film-width", "36"},
@@ -334,6 +336,21 @@ TEST(CommandLine, TheCommandOfAFilmLacksWhatIsAboutOneRunAlone) {
 TEST(CommandLine, AResumedFilmIsWrittenAnewUnlessTheCommandLineNamesAnother) {
     EXPECT_EQ(parse({"--resume", "a.film"}).checkpoint_path, "a.film");
     EXPECT_EQ(parse({"-s", "16"}).checkpoint_path, "");
+}
+
+TEST(CommandLine, UpMayBeTheNameOfAnAxis) {
+    EXPECT_EQ(parse({"--up", "x"}).camera.up, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(parse({"--up=y"}).camera.up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(parse({"--up", "z"}).camera.up, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(parse({"--up", "0,0,-2"}).camera.up, glm::dvec3(0, 0, -2));
+    EXPECT_NE(refusal({"--up", "0,0,0", "s.obj"}).find("x, y, z, or a direction"), std::string::npos);
+}
+
+TEST(CommandLine, FramesNumberTheNamesOfOutputs) {
+    const Options o = parse({"--frames", "3", "--stats", "a.json", "-o", "b.png", "-o", "{frame}.exr"});
+    EXPECT_EQ(o.outputs, (std::vector<std::string>{"b-{frame:4}.png", "{frame}.exr"}));
+    EXPECT_EQ(o.stats_path, "a-{frame:4}.json");
+    EXPECT_EQ(parse({}).outputs.front(), "scene.png");
 }
 
 TEST(CommandLine, ShortOptionsCanBeGlued) {

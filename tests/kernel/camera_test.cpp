@@ -77,13 +77,13 @@ double tent_share(double x) {
     return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
 }
 
-struct View {
+struct Pinhole {
     dvec3 eye, look, up;
     double fov_degrees;
 };
 
 /// What the host makes of a camera.
-RenderParams camera_params(const View& view, u32 width, u32 height) {
+RenderParams camera_params(const Pinhole& view, u32 width, u32 height) {
     Scene scene;
     scene.camera = {view.eye, view.eye + view.look, view.up, view.fov_degrees};
     Options options;
@@ -93,7 +93,7 @@ RenderParams camera_params(const View& view, u32 width, u32 height) {
 }
 
 /// The axes of a view: right and up.
-std::pair<dvec3, dvec3> axes(const View& view) {
+std::pair<dvec3, dvec3> axes(const Pinhole& view) {
     const dvec3 right = glm::normalize(glm::cross(view.look, view.up));
     return {right, glm::cross(right, view.look)};
 }
@@ -167,9 +167,9 @@ TEST(Camera, RaysAreThoseOfAPinhole) {
     constexpr u32 WIDTH = 800, HEIGHT = 600;
     const std::vector<vec4> pixels = random_pixels(WIDTH, HEIGHT, 50000);
     const dvec3 tilted = glm::normalize(dvec3(0.3, -0.5, -0.8));
-    for (const View& view :
-         {View{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 40}, View{{1, -2, 3}, tilted, {0, 1, 0}, 90},
-          View{{1, -2, 3}, tilted, {0.2, 1, 0.1}, 179.9}, View{{0, 5, 0}, tilted, {0, 1, 0}, 1e-3}}) {
+    for (const Pinhole& view :
+         {Pinhole{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 40}, Pinhole{{1, -2, 3}, tilted, {0, 1, 0}, 90},
+          Pinhole{{1, -2, 3}, tilted, {0.2, 1, 0.1}, 179.9}, Pinhole{{0, 5, 0}, tilted, {0, 1, 0}, 1e-3}}) {
         const RenderParams params = camera_params(view, WIDTH, HEIGHT);
         const SceneProbe::Outputs got = probe().run("ray", Scene{}, params, pixels);
         const auto [right, up] = axes(view);
@@ -193,7 +193,8 @@ TEST(Camera, RaysAreThoseOfAPinhole) {
 TEST(Camera, NeighbouringPixelsHaveRaysOfTheirOwn) {
     // Pixel centres of a narrow view, just wide enough to be told apart.
     constexpr u32 SIZE = 256;
-    View view{{0, 0, 0}, glm::normalize(dvec3(0.3, -0.5, -0.8)), {0, 1, 0}, RESOLVED_PITCH * SIZE * 180 / PI};
+    Pinhole view{
+        {0, 0, 0}, glm::normalize(dvec3(0.3, -0.5, -0.8)), {0, 1, 0}, RESOLVED_PITCH * SIZE * 180 / PI};
     std::vector<vec4> pixels;
     for (u32 y = 0; y < SIZE; ++y)
         for (u32 x = 0; x < SIZE; ++x)
@@ -215,7 +216,7 @@ TEST(Camera, AnUpVectorNearTheViewLeavesTheFilmSquare) {
         given.up = tilted + angle * dvec3(0.5, 0.3, 0);
         NoticeList notices;
         const Bounds box{dvec3(-1), dvec3(1)};
-        const Camera camera = fit_camera(given, {64, 64}, box, {}, notices);
+        const Camera camera = fit_camera(given, {64, 64}, Scene(), box, notices);
         const RenderParams params = camera_params({camera.eye, tilted, camera.up, 90}, 64, 64);
         const dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0;
         EXPECT_NEAR(glm::length(x), 1, 4 * FLOAT_U) << angle;

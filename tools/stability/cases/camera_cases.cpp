@@ -100,8 +100,8 @@ void look_along_up(CaseRun& run) {
             options.camera.fov_degrees = 90;
             NoticeList notices;
             Scene scene;
-            scene.camera = fit_camera(options.camera, options.size, {glm::dvec3(-1), glm::dvec3(1)},
-                                      BoxCover{}, notices);
+            scene.camera =
+                fit_camera(options.camera, options.size, scene, {glm::dvec3(-1), glm::dvec3(1)}, notices);
             const RenderParams params = make_render_params(scene, options, FilmScale());
             const glm::dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0,
                              z = to_dvec3(params.look);

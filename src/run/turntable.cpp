@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/turntable.h"
+
+#include "exit_code.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <iterator>
+
+namespace clrt {
+
+Camera turned_camera(const Camera& camera, int frame, int frames) {
+    if (frame == 1) // the same bits
+        return camera;
+    // Rodrigues' formula.
+    const double angle = 2 * glm::pi<double>() * (frame - 1) / frames;
+    const glm::dvec3 arm = camera.eye - camera.at, up = glm::normalize(camera.up);
+    Camera turned = camera;
+    turned.eye = camera.at + arm * std::cos(angle) + glm::cross(up, arm) * std::sin(angle) +
+                 up * glm::dot(up, arm) * (1 - std::cos(angle));
+    return turned;
+}
+
+std::string format_frame(const Report& report) {
+    const std::optional<FilmError>& error = report.error.error;
+    return fmt::format("frame {} of {}: {} spp, {}{:.2f} s\n", report.options.frame, *report.options.frames,
+                       film_samples(report.render.film),
+                       error ? fmt::format("error {:.2g} %, ", 100 * error->relative_rmse) : "",
+                       report.render.run_seconds);
+}
+
+int graver_exit(int a, int b) {
+    constexpr int GRAVITY[] = {EXIT_DONE, EXIT_ERROR_NOT_REACHED, EXIT_CHECK, EXIT_DEVICE};
+    const auto rank = [&](int code) { return std::find(std::begin(GRAVITY), std::end(GRAVITY), code); };
+    return rank(a) < rank(b) ? b : a; // signals, at the end, are gravest
+}
+
+} // namespace clrt

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/framing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace clrt {
+namespace {
+
+constexpr size_t GRAIN = 1 << 14; // triangles per task
+/// Newton's steps to the middle: two find the points that bound the picture, the third is exact.
+constexpr int CENTRING_STEPS = 3;
+/// Of the scene's height: how far a floor may be from one plane.
+constexpr double FLOOR_THICKNESS = 0.01;
+/// Times as wide as what stands on it, a floor is left out: smaller ones are part of the thing, as a plinth
+/// is.
+constexpr double WIDE_FLOOR = 2;
+
+glm::dvec3 position(const Scene& scene, u32 vertex) {
+    const vec4& p = scene.positions[vertex];
+    return {p.x, p.y, p.z};
+}
+
+/// Calls visit(corners of a triangle) for all triangles, on all threads, and merges what the tasks have got.
+template <class T, class Visit, class Merge>
+T reduce_triangles(const Scene& scene, const T& start, const Visit& visit, const Merge& merge) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<size_t>(0, scene.triangles.size(), GRAIN), start,
+        [&](const tbb::blocked_range<size_t>& range, T value) {
+            for (size_t i = range.begin(); i < range.end(); ++i) {
+                const Triangle& t = scene.triangles[i];
+                const glm::dvec3 corners[3] = {position(scene, t.v0), position(scene, t.v1),
+                                               position(scene, t.v2)};
+                visit(value, corners);
+            }
+            return value;
+        },
+        merge);
+}
+
+Bounds nothing() {
+    const double most = std::numeric_limits<double>::max();
+    return {glm::dvec3(most), glm::dvec3(-most)};
+}
+
+bool is_nothing(const Bounds& box) {
+    return box.low.x > box.high.x;
+}
+
+void add(Bounds& box, const glm::dvec3& p) {
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
+}
+
+Bounds united(const Bounds& a, const Bounds& b) {
+    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+/// Half the diagonal of a box as seen from above.
+double width(const Bounds& box) {
+    return std::hypot(box.high.x - box.low.x, box.high.z - box.low.z) / 2;
+}
+
+bool is_floor(const glm::dvec3 (&corners)[3], const glm::dvec3& up, double top) {
+    return glm::dot(corners[0], up) < top && glm::dot(corners[1], up) < top && glm::dot(corners[2], up) < top;
+}
+
+/// How far points reach: along the normals of the planes right, left, above and below, and towards the eye.
+struct Reach {
+    double right, left, above, below, near;
+};
+
+Reach farther(const Reach& a, const Reach& b) {
+    return {std::max(a.right, b.right), std::max(a.left, b.left), std::max(a.above, b.above),
+            std::max(a.below, b.below), std::max(a.near, b.near)};
+}
+
+Reach measure_reach(const Scene& scene, const Framed& framed, const glm::dvec3& up, const PictureAxes& axes,
+                    const ViewTangents& view) {
+    const double least = std::numeric_limits<double>::lowest();
+    return reduce_triangles(
+        scene, Reach{least, least, least, least, least},
+        [&](Reach& reach, const glm::dvec3(&corners)[3]) {
+            if (framed.without_floor && is_floor(corners, up, framed.floor_top))
+                return;
+            for (const glm::dvec3& p : corners) {
+                const double x = glm::dot(p, axes.right), y = glm::dot(p, axes.up),
+                             z = glm::dot(p, axes.look);
+                reach = farther(reach, {x - view.horizontal * z, -x - view.horizontal * z,
+                                        y - view.vertical * z, -y - view.vertical * z, -z});
+            }
+        },
+        farther);
+}
+
+/// The point that is farthest to one side of the picture, as seen from an eye: tangent of its angle, 1 /
+/// depth.
+struct Farthest {
+    double tangent = std::numeric_limits<double>::lowest(), inverse_depth = 0;
+};
+
+/// To the right, to the left, above and below.
+using Edges = std::array<Farthest, 4>;
+
+Edges measure_edges(const Scene& scene, const Framed& framed, const glm::dvec3& up, const PictureAxes& axes,
+                    const glm::dvec3& eye) {
+    const auto see = [](Farthest& edge, double side, double inverse_depth) {
+        if (side * inverse_depth > edge.tangent)
+            edge = {side * inverse_depth, inverse_depth};
+    };
+    return reduce_triangles(
+        scene, Edges(),
+        [&](Edges& edges, const glm::dvec3(&corners)[3]) {
+            if (framed.without_floor && is_floor(corners, up, framed.floor_top))
+                return;
+            for (const glm::dvec3& p : corners) {
+                const double x = glm::dot(p - eye, axes.right), y = glm::dot(p - eye, axes.up),
+                             inverse = 1 / glm::dot(p - eye, axes.look);
+                see(edges[0], x, inverse);
+                see(edges[1], -x, inverse);
+                see(edges[2], y, inverse);
+                see(edges[3], -y, inverse);
+            }
+        },
+        [](Edges a, const Edges& b) {
+            for (size_t i = 0; i < a.size(); ++i)
+                if (b[i].tangent > a[i].tangent)
+                    a[i] = b[i];
+            return a;
+        });
+}
+
+/// How far the eye must go so that both farthest points are equally far from the middle (Newton's step).
+double balance(const Farthest& one, const Farthest& other) {
+    return (one.tangent - other.tangent) / (one.inverse_depth + other.inverse_depth);
+}
+
+} // namespace
+
+Framed frame_all(const Scene& scene, const glm::dvec3& up) {
+    const glm::dmat3 frame = up_frame(up);
+    Framed framed;
+    framed.box = reduce_triangles(
+        scene, nothing(),
+        [&](Bounds& box, const glm::dvec3(&corners)[3]) {
+            for (const glm::dvec3& p : corners)
+                add(box, p * frame);
+        },
+        united);
+    if (is_nothing(framed.box))
+        framed.box = {};
+    framed.centre = frame * framed.box.centre();
+    return framed;
+}
+
+Framed find_framed(const Scene& scene, const glm::dvec3& up) {
+    const glm::dmat3 frame = up_frame(up);
+    Framed framed = frame_all(scene, up);
+    struct Parts {
+        Bounds floor = nothing(), rest = nothing();
+    };
+    const double top = framed.box.low.y + FLOOR_THICKNESS * (framed.box.high.y - framed.box.low.y);
+    const Parts parts = reduce_triangles(
+        scene, Parts(),
+        [&](Parts& p, const glm::dvec3(&corners)[3]) {
+            Bounds& box = is_floor(corners, up, top) ? p.floor : p.rest;
+            for (const glm::dvec3& corner : corners)
+                add(box, corner * frame);
+        },
+        [](const Parts& a, const Parts& b) {
+            return Parts{united(a.floor, b.floor), united(a.rest, b.rest)};
+        });
+    if (!is_nothing(parts.floor) && !is_nothing(parts.rest) &&
+        width(parts.floor) > WIDE_FLOOR * width(parts.rest)) {
+        framed.without_floor = true;
+        framed.floor_top = top;
+        framed.box = parts.rest;
+        framed.centre = frame * framed.box.centre();
+    }
+    return framed;
+}
+
+glm::dvec3 framing_eye(const Scene& scene, const Framed& framed, const glm::dvec3& up,
+                       const PictureAxes& axes, const ViewTangents& view,
+                       const std::optional<glm::dvec3>& at) {
+    const ViewTangents inner{FRAMED_SHARE * view.vertical, FRAMED_SHARE * view.horizontal};
+    const double radius = framed.box.radius() > 0 ? framed.box.radius() : 1;
+    if (scene.triangles.empty() ||
+        !(framed.box.radius() > 0)) // a point: seen as a sphere of radius 1 would be
+        return at.value_or(framed.centre) -
+               axes.look * (1 / std::sin(std::atan(std::min(inner.vertical, inner.horizontal))));
+    const Reach reach = measure_reach(scene, framed, up, axes, inner);
+    const double nearest = -reach.near - LEAST_DISTANCE * radius;
+    // A point p is inside where (p - eye) has no part along any of the four normals: each bounds the eye.
+    if (at) {
+        const double x = glm::dot(*at, axes.right), y = glm::dot(*at, axes.up), z = glm::dot(*at, axes.look);
+        const double beside = std::min(-reach.right + x, -reach.left - x) / inner.horizontal;
+        const double above = std::min(-reach.above + y, -reach.below - y) / inner.vertical;
+        return *at + axes.look * (std::min({beside, above, nearest, z - LEAST_DISTANCE * radius}) - z);
+    }
+    const double z = std::min({-(reach.right + reach.left) / (2 * inner.horizontal),
+                               -(reach.above + reach.below) / (2 * inner.vertical), nearest});
+    glm::dvec3 eye = axes.right * ((reach.right - reach.left) / 2) +
+                     axes.up * ((reach.above - reach.below) / 2) + axes.look * z;
+    // Where the picture is wider than needed, other points may bound it at either end.
+    for (int step = 0; step < CENTRING_STEPS; ++step) {
+        const Edges edges = measure_edges(scene, framed, up, axes, eye);
+        eye += axes.right * balance(edges[0], edges[1]) + axes.up * balance(edges[2], edges[3]);
+    }
+    return eye;
+}
+
+} // namespace clrt
