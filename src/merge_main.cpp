@@ -102,6 +102,7 @@ void merge(const MergeOptions& options) {
         spdlog::warn("samples {} to {} are in no film", film.ranges[i - 1].end, film.ranges[i].first - 1);
 
     const Picture picture = film_picture(sum);
+    warn_of_lost_alpha(picture, options.outputs);
     FinalFiles files;
     for (const std::string& path : options.outputs)
         files.write(path, [&] {

@@ -45,6 +45,17 @@ void apply_point(Options& o, const OptionValue& v) {
     o.light.points.push_back(point);
 }
 
+void apply_background(Options& o, const OptionValue& v) {
+    o.light.background.emplace();
+    o.light.background->is_transparent = v.text == "transparent";
+    if (o.light.background->is_transparent)
+        return;
+    const std::string expected = "transparent or a radiance r,g,b of numbers from 0";
+    o.light.background->radiance = parse_vector(v, expected);
+    if (!is_colour(o.light.background->radiance))
+        reject_value(v, expected);
+}
+
 } // namespace
 
 std::vector<OptionSpec> light_options() {
@@ -68,6 +79,10 @@ std::vector<OptionSpec> light_options() {
          apply_point, REPEATABLE},
         {group, "", "--two-sided-lights", "", "emissive faces shine on both sides (default: on their front)",
          [](Options& o, const OptionValue&) { o.light.two_sided = true; }},
+        {group, "", "--background", "transparent|R,G,B",
+         "radiance that the camera sees in place of sky and sun; it lights nothing; transparent: black, "
+         "with alpha in .png, .tga, .tif and .exr (default: sky and sun)",
+         apply_background},
     };
 }
 

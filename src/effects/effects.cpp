@@ -2,6 +2,7 @@
 #include "effects/effects.h"
 
 #include "paths/path_report.h"
+#include "scene/colour.h"
 #include "scene/material_rules.h"
 
 #include <algorithm>
@@ -107,15 +108,19 @@ void find_delta_lights(const Scene& scene, const Options& options, EffectFinder&
 void find_environment(const Scene& scene, const Options& options, EffectFinder& finder) {
     const Environment& sky = scene.environment;
     const bool map = !sky.texels.empty();
-    const bool bright = sky.radiance.x > 0 || sky.radiance.y > 0 || sky.radiance.z > 0;
-    const bool given = !options.light.environment_file.empty() || options.light.environment;
+    const bool bright = largest_component(sky.radiance) > 0;
+    const bool is_backdrop = !bright && scene.background && largest_component(*scene.background) > 0;
+    const bool given =
+        !options.light.environment_file.empty() || options.light.environment;
     const std::string option = describe_option(options, "--env");
     const SourcePlace place = place_of(options, "--env");
-    finder.fact(EFFECT_ENVIRONMENT, bright,
-                !bright ? (given ? option + ": black" : "no --env, and other light is there")
-                : given ? option + ": radiance above 0"
-                        : "white sky: radiance above 0 where nothing else gives light",
-                place);
+    finder.fact(EFFECT_ENVIRONMENT, bright || is_backdrop,
+                is_backdrop
+                    ? describe_option(options, "--background") + ": radiance above 0, to the camera alone"
+                : !bright ? (given ? option + ": black" : "no --env, and other light is there")
+                : given   ? option + ": radiance above 0"
+                          : "white sky: radiance above 0 where nothing else gives light",
+                is_backdrop ? place_of(options, "--background") : place);
     finder.fact(
         EFFECT_ENVIRONMENT_MAP, map && bright,
         !map ? "no map"

@@ -35,6 +35,10 @@ void set_camera(const Scene& scene, const Options& options, RenderParams& params
 void set_lights(const Scene& scene, RenderParams& params) {
     const Environment& sky = scene.environment;
     params.environment = to_vec4(sky.radiance);
+    if (scene.background) {
+        params.background = to_vec4(*scene.background);
+        params.background.w = 1;
+    }
     params.environment_width = sky.texels.empty() ? 0 : u32(sky.width);
     params.environment_height = sky.texels.empty() ? 0 : u32(sky.height);
     params.environment_cos = float(std::cos(sky.rotation_degrees * RADIANS));

@@ -4,6 +4,7 @@
 #include "output/image.h"
 #include "render/picture.h"
 
+#include <algorithm>
 #include <new>
 #include <spdlog/spdlog.h>
 
@@ -65,10 +66,22 @@ void FinalFiles::finish() const {
         throw SceneError(*first_error_);
 }
 
+void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        if (picture.is_transparent && is_output_path(path) && !can_hold_alpha(path))
+            spdlog::warn("{}: the format holds no alpha, so the transparent background is black", path);
+    if (picture.is_transparent && !picture_coverage(picture) &&
+        std::any_of(paths.begin(), paths.end(), can_hold_alpha))
+        spdlog::warn(
+            "the coverage of the pixels is not known here, so the transparent background is black and "
+            "pictures have no alpha");
+}
+
 void write_outputs(const Report& report, FinalFiles& files) {
     const Options& options = report.options;
     Picture picture = picture_within_memory(report, files);
     picture.metadata = report_metadata(report);
+    warn_of_lost_alpha(picture, options.outputs);
     for (const std::string& path : options.outputs)
         files.write(path, [&] { write_picture(picture, path, options.exposure_ev, options.tonemap); });
     if (!options.stats_path.empty())

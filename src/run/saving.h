@@ -27,6 +27,9 @@ private:
     std::optional<SceneError> first_error_;
 };
 
+/// Says which of these files cannot show a transparent picture's background, and why.
+void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& paths);
+
 /// Pictures and the statistics of a finished render.
 void write_outputs(const Report& report, FinalFiles& files);
 

@@ -136,6 +136,8 @@ void load_lights(const Options& options, const std::vector<double>& exitance, do
     scene.lights = std::move(lights.lights);
     scene.emitted_power = emitters.power + lights.power;
     scene.environment = load_environment(options.light, has_light, sky_sampling(options.integrator), notices);
+    if (options.light.background)
+        scene.background = options.light.background->radiance;
 }
 
 Scene load_all(const Options& options, Progress& progress) {

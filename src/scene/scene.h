@@ -6,6 +6,7 @@
 #include "kernels/shared/scene_types.h"
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,8 @@ struct Scene {
     std::vector<Emitter> emitters;
     std::vector<Light> lights;
     Environment environment;
+    std::optional<glm::dvec3>
+        background;         ///< radiance that camera rays see outside the scene, not sky and suns
     Camera camera;
     Normalisation normalisation;
     SourcePlace first_smooth;         ///< the face that the first triangle with corner normals is from

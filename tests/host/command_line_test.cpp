@@ -57,6 +57,7 @@ const std::map<std::string, std::string>& samples() {
         {"--sun", "1,2,3,4,5,6,0.5"},
         {"--point", "-1,2,3,4,5,6"},
         {"--two-sided-lights", ""},
+        {"--background", "transparent"},
         {"--explain", ""},
         {"--ledger", ""},
         {"--effects", "all"},
@@ -209,6 +210,14 @@ TEST(CommandLine, CameraOptionsArrive) {
     EXPECT_EQ(o.camera.focal_length, 35.0);
     EXPECT_EQ(o.camera.film_width, 24.0);
     EXPECT_EQ(parse({"--fov", "39.3"}).camera.fov_degrees, 39.3);
+}
+
+TEST(CommandLine, ABackgroundArrives) {
+    EXPECT_FALSE(parse({}).light.background);
+    EXPECT_EQ(parse({"--background", "9,0,1"}).light.background->radiance, glm::dvec3(9, 0, 1));
+    EXPECT_TRUE(has_transparent_background(parse({"--background", "transparent"})));
+    EXPECT_FALSE(
+        has_transparent_background(parse({"--background", "transparent", "--background", "1,1,1"})));
 }
 
 TEST(CommandLine, LightOptionsArrive) {
