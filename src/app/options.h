@@ -52,7 +52,13 @@ struct BackgroundOptions {
     bool is_transparent = false; ///< radiance 0, and pictures get an alpha channel
 };
 
+/// A matte plane under the scene.
+struct GroundOptions {
+    std::optional<glm::dvec3> albedo; ///< 0..1; absent: no ground, where the studio would have one
+};
+
 struct LightOptions {
+    bool studio = true; ///< light by a studio (scene/studio.h) where nothing gives light, else by a white sky
     std::string environment_file;          ///< lat-long map; empty: none
     std::optional<glm::dvec3> environment; ///< constant radiance
     double environment_scale = 1;
@@ -60,6 +66,7 @@ struct LightOptions {
     std::vector<SunOptions> suns;
     std::vector<PointOptions> points;
     bool two_sided = false; ///< emissive faces shine on both sides
+    std::optional<GroundOptions> ground;
     std::optional<BackgroundOptions> background;
 };
 

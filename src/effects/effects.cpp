@@ -42,6 +42,11 @@ std::string describe_option(const Options& options, const std::string& name) {
     return name + quoted_place(place_of(options, name));
 }
 
+/// An option of the group "Light" as a witness; the studio's where it sets that light.
+std::string describe_light(const Scene& scene, const Options& options, const std::string& name) {
+    return scene.is_studio ? name + " of the studio" : describe_option(options, name);
+}
+
 /// Collects effects in the order of the table; every question is asked of the used materials or of one fact.
 class EffectFinder {
 public:
@@ -95,9 +100,9 @@ void find_delta_lights(const Scene& scene, const Options& options, EffectFinder&
     const auto suns = std::ptrdiff_t(scene.lights.size()) - points;
     std::vector<std::string> parts;
     if (points > 0)
-        parts.push_back(fmt::format("{} by {}", points, describe_option(options, "--point")));
+        parts.push_back(fmt::format("{} by {}", points, describe_light(scene, options, "--point")));
     if (suns > 0)
-        parts.push_back(fmt::format("{} by {}", suns, describe_option(options, "--sun")));
+        parts.push_back(fmt::format("{} by {}", suns, describe_light(scene, options, "--sun")));
     const bool given = !options.light.points.empty() || !options.light.suns.empty();
     if (parts.empty())
         parts.push_back(given ? "no --point, no --sun with power" : "no --point, no --sun");
@@ -111,8 +116,8 @@ void find_environment(const Scene& scene, const Options& options, EffectFinder& 
     const bool bright = largest_component(sky.radiance) > 0;
     const bool is_backdrop = !bright && scene.background && largest_component(*scene.background) > 0;
     const bool given =
-        !options.light.environment_file.empty() || options.light.environment;
-    const std::string option = describe_option(options, "--env");
+        scene.is_studio || !options.light.environment_file.empty() || options.light.environment;
+    const std::string option = describe_light(scene, options, "--env");
     const SourcePlace place = place_of(options, "--env");
     finder.fact(EFFECT_ENVIRONMENT, bright || is_backdrop,
                 is_backdrop

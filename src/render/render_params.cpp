@@ -111,7 +111,7 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     params.max_depth = u32(effective_max_depth(options));
     params.min_contribution = float(options.min_contribution);
     params.roulette_depth = u32(options.roulette_depth);
-    params.scene_extent = scene.extent;
+    params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);
     params.largest_contribution = float(std::min(scale.largest, double(FLT_MAX)));

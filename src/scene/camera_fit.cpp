@@ -155,8 +155,7 @@ glm::dvec3 eye_for_room(const Bounds& bounds, const BoxCover& cover, const ViewT
 
 glm::dvec3 fitted_eye(const glm::dvec3& at, const Bounds& bounds, const BoxCover& cover,
                       const ViewTangents& view) {
-    const auto closed = std::count_if(cover.begin(), cover.end(), [](double c) { return c >= COVERED; });
-    if (closed >= 4) {
+    if (is_room(cover)) {
         const glm::dvec3 eye = eye_for_room(bounds, cover, view);
         if (eye != at)
             return eye;
@@ -189,6 +188,10 @@ void check_vector(const std::optional<glm::dvec3>& v, const char* option) {
 }
 
 } // namespace
+
+bool is_room(const BoxCover& cover) {
+    return std::count_if(cover.begin(), cover.end(), [](double c) { return c >= COVERED; }) >= 4;
+}
 
 BoxCover measure_box_cover(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles) {
     BoxCover cover{};
@@ -249,7 +252,7 @@ Camera fit_camera(const CameraOptions& options, glm::ivec2 size, const Bounds& b
         throw UsageError(
             fmt::format("--eye and --at: expected two different points, found {} twice", triple(camera.eye)));
 
-    camera.up = options.up.value_or(glm::dvec3(0, 1, 0));
+    camera.up = options.up.value_or(DEFAULT_UP);
     const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
     if (glm::length(glm::cross(look, glm::normalize(camera.up))) < PARALLEL) {
         const glm::dvec3 up = up_beside(look);

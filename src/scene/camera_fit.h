@@ -12,9 +12,15 @@
 
 namespace clrt {
 
+/// Up where --up does not say.
+inline const glm::dvec3 DEFAULT_UP{0, 1, 0};
+
 /// How much of each face of the scene's box is covered by triangles that lie near it and face inwards, 0..1,
 /// in the order +Z, -Z, +X, -X, +Y, -Y. A room covers four to six of them, a solid thing none.
 using BoxCover = std::array<double, 6>;
+
+/// Whether such a scene is a room: four faces or more are walls.
+bool is_room(const BoxCover& cover);
 
 /// Measures the cover on a grid of points per face. `positions` and `triangles` are in the normalised frame.
 BoxCover measure_box_cover(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles);
