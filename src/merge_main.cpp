@@ -135,6 +135,7 @@ void merge(const MergeOptions& options, const Options& look) {
     const double exposure_ev = chosen_exposure_ev(look, picture.layers[0].values);
     if (look.auto_exposure)
         spdlog::info("{}", exposure_notice(exposure_ev));
+    warn_of_lost_alpha(picture, options.outputs);
     FinalFiles files;
     for (const std::string& path : options.outputs)
         files.write(path, [&] {

@@ -225,19 +225,21 @@ static CLRT_NOINLINE void path_cut(const Scene* scene, const RenderParams* param
 }
 
 /* Adds the light from outside the scene. */
-static inline void path_escape(const Scene* scene, const RenderParams* params, const Path* path, CameraSample* sample)
+static inline void path_escape(const Scene* scene, const RenderParams* params, uint segment, const Path* path,
+                               CameraSample* sample)
 {
     if (nan_carry(scene, nan_of_miss(&path->hit), &sample->radiance))
         return;
     const real3 direction = path->ray.direction;
-    const real3 sky = lights_escape(scene, params, direction, path->pdf_w, path_accepted(path));
+    const real pdf_w = path->pdf_w;
+    const real3 sky = lights_outside(scene, params, segment, direction, pdf_w, path_accepted(path));
     sample->radiance += path->throughput * sky;
     TRACE_VECTOR(scene, TRACE_SKY, sky);
     TRACE_VECTOR(scene, TRACE_ADDED, path->throughput * sky);
     if (PATH_LAYERS == 0)
         return;
-    path_add_layers(path, KIND_SKY, lights_escape(scene, params, direction, path->pdf_w, KIND_SKY), sample);
-    path_add_layers(path, KIND_SUN, lights_escape(scene, params, direction, path->pdf_w, KIND_SUN), sample);
+    path_add_layers(path, KIND_SKY, lights_outside(scene, params, segment, direction, pdf_w, KIND_SKY), sample);
+    path_add_layers(path, KIND_SUN, lights_outside(scene, params, segment, direction, pdf_w, KIND_SUN), sample);
 }
 
 /* Handles the vertex at the end of a segment: adds its emission, connects it to a light, chooses the next segment or ends
@@ -249,7 +251,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     path->is_alive = false;
     TRACE_HIT(scene, segment, 0u, &path->ray, &path->hit);
     if (path->hit.triangle == NO_INDEX) {
-        path_escape(scene, params, path, sample);
+        path_escape(scene, params, segment, path, sample);
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);

@@ -17,7 +17,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     if (hit.triangle == NO_INDEX) {
         if (nan_carry(scene, nan_of_miss(&hit), &radiance))
             return radiance;
-        const real3 sky = lights_escape(scene, params, ray.direction, REAL(0.0), KINDS_ALL);
+        const real3 sky = lights_outside(scene, params, 1u, ray.direction, REAL(0.0), KINDS_ALL);
         TRACE_VECTOR(scene, TRACE_SKY, sky);
         TRACE_VECTOR(scene, TRACE_ADDED, sky);
         return sky;

@@ -106,7 +106,8 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         if (hit.triangle == NO_INDEX) {
             if (nan_carry(scene, nan_of_miss(&hit), &radiance))
                 continue;
-            const real3 sky = lights_escape(scene, params, current.ray.direction, REAL(0.0), KINDS_ALL);
+            const real3 sky =
+                lights_outside(scene, params, current.segment, current.ray.direction, REAL(0.0), KINDS_ALL);
             radiance += current.weight * sky;
             TRACE_VECTOR(scene, TRACE_SKY, sky);
             TRACE_VECTOR(scene, TRACE_ADDED, current.weight * sky);

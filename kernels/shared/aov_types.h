@@ -11,7 +11,7 @@ SHARED_BEGIN
 /* 64-bit sums in fixed point. */
 #define AOV_ALBEDO 0u   /* r, g, b */
 #define AOV_NORMAL 3u   /* x, y, z: for shading, unit */
-#define AOV_POSITION 6u /* x, y, z: normalised frame, within 2 of its origin */
+#define AOV_POSITION 6u /* x, y, z: normalised frame, within 2 of its origin; on a ground within 64 */
 #define AOV_SUMS 9u
 
 /* 32-bit words. */
@@ -20,10 +20,10 @@ SHARED_BEGIN
 #define AOV_MATERIAL 2u
 #define AOV_WORDS 3u
 
-/* One in fixed point is 2^AOV_BITS: floats from 2^-10 on are exact. Values are below 8, so that 2^26 samples fit, more than
+/* One in fixed point is 2^AOV_BITS: floats from 2^-7 on are exact. Values are below 64, so that 2^26 samples fit, more than
    a film of 64 replicates holds. */
-#define AOV_BITS 34
-#define AOV_LARGEST 8
+#define AOV_BITS 31
+#define AOV_LARGEST 64
 
 SHARED_END
 

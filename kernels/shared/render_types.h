@@ -20,6 +20,7 @@ typedef struct {
     vec4 look; /* unit */
 
     vec4 environment; /* rgb: radiance of a constant environment, or factor of the map; w: unused, 0 */
+    vec4 background;  /* rgb: radiance that camera rays see outside the scene; w: 1, or 0 where they see sky and suns */
 
     u32 width, height;          /* of the whole picture, pixels */
     u32 crop_x, crop_y;         /* top left pixel of the rendered window */
@@ -52,7 +53,7 @@ typedef struct {
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
 } RenderParams;
-ASSERT_SIZE(RenderParams, 224);
+ASSERT_SIZE(RenderParams, 240);
 
 /* The picture is rendered and summed in tiles of 8 x 8 pixels; sums of a tile lie together. */
 #define TILE_SIZE 8

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "Light".
 #include "app/option_rows.h"
+#include "scene/colour.h"
 
 namespace clrt {
 
@@ -45,14 +46,36 @@ void apply_point(Options& o, const OptionValue& v) {
     o.light.points.push_back(point);
 }
 
+void apply_ground(Options& o, const OptionValue& v) {
+    o.light.ground.emplace();
+    if (v.text == "none")
+        return;
+    const std::string expected = "none or a reflectance r,g,b of numbers from 0 to 1";
+    const glm::dvec3 albedo = parse_vector(v, expected);
+    if (!is_colour(albedo) || largest_component(albedo) > 1)
+        reject_value(v, expected);
+    o.light.ground->albedo = albedo;
+}
+
+void apply_background(Options& o, const OptionValue& v) {
+    o.light.background.emplace();
+    o.light.background->is_transparent = v.text == "transparent";
+    if (o.light.background->is_transparent)
+        return;
+    const std::string expected = "transparent or a radiance r,g,b of numbers from 0";
+    o.light.background->radiance = parse_vector(v, expected);
+    if (!is_colour(o.light.background->radiance))
+        reject_value(v, expected);
+}
+
 } // namespace
 
 std::vector<OptionSpec> light_options() {
     const char* const group = "Light";
     return {
         {group, "", "--env", "FILE|R,G,B",
-         "environment: a latitude-longitude picture or one radiance (default 1,1,1 where nothing else gives "
-         "light)",
+         "environment: a latitude-longitude picture or one radiance (default: none; --studio where nothing "
+         "else gives light)",
          apply_environment},
         {group, "", "--env-scale", "X", "factor on the environment's radiance (default 1)",
          [](Options& o, const OptionValue& v) {
@@ -68,6 +91,18 @@ std::vector<OptionSpec> light_options() {
          apply_point, REPEATABLE},
         {group, "", "--two-sided-lights", "", "emissive faces shine on both sides (default: on their front)",
          [](Options& o, const OptionValue&) { o.light.two_sided = true; }},
+        {group, "", "--studio", "auto|off",
+         "where neither the scene nor an option gives light: key light, even sky, ground and backdrop, "
+         "said as flags to copy; in rooms a white sky and a lamp; off: a white sky (default auto)",
+         [](Options& o, const OptionValue& v) {
+             o.light.studio = parse_choice<bool>(v, {{"auto", true}, {"off", false}});
+         }},
+        {group, "", "--ground", "none|R,G,B",
+         "matte plane of this reflectance under the scene (default none, but for --studio)", apply_ground},
+        {group, "", "--background", "transparent|R,G,B",
+         "radiance that the camera sees in place of sky and sun; it lights nothing; transparent: black, "
+         "with alpha in .png, .tga, .tif and .exr (default: sky and sun, but for --studio)",
+         apply_background},
     };
 }
 

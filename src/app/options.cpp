@@ -16,4 +16,8 @@ int effective_max_depth(const Options& options) {
     return options.max_depth.value_or(DEFAULT_PATH_DEPTH);
 }
 
+bool has_transparent_background(const Options& options) {
+    return options.light.background && options.light.background->is_transparent;
+}
+
 } // namespace clrt

@@ -51,7 +51,20 @@ struct PointOptions {
     glm::dvec3 intensity{0}; ///< W/sr per channel, lengths in scene units
 };
 
+/// What camera rays that hit nothing show, in place of the environment and the discs of suns. It lights
+/// nothing: rays that have left a surface see the sky.
+struct BackgroundOptions {
+    glm::dvec3 radiance{0};
+    bool is_transparent = false; ///< radiance 0, and pictures get an alpha channel
+};
+
+/// A matte plane under the scene.
+struct GroundOptions {
+    std::optional<glm::dvec3> albedo; ///< 0..1; absent: no ground, where the studio would have one
+};
+
 struct LightOptions {
+    bool studio = true; ///< light by a studio (scene/studio.h) where nothing gives light, else by a white sky
     std::string environment_file;          ///< lat-long map; empty: none
     std::optional<glm::dvec3> environment; ///< constant radiance
     double environment_scale = 1;
@@ -59,6 +72,8 @@ struct LightOptions {
     std::vector<SunOptions> suns;
     std::vector<PointOptions> points;
     bool two_sided = false; ///< emissive faces shine on both sides
+    std::optional<GroundOptions> ground;
+    std::optional<BackgroundOptions> background;
 };
 
 /// A window of the picture in pixels; x1, y1 excluded.
@@ -164,5 +179,8 @@ constexpr int DEFAULT_WHITTED_DEPTH = 10;
 
 /// The largest path length in segments for these options; raycast has always 2.
 int effective_max_depth(const Options& options);
+
+/// Whether pictures have an alpha channel: --background transparent.
+bool has_transparent_background(const Options& options);
 
 } // namespace clrt

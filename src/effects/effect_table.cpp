@@ -23,7 +23,7 @@ const std::vector<EffectSpec>& effect_table() {
     static const std::vector<EffectSpec> table = {
         {EFFECT_AREA_LIGHT, "area lights", 0, 0, "emissive triangles are dark"},
         {EFFECT_DELTA_LIGHT, "point lights and suns", 0, 0, "--point and --sun are not there"},
-        {EFFECT_ENVIRONMENT, "environment", 0, 0, "black outside the scene"},
+        {EFFECT_ENVIRONMENT, "environment", 0, 0, "black outside the scene, background included"},
         {EFFECT_ENVIRONMENT_MAP, "environment map", EFFECT_ENVIRONMENT, 0,
          "a constant sky of the map's mean radiance"},
         {EFFECT_MATTE, "matte", 0, 0, "no material has a matte lobe"},

@@ -2,6 +2,7 @@
 #include "effects/effects.h"
 
 #include "paths/path_report.h"
+#include "scene/colour.h"
 #include "scene/material_override.h"
 #include "scene/material_rules.h"
 
@@ -40,6 +41,11 @@ SourcePlace place_of(const Options& options, const std::string& name) {
 /// An option as a witness: its name and its line in the options file.
 std::string describe_option(const Options& options, const std::string& name) {
     return name + quoted_place(place_of(options, name));
+}
+
+/// An option of the group "Light" as a witness; the studio's where it sets that light.
+std::string describe_light(const Scene& scene, const Options& options, const std::string& name) {
+    return scene.is_studio ? name + " of the studio" : describe_option(options, name);
 }
 
 /// Collects effects in the order of the table; every question is asked of the used materials or of one fact.
@@ -96,9 +102,9 @@ void find_delta_lights(const Scene& scene, const Options& options, EffectFinder&
     const auto suns = std::ptrdiff_t(scene.lights.size()) - points;
     std::vector<std::string> parts;
     if (points > 0)
-        parts.push_back(fmt::format("{} by {}", points, describe_option(options, "--point")));
+        parts.push_back(fmt::format("{} by {}", points, describe_light(scene, options, "--point")));
     if (suns > 0)
-        parts.push_back(fmt::format("{} by {}", suns, describe_option(options, "--sun")));
+        parts.push_back(fmt::format("{} by {}", suns, describe_light(scene, options, "--sun")));
     const bool given = !options.light.points.empty() || !options.light.suns.empty();
     if (parts.empty())
         parts.push_back(given ? "no --point, no --sun with power" : "no --point, no --sun");
@@ -109,15 +115,19 @@ void find_delta_lights(const Scene& scene, const Options& options, EffectFinder&
 void find_environment(const Scene& scene, const Options& options, EffectFinder& finder) {
     const Environment& sky = scene.environment;
     const bool map = !sky.texels.empty();
-    const bool bright = sky.radiance.x > 0 || sky.radiance.y > 0 || sky.radiance.z > 0;
-    const bool given = !options.light.environment_file.empty() || options.light.environment;
-    const std::string option = describe_option(options, "--env");
+    const bool bright = largest_component(sky.radiance) > 0;
+    const bool is_backdrop = !bright && scene.background && largest_component(*scene.background) > 0;
+    const bool given =
+        scene.is_studio || !options.light.environment_file.empty() || options.light.environment;
+    const std::string option = describe_light(scene, options, "--env");
     const SourcePlace place = place_of(options, "--env");
-    finder.fact(EFFECT_ENVIRONMENT, bright,
-                !bright ? (given ? option + ": black" : "no --env, and other light is there")
-                : given ? option + ": radiance above 0"
-                        : "white sky: radiance above 0 where nothing else gives light",
-                place);
+    finder.fact(EFFECT_ENVIRONMENT, bright || is_backdrop,
+                is_backdrop
+                    ? describe_option(options, "--background") + ": radiance above 0, to the camera alone"
+                : !bright ? (given ? option + ": black" : "no --env, and other light is there")
+                : given   ? option + ": radiance above 0"
+                          : "white sky: radiance above 0 where nothing else gives light",
+                is_backdrop ? place_of(options, "--background") : place);
     finder.fact(
         EFFECT_ENVIRONMENT_MAP, map && bright,
         !map ? "no map"

@@ -3,6 +3,7 @@
 
 #include "output/standard_streams.h"
 #include "paths/path_report.h"
+#include "scene/ground.h"
 #include "scene/material_rules.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ Json materials_json(const Scene& scene) {
 std::string explain_json(const Scene& scene, const Effects& effects, const Options& options) {
     Json json;
     json["scene"] = input_name(options.scene_path);
-    json["triangles"] = scene.triangles.size();
+    json["triangles"] = file_triangles(scene);
     json["effects"] = Json::array();
     for (const Effect& effect : effects.list)
         json["effects"].push_back(effect_json(effects, effect));
@@ -61,7 +62,7 @@ std::string explain(const Scene& scene, const Effects& effects, const Options& o
     if (options.explain == Explain::JSON)
         return explain_json(scene, effects, options);
     std::string text = fmt::format("Effects of {} ({} triangles):\n{}", input_name(options.scene_path),
-                                   scene.triangles.size(), format_effects(effects));
+                                   file_triangles(scene), format_effects(effects));
     for (const std::string& line : describe_left_out(effects))
         text += line + "\n";
     text += fmt::format("compiled with CLRT_EFFECTS={:#x}\n\nMaterials:\n{}", effects.mask,

@@ -117,9 +117,12 @@ void take_out_lights(u32 effects, Scene& scene) {
         take_out_area_lights(scene);
     if (effects & EFFECT_DELTA_LIGHT)
         scene.lights.clear();
-    if (effects & EFFECT_ENVIRONMENT)
+    if (effects & EFFECT_ENVIRONMENT) {
         set_sky(scene.environment, glm::dvec3(0));
-    else if ((effects & EFFECT_ENVIRONMENT_MAP) && !scene.environment.texels.empty())
+        if (scene.background)
+            scene.background = glm::dvec3(0);
+    }
+    if ((effects & EFFECT_ENVIRONMENT_MAP) && !scene.environment.texels.empty())
         set_sky(scene.environment, mean_of_map(scene.environment));
 }
 

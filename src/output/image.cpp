@@ -66,6 +66,11 @@ bool is_layered_output(const std::string& path) {
     return kind_of(path) == Kind::EXR;
 }
 
+bool can_hold_alpha(const std::string& path) {
+    const std::string format = output_format(path);
+    return format == "png" || format == "tga" || format == "tif" || format == "tiff" || format == "exr";
+}
+
 void check_output_path(const std::string& path) {
     if (!is_output_path(path))
         throw UsageError("output '" + path + "': expected " + expected_output());
@@ -86,6 +91,13 @@ void check_output_folder(const std::string& path) {
         throw SceneError(path, 0,
                          "cannot write into the folder '" + folder + "': " + std::strerror(errno) +
                              (errno == ENOENT ? "; make it first" : "; choose another one"));
+}
+
+const std::vector<float>* picture_coverage(const Picture& picture) {
+    for (const Layer& layer : picture.layers)
+        if (picture.is_transparent && layer.name.empty() && layer.channel_names.front() == "A")
+            return &layer.values;
+    return nullptr;
 }
 
 void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap) {

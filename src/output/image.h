@@ -29,6 +29,7 @@ struct Picture {
     int x0 = 0, y0 = 0;        ///< the window's place in the whole picture
     int full_width = 0, full_height = 0;
     std::vector<Layer> layers;
+    bool is_transparent = false; ///< layer "A" is the coverage by which layers[0] is multiplied
     Metadata metadata;
 };
 
@@ -52,6 +53,9 @@ void check_output_path(const std::string& path);
 /// Whether such a picture holds layers beside the picture itself.
 bool is_layered_output(const std::string& path);
 
+/// Whether such a picture holds the coverage of --background transparent: unassociated alpha, but for EXR.
+bool can_hold_alpha(const std::string& path);
+
 /// Pixels that a side of such a picture can have at most; libjpeg ends the process beyond its limit.
 int largest_output_side(const std::string& path);
 
@@ -59,10 +63,14 @@ int largest_output_side(const std::string& path);
 /// standard output has none.
 void check_output_folder(const std::string& path);
 
+/// The coverage of a transparent picture, a value a pixel; none of an opaque one.
+const std::vector<float>* picture_coverage(const Picture& picture);
+
 /// Writes the picture. 8-bit formats get exposure, tone map and the sRGB curve and only layer 0; .hdr, .pfm
-/// and float TIFF get linear layer 0; .exr gets every layer as float and the metadata. The file appears whole
-/// or not at all: temporary name in the same folder, flush, rename; on the standard output likewise, all at
-/// once. Throws SceneError with the reason (no such folder, disk full, ...).
+/// and float TIFF get linear layer 0; .exr gets every layer as float and the metadata. Those that hold alpha
+/// get the coverage of a transparent picture. The file appears whole or not at all: temporary name in the same
+/// folder, flush, rename; on the standard output likewise, all at once. Throws SceneError with the reason (no
+/// such folder, disk full, ...).
 void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap);
 
 /// Writes text under a temporary name and renames it, or to the standard output. Throws SceneError.

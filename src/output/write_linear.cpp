@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linear pictures without layers.
+#include "output/flat_pixels.h"
 #include "output/image_stream.h"
 #include "output/standard_streams.h"
 #include "output/writers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <OpenImageIO/fmath.h>
 
@@ -21,16 +23,15 @@ float storable_in_hdr(float x) {
 } // namespace
 
 void write_linear(const Picture& picture, const std::string& path) {
-    OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeFloat);
+    FlatPixels pixels(picture, path);
+    OIIO::ImageSpec spec = pixels.spec(OIIO::TypeFloat);
     spec.attribute("oiio:ColorSpace", "Linear");
     ImageStream stream(path, spec);
     const bool is_hdr = output_format(path) == "hdr";
-    const size_t row_length = 3 * static_cast<size_t>(picture.width);
-    std::vector<float> row(row_length);
     for (int y = 0; y < picture.height; ++y) {
-        const float* first = picture.layers[0].values.data() + static_cast<size_t>(y) * row_length;
-        for (size_t i = 0; i < row_length; ++i)
-            row[i] = is_hdr ? storable_in_hdr(first[i]) : first[i];
+        std::vector<float> row = pixels.row(y);
+        if (is_hdr)
+            std::transform(row.begin(), row.end(), row.begin(), storable_in_hdr);
         stream.write_rows(y, 1, OIIO::TypeFloat, row.data());
     }
     stream.finish();

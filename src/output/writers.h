@@ -12,10 +12,12 @@ namespace clrt {
 /// attributes "clrt.NAME".
 void write_exr(const Picture& picture, const std::string& path);
 
-/// Layer 0 as 8-bit sRGB after exposure and tone map: PNG, JPEG, BMP, TGA, PPM.
+/// Layer 0 as 8-bit sRGB after exposure and tone map, with unassociated alpha where the picture and the
+/// format have it: PNG, JPEG, BMP, TGA, PPM.
 void write_display(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap);
 
-/// Layer 0 as linear numbers: float TIFF, or Radiance HDR, which holds no negative and no non-finite numbers.
+/// Layer 0 as linear numbers: float TIFF, with alpha as write_display, or Radiance HDR, which holds no
+/// negative and no non-finite numbers.
 void write_linear(const Picture& picture, const std::string& path);
 
 /// Layer 0 as linear floats: Portable Float Map.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paths/path_plan.h"
 
+#include "scene/colour.h"
 #include "scene/material_rules.h"
 
 #include <algorithm>
@@ -56,8 +57,8 @@ PathLetter find_lamp(const Scene& scene) {
 }
 
 std::vector<PathLetter> find_letters(const Scene& scene) {
-    const glm::dvec3& sky = scene.environment.radiance;
-    const bool is_bright = sky.x > 0 || sky.y > 0 || sky.z > 0;
+    const bool is_bright = largest_component(scene.environment.radiance) > 0;
+    const bool is_backdrop = scene.background && largest_component(*scene.background) > 0;
     return {
         find_material("D", scene, [](const Material& m) { return (m.lobes & LOBE_MATTE) != 0; }),
         find_material("G", scene,
@@ -72,7 +73,11 @@ std::vector<PathLetter> find_letters(const Scene& scene) {
         find_lamp(scene),
         find_light("Lp", scene, LIGHT_POINT, "--point"),
         find_light("Ld", scene, LIGHT_SUN, "--sun"),
-        {"Le", is_bright ? "environment above 0" : "", {}},
+        {"Le",
+         is_bright     ? "environment above 0"
+         : is_backdrop ? "background above 0"
+                       : "",
+         {}},
     };
 }
 

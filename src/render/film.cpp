@@ -77,7 +77,8 @@ FilmScale film_scale(const Scene& scene) {
         scene.environment.texels.empty() ? luminance(sky) : scene.environment.mean_radiance;
     const double mean = scene.emitted_power / (4 * PI * radius * radius * PI) + sky_mean;
     const double disc = brightest_disc(scene);
-    const double surface = largest_radiance(scene, KIND_AREA | KIND_SKY); // what can fill pictures
+    const double surface = std::max(largest_radiance(scene, KIND_AREA | KIND_SKY), // what can fill pictures
+                                    scene.background ? largest_component(*scene.background) : 0.0);
     if (!(std::max({mean, disc, surface}) > 0))
         return scale_of_level(0);
     return scale_of_level(

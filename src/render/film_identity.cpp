@@ -72,6 +72,15 @@ const char* filter_name(Filter filter) {
     return "gaussian";
 }
 
+/// "sky", "transparent", or a radiance.
+FilmIdentity background_identity(const Scene& scene, const Options& options) {
+    if (has_transparent_background(options))
+        return TRANSPARENT_BACKGROUND;
+    if (!scene.background)
+        return "sky";
+    return {scene.background->x, scene.background->y, scene.background->z};
+}
+
 /// Hash of the kernels that the options name.
 std::string kernels_hash(const Options& options) {
     const KernelFiles files =
@@ -130,6 +139,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Fil
     identity["max_depth"] = params.max_depth;
     identity["roulette_depth"] = params.roulette_depth;
     identity["min_contribution"] = params.min_contribution;
+    identity["background"] = background_identity(scene, options);
     identity["paths"] = options.paths;
     identity["layers"] = FilmIdentity::array();
     for (const PathLayerOption& layer : options.path_layers)

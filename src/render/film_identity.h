@@ -30,6 +30,9 @@ struct FilmWindow {
 };
 FilmWindow film_window(const FilmIdentity& identity);
 
+/// The background of films whose pictures want an alpha channel, which the film does not hold.
+inline constexpr const char* TRANSPARENT_BACKGROUND = "transparent";
+
 /// Names of the layers of paths of an identity's film.
 std::vector<std::string> film_layer_names(const FilmIdentity& identity);
 

@@ -80,6 +80,9 @@ BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
 }
 
 bool wants_layers(const Options& options) {
+    const auto& outputs = options.outputs;
+    if (has_transparent_background(options) && std::any_of(outputs.begin(), outputs.end(), can_hold_alpha))
+        return true;
     const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_layered_output);
     if (!has_exr || !options.aovs)
         return has_exr;

@@ -99,7 +99,7 @@ void add_hit_layers(const Render& render, const Scene& scene, const Options& opt
     if (render.hits.empty())
         return;
     const HitLayerMaker maker(render, scene);
-    if (wants(options, "alpha"))
+    if (picture.is_transparent || wants(options, "alpha"))
         picture.layers.push_back(maker.alpha());
     if (wants(options, "albedo"))
         picture.layers.push_back(maker.albedo());
@@ -127,6 +127,7 @@ Picture make_plain_picture(const Render& render, const Options& options) {
     picture.full_width = options.size.x;
     picture.full_height = options.size.y;
     picture.layers.push_back({"", {"R", "G", "B"}, film_mean(render.film), false});
+    picture.is_transparent = has_transparent_background(options);
     return picture;
 }
 

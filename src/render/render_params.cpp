@@ -35,6 +35,10 @@ void set_camera(const Scene& scene, const Options& options, RenderParams& params
 void set_lights(const Scene& scene, RenderParams& params) {
     const Environment& sky = scene.environment;
     params.environment = to_vec4(sky.radiance);
+    if (scene.background) {
+        params.background = to_vec4(*scene.background);
+        params.background.w = 1;
+    }
     params.environment_width = sky.texels.empty() ? 0 : u32(sky.width);
     params.environment_height = sky.texels.empty() ? 0 : u32(sky.height);
     params.environment_cos = float(std::cos(sky.rotation_degrees * RADIANS));
@@ -107,7 +111,7 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     params.max_depth = u32(effective_max_depth(options));
     params.min_contribution = float(options.min_contribution);
     params.roulette_depth = u32(options.roulette_depth);
-    params.scene_extent = scene.extent;
+    params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);
     params.largest_contribution = float(std::min(scale.largest, double(FLT_MAX)));

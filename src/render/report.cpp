@@ -2,6 +2,7 @@
 #include "render/report.h"
 
 #include "paths/path_report.h"
+#include "scene/ground.h"
 #include "scene/normalise.h"
 
 #include <algorithm>
@@ -186,7 +187,7 @@ std::string report_json(const Report& report) {
     json["sampler"] = sampler_name(report.options.sampler);
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
-    json["triangles"] = report.scene.triangles.size();
+    json["triangles"] = file_triangles(report.scene);
     json["seconds"] = {{"load", report.load_seconds},       {"bvh", report.bvh.seconds},
                        {"compile", report.compile_seconds}, {"first_launch", render.first_launch_seconds},
                        {"render", render.run_seconds},      {"checks", render.check_seconds},

@@ -8,6 +8,7 @@
 #include "output/written_files.h"
 #include "render/picture.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <new>
 #include <spdlog/spdlog.h>
@@ -77,6 +78,17 @@ void FinalFiles::finish() const {
         throw SceneError(*first_error_);
 }
 
+void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        if (picture.is_transparent && is_output_path(path) && !can_hold_alpha(path))
+            spdlog::warn("{}: the format holds no alpha, so the transparent background is black", path);
+    if (picture.is_transparent && !picture_coverage(picture) &&
+        std::any_of(paths.begin(), paths.end(), can_hold_alpha))
+        spdlog::warn(
+            "the coverage of the pixels is not known here, so the transparent background is black and "
+            "pictures have no alpha");
+}
+
 void write_outputs(Report& report, FinalFiles& files) {
     const Options& options = report.options;
     Picture picture = picture_within_memory(report, files);
@@ -84,6 +96,7 @@ void write_outputs(Report& report, FinalFiles& files) {
     picture.metadata = report_metadata(report);
     if (options.auto_exposure)
         spdlog::info("{}", exposure_notice(report.exposure_ev));
+    warn_of_lost_alpha(picture, options.outputs);
     const Film& film = report.render.film;
     for (const std::string& name : options.outputs) {
         const std::string path = output_name(name, options, film);

@@ -30,6 +30,9 @@ private:
     std::optional<SceneError> first_error_;
 };
 
+/// Says which of these files cannot show a transparent picture's background, and why.
+void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& paths);
+
 /// Pictures and the statistics of a finished render; chooses the exposure first and puts it into the report.
 void write_outputs(Report& report, FinalFiles& files);
 

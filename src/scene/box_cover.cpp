@@ -127,8 +127,13 @@ BoxCover measure_box_cover(const std::vector<vec4>& positions, const std::vector
     return cover;
 }
 
+bool is_room(const BoxCover& cover) {
+    return std::count_if(cover.begin(), cover.end(), [](double c) { return c >= COVERED; }) >=
+           WALLS_OF_A_ROOM;
+}
+
 std::optional<BoxFace> open_side(const BoxCover& cover) {
-    if (std::count_if(cover.begin(), cover.end(), [](double c) { return c >= COVERED; }) < WALLS_OF_A_ROOM)
+    if (!is_room(cover))
         return std::nullopt;
     const size_t least = size_t(std::min_element(cover.begin(), cover.end()) - cover.begin());
     return cover[least] < COVERED ? std::optional(BOX_FACES[least]) : std::nullopt;

@@ -31,6 +31,9 @@ constexpr int WALLS_OF_A_ROOM = 4;
 /// Measures the cover on a grid of points per face.
 BoxCover measure_box_cover(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles);
 
+/// Whether so covered a scene is a room by its walls.
+bool is_room(const BoxCover& cover);
+
 /// The side through which a room that is closed elsewhere can be looked into.
 std::optional<BoxFace> open_side(const BoxCover& cover);
 

@@ -9,6 +9,7 @@
 #include "scene/emission.h"
 #include "scene/environment.h"
 #include "scene/far_notices.h"
+#include "scene/ground.h"
 #include "scene/lights.h"
 #include "scene/material_override.h"
 #include "scene/material_rules.h"
@@ -18,12 +19,14 @@
 #include "scene/obj_reader.h"
 #include "scene/scene_up.h"
 #include "scene/smoothing.h"
+#include "scene/studio.h"
 #include "scene/text_scanner.h"
 #include "scene/texture_store.h"
 #include "scene/vertex_colours.h"
 
 #include <chrono>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <new>
 #include <optional>
 
@@ -143,16 +146,30 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
     return exitance;
 }
 
-void load_lights(const Options& options, const std::vector<double>& exitance, double radius, Scene& scene,
-                 NoticeList& notices) {
+/// Fits the camera to the geometry. Returns which of the scene's sides are walls, as far as anybody asks.
+/// Emitters first, which the studio asks for; the ground last, which no fit may see.
+void load_camera_and_lights(const Options& options, const std::vector<double>& exitance, const Bounds& bounds,
+                            Scene& scene, NoticeList& notices) {
     Emitters emitters = build_emitters(scene.positions, scene.triangles, exitance);
-    Lights lights = build_lights(options.light, scene.normalisation, radius, notices);
-    const bool has_light =
-        !emitters.emitters.empty() || !options.light.points.empty() || !options.light.suns.empty();
     scene.emitters = std::move(emitters.emitters);
+    LightOptions light = options.light;
+    const bool has_light = !scene.emitters.empty() || !light.points.empty() || !light.suns.empty();
+    scene.is_studio = light.studio && !has_light && !light.environment && light.environment_file.empty();
+    scene.camera = fit_camera(options.camera, options.size, scene, bounds, notices);
+    note_far_options(scene.camera, bounds, options, notices);
+    const glm::dvec3 up = options.camera.up.value_or(DEFAULT_UP);
+    if (scene.is_studio)
+        light = studio_light(light, scene, up, notices);
+
+    Lights lights =
+        build_lights(light, scene.normalisation, bounds.radius() * scene.normalisation.scale, notices);
     scene.lights = std::move(lights.lights);
     scene.emitted_power = emitters.power + lights.power;
-    scene.environment = load_environment(options.light, has_light, sky_sampling(options.integrator), notices);
+    scene.environment = load_environment(light, has_light, sky_sampling(options.integrator), notices);
+    if (light.background)
+        scene.background = light.background->radiance;
+    if (light.ground && light.ground->albedo)
+        append_ground(glm::normalize(up), *light.ground->albedo, scene);
 }
 
 /// The options with the scene's own up where none is given.
@@ -200,10 +217,7 @@ Scene load_all(const Options& given, Progress& progress) {
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
                                      input_name(options.scene_path), cut.vast, cut.vast + cut.added));
     store_vertex_colours(scene, input_name(options.scene_path));
-    load_lights(options, exitance, bounds.radius() * scene.normalisation.scale, scene, notices);
-
-    scene.camera = fit_camera(options.camera, options.size, scene, bounds, notices);
-    note_far_options(scene.camera, bounds, options, notices);
+    load_camera_and_lights(options, exitance, bounds, scene, notices);
     scene.notices = notices.lines();
     return scene;
 }

@@ -7,6 +7,7 @@
 #include "output/named_file.h"
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,10 +76,14 @@ struct Scene {
     std::vector<Emitter> emitters;
     std::vector<Light> lights;
     Environment environment;
+    std::optional<glm::dvec3>
+        background;         ///< radiance that camera rays see outside the scene, not sky and suns
+    bool is_studio = false; ///< lit by the studio, because nothing else gives light
     Camera camera;
     Normalisation normalisation;
     SourcePlace first_smooth;         ///< the face that the first triangle with corner normals is from
-    float extent = 0;                 ///< largest |coordinate| of the geometry, normalised frame
+    float extent = 0;                 ///< largest |coordinate| of the file's geometry, normalised frame
+    float ground_extent = 0;          ///< the same of the ground, whose triangles are the last; 0: none
     double emitted_power = 0;         ///< luminance of all lights but the environment, normalised frame
     std::vector<std::string> notices; ///< every fallback, one line each, for the log and --explain
     std::vector<NamedFile> files;     ///< all that were opened, those that could not be understood too

@@ -58,7 +58,7 @@ TEST_F(Information, ExplainTellsWhatWouldBeRenderedAndWritesNothing) {
     const auto result = clrt({"scene.obj", "--explain"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_TRUE(holds(result.out, {"scene.obj (2 triangles)", "present  matte ", "absent   refraction",
-                                   "Materials:", "Notices:", "none.mtl", "white sky"}));
+                                   "Materials:", "Notices:", "none.mtl", "a studio"}));
     EXPECT_EQ(listing(), std::vector<std::string>{"scene.obj"});
 }
 
@@ -83,7 +83,8 @@ TEST_F(Information, LeavingAnEffectOutIsSaidAndNearMissesAreToldTheName) {
 
 TEST_F(Information, TheLedgerBillsEveryEffectAndWritesNoPicture) {
     write_square("scene");
-    const auto result = clrt({"scene.obj", "--ledger", "-s", "2", "-r", "16x12", "--stats", "bill.json"});
+    const auto result =
+        clrt({"scene.obj", "--ledger", "-s", "2", "-r", "16x12", "--env", "1,1,1", "--stats", "bill.json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.out, {"Ledger of scene.obj: 16 x 12, path", "environment", "matte",
                                    "interreflection", "by the full program", "Compiling for the scene"}));

@@ -16,7 +16,7 @@ protected:
     CommandResult render(const std::string& obj, const std::vector<std::string>& more = {}) const {
         folder.write("odd.obj", obj);
         std::filesystem::remove(folder.file("odd.png"));
-        std::vector<std::string> arguments = quick({"odd.obj"});
+        std::vector<std::string> arguments = quick({"odd.obj", "--env", "1,1,1"});
         arguments.insert(arguments.end(), more.begin(), more.end());
         return clrt(arguments);
     }

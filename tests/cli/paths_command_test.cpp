@@ -15,7 +15,7 @@ class PathsCommand : public ClrtCommand {
 protected:
     void SetUp() override { write_square("scene"); }
     static std::vector<std::string> small(std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), {"scene.obj", "-s", "8", "-r", "16x12"});
+        arguments.insert(arguments.end(), {"scene.obj", "-s", "8", "-r", "16x12", "--env", "1,1,1"});
         return arguments;
     }
     nlohmann::json statistics(const std::string& name) const {

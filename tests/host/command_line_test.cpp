@@ -60,6 +60,9 @@ const std::map<std::string, std::string>& samples() {
         {"--sun", "1,2,3,4,5,6,0.5"},
         {"--point", "-1,2,3,4,5,6"},
         {"--two-sided-lights", ""},
+        {"--studio", "auto"},
+        {"--ground", "none"},
+        {"--background", "transparent"},
         {"--explain", ""},
         {"--ledger", ""},
         {"--effects", "all"},
@@ -223,6 +226,18 @@ TEST(CommandLine, CameraOptionsArrive) {
     EXPECT_EQ(o.camera.focal_length, 35.0);
     EXPECT_EQ(o.camera.film_width, 24.0);
     EXPECT_EQ(parse({"--fov", "39.3"}).camera.fov_degrees, 39.3);
+}
+
+TEST(CommandLine, StudioOptionsArrive) {
+    EXPECT_TRUE(parse({}).light.studio);
+    EXPECT_FALSE(parse({}).light.ground || parse({}).light.background);
+    EXPECT_FALSE(parse({"--studio", "off"}).light.studio);
+    EXPECT_EQ(parse({"--ground", "0.1,0.2,1"}).light.ground->albedo, glm::dvec3(0.1, 0.2, 1));
+    EXPECT_TRUE(parse({"--ground", "none"}).light.ground &&
+                !parse({"--ground", "none"}).light.ground->albedo);
+    EXPECT_EQ(parse({"--background", "9,0,1"}).light.background->radiance, glm::dvec3(9, 0, 1));
+    EXPECT_TRUE(has_transparent_background(parse({"--background", "transparent"})));
+    EXPECT_FALSE(has_transparent_background(parse({"--background", "transparent", "--background", "1,1,1"})));
 }
 
 TEST(CommandLine, LightOptionsArrive) {

@@ -21,9 +21,11 @@ Scene load(Options options) {
     return load_scene(options, progress);
 }
 
+/// Without the studio, whose ground is not of the file.
 Scene load(const std::string& path) {
     Options options;
     options.scene_path = path;
+    options.light.studio = false;
     return load(options);
 }
 

@@ -74,7 +74,7 @@ const Layout ENVIRONMENT_TEXEL = {
 const Layout RENDER_PARAMS = {
     "RenderParams",
     sizeof(RenderParams),
-    {M(eye), M(film_dx), M(film_dy), M(look), M(environment), M(width), M(height),
+    {M(eye), M(film_dx), M(film_dy), M(look), M(environment), M(background), M(width), M(height),
      M(crop_x), M(crop_y), M(crop_width), M(crop_height), M(first_sample), M(sample_count), M(replicates), M(first_replicate),
      M(dealt_replicates),
      M(film_replicates), M(seed), M(max_depth), M(min_contribution), M(filter), M(filter_radius),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 clrt_test(render adaptive_render_test)
+clrt_test(render background_test)
 clrt_test(render cut_out_test)
 clrt_test(render cut_paths_test)
 clrt_test(render direct_light_test)
@@ -30,5 +31,6 @@ set_tests_properties(render.seeded_faults PROPERTIES TIMEOUT 3600) # CLRT_TEST_L
 clrt_test(render scarce_memory_test)
 clrt_test(render shading_normal_test)
 clrt_test(render sky_light_test)
+clrt_test(render studio_picture_test)
 clrt_test(render surface_sides_test)
 clrt_test(render textured_picture_test)

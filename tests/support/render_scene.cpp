@@ -76,6 +76,7 @@ TestScene::TestScene() {
     options.spp = 1024;
     options.replicates = 64;
     options.all_effects = true;
+    options.light.studio = false;
 }
 
 void TestScene::look(const glm::dvec3& eye, const glm::dvec3& at, double fov_degrees) {

@@ -221,6 +221,7 @@ Options scene_options(const BenchOptions& bench, const std::string& scene) {
         arguments.insert(arguments.end(), {"--", scene.c_str()});
         options = parse_command_line(int(arguments.size()), arguments.data()).options;
     }
+    options.light.studio = false; // its ground is not of the scene
     options.device = bench.clrt.device;
     options.bvh = bench.clrt.bvh;
     options.bvh_quality = bench.clrt.bvh_quality;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output/flat_pixels.h"
+
+namespace clrt {
+
+FlatPixels::FlatPixels(const Picture& picture, const std::string& path)
+    : picture_(picture), alpha_(can_hold_alpha(path) ? picture_coverage(picture) : nullptr) {}
+
+OIIO::ImageSpec FlatPixels::spec(OIIO::TypeDesc type) const {
+    OIIO::ImageSpec spec(picture_.width, picture_.height, channels(), type);
+    if (alpha_)
+        spec.attribute("oiio:UnassociatedAlpha", 1); // else colours are taken for multiplied by alpha
+    return spec;
+}
+
+const std::vector<float>& FlatPixels::row(int y) {
+    const size_t width = size_t(picture_.width), first = size_t(y) * width;
+    const std::vector<float>& radiance = picture_.layers[0].values;
+    row_.clear();
+    for (size_t pixel = first; pixel < first + width; ++pixel) {
+        const float alpha = alpha_ ? (*alpha_)[pixel] : 1;
+        for (size_t c = 0; c < 3; ++c)
+            row_.push_back(alpha > 0 ? radiance[3 * pixel + c] / alpha : 0);
+        if (alpha_)
+            row_.push_back(alpha);
+    }
+    return row_;
+}
+
+} // namespace clrt
