@@ -23,6 +23,7 @@
 #include "scene/text_scanner.h"
 #include "scene/texture_store.h"
 #include "scene/vertex_colours.h"
+#include "scene/view_frame.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -146,7 +147,6 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
     return exitance;
 }
 
-/// Fits the camera to the geometry. Returns which of the scene's sides are walls, as far as anybody asks.
 /// Emitters first, which the studio asks for; the ground last, which no fit may see.
 void load_camera_and_lights(const Options& options, const std::vector<double>& exitance, const Bounds& bounds,
                             Scene& scene, NoticeList& notices) {
@@ -185,7 +185,7 @@ Options with_up(const Options& given, const ObjMesh& mesh, const Bounds& bounds,
         notices.add_line(fmt::format(options.camera.up
                                          ? "{}: z is taken as up, --up z, since {}; --up y keeps y"
                                          : "{}: it looks as if z is up, since {}: --up z turns it",
-                                     options.scene_path, found.reason));
+                                     input_name(options.scene_path), found.reason));
     return options;
 }
 
