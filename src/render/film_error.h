@@ -17,13 +17,25 @@ struct SquaredError {
     double mean_radiance = 0;  ///< over pixels and channels
     std::vector<double>
         without; ///< mean_squared of the pictures that leave out one replicate; empty under four
+    /// Of freedom, of the picture's squared error: as many equal pixels of one channel would scatter as it
+    /// does. 0 under four replicates and without an error.
+    double degrees = 0;
 };
 
 /// None when fewer than two replicates have samples. The same film gives the same bits.
 std::optional<SquaredError> film_squared_error(const Film& film);
 
 /// Relative error of the picture: sqrt(mean over pixels and channels of the variance of the mean) / mean
-/// radiance, with a 95 % interval by the jackknife over replicates (on the logarithm, Student's t).
+/// radiance, with a 95 % interval for the error that this very picture has, |picture - truth| instead of the
+/// variance.
+///
+/// Let d_k be how far the mean of replicate k of n is off, in all channels of all pixels. The picture's
+/// squared error |sum d_k|^2 / n^2 differs from its estimate by the sum over pairs of replicates of d_k.d_l /
+/// (n(n-1)), whose variance is 2 / (n (n-1)) times the sum over the pixels, which are independent, of tr(C^2)
+/// with the covariance C of a replicate's channels: no fourth moment is in it, whatever the distribution,
+/// because bright samples that are rare are in the error as well as in its estimate. With nu degrees of
+/// freedom of the sum over the pixels (Satterthwaite 1946) this is the variance of Fisher's F with nu and
+/// (n-1) nu degrees, which is the distribution of the ratio where the d_k are normal.
 struct FilmError {
     double relative_rmse = 0;
     std::optional<double> low, high; ///< none under four replicates

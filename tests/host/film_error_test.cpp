@@ -2,6 +2,7 @@
 // Errors, intervals, slopes and prices from made-up sums, against direct computation and the truth.
 #include "render/film_error.h"
 
+#include "render/f_distribution.h"
 #include "support/noise_film.h"
 #include "support/statistics.h"
 
@@ -60,15 +61,32 @@ TEST(FilmError, TheErrorIsRootMeanSquareOverTheMean) {
     EXPECT_NEAR(error->relative_rmse, std::sqrt(mean_squared_error(film, -1)) / mean, 1e-6);
     EXPECT_NEAR(error->relative_rmse, 1 / std::sqrt(80.0) / 2, 0.01);
 
-    // Jackknife of the logarithm: mean and spread of what leaves out one; half of it belongs to the root.
-    std::vector<double> logs;
-    for (int r = 0; r < 8; ++r)
-        logs.push_back(std::log(mean_squared_error(film, r)));
-    const double spread = std::sqrt(moments_of(logs).variance * 7 * 7 / 8);
-    const double t = 2.3646242516; // 97.5 % of Student's distribution with 7 degrees of freedom
+    // 90 values of equal noise have 90 degrees of freedom, known by seven times as many.
+    const double degrees = film_squared_error(film)->degrees;
+    EXPECT_NEAR(degrees, 90, 15);
     ASSERT_TRUE(error->low && error->high);
-    EXPECT_NEAR(*error->high / error->relative_rmse, std::exp(0.5 * t * spread), 1e-3);
-    EXPECT_NEAR(*error->low * *error->high, error->relative_rmse * error->relative_rmse, 1e-9);
+    for (const auto& [bound, probability] : {std::pair{*error->low, 0.025}, {*error->high, 0.975}})
+        EXPECT_NEAR(f_probability(std::pow(bound / error->relative_rmse, 2), degrees, 7 * degrees),
+                    probability, 1e-7);
+}
+
+TEST(FilmError, DegreesOfFreedomCountPixelsAndChannelsThatGoTogetherOnce) {
+    std::mt19937 random(12);
+    std::normal_distribution<double> normal;
+    double degrees = 0;
+    constexpr int TRIALS = 200;
+    for (int trial = 0; trial < TRIALS; ++trial) {
+        Film film = empty_film(10, 10, 8, 0, 8);
+        fill_with_noise(film, 10, 0, random);
+        for (size_t r = 0; r < 8; ++r)
+            for (size_t pixel = 0; pixel < 25; ++pixel) { // the others have none
+                const auto off = std::llround(normal(random) / film.scale.quantum);
+                for (size_t c = 0; c < 3; ++c)
+                    film.sums[r * film_plane(film) + 3 * pixel + c] += off;
+            }
+        degrees += film_squared_error(film)->degrees / TRIALS;
+    }
+    EXPECT_NEAR(degrees, 25, 1);
 }
 
 TEST(FilmError, UnderFourReplicatesThereIsNoInterval) {
@@ -89,25 +107,6 @@ TEST(FilmError, APictureWithoutNoiseHasErrorZeroAndABlackOneNone) {
     EXPECT_EQ(error->relative_rmse, 0);
     film.sums.assign(film.sums.size(), 0);
     EXPECT_FALSE(film_error(film));
-}
-
-TEST(FilmError, TheIntervalHoldsTheTrueErrorAsOftenAsItSays) {
-    std::mt19937 random(5);
-    for (const int replicates : {4, 8, 32}) {
-        int covered = 0;
-        const int trials = 400;
-        for (int trial = 0; trial < trials; ++trial) {
-            Film film = empty_film(4, 4, replicates, 0, std::uint64_t(4 * replicates));
-            fill_with_noise(film, 10, 1, random);
-            const auto error = film_error(film);
-            ASSERT_TRUE(error && error->low && error->high);
-            const double truth = 1 / std::sqrt(4.0 * replicates) / 10;
-            covered += *error->low <= truth && truth <= *error->high;
-        }
-        // 380 expected; the standard deviation is 4.4.
-        EXPECT_GE(covered, 355) << replicates;
-        EXPECT_LE(covered, 399) << replicates;
-    }
 }
 
 TEST(FilmError, TheSlopeIsThatOfTheLine) {
