@@ -4,9 +4,9 @@
 #include "render/f_distribution.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -43,21 +43,29 @@ struct ErrorSums {
     }
 };
 
-/// Estimates tr(C^2) of a pixel from the deviations of its n replicates, channel by channel: unbiased for
-/// normal ones (Srivastava 2005, "Some tests concerning the covariance matrix in high dimensional data").
-/// Of samples with rare bright values, which are hard to tell from few replicates, it is too large.
+/// Estimates tr(C^2) of a pixel from the deviations of its n replicates, channel by channel: the variance of
+/// the products d_k.d_l over pairs of replicates, whose squares are those of all products, which are tr((sum
+/// d_k d_k^T)^2), without the |d_k|^4, and whose sum is that of -d_k.d_k. What the mean of the replicates
+/// instead of the truth makes of it is taken back as for normal ones, of which the mean square is (1 - 1/n)^2
+/// tr(C^2) + (tr(C)^2 + tr(C^2)) / n^2.
 double squared_covariance(const std::vector<double>& deviations, size_t replicates) {
-    const double degrees = double(replicates) - 1;
-    double squares = 0, trace = 0;
-    for (size_t a = 0; a < 3; ++a)
-        for (size_t b = 0; b <= a; ++b) {
-            const double* first = &deviations[a * replicates];
-            const double covariance =
-                std::inner_product(first, first + replicates, &deviations[b * replicates], 0.0) / degrees;
-            squares += (a == b ? 1 : 2) * covariance * covariance;
-            trace += a == b ? covariance : 0;
-        }
-    return degrees * degrees / ((degrees + 2) * (degrees - 1)) * (squares - trace * trace / degrees);
+    const double n = double(replicates);
+    std::array<double, 6> products{};
+    double trace = 0, fourth = 0;
+    for (size_t k = 0; k < replicates; ++k) {
+        const double r = deviations[k], g = deviations[replicates + k], b = deviations[2 * replicates + k];
+        const double square = r * r + g * g + b * b;
+        const double of_replicate[] = {r * r, g * g, b * b, r * g, r * b, g * b};
+        for (size_t i = 0; i < products.size(); ++i)
+            products[i] += of_replicate[i];
+        trace += square;
+        fourth += square * square;
+    }
+    double squares = -fourth;
+    for (size_t i = 0; i < products.size(); ++i)
+        squares += (i < 3 ? 1 : 2) * products[i] * products[i];
+    const double pairs = n * (n - 1), mean = trace / pairs;
+    return (squares / pairs - mean * mean) / ((1 - 1 / n) * (1 - 1 / n) + (1 - 2 / (n - 1)) / (n * n));
 }
 
 /// Adds the pixels of a range. With deviations d_k from the mean of n replicates and S = sum d_k^2, leaving
@@ -85,10 +93,11 @@ void add_pixels(const ReplicateMeans& replicates, size_t begin, size_t end, Erro
 /// sum tr C^2. `squared` is the sum of estimates of tr C / n; the square of the estimate is larger than that
 /// of what it estimates by its variance.
 double degrees_of(double squared, double covariances, double n) {
-    if (!(covariances > 0))
+    if (!(squared > 0))
         return 0;
     const double trace = squared * n;
-    return std::max(trace * trace / covariances - 2 / (n - 1), 1.0);
+    const double ratio = covariances > 0 ? trace * trace / covariances : MOST_DEGREES;
+    return std::max(ratio - 2 / (n - 1), 1.0);
 }
 
 /// 97.5 % quantile of Student's t for 1 to 63 degrees of freedom (Abramowitz and Stegun, table 26.10, by
@@ -210,7 +219,8 @@ std::optional<SquaredError> film_squared_error(const Film& film) {
     SquaredError error{film_samples(film), sums.squared / values, sums.mean / values, sums.without};
     for (double& squared : error.without)
         squared /= values;
-    error.degrees = degrees_of(sums.squared, sums.covariances, double(count));
+    if (!sums.without.empty())
+        error.degrees = degrees_of(sums.squared, sums.covariances, double(count));
     return error;
 }
 

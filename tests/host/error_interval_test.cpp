@@ -100,10 +100,11 @@ const Case CASES[] = {
     {"five pixels at the edge of a lamp",
      [](std::mt19937& random, size_t pixel) { return glm::dvec3((pixel < 5 ? 4 : 0.02) * normal(random)); },
      0.93, 0.97},
+    // What few replicates tell of a single pixel, and of noise that ends at hard bounds, is a little too
+    // sure.
     {"one pixel",
-     [](std::mt19937& random, size_t pixel) { return glm::dvec3(pixel == 7 ? 4 * normal(random) : 0); }, 0.93,
+     [](std::mt19937& random, size_t pixel) { return glm::dvec3(pixel == 7 ? 4 * normal(random) : 0); }, 0.9,
      0.97},
-    // A hard edge within the pixel, say. Four replicates tell its scatter as if it were normal.
     {"bounded",
      [](std::mt19937& random, size_t pixel) {
          return glm::dvec3(scale_of(pixel) * std::uniform_real_distribution<double>(-1, 1)(random));
