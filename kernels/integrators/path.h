@@ -252,6 +252,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
         path_escape(scene, params, path, sample);
         return;
     }
+    rays->shown = 1u;
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     TRACE_SURFACE(scene, &surface);
 

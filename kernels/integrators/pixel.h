@@ -72,7 +72,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
                                              global long* film, global uint* pixel_rays,                      \
                                              global volatile uint* counters)                                  \
     {                                                                                                         \
-        PixelRays rays = {0u, 0u, 0u, 0ul};                                                                   \
+        PixelRays rays = {0u, 0u, 0u, 0ul, 0u};                                                               \
         const SampleRange range = tile_samples(params, pixel_rays, place.slot);                               \
         SampleCounter counter = sample_counter_make(params, range.first);                                     \
         CameraSample samples[SAMPLES_AT_ONCE];                                                                \

@@ -22,6 +22,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
         TRACE_VECTOR(scene, TRACE_ADDED, sky);
         return sky;
     }
+    rays->shown = 1u;
     const Surface surface = visible_surface(scene, params, &ray, &hit);
     TRACE_SURFACE(scene, &surface);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {

@@ -112,6 +112,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
             TRACE_VECTOR(scene, TRACE_ADDED, current.weight * sky);
             continue;
         }
+        rays->shown = 1u;
         const Surface surface = visible_surface(scene, params, &current.ray, &hit);
         TRACE_SURFACE(scene, &surface);
         if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {

@@ -22,19 +22,34 @@ constexpr double SLOWEST_SLOPE = -0.1;     ///< half the error for 1024 times th
 constexpr size_t TAIL_PART = 1000;         ///< the tail is this part of the pixels
 constexpr double ALONE = 0.9; ///< of a single event's share: 1 of 200 pixels of normal noise, 8 replicates
 constexpr size_t PIXELS_AT_ONCE =
-    1u << 13;                     ///< of a parallel sum: its order, and so its bits, follow from this
+    1u << 13; ///< of a parallel sum: its order, and so its bits, follow from this
+constexpr size_t FEWEST_OF_TILE =
+    8;                            ///< a tile's pixels of the scene count as this part of its pixels at least
 constexpr double OUTSIDE = 0.025; ///< probability on either side of an interval of 95 %
 /// The width of 0.5 % that it leaves to an interval is less than what a reader makes of it.
 constexpr double MOST_DEGREES = 1e5;
 
+/// Tells whether an error is stated over a pixel.
+class PixelChoice {
+public:
+    PixelChoice(const Film& film, ErrorPixels pixels)
+        : shown_(pixels == ErrorPixels::SCENE && has_backdrop(film) ? film.shown.data() : nullptr) {}
+    bool has(size_t pixel) const { return !shown_ || shown_[pixel]; }
+
+private:
+    const std::uint8_t* shown_;
+};
+
 /// Sums over pixels of their squared error and mean, with and without each replicate.
 struct ErrorSums {
+    size_t pixels = 0;
     double squared = 0, mean = 0;
     double covariances = 0; ///< estimates of tr(C^2), C being the covariance of a replicate's channels
     std::vector<double> without;
 
     explicit ErrorSums(size_t replicates) : without(replicates, 0.0) {}
     void add(const ErrorSums& other) {
+        pixels += other.pixels;
         squared += other.squared;
         mean += other.mean;
         covariances += other.covariances;
@@ -68,14 +83,18 @@ double squared_covariance(const std::vector<double>& deviations, size_t replicat
     return (squares / pairs - mean * mean) / ((1 - 1 / n) * (1 - 1 / n) + (1 - 2 / (n - 1)) / (n * n));
 }
 
-/// Adds the pixels of a range. With deviations d_k from the mean of n replicates and S = sum d_k^2, leaving
-/// out k leaves S - d_k^2 n / (n - 1).
-void add_pixels(const ReplicateMeans& replicates, size_t begin, size_t end, ErrorSums& sums) {
+/// Adds the chosen pixels of a range. With deviations d_k from the mean of n replicates and S = sum d_k^2,
+/// leaving out k leaves S - d_k^2 n / (n - 1).
+void add_pixels(const ReplicateMeans& replicates, const PixelChoice& choice, size_t begin, size_t end,
+                ErrorSums& sums) {
     const size_t count = replicates.count();
     const double n = double(count);
     std::vector<double> deviations(3 * count);
     double squares = 0;
     for (size_t pixel = begin; pixel < end; ++pixel) {
+        if (!choice.has(pixel))
+            continue;
+        ++sums.pixels;
         for (size_t c = 0; c < 3; ++c) {
             double* of_channel = &deviations[c * count];
             sums.mean += replicates.read_deviations(3 * pixel + c, of_channel, squares);
@@ -156,9 +175,9 @@ PixelSquares pixel_squares(const ReplicateMeans& replicates, size_t pixel, std::
     return result;
 }
 
-/// Squared errors of all pixels.
+/// Squared errors of the pixels.
 struct PixelErrors {
-    std::vector<double> variance; ///< of each pixel's mean, summed over channels
+    std::vector<double> variance; ///< of each pixel's mean, summed over channels; 0 beside the scene
     double once = 0;              ///< sum of those that rest on one replicate
     double once_squared = 0;      ///< sum of their squares
 };
@@ -166,7 +185,7 @@ struct PixelErrors {
 /// Finds the pixels in which one replicate stands alone: of n deviations it holds nearly (n - 1) / n of the
 /// squares, which is what a single event gives. Such a pixel tells of an event that may as well have been
 /// missed.
-PixelErrors pixel_errors(const Film& film) {
+PixelErrors pixel_errors(const Film& film, const PixelChoice& scene) {
     const ReplicateMeans replicates(film);
     const double n = double(replicates.count());
     PixelErrors errors;
@@ -175,6 +194,8 @@ PixelErrors pixel_errors(const Film& film) {
     errors.variance.resize(film_plane(film) / 3);
     std::vector<double> deviations(replicates.count()), squares(replicates.count());
     for (size_t i = 0; i < errors.variance.size(); ++i) {
+        if (!scene.has(i))
+            continue;
         const PixelSquares found = pixel_squares(replicates, i, deviations, squares);
         const double variance = found.sum / (n * (n - 1));
         errors.variance[i] = variance;
@@ -186,36 +207,49 @@ PixelErrors pixel_errors(const Film& film) {
     return errors;
 }
 
-/// Mean over a tile's pixels; (x, y) is its top left pixel.
-double tile_mean(const std::vector<double>& pixels, const Film& film, int x, int y) {
+/// Mean over a tile's pixels that show the scene; (x, y) is its top left pixel. Few of them do not make it
+/// the worst: an edge alone is noisier than what it belongs to.
+double tile_mean(const std::vector<double>& pixels, const Film& film, const PixelChoice& scene, int x,
+                 int y) {
     const int end_x = std::min(x + ERROR_TILE_SIZE, film.width),
               end_y = std::min(y + ERROR_TILE_SIZE, film.height);
     double sum = 0;
+    size_t count = 0;
     for (int row = y; row < end_y; ++row)
-        for (int column = x; column < end_x; ++column)
-            sum += pixels[size_t(row) * size_t(film.width) + size_t(column)];
-    return sum / (double(end_x - x) * double(end_y - y));
+        for (int column = x; column < end_x; ++column) {
+            const size_t pixel = size_t(row) * size_t(film.width) + size_t(column);
+            sum += pixels[pixel];
+            count += scene.has(pixel);
+        }
+    const double all = double(end_x - x) * double(end_y - y);
+    return sum / std::max(double(count), all / FEWEST_OF_TILE);
 }
 
 } // namespace
 
-std::optional<SquaredError> film_squared_error(const Film& film) {
+bool has_backdrop(const Film& film) {
+    const std::optional<size_t> shown = film_shown_pixels(film);
+    return shown && *shown > 0 && *shown < film.shown.size();
+}
+
+std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels) {
     const ReplicateMeans replicates(film);
     const size_t count = replicates.count();
     if (count < 2)
         return std::nullopt;
+    const PixelChoice choice(film, pixels);
     const ErrorSums none(count >= FEWEST_FOR_INTERVAL ? count : 0);
     const ErrorSums sums = tbb::parallel_deterministic_reduce(
         tbb::blocked_range<size_t>(0, film_plane(film) / 3, PIXELS_AT_ONCE), none,
         [&](const tbb::blocked_range<size_t>& range, ErrorSums part) {
-            add_pixels(replicates, range.begin(), range.end(), part);
+            add_pixels(replicates, choice, range.begin(), range.end(), part);
             return part;
         },
         [](ErrorSums a, const ErrorSums& b) {
             a.add(b);
             return a;
         });
-    const double values = double(film_plane(film));
+    const double values = 3 * double(sums.pixels);
     SquaredError error{film_samples(film), sums.squared / values, sums.mean / values, sums.without};
     for (double& squared : error.without)
         squared /= values;
@@ -238,8 +272,8 @@ std::optional<FilmError> relative_error(const SquaredError& squared) {
     return error;
 }
 
-std::optional<FilmError> film_error(const Film& film) {
-    const std::optional<SquaredError> squared = film_squared_error(film);
+std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels) {
+    const std::optional<SquaredError> squared = film_squared_error(film, pixels);
     return squared ? relative_error(*squared) : std::nullopt;
 }
 
@@ -269,13 +303,17 @@ std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history) 
 }
 
 std::optional<ErrorSpread> film_error_spread(const Film& film) {
-    PixelErrors errors = pixel_errors(film);
+    const PixelChoice scene(film, ErrorPixels::SCENE);
+    PixelErrors errors = pixel_errors(film, scene);
     std::vector<double>& pixels = errors.variance;
     double total = 0, radiance = 0;
     for (const double variance : pixels)
         total += variance;
-    for (const float value : film_mean(film))
-        radiance += double(value) / double(film_plane(film));
+    const size_t scene_pixels = has_backdrop(film) ? *film_shown_pixels(film) : film_plane(film) / 3;
+    const std::vector<float> picture = film_mean(film);
+    for (size_t i = 0; i < picture.size(); ++i)
+        if (scene.has(i / 3))
+            radiance += double(picture[i]) / (3 * double(scene_pixels));
     if (!(total > 0) || !(radiance > 0))
         return std::nullopt;
 
@@ -289,7 +327,7 @@ std::optional<ErrorSpread> film_error_spread(const Film& film) {
     double worst = -1;
     for (int y = 0; y < film.height; y += ERROR_TILE_SIZE)
         for (int x = 0; x < film.width; x += ERROR_TILE_SIZE)
-            if (const double mean = tile_mean(pixels, film, x, y); mean > worst) {
+            if (const double mean = tile_mean(pixels, film, scene, x, y); mean > worst) {
                 worst = mean;
                 spread.tile_x = x;
                 spread.tile_y = y;
@@ -297,7 +335,7 @@ std::optional<ErrorSpread> film_error_spread(const Film& film) {
     spread.worst_tile = std::sqrt(worst / 3) / radiance;
 
     // Sum the noisiest pixels.
-    spread.tail_pixels = (pixels.size() + TAIL_PART - 1) / TAIL_PART;
+    spread.tail_pixels = (scene_pixels + TAIL_PART - 1) / TAIL_PART;
     const auto tail_end = pixels.begin() + std::ptrdiff_t(spread.tail_pixels);
     std::nth_element(pixels.begin(), tail_end - 1, pixels.end(), std::greater<>());
     std::sort(pixels.begin(), tail_end); // one order of summation

@@ -109,6 +109,56 @@ TEST(FilmError, APictureWithoutNoiseHasErrorZeroAndABlackOneNone) {
     EXPECT_FALSE(film_error(film));
 }
 
+// A white backdrop without noise in the upper half of a picture.
+TEST(FilmError, TheErrorIsThatOfThePixelsThatShowTheScene) {
+    std::mt19937 random(13);
+    Film scene = empty_film(40, 20, 8, 0, 64), film = empty_film(40, 40, 8, 0, 64);
+    fill_with_noise(scene, 2, 1, random);
+    fill_with_noise(film, 50, 0, random);
+    for (size_t r = 0; r < 8; ++r)
+        std::copy_n(&scene.sums[r * film_plane(scene)], film_plane(scene),
+                    &film.sums[r * film_plane(film) + film_plane(scene)]);
+    const FilmError whole = *film_error(film), alone = *film_error(scene);
+    EXPECT_LT(whole.relative_rmse, alone.relative_rmse / 10);
+
+    const auto expect_same = [](const FilmError& a, const FilmError& b) {
+        EXPECT_DOUBLE_EQ(a.relative_rmse, b.relative_rmse);
+        EXPECT_NEAR(*a.low, *b.low, 1e-9);
+        EXPECT_NEAR(*a.high, *b.high, 1e-9);
+    };
+    film.shown.assign(800, 0);
+    film.shown.resize(1600, 1);
+    EXPECT_TRUE(has_backdrop(film));
+    expect_same(*film_error(film), alone);
+    expect_same(*film_error(film, ErrorPixels::ALL), whole);
+    EXPECT_NEAR(film_error_spread(film)->worst_tile, alone.relative_rmse, 0.1 * alone.relative_rmse);
+    EXPECT_EQ(film_error_spread(film)->tail_pixels, 1u) << "of 800";
+
+    // Pictures full of it, without it, and of which that is not known.
+    for (const std::vector<std::uint8_t>& shown :
+         {std::vector<std::uint8_t>(1600, 1), std::vector<std::uint8_t>(1600, 0),
+          std::vector<std::uint8_t>()}) {
+        film.shown = shown;
+        EXPECT_FALSE(has_backdrop(film));
+        expect_same(*film_error(film), whole);
+    }
+}
+
+TEST(FilmError, AFewPixelsOfTheSceneInATileDoNotMakeItTheWorst) {
+    std::mt19937 random(14);
+    Film film = empty_film(64, 32, 8, 0, 64); // two tiles
+    fill_with_noise(film, 10, 1, random);
+    film.shown.assign(64 * 32, 0);
+    for (size_t i = 0; i < film.shown.size(); ++i)
+        film.shown[i] = i % 64 < 32 || i == 63;
+    std::normal_distribution<double> noise(0,
+                                           8 * 2); // of that one pixel: nearly six times that of the others
+    for (size_t r = 0; r < 8; ++r)
+        for (size_t c = 0; c < 3; ++c)
+            film.sums[r * film_plane(film) + 3 * 63 + c] += std::llround(noise(random) / film.scale.quantum);
+    EXPECT_EQ(film_error_spread(film)->tile_x, 0);
+}
+
 TEST(FilmError, TheSlopeIsThatOfTheLine) {
     const auto slope = error_slope(falling_errors(0.5, -1.4, 4));
     ASSERT_TRUE(slope);

@@ -107,6 +107,12 @@ COLUMNS = ["scene", "device", "integrator", "precision", "sampler", "seed", "spp
 BAD_SAMPLES = ("nan", "infinite", "negative", "overflow")
 
 
+def own_error(stats):
+    """What a render says of its error over all pixels, over which the study compares; None where it does not know."""
+    error = stats.get("error", {})
+    return error.get("whole_picture", error).get("rel_rmse")
+
+
 def _row(run, scene):
     stats, point = run.stats, run.point
     seconds = stats["seconds"]
@@ -114,7 +120,7 @@ def _row(run, scene):
             point.spp, stats["width"], stats["height"], int(point.cold), *(f"{seconds[name]:.6f}" for name in (
                 "load", "bvh", "compile", "first_launch", "render", "total")), f"{run.cpu_seconds:.6f}",
             repr(run.mse), "" if run.rel_rmse is None else repr(run.rel_rmse), repr(run.relmse),
-            stats.get("error", {}).get("rel_rmse") or "", sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES), run.command]
+            own_error(stats) or "", sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES), run.command]
 
 
 def write_csv(path, runs, scene):
