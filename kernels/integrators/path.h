@@ -249,10 +249,10 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     path->is_alive = false;
     TRACE_HIT(scene, segment, 0u, &path->ray, &path->hit);
     if (path->hit.triangle == NO_INDEX) {
+        rays->missed += segment == 1u ? 1u : 0u;
         path_escape(scene, params, path, sample);
         return;
     }
-    rays->shown = 1u;
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     TRACE_SURFACE(scene, &surface);
 

@@ -83,7 +83,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             RADIANCE(scene, params, samples, count, &rays);                                                   \
             pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
         }                                                                                                     \
-        film_add_counts(&rays, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));                         \
+        film_add_counts(&rays, range.count, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));           \
     }                                                                                                         \
                                                                                                               \
     CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
