@@ -8,11 +8,13 @@
 #include "numerics/vector.h"
 #include "shared/render_types.h"
 
-/* Rays that a work-item has traced besides its primary rays, and paths that max_depth has cut. */
+/* Rays that a work-item has traced besides its primary rays, paths that max_depth has cut, and primary rays that have left the
+   scene: counting those costs nothing where there are none. */
 typedef struct {
     uint secondary, shadow;
     uint cut;
     ulong cut_weight; /* sum of what the cut paths would have weighed, in units of 1 / CUT_WEIGHT_UNITS */
+    uint missed;
 } PixelRays;
 
 /* Counts a path that max_depth has cut; `weight` is that of the radiance which it would have met next. */
@@ -24,11 +26,12 @@ static inline void film_count_cut(real3 weight, PixelRays* rays)
     rays->cut_weight += convert_ulong(ceil(counted * (real)CUT_WEIGHT_UNITS));
 }
 
-/* Adds a work-item's counts to its pixel's words. */
-static inline void film_add_counts(const PixelRays* rays, global uint* words)
+/* Adds a work-item's counts over so many samples to its pixel's words. */
+static inline void film_add_counts(const PixelRays* rays, uint samples, global uint* words)
 {
     words[PIXEL_RAYS_SECONDARY] += rays->secondary;
     words[PIXEL_RAYS_SHADOW] += rays->shadow;
+    words[PIXEL_SHOWN] |= rays->missed != samples ? 1u : 0u;
     if (rays->cut == 0u)
         return;
     const ulong weight = upsample(words[PIXEL_CUT_WEIGHT_HIGH], words[PIXEL_CUT_WEIGHT_LOW]) + rays->cut_weight;

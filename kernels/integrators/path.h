@@ -251,6 +251,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     path->is_alive = false;
     TRACE_HIT(scene, segment, 0u, &path->ray, &path->hit);
     if (path->hit.triangle == NO_INDEX) {
+        rays->missed += segment == 1u ? 1u : 0u;
         path_escape(scene, params, segment, path, sample);
         return;
     }

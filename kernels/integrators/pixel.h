@@ -72,7 +72,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
                                              global long* film, global uint* pixel_rays,                      \
                                              global volatile uint* counters)                                  \
     {                                                                                                         \
-        PixelRays rays = {0u, 0u, 0u, 0ul};                                                                   \
+        PixelRays rays = {0u, 0u, 0u, 0ul, 0u};                                                               \
         const SampleRange range = tile_samples(params, pixel_rays, place.slot);                               \
         SampleCounter counter = sample_counter_make(params, range.first);                                     \
         CameraSample samples[SAMPLES_AT_ONCE];                                                                \
@@ -83,7 +83,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             RADIANCE(scene, params, samples, count, &rays);                                                   \
             pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
         }                                                                                                     \
-        film_add_counts(&rays, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));                         \
+        film_add_counts(&rays, range.count, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));           \
     }                                                                                                         \
                                                                                                               \
     CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \

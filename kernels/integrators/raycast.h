@@ -15,6 +15,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     TRACE_HIT(scene, 1u, 0u, &ray, &hit);
     real3 radiance = (real3)(REAL(0.0));
     if (hit.triangle == NO_INDEX) {
+        ++rays->missed;
         if (nan_carry(scene, nan_of_miss(&hit), &radiance))
             return radiance;
         const real3 sky = lights_outside(scene, params, 1u, ray.direction, REAL(0.0), KINDS_ALL);

@@ -104,6 +104,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
         nan_carry(scene, nan_of_vector(current.weight), &radiance);
         if (hit.triangle == NO_INDEX) {
+            rays->missed += current.segment == 1u ? 1u : 0u;
             if (nan_carry(scene, nan_of_miss(&hit), &radiance))
                 continue;
             const real3 sky =

@@ -60,13 +60,14 @@ ASSERT_SIZE(RenderParams, 240);
 #define TILE_PIXELS 64
 
 /* Counts of a pixel, over all its samples: these u32 a slot. */
-#define PIXEL_RAYS_WORDS 6
+#define PIXEL_RAYS_WORDS 7
 #define PIXEL_RAYS_SECONDARY 0
 #define PIXEL_RAYS_SHADOW 1
 #define PIXEL_BAD_SAMPLES 2
 #define PIXEL_CUT_PATHS 3
 #define PIXEL_CUT_WEIGHT_LOW 4  /* 64 bits in two words */
 #define PIXEL_CUT_WEIGHT_HIGH 5
+#define PIXEL_SHOWN 6           /* 1 once a camera ray has hit the scene */
 
 /* Weights of paths that max_depth cuts are summed in units of 2^-20, each rounded up: the sum is a bound, and the same in any
    order. Larger weights count as the largest, so that 2^27 of them fit the 64 bits of a pixel. */

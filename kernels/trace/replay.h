@@ -44,7 +44,7 @@ static inline void trace_finish(const Scene* scene, const CameraSample* sample)
                                             uint number, global ulong* head)                                  \
     {                                                                                                         \
         CameraSample sample;                                                                                  \
-        PixelRays rays = {0u, 0u, 0u, 0ul};                                                                   \
+        PixelRays rays = {0u, 0u, 0u, 0ul, 0u};                                                               \
         pixel_aim(params, pixel % params->width, pixel / params->width, trace_counter(params, number),        \
                   &sample, 1u);                                                                               \
         RADIANCE(scene, params, &sample, 1u, &rays);                                                          \

@@ -69,7 +69,9 @@ std::vector<OptionSpec> work_options() {
          "render for 90, 90s, 5m or 1h, up to a whole pass (default: no limit)",
          [](Options& o, const OptionValue& v) { o.time_seconds = parse_duration(v); }},
         {group, "e", "--error", "X",
-         "render until the picture's relative error, root of mean squared over mean, is at most 0.02 or 2%; "
+         "render until the picture's relative error, root of mean squared over mean, both over the pixels "
+         "that show "
+         "the scene, is at most 0.02 or 2%; "
          "whichever of -s, -t and -e comes first ends the render (default: no target)",
          [](Options& o, const OptionValue& v) { o.error = parse_fraction(v); }},
         {group, "", "--max-depth", "N",

@@ -15,6 +15,13 @@ Json optional_number(const std::optional<double>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
+/// An error with its interval.
+Json interval_json(const std::optional<FilmError>& error) {
+    return {{"rel_rmse", error ? Json(error->relative_rmse) : Json(nullptr)},
+            {"low", error ? optional_number(error->low) : Json(nullptr)},
+            {"high", error ? optional_number(error->high) : Json(nullptr)}};
+}
+
 /// "0.00123 %": three digits, never in exponent form.
 std::string percent(double fraction) {
     const double value = 100 * fraction;
@@ -24,6 +31,7 @@ std::string percent(double fraction) {
 std::string error_line(const ErrorReport& report) {
     if (!report.error)
         return report.replicates < 2 ? "not known: fewer than two replicates have samples"
+               : report.has_backdrop ? "not known: what shows the scene is black"
                                      : "not known: the picture is black";
     const FilmError& error = *report.error;
     std::string text = percent(error.relative_rmse) + " relative RMSE";
@@ -35,6 +43,16 @@ std::string error_line(const ErrorReport& report) {
         text += fmt::format(", slope {:.2f} +- {:.2f} from {} to {} spp", report.slope->slope,
                             report.slope->reach, report.slope->first_samples, report.slope->last_samples);
     return text;
+}
+
+/// What the error is stated over, where the picture shows more than the scene.
+std::string scene_line(const ErrorReport& report) {
+    if (!report.error || !report.has_backdrop)
+        return "";
+    return fmt::format(
+        "scene    the error is that of the {:.1f} % of the pixels that show it; over all pixels {}\n",
+        100 * *report.scene_share,
+        report.whole_error ? percent(report.whole_error->relative_rmse) : "not known");
 }
 
 std::string price_line(const ErrorReport& report) {
@@ -74,6 +92,10 @@ ErrorReport make_error_report(const RenderProgress& render, const BiasSources& b
     if (!squared)
         return report;
     report.error = relative_error(*squared);
+    report.has_backdrop = has_backdrop(render.film);
+    report.whole_error = report.has_backdrop ? film_error(render.film, ErrorPixels::ALL) : report.error;
+    if (const std::optional<size_t> shown = film_shown_pixels(render.film))
+        report.scene_share = double(*shown) / double(render.film.shown.size());
     std::vector<SquaredError> history = render.history;
     if (history.empty() || history.back().samples < squared->samples)
         history.push_back(*squared);
@@ -92,8 +114,8 @@ bool is_complete(const ErrorReport& report) {
 }
 
 std::string format_error_report(const ErrorReport& report) {
-    std::string text = fmt::format("error    {}\n", error_line(report)) + format_cut(report.cut) +
-                       format_blind_spots(report.blind_spots);
+    std::string text = fmt::format("error    {}\n", error_line(report)) + scene_line(report) +
+                       format_cut(report.cut) + format_blind_spots(report.blind_spots);
     if (!report.error || !report.spread)
         return text;
     const ErrorSpread& spread = *report.spread;
@@ -110,10 +132,10 @@ std::string format_error_report(const ErrorReport& report) {
 }
 
 Json error_report_json(const ErrorReport& report) {
-    Json json;
-    json["rel_rmse"] = report.error ? Json(report.error->relative_rmse) : Json(nullptr);
-    json["low"] = report.error ? optional_number(report.error->low) : Json(nullptr);
-    json["high"] = report.error ? optional_number(report.error->high) : Json(nullptr);
+    Json json = interval_json(report.error);
+    json["over"] = report.has_backdrop ? "scene" : "picture";
+    json["scene_share"] = optional_number(report.scene_share);
+    json["whole_picture"] = interval_json(report.whole_error);
     json["complete"] = is_complete(report);
     json["slope"] = nullptr;
     if (report.slope)
@@ -159,6 +181,9 @@ void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
     if (!report.error)
         return;
     add("error", report.error->relative_rmse);
+    metadata.emplace_back("error.over", report.has_backdrop ? "scene" : "picture");
+    if (report.whole_error)
+        add("error.whole_picture", report.whole_error->relative_rmse);
     if (report.error->low && report.error->high) {
         add("error.low", *report.error->low);
         add("error.high", *report.error->high);

@@ -223,6 +223,12 @@ std::vector<float> film_mean(const Film& film) {
     return mean;
 }
 
+std::optional<size_t> film_shown_pixels(const Film& film) {
+    if (film.shown.empty())
+        return std::nullopt;
+    return size_t(std::count(film.shown.begin(), film.shown.end(), 1));
+}
+
 std::vector<float> film_variance(const Film& film) {
     const ReplicateMeans replicates(film);
     const double n = double(replicates.count());

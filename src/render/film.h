@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace clrt {
@@ -52,6 +53,9 @@ struct Film {
         ranges; ///< the samples inside: in order, disjoint, not empty; merged films can have gaps
     TileSamples tile_samples; ///< of an adaptive film, whose range is their mean; empty: all tiles are equal
     std::vector<std::int64_t> sums;
+    /// 1 in the pixels that show the scene, where a camera ray of some sample has hit it; 0 in those that
+    /// show nothing but what is behind it. Empty: not known, or no sample.
+    std::vector<std::uint8_t> shown;
 };
 
 /// Sums of one replicate.
@@ -117,6 +121,9 @@ bool add_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& 
 
 /// Mean radiance, rgb a pixel. Zero samples give black.
 std::vector<float> film_mean(const Film& film);
+
+/// Pixels that show the scene; none where that is not known.
+std::optional<size_t> film_shown_pixels(const Film& film);
 
 /// Variance of the mean of each pixel and channel, from the spread of the replicates' means; empty when fewer
 /// than two replicates have samples.

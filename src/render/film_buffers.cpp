@@ -165,6 +165,18 @@ void FilmBuffers::read_sums(RenderProgress& render) const {
     }
 }
 
+void FilmBuffers::read_shown(Film& film) const {
+    if (film.shown.empty())
+        return;
+    for (const Band& band : bands()) {
+        const auto rays = read_buffer<u32>(device_, pixel_rays_, first_slot(0, band) * PIXEL_RAYS_WORDS,
+                                           slot_count(band) * PIXEL_RAYS_WORDS);
+        for_each_pixel(band, [&](size_t on_device, size_t in_film) {
+            film.shown[in_film / 3] |= std::uint8_t(rays[on_device / 3 * PIXEL_RAYS_WORDS + PIXEL_SHOWN]);
+        });
+    }
+}
+
 RenderCounts FilmBuffers::read_counts() const {
     const auto words = read_buffer<u32>(device_, counters_, 0, COUNT_WORDS + 2 * REPLAY_CAPACITY);
     RenderCounts counts;

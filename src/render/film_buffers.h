@@ -29,6 +29,9 @@ public:
     void write_sums(const RenderProgress& render);
     /// Reads the sums, from the device's tiles into the rows of film and layers.
     void read_sums(RenderProgress& render) const;
+    /// Marks the pixels in which a camera ray has hit the scene since the start, where the film knows that of
+    /// its earlier samples.
+    void read_shown(Film& film) const;
     /// Reads the counts since the start; primary rays are the caller's to count.
     RenderCounts read_counts() const;
 

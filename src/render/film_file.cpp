@@ -63,6 +63,35 @@ private:
 /// More of them are left out of the header, which they would make too large.
 constexpr size_t MOST_BAD_PIXELS = size_t(1) << 20;
 
+/// More of them, too.
+constexpr size_t MOST_RUNS = size_t(1) << 20;
+
+using Runs = std::vector<std::uint64_t>;
+
+/// Lengths of the runs of pixels that do not show the scene, that do, that do not, ...
+Runs runs_of(const std::vector<std::uint8_t>& shown) {
+    Runs runs;
+    for (size_t first = 0, end = 0; first < shown.size() && runs.size() <= MOST_RUNS; first = end) {
+        const std::uint8_t kind = runs.size() % 2;
+        end = size_t(std::find(shown.begin() + std::ptrdiff_t(first), shown.end(), 1 - kind) - shown.begin());
+        runs.push_back(end - first);
+    }
+    return runs;
+}
+
+/// The other way round; none where they are not the runs of so many pixels.
+std::optional<std::vector<std::uint8_t>> shown_of(const Runs& runs, size_t pixels) {
+    std::vector<std::uint8_t> shown;
+    for (size_t i = 0; i < runs.size(); ++i) {
+        if (runs[i] > pixels - shown.size())
+            return std::nullopt;
+        shown.resize(shown.size() + runs[i], std::uint8_t(i % 2));
+    }
+    if (shown.size() != pixels)
+        return std::nullopt;
+    return shown;
+}
+
 Json counts_json(const RenderCounts& counts) {
     Json json = {{"primary", counts.primary},       {"secondary", counts.secondary},
                  {"shadow", counts.shadow},         {"cut_paths", counts.cut_paths},
@@ -108,6 +137,8 @@ Json header_json(const FilmFile& film) {
     const std::optional<double>& radiance = film.bias.cut_radiance;
     json["cut_radiance"] = radiance ? Json(*radiance) : Json(nullptr);
     json["blind_spots"] = blind_spots_json(film.bias.blind_spots);
+    if (const Runs runs = runs_of(render.film.shown); !runs.empty() && runs.size() <= MOST_RUNS)
+        json["shown"] = runs;
     json["history"] = Json::array();
     for (const SquaredError& error : render.history)
         json["history"].push_back({{"samples", error.samples},
@@ -319,8 +350,12 @@ void write_film_file(const std::string& path, const FilmFile& film) {
 
 FilmFile read_film_file(const std::string& path) {
     FilmReader reader(path);
-    FilmFile film = parse_header(reader, read_header);
-    const Film& sums = film.render.film;
+    Runs shown;
+    FilmFile film = parse_header(reader, [&](const Json& json) {
+        shown = json.value("shown", Runs());
+        return read_header(json);
+    });
+    Film& sums = film.render.film;
     bool in_order = !sums.ranges.empty() && sums.replicates > 0 && sums.width > 0 && sums.height > 0;
     std::uint64_t end = 0;
     for (const SampleRange& range : sums.ranges) {
@@ -330,10 +365,16 @@ FilmFile read_film_file(const std::string& path) {
     if (!in_order)
         reader.reject("damaged: the header's window, replicates or ranges are impossible");
     reader.sums(film.render);
+    if (!shown.empty()) {
+        std::optional<std::vector<std::uint8_t>> pixels = shown_of(shown, film_plane(sums) / 3);
+        if (!pixels)
+            reader.reject("damaged: the pixels that show the scene are not those of its window");
+        sums.shown = std::move(*pixels);
+    }
     if (const AdaptiveRound& round = film.render.round; round.end > 0) {
         if (!is_possible(round, sums))
             reader.reject("damaged: the samples of its tiles are impossible");
-        film.render.film.tile_samples = samples_within(round, film_samples(sums), sums.replicates);
+        sums.tile_samples = samples_within(round, film_samples(sums), sums.replicates);
     }
     return film;
 }

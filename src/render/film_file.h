@@ -19,6 +19,8 @@
 //                              bad_pixels (absent without bad samples) pairs of pixel and count
 //                  cut_radiance  what bounds the light of cut paths (cut_paths.h), or null
 //                  blind_spots  paths that no sample shows: paths, cause, where
+//                  shown       pixels that show the scene: lengths of runs of pixels, row by row, that do
+//                              not, that do, that do not, ...; absent where that is not known
 //                  history     errors at doublings of the samples
 //                  seconds     of rendering
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:

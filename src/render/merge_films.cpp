@@ -35,6 +35,16 @@ std::vector<SampleRange> join_ranges(const Film& a, const std::string& a_path, c
     return joined;
 }
 
+/// The pixels in which either shows the scene; not known where one does not know.
+std::vector<std::uint8_t> join_shown(const Film& a, const Film& b) {
+    if (a.shown.empty() || b.shown.empty())
+        return {};
+    std::vector<std::uint8_t> joined = a.shown;
+    for (size_t pixel = 0; pixel < joined.size(); ++pixel)
+        joined[pixel] |= b.shown[pixel];
+    return joined;
+}
+
 std::string ranges_text(const Film& film) {
     std::string text;
     for (const SampleRange& range : film.ranges)
@@ -77,6 +87,7 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
     if (part.render.film.ranges.front().first < film.ranges.front().first)
         sum.origin = part.origin;
     film.ranges = std::move(ranges);
+    film.shown = join_shown(film, part.render.film);
     for (Film& layer : sum.render.path_layers)
         layer.ranges = film.ranges;
     sum.render.counts.add(part.render.counts);

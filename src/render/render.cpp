@@ -295,6 +295,7 @@ bool Passes::run_launches(std::uint32_t samples) {
 void Passes::measure() {
     const auto start = Clock::now();
     film_buffers_.read_sums(result_);
+    film_buffers_.read_shown(result_.film);
     last_error_ = film_squared_error(result_.film);
     // Beside the sums of all replicates, a few words a pixel are read in no time.
     const RenderCounts counts = film_buffers_.read_counts();
@@ -326,6 +327,7 @@ RenderState Passes::measured_state() {
 
 void Passes::read_back() {
     film_buffers_.read_sums(result_);
+    film_buffers_.read_shown(result_.film);
     result_.counts = film_buffers_.read_counts();
     result_.counts.primary = film_all_samples(result_.film) - earlier_samples_;
     result_.counts.add(earlier_counts_);
@@ -417,9 +419,10 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
     const int fitting = fitting_replicates(device, params, programs.paths.layers.size());
-    if (!hooks.resume)
+    if (!hooks.resume) {
         film.replicates = fitting;
-    else
+        film.shown.assign(film_plane(film) / 3, 0);
+    } else
         fold_replicates(film, std::min(fitting, film.replicates));
     params.film_replicates = u32(film.replicates);
     check_film_capacity(options, film);

@@ -229,6 +229,58 @@ TEST_F(ErrorReport, WhatNoPathCanShowIsNamed) {
     EXPECT_EQ(stats()["blind_spots"], nlohmann::json::array());
 }
 
+// A small floor before the sky. Whatever colour a backdrop has and however much of it the picture shows, the
+// error is that of the floor.
+TEST_F(ErrorReport, IsThatOfThePixelsThatShowTheScene) {
+    write_lamp();
+    const std::vector<std::string> far = {"--eye", "0,9,12", "--at", "0,0,0"};
+    const auto before = [&](const char* sky, std::vector<std::string> more) {
+        more.insert(more.end(),
+                    {"lamp.obj", "--stats", "s.json", "-r", "48x48", "--env", sky, "-o", "a.exr"});
+        more.insert(more.end(), far.begin(), far.end());
+        return clrt(more);
+    };
+    CommandResult result = before("1,1,1", {"--spp", "64", "--checkpoint", "a.film"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json white = stats()["error"];
+    EXPECT_EQ(white["over"], "scene");
+    EXPECT_GT(white["scene_share"], 0.03);
+    EXPECT_LT(white["scene_share"], 0.5);
+    const double of_scene = white["rel_rmse"], of_all = white["whole_picture"]["rel_rmse"];
+    EXPECT_GT(of_scene, 1.5 * of_all) << "a white backdrop hides the error";
+    EXPECT_LT(white["whole_picture"]["low"], of_all);
+    EXPECT_TRUE(std::regex_search(
+        result.out,
+        std::regex("scene    the error is that of the [0-9.]+ % of the pixels that show it; over all "
+                   "pixels [0-9.]+ %\n")))
+        << result.out;
+    EXPECT_EQ(ReadPicture(folder.file("a.exr")).spec.get_string_attribute("clrt.error.over"), "scene");
+
+    // --error means it, and so do a merged film and one that is resumed.
+    result = before("1,1,1", {"--spp", "64", "--error", std::to_string(0.5 * (of_scene + of_all))});
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_EQ(stats()["stop"]["error_reached"], false);
+    const CommandResult merged =
+        run_command({CLRT_MERGE_EXECUTABLE, folder.file("a.film"), "-o", folder.file("m.exr")});
+    EXPECT_TRUE(holds(merged.out, {"scene    the error is that of the "})) << merged.out;
+    result = clrt({"--resume", "a.film", "--spp", "64", "--stats", "s.json", "-o", "r.exr"});
+    for (const char* fact : {"rel_rmse", "low", "high", "over", "scene_share", "whole_picture", "worst_tile"})
+        EXPECT_EQ(stats()["error"][fact], white[fact]) << fact;
+
+    // A black backdrop would make the error over all pixels larger.
+    before("0,0,0", {"--spp", "64"});
+    const nlohmann::json black = stats()["error"];
+    EXPECT_EQ(black["scene_share"], white["scene_share"]);
+    EXPECT_LT(black["rel_rmse"], 0.8 * black["whole_picture"]["rel_rmse"].get<double>());
+
+    // Nothing but the scene.
+    render({"--spp", "64"});
+    const nlohmann::json full = stats()["error"];
+    EXPECT_EQ(full["over"], "picture");
+    EXPECT_EQ(full["scene_share"], 1);
+    EXPECT_EQ(full["whole_picture"]["rel_rmse"], full["rel_rmse"]);
+}
+
 TEST_F(ErrorReport, WhatIsNotKnownIsNull) {
     write_lamp();
     EXPECT_EQ(render({"--spp", "64"}).exit_code, 0);

@@ -46,6 +46,7 @@ protected:
         const FilmFile one = film(a), other = film(b);
         EXPECT_TRUE(one.render.film.sums == other.render.film.sums) << a << ", " << b;
         EXPECT_EQ(one.render.film.ranges, other.render.film.ranges);
+        EXPECT_EQ(one.render.film.shown, other.render.film.shown);
         EXPECT_EQ(one.render.counts.rays(), other.render.counts.rays());
         EXPECT_EQ(one.identity, other.identity);
     }
@@ -82,6 +83,30 @@ TEST_F(FilmCommand, MergedRangesAreTheSingleRun) {
     EXPECT_EQ(merge({"b.film", "c.film", "-o", "bc.film"}).exit_code, 0);
     EXPECT_EQ(merge({"bc.film", "a.film", "-o", "abc.film"}).exit_code, 0);
     expect_same_film("abc.film", "whole.film");
+}
+
+TEST_F(FilmCommand, PixelsOfTheSceneAreThoseThatACameraRayHits) {
+    const std::vector<std::string> view = {"--eye", "0,6,9", "--env", "1,1,1",    "--size",
+                                           "48x32", "--aov", "alpha", "--filter", "gaussian"};
+    for (std::vector<std::string> arguments : {std::vector<std::string>{"--integrator", "path"},
+                                               {"--integrator", "whitted"},
+                                               {"--integrator", "raycast"},
+                                               {"--max-depth", "1"},
+                                               {"--adaptive"}}) {
+        arguments.insert(arguments.end(), view.begin(), view.end());
+        render_part("a", 0, 16, arguments);
+        const ReadPicture picture(folder.file("a.exr"));
+        const std::vector<std::uint8_t> shown = film("a.film").render.film.shown;
+        ASSERT_EQ(shown.size(), 48u * 32);
+        size_t with = 0;
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 48; ++x) {
+                EXPECT_EQ(shown[size_t(48 * y + x)], picture.at(x, y, "A") > 0) << x << "," << y;
+                with += shown[size_t(48 * y + x)];
+            }
+        EXPECT_GT(with, 100u);
+        EXPECT_LT(with, 1400u);
+    }
 }
 
 TEST_F(FilmCommand, LayersOfPathsGoAlong) {

@@ -2,6 +2,7 @@
 // Errors, intervals, slopes and prices from made-up sums, against direct computation and the truth.
 #include "render/film_error.h"
 
+#include "render/f_distribution.h"
 #include "support/noise_film.h"
 #include "support/statistics.h"
 
@@ -60,15 +61,32 @@ TEST(FilmError, TheErrorIsRootMeanSquareOverTheMean) {
     EXPECT_NEAR(error->relative_rmse, std::sqrt(mean_squared_error(film, -1)) / mean, 1e-6);
     EXPECT_NEAR(error->relative_rmse, 1 / std::sqrt(80.0) / 2, 0.01);
 
-    // Jackknife of the logarithm: mean and spread of what leaves out one; half of it belongs to the root.
-    std::vector<double> logs;
-    for (int r = 0; r < 8; ++r)
-        logs.push_back(std::log(mean_squared_error(film, r)));
-    const double spread = std::sqrt(moments_of(logs).variance * 7 * 7 / 8);
-    const double t = 2.3646242516; // 97.5 % of Student's distribution with 7 degrees of freedom
+    // 90 values of equal noise have 90 degrees of freedom, known by seven times as many.
+    const double degrees = film_squared_error(film)->degrees;
+    EXPECT_NEAR(degrees, 90, 15);
     ASSERT_TRUE(error->low && error->high);
-    EXPECT_NEAR(*error->high / error->relative_rmse, std::exp(0.5 * t * spread), 1e-3);
-    EXPECT_NEAR(*error->low * *error->high, error->relative_rmse * error->relative_rmse, 1e-9);
+    for (const auto& [bound, probability] : {std::pair{*error->low, 0.025}, {*error->high, 0.975}})
+        EXPECT_NEAR(f_probability(std::pow(bound / error->relative_rmse, 2), degrees, 7 * degrees),
+                    probability, 1e-7);
+}
+
+TEST(FilmError, DegreesOfFreedomCountPixelsAndChannelsThatGoTogetherOnce) {
+    std::mt19937 random(12);
+    std::normal_distribution<double> normal;
+    double degrees = 0;
+    constexpr int TRIALS = 200;
+    for (int trial = 0; trial < TRIALS; ++trial) {
+        Film film = empty_film(10, 10, 8, 0, 8);
+        fill_with_noise(film, 10, 0, random);
+        for (size_t r = 0; r < 8; ++r)
+            for (size_t pixel = 0; pixel < 25; ++pixel) { // the others have none
+                const auto off = std::llround(normal(random) / film.scale.quantum);
+                for (size_t c = 0; c < 3; ++c)
+                    film.sums[r * film_plane(film) + 3 * pixel + c] += off;
+            }
+        degrees += film_squared_error(film)->degrees / TRIALS;
+    }
+    EXPECT_NEAR(degrees, 25, 1);
 }
 
 TEST(FilmError, UnderFourReplicatesThereIsNoInterval) {
@@ -91,23 +109,54 @@ TEST(FilmError, APictureWithoutNoiseHasErrorZeroAndABlackOneNone) {
     EXPECT_FALSE(film_error(film));
 }
 
-TEST(FilmError, TheIntervalHoldsTheTrueErrorAsOftenAsItSays) {
-    std::mt19937 random(5);
-    for (const int replicates : {4, 8, 32}) {
-        int covered = 0;
-        const int trials = 400;
-        for (int trial = 0; trial < trials; ++trial) {
-            Film film = empty_film(4, 4, replicates, 0, std::uint64_t(4 * replicates));
-            fill_with_noise(film, 10, 1, random);
-            const auto error = film_error(film);
-            ASSERT_TRUE(error && error->low && error->high);
-            const double truth = 1 / std::sqrt(4.0 * replicates) / 10;
-            covered += *error->low <= truth && truth <= *error->high;
-        }
-        // 380 expected; the standard deviation is 4.4.
-        EXPECT_GE(covered, 355) << replicates;
-        EXPECT_LE(covered, 399) << replicates;
+// A white backdrop without noise in the upper half of a picture.
+TEST(FilmError, TheErrorIsThatOfThePixelsThatShowTheScene) {
+    std::mt19937 random(13);
+    Film scene = empty_film(40, 20, 8, 0, 64), film = empty_film(40, 40, 8, 0, 64);
+    fill_with_noise(scene, 2, 1, random);
+    fill_with_noise(film, 50, 0, random);
+    for (size_t r = 0; r < 8; ++r)
+        std::copy_n(&scene.sums[r * film_plane(scene)], film_plane(scene),
+                    &film.sums[r * film_plane(film) + film_plane(scene)]);
+    const FilmError whole = *film_error(film), alone = *film_error(scene);
+    EXPECT_LT(whole.relative_rmse, alone.relative_rmse / 10);
+
+    const auto expect_same = [](const FilmError& a, const FilmError& b) {
+        EXPECT_DOUBLE_EQ(a.relative_rmse, b.relative_rmse);
+        EXPECT_NEAR(*a.low, *b.low, 1e-9);
+        EXPECT_NEAR(*a.high, *b.high, 1e-9);
+    };
+    film.shown.assign(800, 0);
+    film.shown.resize(1600, 1);
+    EXPECT_TRUE(has_backdrop(film));
+    expect_same(*film_error(film), alone);
+    expect_same(*film_error(film, ErrorPixels::ALL), whole);
+    EXPECT_NEAR(film_error_spread(film)->worst_tile, alone.relative_rmse, 0.1 * alone.relative_rmse);
+    EXPECT_EQ(film_error_spread(film)->tail_pixels, 1u) << "of 800";
+
+    // Pictures full of it, without it, and of which that is not known.
+    for (const std::vector<std::uint8_t>& shown :
+         {std::vector<std::uint8_t>(1600, 1), std::vector<std::uint8_t>(1600, 0),
+          std::vector<std::uint8_t>()}) {
+        film.shown = shown;
+        EXPECT_FALSE(has_backdrop(film));
+        expect_same(*film_error(film), whole);
     }
+}
+
+TEST(FilmError, AFewPixelsOfTheSceneInATileDoNotMakeItTheWorst) {
+    std::mt19937 random(14);
+    Film film = empty_film(64, 32, 8, 0, 64); // two tiles
+    fill_with_noise(film, 10, 1, random);
+    film.shown.assign(64 * 32, 0);
+    for (size_t i = 0; i < film.shown.size(); ++i)
+        film.shown[i] = i % 64 < 32 || i == 63;
+    std::normal_distribution<double> noise(0,
+                                           8 * 2); // of that one pixel: nearly six times that of the others
+    for (size_t r = 0; r < 8; ++r)
+        for (size_t c = 0; c < 3; ++c)
+            film.sums[r * film_plane(film) + 3 * 63 + c] += std::llround(noise(random) / film.scale.quantum);
+    EXPECT_EQ(film_error_spread(film)->tile_x, 0);
 }
 
 TEST(FilmError, TheSlopeIsThatOfTheLine) {

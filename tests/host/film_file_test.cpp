@@ -40,6 +40,7 @@ FilmFile make_film() {
     file.bias.blind_spots = {{"LpS+DE", "a light", "a.mtl:3"}};
     counts.bad_samples = {{7, 9}, {8, 10}};
     file.render.history = {{8, 0.1, 1.0 / 3, {1, 2, 3, 0.1}}};
+    file.render.film.shown = {0, 1, 1, 0, 0, 0, 0, 1, 0, 1, 1, 1, 1, 1, 1};
     file.render.seconds = 1.1;
     return file;
 }
@@ -96,6 +97,7 @@ TEST_F(FilmFileTest, EverythingComesBack) {
     EXPECT_EQ(a.scale.largest, b.scale.largest);
     EXPECT_EQ(a.ranges, b.ranges);
     EXPECT_EQ(a.sums, b.sums);
+    EXPECT_EQ(a.shown, b.shown);
     ASSERT_EQ(read.render.path_layers.size(), 1u);
     EXPECT_EQ(read.render.path_layers[0].sums, written.render.path_layers[0].sums);
     EXPECT_EQ(read.render.path_layers[0].ranges, b.ranges);
@@ -114,6 +116,21 @@ TEST_F(FilmFileTest, EverythingComesBack) {
     EXPECT_EQ(read.render.history[0].without, written.render.history[0].without);
     EXPECT_EQ(read.render.seconds, 1.1);
     EXPECT_EQ(folder.count(), 1u) << "no temporary file";
+}
+
+TEST_F(FilmFileTest, PixelsOfTheSceneAreThoseOfTheWindowOrNotKnown) {
+    FilmFile film = make_film();
+    for (const std::vector<std::uint8_t>& shown :
+         {std::vector<std::uint8_t>(15, 1), std::vector<std::uint8_t>(15, 0), std::vector<std::uint8_t>()}) {
+        film.render.film.shown = shown;
+        write_film_file(folder.file("a.film"), film);
+        EXPECT_EQ(read_film_file(folder.file("a.film")).render.film.shown, shown);
+    }
+    for (const size_t pixels : {1, 14, 16, 1000}) {
+        film.render.film.shown.assign(pixels, 1);
+        write_film_file(folder.file("a.film"), film);
+        expect_refused(folder.read("a.film"), "damaged: the pixels that show the scene");
+    }
 }
 
 TEST_F(FilmFileTest, TheLayoutIsTheDocumentedOne) {

@@ -61,6 +61,18 @@ TEST(MergeFilms, AnyOrderGivesTheSameFilm) {
     } while (std::next_permutation(order.begin(), order.end()));
 }
 
+TEST(MergeFilms, TheSceneIsWhereEitherShowsIt) {
+    FilmFile a = part(0, 8), b = part(8, 8);
+    a.render.film.shown = {0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1};
+    b.render.film.shown = {0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1};
+    FilmFile sum = a;
+    merge_film(sum, "a", b, "b");
+    EXPECT_EQ(sum.render.film.shown, (std::vector<std::uint8_t>{0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1}));
+    b.render.film.shown.clear();
+    merge_film(a, "a", b, "b");
+    EXPECT_TRUE(a.render.film.shown.empty()) << "one does not know";
+}
+
 TEST(MergeFilms, WhatWasCutAddsUp) {
     FilmFile sum = part(0, 4), other = part(4, 4);
     other.render.counts.cut_paths = 3;

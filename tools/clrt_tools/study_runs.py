@@ -76,8 +76,9 @@ class Run:
 
     @property
     def own_error(self):
-        """What clrt itself says about the picture's error; None where it does not."""
-        return (self.stats.get("error") or {}).get("rel_rmse")
+        """What clrt itself says of its error over all pixels, over which the study compares; None where it does not."""
+        error = self.stats.get("error") or {}
+        return error.get("whole_picture", error).get("rel_rmse")
 
 
 @dataclasses.dataclass

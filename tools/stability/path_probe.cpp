@@ -28,7 +28,7 @@ const char* const TEXT = R"(
         sample.ray = ray_make(vector_from(rays[2u * pixel]), vector_normalize(vector_from(rays[2u * pixel + 1u])));   \
         sample.radiance = (real3)(REAL(0.0));                                                                         \
         layers_begin(&sample.layers);                                                                                 \
-        PixelRays counted = {0u, 0u, 0u, 0ul};                                                                        \
+        PixelRays counted = {0u, 0u, 0u, 0ul, 0u};                                                                    \
         RADIANCE(&scene, &params, &sample, 1u, &counted);                                                             \
         out_values[3u * i] = sample.radiance.x;                                                                       \
         out_values[3u * i + 1u] = sample.radiance.y;                                                                  \
