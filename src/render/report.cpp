@@ -39,8 +39,11 @@ std::vector<std::string> names_of_effects(const Effects& effects, bool present) 
 
 /// What ended the render; whether --error is reached, null without it.
 Json stop_json(const Report& report) {
-    Json json{
-        {"rule", stop_rule_name(report.render.stop)}, {"error_target", nullptr}, {"error_reached", nullptr}};
+    Json json{{"rule", stop_rule_name(report.render.stop)},
+              {"error_target", nullptr},
+              {"error_reached", nullptr},
+              {"overrun_seconds", report.render.overrun_seconds},
+              {"dropped_seconds", report.render.dropped_seconds}};
     if (report.options.error) {
         json["error_target"] = *report.options.error;
         json["error_reached"] = error_reached(report);
@@ -185,9 +188,13 @@ std::string report_json(const Report& report) {
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = report.scene.triangles.size();
-    json["seconds"] = {{"load", report.load_seconds},       {"bvh", report.bvh.seconds},
-                       {"compile", report.compile_seconds}, {"first_launch", render.first_launch_seconds},
-                       {"render", render.run_seconds},      {"checks", render.check_seconds},
+    json["seconds"] = {{"load", report.load_seconds},
+                       {"bvh", report.bvh.seconds},
+                       {"compile", report.compile_seconds},
+                       {"first_launch", render.first_launch_seconds},
+                       {"render", render.run_seconds},
+                       {"checks", render.check_seconds},
+                       {"longest_launch", render.longest_launch_seconds},
                        {"total", report.total_seconds}};
     json["rays"] = {{"primary", counts.primary}, {"shadow", counts.shadow}, {"secondary", counts.secondary}};
     json["rays_per_second"] = rays_per_second(render);
