@@ -5,7 +5,7 @@
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
-#include "render/error_report.h"
+#include "render/error_text.h"
 #include "render/merge_films.h"
 #include "run/saving.h"
 
