@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers of samples at which it pays to end a render. The first 2^k Sobol points of a replicate are even,
 // each elementary box of the unit cube holds as many as any other, and the points after them fill the boxes
-// one by one: until the next power of two some have one point more. The error falls in steps: with nine
-// instead of eight samples in every replicate it is larger (on a Cornell box by 4 %, with ten by 1 %), with
-// twelve it is smaller again, since a half of the next power of two is even by itself. So these counts are
-// good: replicates times 2^k, and 3/2 of that.
+// one by one: until the next power of two some have one point more. With 9/8 of 2^k samples in every
+// replicate the error is larger than with 2^k, by 5 % on average (cornell_box and colour_bleeding, 64 x 48
+// pixels, 2^k from 8 to 64); with 3/2 of 2^k it is 17 to 26 % smaller, and with 2^(k+1) 40 %. Where light has
+// more edges than Sobol points can make use of, no number is better than another. So these counts are good:
+// replicates times 2^k, and 3/2 of that.
 #pragma once
 
 #include <cstdint>

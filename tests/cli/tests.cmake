@@ -35,6 +35,7 @@ clrt_command_test(same_bits_command_test)
 target_compile_definitions(same_bits_command_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
 clrt_command_test(replay_command_test)
 clrt_command_test(time_limit_test)
+target_compile_definitions(time_limit_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
 # It compares with seconds of wall time, which are only its own while nothing else runs.
 set_tests_properties(cli.time_limit_test PROPERTIES RUN_SERIAL TRUE)
 if(TARGET clrt-bench)

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -177,6 +178,25 @@ TEST_F(TimeLimit, AResumedFilmSurvivesAPassThatIsDropped) {
     run_slow({"--spp", "3", "--resume", "on.film", "-o", "three.exr"});
     run_slow({"--spp", "3", "-o", "counted.exr"});
     EXPECT_EQ(ReadPicture(folder.file("three.exr")).values, ReadPicture(folder.file("counted.exr")).values);
+}
+
+// Without a cache every program is compiled anew, which takes longer than the time.
+TEST_F(TimeLimit, TheLedgerKeepsItsTime) {
+    const std::string scene = CLRT_SCENES_FOLDER "/every_effect/every_effect.obj";
+    const CommandResult result =
+        clrt({scene, "--ledger", "--time", "20", "--no-cache", "-r", "64x48", "--stats", "bill.json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json bill = nlohmann::json::parse(folder.read("bill.json"));
+    // Two programs are in every ledger, the first of them twice.
+    const double programs = 3 + double(bill["effects"].size());
+    const double compile = bill["compile_seconds"].get<double>() / programs;
+    std::printf("%.1f s for %zu effects, a program in %.1f s\n", bill["seconds"].get<double>(),
+                bill["effects"].size(), compile);
+    EXPECT_LE(bill["seconds"], std::max(20.0, 3 * compile) + 2 * compile) << result.out;
+    EXPECT_FALSE(bill["not_measured"].empty());
+    EXPECT_TRUE(
+        holds(result.err, {"warning", "the ledger of ", " effects takes ", " of them fit --time 20"}));
+    EXPECT_TRUE(holds(result.out, {"Not measured, for want of time: "}));
 }
 
 } // namespace clrt
