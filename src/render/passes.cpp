@@ -233,7 +233,12 @@ bool Passes::run_adaptive(std::uint64_t end) {
     const TileSamples from = samples_within(result_.round, samples_, replicates);
     const TileSamples to = samples_within(result_.round, end, replicates);
     const double samples = 0.5 * double(end - samples_);
+    const auto begun = Clock::now();
     for (int half = 0; half < 2; ++half) {
+        if (half == 1)
+            interrupted_ = interruption(seconds_between(begun, Clock::now())); // as long as the first half
+        if (interrupted_)
+            return false;
         film_buffers_.write_tile_ranges(from[size_t(half)], to[size_t(half)]);
         if (!run_tiles(samples, double(samples_) + half * samples,
                        [&](u32 tile, u32 tiles_end) { launcher_.run_half(half, tile, tiles_end); }))
