@@ -29,7 +29,7 @@ public:
 private:
     std::optional<SquaredError> error_;
     double rays_per_sample_ = -1;
-    double next_rays_seconds_ = 1; ///< of the run: shorter ones leave no progress line behind
+    double next_rays_seconds_ = 0.2; ///< of the run: a progress line has not been shown before
 };
 
 } // namespace clrt

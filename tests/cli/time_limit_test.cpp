@@ -103,7 +103,7 @@ TEST_F(TimeLimit, TheLastProgressLineIsTheFinalState) {
 }
 
 TEST_F(TimeLimit, RaysASecondAreKnownInTheFirstPass) {
-    const CommandResult slow = run_slow({"--spp", "1", "--progress", "on"});
+    const CommandResult slow = run_slow({"--spp", "1", "--progress", "on", "-r", "480x320"});
     const double mrays = last_number(slow.err, "  ([0-9.]+) Mrays/s");
     EXPECT_NEAR(mrays / (1e-6 * stats["rays_per_second"].get<double>()), 1, 0.15) << slow.err;
 }
