@@ -11,7 +11,7 @@
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/checkpoint.h"
-#include "render/error_report.h"
+#include "render/error_text.h"
 #include "render/merge_films.h"
 #include "run/saving.h"
 

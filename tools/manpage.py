@@ -20,6 +20,47 @@ SUMMARIES = {"clrt": "render a Wavefront OBJ on any OpenCL device",
 HEADINGS = {"Example": "EXAMPLE", "Options file": "FILES", "Exit codes": "EXIT STATUS"}
 
 
+# What the report of a render means, for the page of clrt.
+REPORT = [
+    ("picture", "The files that were written, width and height in pixels, samples, and what ended the render."),
+    ("spp", "Samples a pixel: how many paths were traced through each. A pass is one sample of every pixel; a picture always "
+            "ends with a whole pass."),
+    ("time", "Seconds from the start of the program, and those of rendering alone, without loading and compiling."),
+    ("error", "How far the picture is from the one that endless rendering would give: the differences of all pixels and "
+              "colours are squared, averaged, and the root of that is divided by the picture's mean brightness (radiance), "
+              "also known as relative RMSE. A picture with 10 % looks noisy, with 2 % clean, with 0.5 % no noise is left to "
+              "see. It is measured, not assumed: the samples of a run are dealt to 8 replicates (--replicates), which are "
+              "renders of their own, with random numbers of their own, and the error of their mean follows from how they "
+              "differ. The interval is where the error of this very picture is, with a confidence of 95 %."),
+    ("scene", "Pixels that show nothing but what is behind the scene have hardly any noise, and are as many and as bright as "
+              "one likes. Where there are such pixels the error is that of the others, over their mean brightness; the line "
+              "says how many they are, and the error over all pixels."),
+    ("verdict", "Whether the error can be trusted, by one rule. What one replicate alone saw in a pixel, such as a caustic's "
+                "bright speck, might as well have been missed, and tells that others were. If that leaves the squared error "
+                "uncertain by more than 15 % (one standard error), the verdict is not to trust the error; more samples mend "
+                "that. Else it is to trust it, for all light, or for what was sampled where lines below name light that "
+                "never was."),
+    ("cut", "Paths that ended because --max-depth forbids longer ones, and how much light that takes away at most."),
+    ("not seen", "Light that the integrator cannot find in this scene, in path notation (--paths), and why."),
+    ("price", "What half the error takes: the number of samples, seconds of rendering more, and the error that is reached "
+              "there, as a rule within 15 %. Samples are counted where they are even: the replicates times a power of two, "
+              "or 3/2 of that. In between a picture can be worse than with fewer samples, since Sobol points fill the unit "
+              "cube evenly at powers of two; --error looks and stops at these numbers only, --time at any whole pass."),
+    ("memory", "The most memory of this computer that was in use; a graphics card has its own."),
+    ("left out", "What the picture lacks although the scene has it, because of --effects or of the integrator. Effects that "
+                 "are not in the scene are proved absent and change nothing: -v names them, --explain says why."),
+    ("bad, cause", "Samples that were not finite, negative or too large count as black and are replayed: the cause is the first "
+                   "quantity that went wrong, with the command that shows it."),
+    ("missed", "--error was given and is not reached; the exit code is 5."),
+    ("slope (-v)", "How the error falls: a straight line through log error over log samples. Independent samples have -0.5, four "
+                   "times the samples for half the error; Sobol points are steeper where light has few edges."),
+    ("worst, tails (-v)", "Where the error sits: the worst tile, the share of the noisiest thousandth of the pixels, and what one "
+                          "replicate alone saw."),
+    ("rays, tree (-v)", "Rays of one sample, millions a second; the tree of boxes that rays are traced through, and its expected "
+                        "cost by the surface area heuristic (SAH)."),
+]
+
+
 def escaped(text):
     """Text that troff prints as it is: backslashes, dashes, and no leading control character."""
     text = text.replace("\\", "\\e").replace("-", "\\-")
@@ -81,6 +122,15 @@ def paragraphs(lines):
     return out
 
 
+def report_section():
+    """The lines of the report and their terms. Scripts are sent to the JSON."""
+    out = [".SH REPORT", escaped("After a render, clrt prints what follows; with -v all of it, with -q nothing. The lines are for "
+                                 "people and may change: scripts read the file of --stats, whose keys stay.")]
+    for name, text in REPORT:
+        out += [".TP", f".B {escaped(name)}", escaped(text)]
+    return out
+
+
 def page(command, help_text, version):
     parts = dict(sections(help_text))
     intro = parts[""]
@@ -88,7 +138,7 @@ def page(command, help_text, version):
     out = [f'.TH {command.upper()} 1 "" "clrt {version}" "User Commands"', ".SH NAME",
            f"{escaped(command)} \\- {SUMMARIES[command]}", ".SH SYNOPSIS", *usage_lines(command, intro[:end]),
            ".SH DESCRIPTION", *paragraphs(intro[end:]), ".SH OPTIONS"]
-    tail = []
+    tail = report_section() if command == "clrt" else []
     for heading, lines in parts.items():
         if heading in HEADINGS:
             tail += [f".SH {HEADINGS[heading]}"]

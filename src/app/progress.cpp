@@ -40,7 +40,7 @@ std::string duration_text(double seconds) {
 } // namespace
 
 std::string progress_line(const ProgressState& state, double seconds) {
-    std::string line = fmt::format("{:<8}", state.phase);
+    std::string line = fmt::format("{:<7} ", state.phase);
     if (state.fraction >= 0)
         line += fmt::format("{:3}%  ", static_cast<int>(std::floor(100 * std::fmin(state.fraction, 1))));
     if (state.spp > 0)
@@ -51,7 +51,7 @@ std::string progress_line(const ProgressState& state, double seconds) {
     if (state.rays_per_second >= 0)
         line += fmt::format("  {:.1f} Mrays/s", state.rays_per_second * 1e-6);
     if (state.error >= 0)
-        line += fmt::format("  error about {:.1f} %", 100 * state.error);
+        line += fmt::format("  error {}{:.1f} %", state.error_is_measured ? "" : "about ", 100 * state.error);
     return line;
 }
 

@@ -16,7 +16,8 @@ struct ProgressState {
     double fraction = -1;  ///< 0..1, percentages are rounded down
     std::uint64_t spp = 0; ///< samples a pixel so far
     double rays_per_second = -1;
-    double error = -1; ///< relative, about
+    double error = -1;              ///< relative
+    bool error_is_measured = false; ///< at these samples; otherwise it is extrapolated
 };
 
 /// The line for a state that its phase has reached after `seconds`, without a line end: phase, percentage,

@@ -31,8 +31,8 @@ std::vector<OptionSpec> promise_options() {
          }},
         {group, "", "--ledger", "",
          "measure what every effect costs in time and gives in light, by rendering without it; --time bounds "
-         "it "
-         "(default 60 s); writes no picture",
+         "all of it, and effects that do not fit are named (default: all effects, a minute after compiling); "
+         "writes no picture",
          [](Options& o, const OptionValue&) { o.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--stats", "FILE",
          "write statistics of the run as JSON, in SI units; - is the standard output, the report then goes "

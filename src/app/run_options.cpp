@@ -70,7 +70,7 @@ std::vector<OptionSpec> run_options() {
          [](Options& o, const OptionValue& v) { o.progress = parse_toggle(v); }},
         {group, "q", "--quiet", "", "errors only, no progress",
          [](Options& o, const OptionValue&) { o.verbosity = -1; }},
-        {group, "v", "--verbose", "", "say everything",
+        {group, "v", "--verbose", "", "say everything: the report too",
          [](Options& o, const OptionValue&) { o.verbosity = 1; }},
         {group, "", "--no-sidecar", "", "leave the options file SCENE.clrt unread",
          [](Options& o, const OptionValue&) { o.no_sidecar = true; }, Repeat::NO, COMMAND_LINE_ONLY},

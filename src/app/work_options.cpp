@@ -66,13 +66,13 @@ std::vector<OptionSpec> work_options() {
              o.spp = static_cast<std::uint32_t>(parse_whole(v, 1, LARGEST_U32));
          }},
         {group, "t", "--time", "DURATION",
-         "render for 90, 90s, 5m or 1h, up to a whole pass (default: no limit)",
+         "render for 90, 90s, 5m or 1h: the first pass (a sample a pixel) is always finished, a later one "
+         "that is not done in time is dropped (default: no limit)",
          [](Options& o, const OptionValue& v) { o.time_seconds = parse_duration(v); }},
         {group, "e", "--error", "X",
-         "render until the picture's relative error, root of mean squared over mean, both over the pixels "
-         "that show "
-         "the scene, is at most 0.02 or 2%; "
-         "whichever of -s, -t and -e comes first ends the render (default: no target)",
+         "render until the picture's relative error, root of mean squared over mean, both over the pixels that "
+         "show the scene, is at most 0.02 or 2%, looked at where samples are even: --replicates times 2^k or "
+         "3/2 2^k; whichever of -s, -t and -e comes first ends the render (default: no target)",
          [](Options& o, const OptionValue& v) { o.error = parse_fraction(v); }},
         {group, "", "--max-depth", "N",
          "longest path in segments; 1 sees emitters, 2 adds direct light (default 4096, whitted 10, raycast "

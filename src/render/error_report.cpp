@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/error_report.h"
 
+#include "render/good_counts.h"
+
 #include <fmt/format.h>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -22,63 +24,6 @@ Json interval_json(const std::optional<FilmError>& error) {
             {"high", error ? optional_number(error->high) : Json(nullptr)}};
 }
 
-/// "0.00123 %": three digits, never in exponent form.
-std::string percent(double fraction) {
-    const double value = 100 * fraction;
-    return fmt::format("{:.{}f} %", value, value >= 0.1 ? 2 : 5);
-}
-
-std::string error_line(const ErrorReport& report) {
-    if (!report.error)
-        return report.replicates < 2 ? "not known: fewer than two replicates have samples"
-               : report.has_backdrop ? "not known: what shows the scene is black"
-                                     : "not known: the picture is black";
-    const FilmError& error = *report.error;
-    std::string text = percent(error.relative_rmse) + " relative RMSE";
-    if (error.low && error.high)
-        text += fmt::format(" (95 %: {} to {})", percent(*error.low), percent(*error.high));
-    else if (error.relative_rmse > 0)
-        text += " (no interval: it takes four replicates)";
-    if (report.slope)
-        text += fmt::format(", slope {:.2f} +- {:.2f} from {} to {} spp", report.slope->slope,
-                            report.slope->reach, report.slope->first_samples, report.slope->last_samples);
-    return text;
-}
-
-/// What the error is stated over, where the picture shows more than the scene.
-std::string scene_line(const ErrorReport& report) {
-    if (!report.error || !report.has_backdrop)
-        return "";
-    return fmt::format(
-        "scene    the error is that of the {:.1f} % of the pixels that show it; over all pixels {}\n",
-        100 * *report.scene_share,
-        report.whole_error ? percent(report.whole_error->relative_rmse) : "not known");
-}
-
-std::string price_line(const ErrorReport& report) {
-    if (!report.price)
-        return "half the error: not known, more samples hardly change it";
-    const ErrorPrice& price = *report.price;
-    return fmt::format(
-        "{} takes {:.1f} times the samples, {:.1f} s more (extrapolated by {} slope of {:.2f})",
-        percent(price.relative_rmse), price.factor, price.seconds,
-        price.measured ? "the measured" : "the usual", price.slope);
-}
-
-/// What the error is worth.
-std::string verdict(const ErrorReport& report, const ErrorSpread& spread) {
-    if (!spread.usable())
-        return "do not believe the error, rare bright samples are still to come";
-    if (is_complete(report))
-        return "the error can be believed";
-    std::string text = "the error covers what was sampled";
-    if (report.cut.paths > 0)
-        text += ", not what was cut";
-    for (const BlindSpot& spot : report.blind_spots)
-        text += (&spot == &report.blind_spots.front() ? "; not seen: " : ", ") + spot.paths;
-    return text;
-}
-
 } // namespace
 
 ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y) {
@@ -96,39 +41,44 @@ ErrorReport make_error_report(const RenderProgress& render, const BiasSources& b
     report.whole_error = report.has_backdrop ? film_error(render.film, ErrorPixels::ALL) : report.error;
     if (const std::optional<size_t> shown = film_shown_pixels(render.film))
         report.scene_share = double(*shown) / double(render.film.shown.size());
-    std::vector<SquaredError> history = render.history;
-    if (history.empty() || history.back().samples < squared->samples)
-        history.push_back(*squared);
-    report.slope = error_slope(history);
+    // Between doublings samples are not even, and the error tells nothing about its slope.
+    std::vector<SquaredError> doublings = render.history;
+    const bool is_new = doublings.empty() || doublings.back().samples < squared->samples;
+    if (is_new && is_doubling(squared->samples, report.replicates))
+        doublings.push_back(*squared);
+    report.slope = error_slope(doublings);
     try {
         report.spread = film_error_spread(render.film);
     } catch (const std::bad_alloc&) { // where the error sits is not worth the picture
     }
-    if (report.error)
-        report.price = price_of_half(*report.error, report.slope, render.seconds);
+    report.price = price_of_half(doublings, *squared, report.replicates, render.seconds);
     return report;
+}
+
+Verdict verdict_on(const ErrorReport& report) {
+    if (!report.error)
+        return Verdict::NONE;
+    if (report.spread && !report.spread->usable())
+        return Verdict::UNTRUSTED;
+    return is_complete(report) ? Verdict::TRUSTED : Verdict::INCOMPLETE;
+}
+
+const char* verdict_name(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::TRUSTED:
+        return "trusted";
+    case Verdict::INCOMPLETE:
+        return "incomplete";
+    case Verdict::UNTRUSTED:
+        return "untrusted";
+    case Verdict::NONE:
+        break;
+    }
+    return "none";
 }
 
 bool is_complete(const ErrorReport& report) {
     return report.cut.paths == 0 && report.blind_spots.empty();
-}
-
-std::string format_error_report(const ErrorReport& report) {
-    std::string text = fmt::format("error    {}\n", error_line(report)) + scene_line(report) +
-                       format_cut(report.cut) + format_blind_spots(report.blind_spots);
-    if (!report.error || !report.spread)
-        return text;
-    const ErrorSpread& spread = *report.spread;
-    text += fmt::format("price    {}\n", price_line(report));
-    text += fmt::format("worst    {} of the picture's mean in the {} x {} tile at {},{}\n",
-                        percent(spread.worst_tile), ERROR_TILE_SIZE, ERROR_TILE_SIZE,
-                        report.window_x + spread.tile_x, report.window_y + spread.tile_y);
-    text += fmt::format(
-        "tails    the noisiest {} of the pixels hold {:.0f} % of the squared error; {:.0f} % was seen by one "
-        "replicate alone, which makes it uncertain by {:.1f} %: {}\n",
-        spread.tail_pixels == 1 ? "one" : "thousandth", 100 * spread.tail_share, 100 * spread.once_share,
-        100 * spread.once_error, verdict(report, spread));
-    return text;
 }
 
 Json error_report_json(const ErrorReport& report) {
@@ -137,6 +87,7 @@ Json error_report_json(const ErrorReport& report) {
     json["scene_share"] = optional_number(report.scene_share);
     json["whole_picture"] = interval_json(report.whole_error);
     json["complete"] = is_complete(report);
+    json["verdict"] = verdict_name(verdict_on(report));
     json["slope"] = nullptr;
     if (report.slope)
         json["slope"] = {{"value", report.slope->slope},
@@ -147,6 +98,7 @@ Json error_report_json(const ErrorReport& report) {
     json["half"] = nullptr;
     if (report.price)
         json["half"] = {{"rel_rmse", report.price->relative_rmse},
+                        {"spp", report.price->samples},
                         {"samples_factor", report.price->factor},
                         {"seconds", report.price->seconds},
                         {"slope", report.price->slope},

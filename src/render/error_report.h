@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said about a picture's error: printed lines, JSON and metadata.
+// What is known about a picture's error, as JSON and metadata (error_text.h: in words).
 #pragma once
 
 #include "output/image.h"
 #include "render/cut_paths.h"
+#include "render/error_price.h"
 #include "render/render.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -30,11 +31,19 @@ struct ErrorReport {
 /// Makes the report of a render; (x, y) is the window's top left pixel in the whole picture.
 ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y);
 
+/// What the error is worth.
+enum class Verdict {
+    NONE,       ///< there is no error
+    TRUSTED,    ///< it holds all that is wrong with the picture
+    INCOMPLETE, ///< it holds what was sampled; paths are cut, or never sampled
+    UNTRUSTED   ///< bright samples decide it that single replicates saw: ErrorSpread::usable()
+};
+Verdict verdict_on(const ErrorReport& report);
+/// Its name in the JSON: "none", "trusted", "incomplete", "untrusted".
+const char* verdict_name(Verdict verdict);
+
 /// Whether the error holds all that is wrong with the picture.
 bool is_complete(const ErrorReport& report);
-
-/// Lines "error", "cut", "not seen", "price", "worst" and "tails".
-std::string format_error_report(const ErrorReport& report);
 
 /// The JSON's "error".
 nlohmann::ordered_json error_report_json(const ErrorReport& report);

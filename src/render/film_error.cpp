@@ -14,12 +14,10 @@ namespace clrt {
 
 namespace {
 
-constexpr size_t FEWEST_FOR_INTERVAL = 4;  ///< replicates
-constexpr size_t FEWEST_FOR_SLOPE = 5;     ///< errors
-constexpr double OCTAVES_FOR_SLOPE = 16;   ///< last over first samples: four octaves
-constexpr double INDEPENDENT_SLOPE = -0.5; ///< of the error of independent samples
-constexpr double SLOWEST_SLOPE = -0.1;     ///< half the error for 1024 times the samples
-constexpr size_t TAIL_PART = 1000;         ///< the tail is this part of the pixels
+constexpr size_t FEWEST_FOR_INTERVAL = 4; ///< replicates
+constexpr size_t FEWEST_FOR_SLOPE = 5;    ///< errors
+constexpr double OCTAVES_FOR_SLOPE = 16;  ///< last over first samples: four octaves
+constexpr size_t TAIL_PART = 1000;        ///< the tail is this part of the pixels
 constexpr double ALONE = 0.9; ///< of a single event's share: 1 of 200 pixels of normal noise, 8 replicates
 constexpr size_t PIXELS_AT_ONCE =
     1u << 13; ///< of a parallel sum: its order, and so its bits, follow from this
@@ -281,6 +279,12 @@ std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history) 
     if (history.size() < FEWEST_FOR_SLOPE ||
         double(history.back().samples) < OCTAVES_FOR_SLOPE * double(history.front().samples))
         return std::nullopt;
+    return fit_error_slope(history);
+}
+
+std::optional<ErrorSlope> fit_error_slope(const std::vector<SquaredError>& history) {
+    if (history.size() < 2)
+        return std::nullopt;
     const size_t replicates = history.back().without.size();
     for (const SquaredError& error : history)
         if (error.without.size() != replicates || replicates == 0 || !(error.mean_squared > 0))
@@ -342,15 +346,6 @@ std::optional<ErrorSpread> film_error_spread(const Film& film) {
     for (auto pixel = pixels.begin(); pixel != tail_end; ++pixel)
         spread.tail_share += *pixel / total;
     return spread;
-}
-
-std::optional<ErrorPrice> price_of_half(const FilmError& error, const std::optional<ErrorSlope>& slope,
-                                        double seconds) {
-    const double exponent = slope ? slope->slope : INDEPENDENT_SLOPE;
-    if (!(error.relative_rmse > 0) || exponent > SLOWEST_SLOPE)
-        return std::nullopt;
-    const double factor = std::exp2(-1 / exponent);
-    return ErrorPrice{error.relative_rmse / 2, factor, seconds * (factor - 1), exponent, slope.has_value()};
 }
 
 } // namespace clrt

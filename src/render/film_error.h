@@ -69,6 +69,9 @@ struct ErrorSlope {
 /// four replicates, or where an error is 0.
 std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history);
 
+/// The same through as few as two errors.
+std::optional<ErrorSlope> fit_error_slope(const std::vector<SquaredError>& history);
+
 /// Where the error sits, over the pixels that show the scene.
 struct ErrorSpread {
     double worst_tile = 0; ///< sqrt(mean squared error of a tile's pixels) / mean radiance of all of them
@@ -89,19 +92,5 @@ constexpr int ERROR_TILE_SIZE = 32;
 
 /// None when there is no error or it is 0.
 std::optional<ErrorSpread> film_error_spread(const Film& film);
-
-/// What half the error would cost.
-struct ErrorPrice {
-    double relative_rmse = 0; ///< half of the present error
-    double factor = 0;        ///< times the present samples
-    double seconds = 0;       ///< of rendering, beyond the present
-    double slope = 0;         ///< of the extrapolation
-    bool measured = false;    ///< the slope; otherwise it is that of independent samples
-};
-
-/// Extrapolates by the measured slope, or by -0.5 where there is none. `seconds` is what the present samples
-/// took. None where the error is 0 or falls so slowly that no number of samples can be named.
-std::optional<ErrorPrice> price_of_half(const FilmError& error, const std::optional<ErrorSlope>& slope,
-                                        double seconds);
 
 } // namespace clrt

@@ -5,23 +5,27 @@
 #include "bvh/bvh.h"
 #include "effects/take_out.h"
 #include "error.h"
+#include "render/ledger_plan.h"
 #include "render/render.h"
 #include "render/scene_buffers.h"
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace clrt {
 
 namespace {
 
-/// For all rounds together, unless --time says otherwise.
-constexpr double DEFAULT_SECONDS = 60;
-/// More samples a round make no interval narrower than the machine's own unrest.
-constexpr double MOST_SAMPLES = 64;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Seconds that all threads of this process were at work.
 double processor_seconds() {
@@ -62,8 +66,10 @@ public:
         return is_processor_time() ? double(std::max(device_.info.compute_units, 1u)) : 1;
     }
 
-    /// Compiles a variant's programs and lets the driver finish them. Compilers work on one thread.
-    void compile(Variant& variant) const {
+    /// Compiles a variant's programs and lets the driver finish them. Compilers work on one thread. Returns
+    /// what it took by the wall clock.
+    VariantSeconds compile(Variant& variant) const {
+        const auto begun = Clock::now();
         const Effects effects = find_effects(scene_, variant.options);
         variant.mask = effects.mask;
         variant.left_out = effects.left_out;
@@ -72,8 +78,12 @@ public:
             build_render_programs(device_, variant.options, variant.mask, layout_, effects.paths);
         const double built = processor_seconds() - start;
         variant.options.spp = 1;
-        const double launched = run(variant, nullptr).first_launch_seconds;
+        const auto rendered = Clock::now();
+        const Render render = run(variant, nullptr);
+        const double launched = render.first_launch_seconds;
         variant.compile_seconds = (is_processor_time() ? built : variant.programs.seconds) + launched;
+        const double run_seconds = seconds_since(rendered) - launched - render.run_seconds;
+        return {seconds_since(begun) - run_seconds - render.run_seconds, run_seconds, render.run_seconds};
     }
 
     /// Renders a variant; adds the seconds of one sample a pixel and the light to it.
@@ -180,40 +190,77 @@ LedgerValue ledger_value(std::vector<double> values) {
     return {values[LEDGER_ROUNDS / 2], values[1], values[LEDGER_ROUNDS - 2]};
 }
 
-Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress) {
-    const Bench bench(device, scene, choose_layout(options.bvh, device.info));
-    std::vector<Variant> variants = make_variants(scene, options);
+namespace {
 
-    // Compile everything, the first program twice: what the compiler does once is no program's. One sample
-    // more of the picture tells how many fit the time.
+/// Says what is to come before it takes its time.
+void announce(const LedgerPlan& plan, const Options& options, size_t variants, double now,
+              Progress& progress) {
+    const double needed = plan.needed(variants, now);
+    const size_t fitting = plan.fitting(variants, now);
+    progress.finish();
+    if (fitting == variants)
+        spdlog::info("the ledger of {} effects takes {:.0f} s or more", variants - 2, needed);
+    else
+        spdlog::warn("the ledger of {} effects takes {:.0f} s or more, compiling included: about {} of them "
+                     "fit --time "
+                     "{:g}",
+                     variants - 2, needed, fitting - 2, *options.time_seconds);
+}
+
+/// Compiles the variants that fit the time and gives back the effects of the others. The first program is
+/// compiled twice: what the compiler does once is no program's.
+std::vector<std::string> compile_fitting(const Bench& bench, const Options& options, Clock::time_point start,
+                                         std::vector<Variant>& variants, LedgerPlan& plan,
+                                         Progress& progress) {
     bench.compile(variants[0]);
-    for (size_t i = 0; i < variants.size(); ++i) {
-        progress.update({"compile", double(i) / double(variants.size()), 0, -1});
-        bench.compile(variants[i]);
+    size_t done = 0;
+    for (; done < variants.size(); ++done) {
+        if (done == 2)
+            announce(plan, options, variants.size(), seconds_since(start), progress);
+        if (done >= 2 && plan.fitting(variants.size(), seconds_since(start)) <= done)
+            break;
+        progress.update({"compile", double(done) / double(variants.size()), 0, -1});
+        plan.add(bench.compile(variants[done]));
     }
-    bench.measure(variants[0], 0, 1);
-    const double pass = std::max(variants[0].seconds[0], 1e-6) / bench.threads();
-    const double once = pass * double(LEDGER_ROUNDS) * double(variants.size());
-    const double fitting = options.time_seconds.value_or(DEFAULT_SECONDS) / once;
-    const auto samples =
-        std::uint32_t(options.spp ? *options.spp : std::clamp(std::floor(fitting), 1.0, MOST_SAMPLES));
-    variants[0].seconds.clear();
-    variants[0].light.clear();
+    std::vector<std::string> left;
+    for (size_t i = done; i < variants.size(); ++i)
+        left.push_back(variants[i].effect);
+    variants.resize(done);
+    return left;
+}
 
-    // Take turns.
-    for (int round = 0; round < LEDGER_ROUNDS; ++round)
+/// Renders all variants in turn, round by round; gives back the fewest samples of a round.
+std::uint32_t take_turns(const Bench& bench, Clock::time_point start, std::vector<Variant>& variants,
+                         LedgerPlan& plan, Progress& progress) {
+    std::uint32_t fewest = UINT32_MAX;
+    for (int round = 0; round < LEDGER_ROUNDS; ++round) {
+        fewest = std::min(fewest, plan.samples(variants.size(), LEDGER_ROUNDS - round, seconds_since(start)));
         for (size_t i = 0; i < variants.size(); ++i) {
             const double done = double(size_t(round) * variants.size() + i);
             progress.update({"ledger", done / double(size_t(LEDGER_ROUNDS) * variants.size()), 0, -1});
-            bench.measure(variants[(i + size_t(round)) % variants.size()], round, samples);
+            bench.measure(variants[(i + size_t(round)) % variants.size()], round, fewest);
         }
+    }
+    return fewest;
+}
+
+} // namespace
+
+Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress) {
+    const auto start = Clock::now();
+    const Bench bench(device, scene, choose_layout(options.bvh, device.info));
+    std::vector<Variant> variants = make_variants(scene, options);
+    LedgerPlan plan(options.time_seconds, options.spp);
+    Ledger ledger;
+    ledger.not_measured = compile_fitting(bench, options, start, variants, plan, progress);
+    ledger.compile_seconds = seconds_since(start);
+    ledger.samples = take_turns(bench, start, variants, plan, progress);
+    ledger.seconds = seconds_since(start);
 
     // Draw up the bill.
     const Variant &picture = variants[0], &full = variants[1];
-    Ledger ledger;
     ledger.width = options.crop ? options.crop->x1 - options.crop->x0 : options.size.x;
     ledger.height = options.crop ? options.crop->y1 - options.crop->y0 : options.size.y;
-    ledger.samples = samples;
     ledger.is_processor_time = bench.is_processor_time();
     ledger.specialised = {picture.compile_seconds, ledger_value(picture.seconds)};
     ledger.full = {full.compile_seconds, ledger_value(full.seconds)};

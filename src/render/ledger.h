@@ -45,7 +45,7 @@ struct LedgerRow {
 
 struct Ledger {
     int width = 0, height = 0;
-    std::uint32_t samples = 0;       ///< a pixel and round
+    std::uint32_t samples = 0;       ///< a pixel and round, in the round with the fewest
     bool is_processor_time = false;  ///< seconds are those of all threads together, else of the wall clock
     LedgerProgram specialised, full; ///< --effects auto (or as given), and all
     LedgerValue full_extra_share;    ///< time of the full program over that of the specialised one, less 1
@@ -53,11 +53,15 @@ struct Ledger {
     /// hand; and for the upper and the lower end of the difference. None where the difference is not above 0.
     std::optional<double> break_even, break_even_low, break_even_high;
     std::vector<LedgerRow> rows;
+    std::vector<std::string> not_measured; ///< effects that did not fit --time
+    double seconds = 0;                    ///< of the wall clock that all of it took,
+    double compile_seconds = 0;            ///< and of these what came before the rounds
 };
 
 /// Renders the scene in rounds: each round once with all that it calls for, once by the full program, and
-/// once without each effect, in turning order and with the same random numbers. Uses --time (default a
-/// minute) for all rounds together, and at least one sample a pixel and round.
+/// once without each effect, in turning order and with the same random numbers, at least one sample a pixel
+/// and round. --time bounds all of it, compiling included: what does not fit is not measured. Without it all
+/// effects are compiled and the rounds take a minute. Says beforehand what it will take.
 Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress);
 
 /// The table.

@@ -64,6 +64,12 @@ std::string format_ledger(const Ledger& ledger, const Options& options, const De
                        text(ledger.full_extra_share, 100) + " more", "",
                        fmt::format("{:.2f}", ledger.full.compile_seconds));
     out += fmt::format("\nCompiling for the scene {}.\n", break_even_text(ledger));
+    out += fmt::format("The ledger took {:.1f} s, {:.1f} s of it compiling.\n", ledger.seconds,
+                       ledger.compile_seconds);
+    if (!ledger.not_measured.empty())
+        out += fmt::format(
+            "Not measured, for want of time: {}. Compiled programs are kept: another run gets further.\n",
+            fmt::join(ledger.not_measured, ", "));
     return out;
 }
 
@@ -75,6 +81,9 @@ std::string ledger_json(const Ledger& ledger, const Options& options, const Devi
     root["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
     root["width"] = ledger.width;
     root["height"] = ledger.height;
+    root["seconds"] = ledger.seconds;
+    root["compile_seconds"] = ledger.compile_seconds;
+    root["not_measured"] = ledger.not_measured;
     root["rounds"] = LEDGER_ROUNDS;
     root["spp"] = ledger.samples;
     root["confidence"] = 0.961;

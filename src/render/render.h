@@ -43,7 +43,7 @@ struct RenderProgress {
     std::vector<Film> path_layers;     ///< light of each layer NAME=EXPR in one replicate
     std::vector<SquaredError> history; ///< errors at doublings, for the slope
     AdaptiveRound round;               ///< of an adaptive render: the present one
-    double seconds = 0;                ///< of the launches
+    double seconds = 0;                ///< of rendering them
 };
 
 /// What a render gives: film, counts, history and seconds of the whole picture, the rest of this run.
@@ -54,10 +54,13 @@ struct Render : RenderProgress {
     double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
     double run_seconds = 0;          ///< of this run's render stage, first_launch_seconds not included
     double check_seconds = 0;        ///< of them: reading the film and measuring its error
-    std::optional<FilmError> error;  ///< of the film as it is
-    StopRule stop = StopRule::SPP;   ///< what ended it
-    std::string stop_text;           ///< the same in words
-    int stop_signal = 0;             ///< the signal that ended it early, or 0
+    double dropped_seconds = 0; ///< of them: for a pass that was interrupted and dropped; not in `seconds`
+    double overrun_seconds = 0; ///< beyond --time
+    double longest_launch_seconds = 0;
+    std::optional<FilmError> error; ///< of the film as it is
+    StopRule stop = StopRule::SPP;  ///< what ended it
+    std::string stop_text;          ///< the same in words
+    int stop_signal = 0;            ///< the signal that ended it early, or 0
 };
 
 /// What happens beside a render.

@@ -2,6 +2,7 @@
 #include "render/report.h"
 
 #include "paths/path_report.h"
+#include "render/report_facts.h"
 #include "scene/ground.h"
 #include "scene/normalise.h"
 
@@ -26,22 +27,13 @@ std::string command_text(const Options& options) {
     return text;
 }
 
-double rays_per_second(const Render& render) {
-    return render.seconds > 0 ? double(render.counts.rays()) / render.seconds : 0;
-}
-
-std::vector<std::string> names_of_effects(const Effects& effects, bool present) {
-    std::vector<std::string> names;
-    for (const Effect& effect : effects.list)
-        if (effect.present == present && !(effects.left_out & effect.bit))
-            names.push_back(effect.name);
-    return names;
-}
-
 /// What ended the render; whether --error is reached, null without it.
 Json stop_json(const Report& report) {
-    Json json{
-        {"rule", stop_rule_name(report.render.stop)}, {"error_target", nullptr}, {"error_reached", nullptr}};
+    Json json{{"rule", stop_rule_name(report.render.stop)},
+              {"error_target", nullptr},
+              {"error_reached", nullptr},
+              {"overrun_seconds", report.render.overrun_seconds},
+              {"dropped_seconds", report.render.dropped_seconds}};
     if (report.options.error) {
         json["error_target"] = *report.options.error;
         json["error_reached"] = error_reached(report);
@@ -74,23 +66,6 @@ void add_facts(const Report& report, Metadata& metadata) {
     metadata.emplace_back("device.same_bits", !same_bits ? "unknown" : *same_bits ? "yes" : "no");
     if (report.facts)
         metadata.emplace_back("device.facts", describe_facts(*report.facts));
-}
-
-/// Samples a pixel of the tiles of an adaptive film.
-struct TileSpread {
-    double mean = 0;
-    std::uint32_t fewest = UINT32_MAX, most = 0;
-};
-
-TileSpread tile_spread(const Film& film) {
-    TileSpread spread;
-    for (size_t tile = 0; tile < film_tiles(film); ++tile) {
-        const std::uint32_t samples = film.tile_samples[0][tile] + film.tile_samples[1][tile];
-        spread.fewest = std::min(spread.fewest, samples);
-        spread.most = std::max(spread.most, samples);
-    }
-    spread.mean = double(film_all_samples(film)) / double(film_plane(film) / 3);
-    return spread;
 }
 
 /// Null where all tiles have the same number of samples.
@@ -136,39 +111,6 @@ std::uint64_t peak_memory_bytes() {
     return std::uint64_t(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
-std::string format_report(const Report& report) {
-    const Render& render = report.render;
-    const RenderCounts& counts = render.counts;
-    const double samples = double(counts.primary);
-    std::string text;
-    text += fmt::format("{} x {}, {} spp, {}, seed {}, on {}\n", render.film.width, render.film.height,
-                        film_samples(render.film), integrator_name(report.options.integrator),
-                        report.options.seed, report.device.name);
-    text += fmt::format("ended    {}\n", render.stop_text);
-    text += fmt::format(
-        "seconds  load {:.2f}  bvh {:.2f}  compile {:.2f} + {:.2f}  render {:.2f}  total {:.2f}\n",
-        report.load_seconds, report.bvh.seconds, report.compile_seconds, render.first_launch_seconds,
-        render.run_seconds, report.total_seconds);
-    text += fmt::format("rays     {:.2f} a sample, {:.2f} Mrays/s, {:.2f} Msamples/s\n",
-                        samples > 0 ? double(counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,
-                        render.seconds > 0 ? samples / render.seconds * 1e-6 : 0);
-    text += fmt::format("tree     {} {} ({}), SAH cost {:.1f}\n", layout_name(report.bvh.layout),
-                        quality_name(report.bvh.quality), report.bvh_reason, report.bvh.sah_cost);
-    if (is_adaptive(render.film)) {
-        const TileSpread spread = tile_spread(render.film);
-        text += fmt::format("adaptive {} to {} spp by tiles of {} x {}, {:.2f} on average\n", spread.fewest,
-                            spread.most, ADAPTIVE_TILE_SIZE, ADAPTIVE_TILE_SIZE, spread.mean);
-    }
-    text += format_error_report(report.error);
-    text += fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan,
-                        counts.infinite, counts.negative, counts.overflow);
-    text += format_causes(report.causes, counts.bad(), report.scene, report.options);
-    if (report.effects.paths.is_asked)
-        text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
-    text += fmt::format("absent   {}\n", fmt::join(names_of_effects(report.effects, false), ", "));
-    return text;
-}
-
 std::string report_json(const Report& report) {
     const Render& render = report.render;
     const RenderCounts& counts = render.counts;
@@ -188,9 +130,13 @@ std::string report_json(const Report& report) {
     json["seed"] = report.options.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = file_triangles(report.scene);
-    json["seconds"] = {{"load", report.load_seconds},       {"bvh", report.bvh.seconds},
-                       {"compile", report.compile_seconds}, {"first_launch", render.first_launch_seconds},
-                       {"render", render.run_seconds},      {"checks", render.check_seconds},
+    json["seconds"] = {{"load", report.load_seconds},
+                       {"bvh", report.bvh.seconds},
+                       {"compile", report.compile_seconds},
+                       {"first_launch", render.first_launch_seconds},
+                       {"render", render.run_seconds},
+                       {"checks", render.check_seconds},
+                       {"longest_launch", render.longest_launch_seconds},
                        {"total", report.total_seconds}};
     json["rays"] = {{"primary", counts.primary}, {"shadow", counts.shadow}, {"secondary", counts.secondary}};
     json["rays_per_second"] = rays_per_second(render);

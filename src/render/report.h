@@ -38,7 +38,7 @@ bool error_reached(const Report& report);
 /// Largest resident memory of this process so far, bytes.
 std::uint64_t peak_memory_bytes();
 
-/// The lines that end a run, for stdout.
+/// The lines that end a run, for stdout: what everybody asks and whatever is wrong, with -v all of it.
 std::string format_report(const Report& report);
 
 /// The --stats file: JSON in SI units.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/stop_rules.h"
 
+#include "render/good_counts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,6 +14,13 @@ namespace {
 /// The first measurement that may end a render: two samples in every replicate, so that the spread is not
 /// that of single samples.
 constexpr std::uint64_t FEWEST_OF_A_REPLICATE = 2;
+/// A pass is begun when the time that is left is this part of what passes took so far: they differ by about
+/// as much, and one that is not done in time can be dropped.
+constexpr double WORTH_BEGINNING = 0.8;
+/// No integrand's error falls faster than samples to this power while pixels have edges in them.
+constexpr double STEEPEST_SLOPE = -1;
+/// What a render differs from --time is said from this part of it.
+constexpr double WORTH_SAYING = 0.05;
 
 /// Samples after which the options end the render, whatever the film holds.
 std::uint64_t samples_of_options(const Options& options) {
@@ -51,7 +60,8 @@ std::optional<StopRule> StopRules::ended(const RenderState& state) const {
         return StopRule::ERROR;
     if (state.samples >= last_samples_)
         return last_samples_ == samples_of_options(options_) ? StopRule::SPP : StopRule::FILM_FULL;
-    if (options_.time_seconds && *options_.time_seconds - state.seconds < 0.5 * state.pass_seconds)
+    if (options_.time_seconds &&
+        *options_.time_seconds - state.seconds < WORTH_BEGINNING * state.pass_seconds)
         return StopRule::TIME;
     if (state.signal)
         return StopRule::SIGNAL;
@@ -59,14 +69,19 @@ std::optional<StopRule> StopRules::ended(const RenderState& state) const {
 }
 
 std::uint64_t StopRules::next_check(std::uint64_t samples) const {
-    std::uint64_t check = std::uint64_t(options_.replicates);
-    while (check <= samples)
-        check *= 2;
-    return check;
+    return options_.error ? next_good_count(samples, options_.replicates)
+                          : next_doubling(samples, options_.replicates);
 }
 
-bool StopRules::is_check(std::uint64_t samples) const {
-    return samples > 0 && next_check(samples - 1) == samples;
+bool StopRules::is_check(std::uint64_t samples, const std::optional<SquaredError>& last) const {
+    if (is_doubling(samples, options_.replicates))
+        return true;
+    if (!options_.error || !is_good_count(samples, options_.replicates))
+        return false;
+    const std::optional<FilmError> error = last ? relative_error(*last) : std::nullopt;
+    return !error ||
+           error->relative_rmse * std::pow(double(samples) / double(last->samples), STEEPEST_SLOPE) <=
+               *options_.error;
 }
 
 bool StopRules::reached(const std::optional<FilmError>& error) const {
@@ -77,27 +92,45 @@ double StopRules::fraction(double samples, double seconds, const std::optional<S
     double fraction = samples / double(last_samples_);
     if (options_.time_seconds)
         fraction = std::max(fraction, seconds / *options_.time_seconds);
-    // Independent samples would reach the target after this many, at the next doubling.
+    // Independent samples would reach the target after this many, at the next good count.
     const std::optional<FilmError> error = check ? relative_error(*check) : std::nullopt;
     if (options_.error && *options_.error > 0 && error) {
-        const double doublings = std::ceil(2 * std::log2(error->relative_rmse / *options_.error));
-        fraction =
-            std::max(fraction, samples / (double(check->samples) * std::exp2(std::max(doublings, 1.0))));
+        const double needed = double(check->samples) * std::pow(error->relative_rmse / *options_.error, 2);
+        const double most =
+            std::min(std::max(std::ceil(needed), double(check->samples) + 1), double(last_samples_));
+        fraction = std::max(fraction,
+                            samples / double(next_good_count(std::uint64_t(most) - 1, options_.replicates)));
     }
     return std::min(fraction, 1.0);
 }
 
-std::string StopRules::describe(StopRule rule, std::uint64_t samples) const {
+std::string StopRules::describe_time(const StopMoment& moment) const {
+    const double time = *options_.time_seconds, late = moment.seconds - time;
+    if (moment.dropped_seconds == 0 && moment.pass_seconds > 0 && -late > WORTH_SAYING * time)
+        return fmt::format("another pass takes {:.1f} s, more than --time {:g} s leaves", moment.pass_seconds,
+                           time);
+    std::string text = fmt::format("--time {:g} s is over", time);
+    if (late > WORTH_SAYING * time)
+        text += fmt::format(" by {:.1f} s: {}", late,
+                            moment.is_first_pass && moment.dropped_seconds == 0
+                                ? "the first pass is always finished"
+                                : "a launch is never cut short");
+    if (moment.dropped_seconds > 0)
+        text += fmt::format("; an unfinished pass was dropped ({:.1f} s)", moment.dropped_seconds);
+    return text;
+}
+
+std::string StopRules::describe(StopRule rule, const StopMoment& moment) const {
     switch (rule) {
     case StopRule::SPP:
-        if (samples > last_samples_) // only a resumed film has more
+        if (moment.samples > last_samples_) // only a resumed film has more
             return fmt::format("the film has {} spp already, more than {} {}: nothing was left to render",
-                               samples, options_.spp ? "--spp" : "the default of", last_samples_);
+                               moment.samples, options_.spp ? "--spp" : "the default of", last_samples_);
         if (options_.spp)
             return fmt::format("--spp {} is complete", *options_.spp);
         return fmt::format("the default of {} spp is complete", last_samples_);
     case StopRule::TIME:
-        return fmt::format("--time {:g} s is over", *options_.time_seconds);
+        return describe_time(moment);
     case StopRule::ERROR:
         return fmt::format("--error {:g} % is reached", 100 * *options_.error);
     case StopRule::FILM_FULL:

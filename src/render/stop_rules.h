@@ -25,9 +25,17 @@ struct RenderState {
     int signal = 0;                 ///< that came, or 0
 };
 
-/// The rules of one render. The error is looked at when the number of samples has doubled, and at the end:
-/// looking after every pass would end renders where the estimate happens to be low and so bias the printed
-/// error.
+/// How a render ended.
+struct StopMoment {
+    std::uint64_t samples = 0;  ///< a pixel, those of earlier runs included
+    double seconds = 0;         ///< of this run's render stage
+    double pass_seconds = 0;    ///< of one pass
+    bool is_first_pass = false; ///< the picture has one pass
+    double dropped_seconds = 0; ///< of a pass that was not finished
+};
+
+/// The rules of one render. --error is looked at where the samples are even (good_counts.h): looking after
+/// every pass would end renders where the estimate happens to be low and so bias the printed error.
 class StopRules {
 public:
     /// `film_limit`: samples a pixel that the film can hold.
@@ -38,22 +46,24 @@ public:
 
     /// Samples a pixel after which the render ends in any case.
     std::uint64_t last_samples() const { return last_samples_; }
-    /// The next number of samples above `samples` at which the error is measured: replicates times a power of
-    /// two.
+    /// The next number of samples above `samples` at which an error may be measured: a doubling, with --error
+    /// any good count.
     std::uint64_t next_check(std::uint64_t samples) const;
-    /// Whether an error is measured at this number of samples.
-    bool is_check(std::uint64_t samples) const;
+    /// Whether the error is measured at this number of samples for --error, `last` being the last
+    /// measurement. Between doublings only if it may have come down to the target since.
+    bool is_check(std::uint64_t samples, const std::optional<SquaredError>& last) const;
     /// Whether this error satisfies --error.
     bool reached(const std::optional<FilmError>& error) const;
 
     /// Progress in [0, 1] by the limit that is nearest; `check` is the last measured error, if any, and at
     /// how many samples.
     double fraction(double samples, double seconds, const std::optional<SquaredError>& check) const;
-    /// What ended the render after so many samples a pixel, for the log and the report: "--spp 64 is
-    /// complete".
-    std::string describe(StopRule rule, std::uint64_t samples) const;
+    /// What ended the render, for the log and the report: "--spp 64 is complete".
+    std::string describe(StopRule rule, const StopMoment& moment = {}) const;
 
 private:
+    std::string describe_time(const StopMoment& moment) const;
+
     const Options& options_;
     std::uint64_t film_limit_, last_samples_;
 };

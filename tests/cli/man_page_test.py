@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """tools/manpage.py: every program's page has all of its options, and man takes it without a warning. Arguments: programs."""
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -36,6 +37,20 @@ class ManPage(unittest.TestCase):
                 self.assertIn("1.2.3", page.splitlines()[0])
                 for section in ("NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS"):
                     self.assertEqual(page.count(f"\n.SH {section}\n"), 1, section)
+
+    def test_it_explains_the_lines_of_the_report(self):
+        folder = pathlib.Path(ROOT, "src", "render")
+        source = "".join(folder.joinpath(name).read_text(encoding="utf-8") for name in
+                         ("report_text.cpp", "error_text.cpp", "cut_paths.cpp", "../paths/blind_spots.cpp"))
+        labels = {label.strip() for label in re.findall(r'"([a-z][a-z ]{7} )\S', source) if re.match(r"[a-z ]{8} ", label)}
+        self.assertTrue({"picture", "error", "verdict", "price", "left out", "not seen", "tails"} <= labels, labels)
+        page = next(page_of(program) for program in PROGRAMS if os.path.basename(program) == "clrt")
+        report = page[page.index(".SH REPORT"):]
+        for label in labels - {"by", "stages", "checked", "absent", "paths", "forecast", "measured", "lacks up", "half the"}:
+            with self.subTest(label=label):
+                self.assertRegex(report, rf"\.B (.*, )?{label}(,| |\n)")
+        for term in ("RMSE", "replicate", "interval", "spp", "slope", "pass"):
+            self.assertIn(term, report)
 
     @unittest.skipUnless(shutil.which("groff"), "needs groff")
     def test_groff_takes_it_without_a_warning(self):

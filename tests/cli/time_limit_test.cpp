@@ -2,6 +2,9 @@
 // What is promised in seconds and per second of a real render. Runs alone (tests.cmake).
 #include "clrt_command.h"
 
+#include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -26,8 +29,36 @@ protected:
         return result.err;
     }
 
+    /// A render inside a closed room whose walls reflect nearly all light: a pass takes seconds and many
+    /// launches.
+    CommandResult run_slow(std::vector<std::string> arguments, const CommandSettings& settings = {}) {
+        folder.write("room.mtl", "newmtl wall\nKd .98 .98 .98\nKe .02 .02 .02\n");
+        folder.write("room.obj",
+                     "mtllib room.mtl\nusemtl wall\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\n"
+                     "v 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 2 3 4\nf 8 7 6 5\nf 1 4 8 5\nf 2 6 7 3\nf 1 5 6 2\n"
+                     "f 4 3 7 8\n");
+        if (std::find(arguments.begin(), arguments.end(), "-r") == arguments.end())
+            arguments.insert(arguments.end(), {"-r", "192x144"});
+        arguments.insert(arguments.end(),
+                         {"room.obj", "--eye", "0,0,0", "--at", "0,0,-1", "--stats", "s.json"});
+        const CommandResult result = clrt(arguments, settings);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        stats = nlohmann::json::parse(folder.read("s.json"));
+        return result;
+    }
+    double seconds(const char* key) const { return stats["seconds"][key]; }
+
     nlohmann::json stats;
 };
+
+/// The number of the last match in a text; NaN: there is none.
+double last_number(const std::string& text, const std::string& expression) {
+    double number = std::nan("");
+    const std::regex regex(expression);
+    for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match)
+        number = std::stod((*match)[1]);
+    return number;
+}
 
 } // namespace
 
@@ -45,7 +76,7 @@ TEST_F(TimeLimit, TheProgressLineSaysWhatIsKnown) {
     const std::string text = run(arguments);
     // The line that a render of more than a second leaves behind.
     const std::regex line(
-        R"(render  +\d+%  (\d+) spp  ([0-9.]+) s (?: ETA [^M]*)? ([0-9.]+) Mrays/s  error about ([0-9.]+) %)");
+        R"(render  +\d+%  (\d+) spp  ([0-9.]+) s (?: ETA [^M]*)? ([0-9.]+) Mrays/s  error ([0-9.]+) %)");
     std::smatch found;
     ASSERT_TRUE(std::regex_search(text, found, line)) << text;
     EXPECT_EQ(std::stoull(found[1]), stats["spp"]);
@@ -58,6 +89,117 @@ TEST_F(TimeLimit, TheProgressLineSaysWhatIsKnown) {
         rays += stats["rays"][kind].get<double>();
     const double expected = 1e-6 * rays / stats["seconds"]["render"].get<double>();
     EXPECT_NEAR(std::stod(found[3]) / expected, 1, 0.15);
+}
+
+TEST_F(TimeLimit, TheLastProgressLineIsTheFinalState) {
+    const std::string text =
+        run({"scene.obj", "-r", "256x192", "-t", "1.6", "--env", "0,0,0", "--point", "0,0,2,9,9,9",
+             "--filter", "gaussian", "--stats", "s.json", "--progress", "on"});
+    EXPECT_EQ(last_number(text, "([0-9]+) spp  "), stats["spp"]) << text;
+    EXPECT_NEAR(last_number(text, "error ([0-9.]+) %"), 100 * stats["error"]["rel_rmse"].get<double>(),
+                0.0501)
+        << text;
+    EXPECT_NE(text.find("render  100%"), std::string::npos) << text;
+}
+
+TEST_F(TimeLimit, RaysASecondAreKnownInTheFirstPass) {
+    const CommandResult slow = run_slow({"--spp", "1", "--progress", "on", "-r", "480x320"});
+    const double mrays = last_number(slow.err, "  ([0-9.]+) Mrays/s");
+    EXPECT_NEAR(mrays / (1e-6 * stats["rays_per_second"].get<double>()), 1, 0.15) << slow.err;
+}
+
+// What a pass takes is measured first: the machine may be slow.
+TEST_F(TimeLimit, APassThatCannotEndInTimeIsNotBegun) {
+    run_slow({"--spp", "1", "-o", "one.exr"});
+    const double pass = seconds("render");
+    const CommandResult timed = run_slow({"--time", std::to_string(2.6 * pass), "-o", "timed.exr"});
+    EXPECT_LE(seconds("render"), 2.6 * pass + seconds("longest_launch"));
+    EXPECT_LE(seconds("longest_launch"), 2 * LONGEST_LAUNCH_SECONDS) << "launches are short";
+    const unsigned spp = stats["spp"];
+    EXPECT_TRUE(holds(timed.err, {"--time"}));
+    run_slow({"--spp", std::to_string(spp), "-o", "counted.exr"});
+    EXPECT_EQ(ReadPicture(folder.file("timed.exr")).values, ReadPicture(folder.file("counted.exr")).values);
+}
+
+TEST_F(TimeLimit, TheFirstPassIsFinishedAndSaidToOverrun) {
+    const CommandResult result = run_slow({"--time", "0.2"});
+    EXPECT_EQ(stats["spp"], 1);
+    EXPECT_EQ(stats["stop"]["rule"], "time");
+    EXPECT_NEAR(stats["stop"]["overrun_seconds"], seconds("render") - 0.2, 0.5);
+    EXPECT_TRUE(holds(result.err, {"--time 0.2 s is over by ", "the first pass is always finished"}));
+}
+
+// A film is saved after the second group of launches; the process is halted in the fourth until the time is
+// over. The picture is that of the third. (An adaptive render takes eight samples a pixel at once.)
+TEST_F(TimeLimit, APassThatTheTimeInterruptsIsDropped) {
+    for (const bool adaptive : {false, true}) {
+        const auto with = [&](std::vector<std::string> more) {
+            const std::vector<std::string> size = adaptive
+                                                      ? std::vector<std::string>{"--adaptive", "-r", "96x64"}
+                                                      : std::vector<std::string>{"-r", "256x192"};
+            more.insert(more.end(), size.begin(), size.end());
+            return more;
+        };
+        run_slow(with({"--spp", adaptive ? "16" : "2"}));
+        const double group = seconds("render") / 2;
+        // A machine that is busier by now does not come so far, and in the last launch of a group nothing is
+        // left to interrupt: the next attempt has more time and another moment.
+        std::string said;
+        double dropped = 0;
+        for (int attempt = 0; attempt < 6 && (dropped == 0 || stats["spp"] < (adaptive ? 16 : 1));
+             ++attempt) {
+            const double pace = group * (1 + 0.15 * attempt);
+            CommandSettings settings;
+            settings.signals_after_file = "saved.film";
+            settings.signals = {{1.35 * pace, SIGSTOP}, {3.2 * pace, SIGCONT}};
+            std::filesystem::remove(folder.file("saved.film"));
+            said = run_slow(with({"--time", std::to_string(4.5 * pace), "--checkpoint",
+                                  "saved.film," + std::to_string(1.5 * pace) + "s", "-o", "timed.exr"}),
+                            settings)
+                       .err;
+            dropped = stats["stop"]["dropped_seconds"];
+        }
+        EXPECT_GT(dropped, 0);
+        EXPECT_TRUE(holds(said, {"an unfinished pass was dropped"}));
+        ASSERT_GE(stats["spp"], adaptive ? 16 : 1);
+        run_slow(with({"--spp", std::to_string(stats["spp"].get<unsigned>()), "-o", "counted.exr"}));
+        EXPECT_EQ(ReadPicture(folder.file("timed.exr")).values,
+                  ReadPicture(folder.file("counted.exr")).values);
+    }
+}
+
+// Nobody knows how long a pass takes that this run has not done yet.
+TEST_F(TimeLimit, AResumedFilmSurvivesAPassThatIsDropped) {
+    run_slow({"--spp", "2", "--checkpoint", "two.film", "-o", "two.exr"});
+    const double longest = seconds("longest_launch");
+    const CommandResult result =
+        run_slow({"--time", "0.1", "--resume", "two.film", "--checkpoint", "on.film", "-o", "on.exr"});
+    EXPECT_EQ(stats["spp"], 2);
+    EXPECT_LE(seconds("render"), 0.1 + std::max(1.0, 2 * longest));
+    EXPECT_TRUE(holds(result.err, {"an unfinished pass was dropped"}));
+    EXPECT_EQ(ReadPicture(folder.file("on.exr")).values, ReadPicture(folder.file("two.exr")).values);
+    run_slow({"--spp", "3", "--resume", "on.film", "-o", "three.exr"});
+    run_slow({"--spp", "3", "-o", "counted.exr"});
+    EXPECT_EQ(ReadPicture(folder.file("three.exr")).values, ReadPicture(folder.file("counted.exr")).values);
+}
+
+// Without a cache every program is compiled anew, which takes longer than the time.
+TEST_F(TimeLimit, TheLedgerKeepsItsTime) {
+    const std::string scene = CLRT_SCENES_FOLDER "/every_effect/every_effect.obj";
+    const CommandResult result =
+        clrt({scene, "--ledger", "--time", "20", "--no-cache", "-r", "64x48", "--stats", "bill.json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json bill = nlohmann::json::parse(folder.read("bill.json"));
+    // Two programs are in every ledger, the first of them twice.
+    const double programs = 3 + double(bill["effects"].size());
+    const double compile = bill["compile_seconds"].get<double>() / programs;
+    std::printf("%.1f s for %zu effects, a program in %.1f s\n", bill["seconds"].get<double>(),
+                bill["effects"].size(), compile);
+    EXPECT_LE(bill["seconds"], std::max(20.0, 3 * compile) + 2 * compile) << result.out;
+    EXPECT_FALSE(bill["not_measured"].empty());
+    EXPECT_TRUE(
+        holds(result.err, {"warning", "the ledger of ", " effects takes ", " of them fit --time 20"}));
+    EXPECT_TRUE(holds(result.out, {"Not measured, for want of time: "}));
 }
 
 } // namespace clrt

@@ -6,7 +6,7 @@
 #include "effects/explain.h"
 #include "paths/expression_text.h"
 #include "paths/path_plan.h"
-#include "render/error_report.h"
+#include "render/error_text.h"
 #include "support/render_scene.h"
 
 #include <algorithm>
@@ -187,15 +187,16 @@ TEST(BlindSpots, TheVerdictOnTheErrorNamesThem) {
     ErrorReport report;
     report.error = FilmError{0.01, 0.009, 0.011};
     report.spread = ErrorSpread{};
-    EXPECT_NE(format_error_report(report).find("the error can be believed\n"), std::string::npos);
+    EXPECT_NE(format_error_report(report).find("verdict  trust the error\n"), std::string::npos);
     report.blind_spots = {{"LpS+DE", "a light", ""}};
     std::string text = format_error_report(report);
     EXPECT_NE(text.find("not seen LpS+DE: a light\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("the error covers what was sampled; not seen: LpS+DE\n"), std::string::npos) << text;
-    EXPECT_EQ(text.find("believed"), std::string::npos);
+    EXPECT_NE(text.find("for what was sampled, which is not all: not seen: LpS+DE\n"), std::string::npos)
+        << text;
     report.cut.paths = 5;
     text = format_error_report(report);
-    EXPECT_NE(text.find("what was sampled, not what was cut; not seen: LpS+DE\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("which is not all: long paths are cut; not seen: LpS+DE\n"), std::string::npos)
+        << text;
     report.error.reset();
     EXPECT_NE(format_error_report(report).find("not seen LpS+DE"), std::string::npos) << "of black pictures";
 }

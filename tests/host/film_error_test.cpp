@@ -317,23 +317,6 @@ TEST(FilmError, TheVerdictDoubtsWrongErrorsAndBelievesManyEvents) {
     EXPECT_LE(wrong_believed, wrong / 20);
 }
 
-TEST(FilmError, HalfTheErrorIsPricedByTheSlope) {
-    const FilmError error{0.04, 0.03, 0.05};
-    const auto usual = price_of_half(error, std::nullopt, 10);
-    ASSERT_TRUE(usual);
-    EXPECT_EQ(usual->relative_rmse, 0.02);
-    EXPECT_DOUBLE_EQ(usual->factor, 4);
-    EXPECT_DOUBLE_EQ(usual->seconds, 30);
-    EXPECT_FALSE(usual->measured);
-    const auto steep = price_of_half(error, ErrorSlope{-1, 0.1, 8, 128}, 10);
-    ASSERT_TRUE(steep);
-    EXPECT_DOUBLE_EQ(steep->factor, 2);
-    EXPECT_DOUBLE_EQ(steep->seconds, 10);
-    EXPECT_TRUE(steep->measured);
-    EXPECT_FALSE(price_of_half(error, ErrorSlope{-0.05, 0.1, 8, 128}, 10)) << "it does not fall";
-    EXPECT_FALSE(price_of_half(FilmError{}, std::nullopt, 10)) << "there is none";
-}
-
 TEST(FilmError, TheSameFilmGivesTheSameBits) {
     std::mt19937 random(9);
     Film film = empty_film(300, 200, 8, 0, 64);

@@ -81,6 +81,19 @@ TEST(ProgressLine, SaysWhatIsKnown) {
     EXPECT_EQ(progress_line(at("bvh", 0), 1), "bvh       0%  1.0 s");
 }
 
+TEST(ProgressLine, ALongPhaseIsFollowedByABlank) {
+    EXPECT_EQ(progress_line(at("textures", -1), 1), "textures 1.0 s");
+    EXPECT_EQ(progress_line(at("textures", 1), 1), "textures 100%  1.0 s");
+}
+
+TEST(ProgressLine, AnErrorIsAboutRightUntilItIsMeasured) {
+    ProgressState state = at("render", 1, 64);
+    state.error = 0.0801;
+    EXPECT_EQ(progress_line(state, 7), "render  100%  64 spp  7.0 s  error about 8.0 %");
+    state.error_is_measured = true;
+    EXPECT_EQ(progress_line(state, 7), "render  100%  64 spp  7.0 s  error 8.0 %");
+}
+
 TEST(ProgressLine, PercentagesAreRoundedDown) {
     EXPECT_NE(progress_line(at("render", 0.9999), 1).find(" 99%"), std::string::npos);
     EXPECT_NE(progress_line(at("render", 0.999), 1).find(" 99%"), std::string::npos);

@@ -2,6 +2,7 @@
 // What ends a render, and that ending it by its error does not make the error look smaller than it is.
 #include "render/stop_rules.h"
 
+#include "render/good_counts.h"
 #include "support/noise_film.h"
 
 #include <cmath>
@@ -46,13 +47,28 @@ TEST(StopRules, EveryRuleAloneHasAFiniteEnd) {
     EXPECT_EQ(rules.ended(state(FILM_LIMIT)), StopRule::FILM_FULL);
 }
 
-TEST(StopRules, TimeEndsTheRenderAtTheNearestPass) {
+TEST(StopRules, TimeEndsTheRenderBeforeAPassThatItLeavesNoRoomFor) {
     Options options;
     options.time_seconds = 2;
     const StopRules rules(options, FILM_LIMIT);
-    EXPECT_FALSE(rules.ended(state(10, 1.8, 0.3)));
-    EXPECT_EQ(rules.ended(state(10, 1.9, 0.3)), StopRule::TIME);
+    EXPECT_FALSE(rules.ended(state(10, 1.7, 0.3)));
+    EXPECT_FALSE(rules.ended(state(10, 1.75, 0.3))) << "passes differ";
+    EXPECT_EQ(rules.ended(state(10, 1.8, 0.3)), StopRule::TIME);
+    EXPECT_EQ(rules.ended(state(10, 2.1, 0.3)), StopRule::TIME);
     EXPECT_FALSE(rules.ended(state(0, 5, 0))) << "one pass is always completed";
+}
+
+TEST(StopRules, HowTimeEndedTheRenderIsSaid) {
+    Options options;
+    options.time_seconds = 10;
+    const StopRules rules(options, FILM_LIMIT);
+    const auto said = [&](const StopMoment& moment) { return rules.describe(StopRule::TIME, moment); };
+    EXPECT_EQ(said({1, 10.1, 0.2, false, 0}), "--time 10 s is over");
+    EXPECT_EQ(said({1, 9.9, 0.2, false, 0}), "--time 10 s is over");
+    EXPECT_EQ(said({1, 7.5, 3.2, false, 0}), "another pass takes 3.2 s, more than --time 10 s leaves");
+    EXPECT_EQ(said({1, 30, 30, true, 0}), "--time 10 s is over by 20.0 s: the first pass is always finished");
+    EXPECT_EQ(said({1, 11, 0.2, false, 0}), "--time 10 s is over by 1.0 s: a launch is never cut short");
+    EXPECT_EQ(said({1, 10.1, 4, false, 2.5}), "--time 10 s is over; an unfinished pass was dropped (2.5 s)");
 }
 
 TEST(StopRules, TheErrorEndsTheRenderWhereItIsMeasured) {
@@ -81,25 +97,35 @@ TEST(StopRules, TheFirstRuleThatHoldsIsNamed) {
     EXPECT_EQ(rules.ended(interrupted), StopRule::SIGNAL);
     interrupted.samples = 0;
     EXPECT_FALSE(rules.ended(interrupted)) << "no picture yet";
-    EXPECT_EQ(rules.describe(StopRule::SPP, 64), "--spp 64 is complete");
-    EXPECT_EQ(rules.describe(StopRule::SPP, 100),
+    EXPECT_EQ(rules.describe(StopRule::SPP, {64}), "--spp 64 is complete");
+    EXPECT_EQ(rules.describe(StopRule::SPP, {100}),
               "the film has 100 spp already, more than --spp 64: nothing was left to render");
-    EXPECT_EQ(rules.describe(StopRule::TIME, 3), "--time 2 s is over");
-    EXPECT_EQ(rules.describe(StopRule::ERROR, 32), "--error 2 % is reached");
+    EXPECT_EQ(rules.describe(StopRule::TIME, {3, 2}), "--time 2 s is over");
+    EXPECT_EQ(rules.describe(StopRule::ERROR, {32}), "--error 2 % is reached");
 }
 
-TEST(StopRules, TheErrorIsMeasuredAtDoublings) {
+TEST(StopRules, TheErrorIsMeasuredWhereSamplesAreEven) {
     Options options;
     options.replicates = 8;
+    const auto checks = [&] {
+        const StopRules rules(options, FILM_LIMIT);
+        std::vector<std::uint64_t> list;
+        for (std::uint64_t check = rules.next_check(0); check < 200; check = rules.next_check(check)) {
+            EXPECT_TRUE(rules.is_check(check, std::nullopt)) << check;
+            EXPECT_FALSE(rules.is_check(check + 1, std::nullopt)) << check;
+            list.push_back(check);
+        }
+        return list;
+    };
+    EXPECT_EQ(checks(), (std::vector<std::uint64_t>{8, 16, 32, 64, 128})) << "for the slope";
+    options.error = 0.02;
+    EXPECT_EQ(checks(), (std::vector<std::uint64_t>{8, 16, 24, 32, 48, 64, 96, 128, 192}));
     const StopRules rules(options, FILM_LIMIT);
-    std::vector<std::uint64_t> checks;
-    for (std::uint64_t samples = 0; samples < 100; ++samples)
-        if (rules.is_check(samples))
-            checks.push_back(samples);
-    EXPECT_EQ(checks, (std::vector<std::uint64_t>{8, 16, 32, 64}));
-    EXPECT_EQ(rules.next_check(0), 8u);
-    EXPECT_EQ(rules.next_check(8), 16u);
-    EXPECT_EQ(rules.next_check(9), 16u);
+    EXPECT_EQ(rules.next_check(17), 24u);
+    const auto after = [](double error) { return SquaredError{32, error * error, 1, {}}; };
+    EXPECT_FALSE(rules.is_check(48, after(0.031))) << "it cannot have come down to the target since";
+    EXPECT_TRUE(rules.is_check(48, after(0.029)));
+    EXPECT_TRUE(rules.is_check(64, after(0.5))) << "for the slope";
 }
 
 TEST(StopRules, ProgressFollowsTheNearestLimit) {
@@ -111,8 +137,23 @@ TEST(StopRules, ProgressFollowsTheNearestLimit) {
     options = Options();
     options.error = 0.01;
     const SquaredError check{
-        16, 0.0009, 1, {}}; // three times the target: nine times the samples, 256 is next
-    EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(64, 8, check), 0.25);
+        16, 0.0009, 1, {}}; // three times the target: nine times the samples, 192 is next
+    EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(48, 8, check), 0.25);
+}
+
+TEST(GoodCounts, AreTheReplicatesTimesPowersOfTwoAndThreeHalvesOfThem) {
+    EXPECT_EQ(next_good_count(0, 5), 5u);
+    EXPECT_EQ(next_good_count(5, 5), 10u) << "one sample and a half are none";
+    EXPECT_EQ(next_good_count(10, 5), 15u);
+    EXPECT_EQ(next_good_count(15, 5), 20u);
+    EXPECT_EQ(next_good_count(1000, 8), 1024u);
+    EXPECT_EQ(next_good_count(1024, 8), 1536u);
+    EXPECT_TRUE(is_good_count(1536, 8));
+    EXPECT_FALSE(is_good_count(0, 8));
+    EXPECT_FALSE(is_good_count(589, 8));
+    EXPECT_FALSE(is_good_count(12, 8));
+    EXPECT_TRUE(is_doubling(1024, 8));
+    EXPECT_FALSE(is_doubling(1536, 8));
 }
 
 // Ends many renders by their error. Looking repeatedly favours estimates that happen to be low; at doublings

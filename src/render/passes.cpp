@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/passes.h"
+
+#include "app/signals.h"
+#include "device/opencl_error.h"
+#include "render/film_capacity.h"
+#include "render/good_counts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/spdlog.h>
+
+namespace clrt {
+
+namespace {
+
+/// A signal does not wait longer for a pass to end, seconds: it is dropped.
+constexpr double LONGEST_WAIT = 3;
+/// Launches take multiples of this many samples where they can: kernels simulate up to four at once.
+constexpr double SAMPLE_GROUP = 4;
+/// Without --error, measuring errors may take this part of the render; the slope is worth no more.
+constexpr double LARGEST_CHECK_SHARE = 0.05;
+/// So much is always worth it, seconds.
+constexpr double SMALL_CHECK_SECONDS = 0.2;
+/// A pass may take this many times as long as those before it: other programs come to work, and adaptive
+/// rounds go where paths are long.
+constexpr double LARGEST_SLOWDOWN = 4;
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+} // namespace
+
+Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
+               const Options& options, const RenderParams& params, Progress& progress,
+               const RenderHooks& hooks, Render& result)
+    : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
+      progress_(progress), hooks_(hooks), result_(result),
+      film_buffers_(device, params, programs.paths.layers.size()),
+      launcher_(device, programs.picture, std::string("render_") + integrator_name(options.integrator),
+                params, buffers),
+      rules_(options, film_limit(result.film, options)), picture_reminder_(options.save_every_seconds),
+      film_reminder_(options.checkpoint_path.empty() ? std::nullopt
+                                                     : std::optional(options.checkpoint_seconds)),
+      launch_size_(device.info.compute_units) {
+    film_buffers_.bind(launcher_.kernel());
+    take_host_memory();
+    first_ = options.first_sample;
+    if (!result.film.ranges.empty()) {
+        film_buffers_.write_sums(result);
+        first_ = result.film.ranges.back().end;
+        samples_ = film_samples(result.film);
+        earlier_samples_ = film_all_samples(result.film);
+    }
+    earlier_counts_ = result.counts;
+    earlier_seconds_ = result.seconds;
+
+    // A launch without samples makes the driver finish its compilation.
+    const auto start = Clock::now();
+    launcher_.run(0, 0, 0, 0);
+    begin_hits();
+    result.first_launch_seconds = seconds_between(start, Clock::now());
+}
+
+/// Takes what reading the film at the end needs, once the device is known to hold it.
+void Passes::take_host_memory() {
+    Film& film = result_.film;
+    film.sums.resize(size_t(film.replicates) * film_plane(film));
+    result_.path_layers.resize(programs_.paths.layers.size());
+    for (Film& layer : result_.path_layers)
+        layer.sums.resize(film_plane(film));
+}
+
+/// Takes the memory of the layers of hits. Without them the picture is rendered all the same.
+void Passes::begin_hits() {
+    if (!programs_.layers)
+        return;
+    try {
+        hit_layers_.emplace(device_, *programs_.layers, params_, options_.adaptive, scene_buffers_,
+                            film_buffers_, result_.hits);
+    } catch (const DeviceError& error) {
+        give_up_hits(error);
+    }
+}
+
+/// Brings the layers of hits to the film's samples; what takes longer than a launch shows as `phase`.
+void Passes::advance_hits(const char* phase) {
+    if (!hit_layers_)
+        return;
+    const auto start = Clock::now();
+    try {
+        hit_layers_->advance(result_.film, [&](double fraction) {
+            if (phase)
+                progress_.update({phase, fraction, 0, -1, -1});
+        });
+    } catch (const DeviceError& error) {
+        give_up_hits(error);
+    }
+    const double seconds = seconds_between(start, Clock::now());
+    hit_seconds_ += seconds;
+    launch_seconds_ += seconds;
+}
+
+void Passes::give_up_hits(const DeviceError& error) {
+    result_.hits_error = error.what();
+    result_.hits = {};
+    hit_layers_.reset();
+    progress_.finish();
+    spdlog::warn("the picture will be without the layers of hits: {}", error.what());
+}
+
+/// Samples of the next launch on all tiles: what fits the aimed time, up to the next measurement, decision or
+/// the end.
+std::uint32_t Passes::next_samples(const RenderState& state) const {
+    std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
+    if (options_.adaptive)
+        end = std::min(end, result_.round.end);
+    double samples = 1;
+    if (result_.passes > 0) {
+        const double pass = std::max(state.pass_seconds, 1e-6);
+        const double fitting = LAUNCH_SECONDS / pass;
+        samples = fitting <= 1 ? 1 : std::ceil(fitting / SAMPLE_GROUP) * SAMPLE_GROUP;
+        // Grow slowly: the first passes may be unlike the later ones.
+        samples = std::min(samples, 2.0 * double(result_.passes));
+        if (options_.time_seconds)
+            samples = std::min(samples, std::max(1.0, (*options_.time_seconds - state.seconds) / pass));
+    }
+    // Adaptive tiles advance by whole samples of every replicate.
+    if (options_.adaptive)
+        samples = std::ceil(samples / options_.replicates) * options_.replicates;
+    return std::uint32_t(std::min(double(end - samples_), samples));
+}
+
+/// Before the next launches: keeps the film in the result where they may have to be dropped.
+void Passes::keep_film(const RenderState& state, std::uint32_t samples) {
+    if (result_.passes == 0) {
+        is_kept_ = samples_ > 0; // a resumed film is there already
+        return;
+    }
+    is_kept_ = may_be_interrupted(state, samples);
+    if (is_kept_)
+        read_back();
+}
+
+/// Whether so many passes may have to be dropped: a signal does not wait for them, or the time may be over
+/// before they end. What is a single launch is never interrupted.
+bool Passes::may_be_interrupted(const RenderState& state, std::uint32_t samples) const {
+    const double seconds = state.pass_seconds * samples;
+    const bool is_one_launch =
+        !options_.adaptive && launch_size_.tiles(samples, params_.tile_count) == params_.tile_count;
+    const bool may_be_late =
+        options_.time_seconds && state.seconds + LARGEST_SLOWDOWN * seconds > *options_.time_seconds;
+    return seconds > LONGEST_WAIT || (may_be_late && !is_one_launch);
+}
+
+/// What ends launches here although they would take so much longer; none: they go on. All samples before them
+/// are kept.
+std::optional<StopRule> Passes::interruption(double seconds_left) const {
+    if (stop_signal() && seconds_left > LONGEST_WAIT && (is_kept_ || samples_ == 0))
+        return StopRule::SIGNAL;
+    // A pass is not finished before the layers of hits have it too.
+    const double hit_seconds = result_.passes > 0 ? hit_seconds_ / double(result_.passes) : 0;
+    if (is_kept_ && options_.time_seconds && seconds() + hit_seconds > *options_.time_seconds)
+        return StopRule::TIME;
+    return std::nullopt;
+}
+
+/// Calls launch(first tile, end of tiles) until all tiles have their `samples`, in several launches where
+/// they take long; `done` samples a pixel are there already. False where it is interrupted.
+template <class Launch>
+bool Passes::run_tiles(double samples, double done, Launch&& launch) {
+    const auto begun = Clock::now();
+    for (u32 tile = 0; tile < params_.tile_count;) {
+        const u32 end = tile + launch_size_.tiles(samples, params_.tile_count - tile);
+        const auto start = Clock::now();
+        launch(tile, end);
+        const auto now = Clock::now();
+        const double seconds = seconds_between(start, now);
+        launch_seconds_ += seconds;
+        result_.longest_launch_seconds = std::max(result_.longest_launch_seconds, seconds);
+        launch_size_.took(end - tile, samples, seconds);
+        tile = end;
+        show(done + samples * tile / params_.tile_count);
+        if (tile < params_.tile_count)
+            interrupted_ = interruption(seconds_between(begun, now) * (params_.tile_count - tile) / tile);
+        if (interrupted_)
+            return false;
+    }
+    return true;
+}
+
+/// Shows that so many samples a pixel are done.
+void Passes::show(double samples) {
+    const double of_run = samples_of_run(samples);
+    measurements_.measure_rays(film_buffers_, result_.film, of_run, seconds());
+    progress_.update({"render", rules_.fraction(samples, seconds(), measurements_.error()),
+                      std::uint64_t(samples), measurements_.rays_per_second(result_.film, of_run, seconds()),
+                      measurements_.error_at(samples)});
+}
+
+/// Shows what the render has come to.
+void Passes::show_end() {
+    const double rays = double(result_.counts.rays() - earlier_counts_.rays());
+    const double seconds = result_.run_seconds - result_.dropped_seconds;
+    ProgressState state{"render",
+                        1,
+                        samples_,
+                        seconds > 0 ? rays / seconds : -1,
+                        result_.error ? result_.error->relative_rmse : -1,
+                        true};
+    if (result_.stop == StopRule::SIGNAL)
+        state.fraction = rules_.fraction(double(samples_), seconds, measurements_.error());
+    progress_.update(state);
+}
+
+/// Decides where the next samples of an adaptive render go, when it has come to the end of a round.
+void Passes::begin_round() {
+    AdaptiveRound& round = result_.round;
+    if (round.end == 0) {
+        round = first_round(result_.film);
+    } else if (samples_ == round.end) {
+        const auto start = Clock::now();
+        film_buffers_.read_sums(result_);
+        round = next_round(result_.film, round);
+        result_.check_seconds += seconds_between(start, Clock::now());
+    }
+}
+
+/// Takes the tiles of both halves to where they are when the mean is `end` samples a pixel.
+bool Passes::run_adaptive(std::uint64_t end) {
+    const int replicates = options_.replicates;
+    const TileSamples from = samples_within(result_.round, samples_, replicates);
+    const TileSamples to = samples_within(result_.round, end, replicates);
+    const double samples = 0.5 * double(end - samples_);
+    const auto begun = Clock::now();
+    for (int half = 0; half < 2; ++half) {
+        if (half == 1)
+            interrupted_ = interruption(seconds_between(begun, Clock::now())); // as long as the first half
+        if (interrupted_)
+            return false;
+        film_buffers_.write_tile_ranges(from[size_t(half)], to[size_t(half)]);
+        if (!run_tiles(samples, double(samples_) + half * samples,
+                       [&](u32 tile, u32 tiles_end) { launcher_.run_half(half, tile, tiles_end); }))
+            return false;
+    }
+    result_.film.tile_samples = to;
+    return true;
+}
+
+/// Runs whole passes; false where they are interrupted.
+bool Passes::run_launches(std::uint32_t samples) {
+    const bool done = options_.adaptive ? run_adaptive(samples_ + samples)
+                                        : run_tiles(samples, double(samples_), [&](u32 tile, u32 end) {
+                                              launcher_.run(std::uint32_t(first_), samples, tile, end);
+                                          });
+    if (!done)
+        return false;
+    samples_ += samples;
+    first_ += samples;
+    result_.passes += samples;
+    std::vector<SampleRange>& ranges = result_.film.ranges;
+    if (ranges.empty())
+        ranges.push_back({first_ - samples, first_});
+    ranges.back().end = first_;
+    return true;
+}
+
+/// Whether the error is measured now: where it may end the render, and where it tells how the error falls, if
+/// that does not take long.
+bool Passes::is_worth_measuring() const {
+    if (options_.error) {
+        const bool is_resumed = samples_ > 0 && result_.passes == 0;
+        return is_resumed || rules_.is_check(samples_, measurements_.error());
+    }
+    const double affordable = std::max(SMALL_CHECK_SECONDS, LARGEST_CHECK_SHARE * seconds());
+    return is_doubling(samples_, options_.replicates) && result_.check_seconds <= affordable;
+}
+
+/// Where the render stands, with the error where it is time to measure it.
+RenderState Passes::measured_state() {
+    if (is_worth_measuring()) {
+        measurements_.measure_film(film_buffers_, earlier_samples_, result_);
+        const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
+        if (measurements_.error() && is_new && is_doubling(samples_, options_.replicates))
+            result_.history.push_back(*measurements_.error());
+    }
+    RenderState state;
+    state.samples = samples_;
+    state.seconds = seconds();
+    state.pass_seconds = result_.passes > 0 ? launch_seconds_ / double(result_.passes) : 0;
+    state.signal = stop_signal();
+    if (const std::optional<SquaredError>& error = measurements_.error(); error && error->samples == samples_)
+        state.error = relative_error(*error);
+    return state;
+}
+
+double Passes::seconds() const {
+    return seconds_between(start_, Clock::now());
+}
+
+/// Of so many samples a pixel, those of this run.
+double Passes::samples_of_run(double samples) const {
+    return samples - (double(samples_) - double(result_.passes));
+}
+
+void Passes::read_back() {
+    film_buffers_.read_sums(result_);
+    film_buffers_.read_shown(result_.film);
+    result_.counts = film_buffers_.read_counts();
+    result_.counts.primary = film_all_samples(result_.film) - earlier_samples_;
+    result_.counts.add(earlier_counts_);
+    result_.run_seconds = seconds();
+    result_.seconds = earlier_seconds_ + result_.run_seconds;
+}
+
+/// Saves film and picture so far when it is time to.
+void Passes::save_when_due() {
+    if (film_reminder_.due() && hooks_.save_film) {
+        read_back();
+        hooks_.save_film(result_);
+    }
+    if (picture_reminder_.due() && hooks_.save_picture) {
+        read_back();
+        result_.error = film_error(result_.film);
+        hooks_.save_picture(result_);
+    }
+}
+
+StopRule Passes::run_until_stopped() {
+    for (;;) {
+        const RenderState state = measured_state();
+        if (const std::optional<StopRule> rule = rules_.ended(state))
+            return *rule;
+        if (options_.adaptive)
+            begin_round();
+        const std::uint32_t samples = next_samples(state);
+        keep_film(state, samples);
+        if (!run_launches(samples))
+            return *interrupted_;
+        advance_hits();
+        save_when_due();
+    }
+}
+
+/// Takes leave of the device: the result is what it holds, or what was kept where a pass was interrupted.
+void Passes::finish() {
+    if (interrupted_) {
+        result_.dropped_seconds = seconds() - result_.run_seconds;
+        result_.run_seconds = seconds();
+    } else {
+        read_back();
+    }
+    result_.error = film_error(result_.film);
+}
+
+void Passes::run() {
+    start_ = Clock::now();
+    if (samples_ > 0) {
+        advance_hits("layers");             // of the film that the render goes on from
+        launch_seconds_ = hit_seconds_ = 0; // no pass of this run
+    }
+    result_.stop = run_until_stopped();
+    const double stop_seconds = seconds();
+    result_.stop_signal = result_.stop == StopRule::SIGNAL ? stop_signal() : 0;
+    if (options_.time_seconds)
+        result_.overrun_seconds = std::max(0.0, stop_seconds - *options_.time_seconds);
+    finish();
+    const std::uint64_t fewest = options_.adaptive ? std::uint64_t(options_.replicates) : 1;
+    const bool is_first_pass = samples_ == fewest && result_.passes == fewest;
+    result_.stop_text = rules_.describe(
+        result_.stop, {samples_, stop_seconds, launch_seconds_ / double(std::max<std::uint64_t>(result_.passes, 1)),
+                       is_first_pass, result_.dropped_seconds});
+    if (samples_ == 0)
+        return;
+    show_end();
+    if (!result_.hits.empty() && !has_all_samples(result_.hits, result_.film)) {
+        progress_.finish();
+        spdlog::warn("the layers of hits lack samples of the film that the render went on from");
+    }
+}
+
+} // namespace clrt

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renders to the number of samples that a report names for half the error, and sees what the error is there.
+#include "clrt_command.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace clrt {
+
+namespace {
+
+/// A promise is kept when the error comes to at most this much more or less.
+constexpr double LARGEST_DIFFERENCE = 0.15;
+
+struct Price : ClrtCommand, testing::WithParamInterface<const char*> {
+    nlohmann::json render(std::vector<std::string> arguments) const {
+        const std::string scene = GetParam();
+        arguments.insert(arguments.begin(), CLRT_SCENES_FOLDER "/" + scene + "/" + scene + ".obj");
+        arguments.insert(arguments.end(), {"-r", "64x48", "--aov", "none", "--stats", "s.json"});
+        const CommandResult result = clrt(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return nlohmann::json::parse(folder.read("s.json"));
+    }
+};
+
+} // namespace
+
+TEST_P(Price, IsWhatHalfTheErrorTakes) {
+    const nlohmann::json first = render({"--checkpoint", "a.film"});
+    const nlohmann::json promise = first["error"]["half"];
+    ASSERT_EQ(first["error"]["verdict"], "trusted");
+    EXPECT_EQ(promise["slope_measured"], true);
+    const unsigned spp = promise["spp"];
+    const nlohmann::json second =
+        render({"--resume", "a.film", "--checkpoint", "a.film", "--spp", std::to_string(spp)});
+    const double had = first["error"]["rel_rmse"], promised = promise["rel_rmse"],
+                 has = second["error"]["rel_rmse"];
+    std::printf("%-20s 64 spp %.2f %%, promised with %u spp %.2f %%, reached %.2f %%: %.3f times\n",
+                GetParam(), 100 * had, spp, 100 * promised, 100 * has, has / promised);
+    EXPECT_LE(promised, 1.05 * had / 2) << "about half";
+    EXPECT_NEAR(has / promised, 1, LARGEST_DIFFERENCE);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Price,
+                         testing::Values("cornell_box", "still_life", "colour_bleeding", "spheres_over_plane",
+                                         "textured_interior", "caustic"),
+                         [](const auto& test) { return std::string(test.param); });
+
+} // namespace clrt
