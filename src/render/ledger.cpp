@@ -21,7 +21,7 @@ namespace {
 /// For all rounds together, unless --time says otherwise.
 constexpr double DEFAULT_SECONDS = 60;
 /// More samples a round make no interval narrower than the machine's own unrest.
-constexpr double MOST_SAMPLES = 64;
+constexpr double MOST_LEDGER_SAMPLES = 64;
 
 /// Seconds that all threads of this process were at work.
 double processor_seconds() {
@@ -196,7 +196,7 @@ Ledger make_ledger(const Device& device, const Scene& scene, const Options& opti
     const double once = pass * double(LEDGER_ROUNDS) * double(variants.size());
     const double fitting = options.time_seconds.value_or(DEFAULT_SECONDS) / once;
     const auto samples =
-        std::uint32_t(options.spp ? *options.spp : std::clamp(std::floor(fitting), 1.0, MOST_SAMPLES));
+        std::uint32_t(options.spp ? *options.spp : std::clamp(std::floor(fitting), 1.0, MOST_LEDGER_SAMPLES));
     variants[0].seconds.clear();
     variants[0].light.clear();
 

@@ -2,6 +2,7 @@
 #include "scene/camera_fit.h"
 
 #include "error.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <bitset>
@@ -173,14 +174,6 @@ glm::dvec3 up_beside(const glm::dvec3& look) {
     if (std::fabs(look.y) > std::max(std::fabs(look.x), std::fabs(look.z)))
         return {0, 0, look.y < 0 ? -1 : 1};
     return {0, 1, 0};
-}
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-std::string triple(const glm::dvec3& v) {
-    return fmt::format("{},{},{}", v.x + 0., v.y + 0., v.z + 0.);
 }
 
 void check_vector(const std::optional<glm::dvec3>& v, const char* option) {
