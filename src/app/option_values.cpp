@@ -17,13 +17,6 @@ namespace {
 /// The picture formats' common limit, pixels a side.
 constexpr int LARGEST_SIDE = 65535;
 
-std::string trimmed(const std::string& text) {
-    const size_t first = text.find_first_not_of(" \t");
-    if (first == std::string::npos)
-        return "";
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /// The whole text as a T, or nothing; a leading '+' is allowed as in C.
 template <typename T>
 std::optional<T> read_all(const std::string& text) {
@@ -70,6 +63,14 @@ std::int64_t parse_whole(const OptionValue& value, std::int64_t low, std::int64_
     if (!n || *n < low || *n > high)
         reject_value(value, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
     return *n;
+}
+
+std::string trimmed(const std::string& text) {
+    const char* const blanks = " \t\r";
+    const size_t first = text.find_first_not_of(blanks);
+    if (first == std::string::npos)
+        return "";
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 std::vector<std::string> split_list(const std::string& text) {

@@ -74,6 +74,9 @@ std::string parse_result(const OptionValue& value);
 /// file name.
 bool looks_like_numbers(const std::string& text);
 
+/// The text without spaces, tabs and the returns of Windows' lines around it.
+std::string trimmed(const std::string& text);
+
 /// The parts of "a,b,c"; blanks around them are dropped. "" has one empty part.
 std::vector<std::string> split_list(const std::string& text);
 

@@ -2,6 +2,7 @@
 // STEM.clrt -> given options, with their file and line.
 #include "app/options_file.h"
 
+#include "app/option_values.h"
 #include "error.h"
 
 #include <filesystem>
@@ -10,15 +11,6 @@
 namespace clrt {
 
 namespace {
-
-const char* const BLANKS = " \t\r";
-
-std::string trimmed(const std::string& line) {
-    const size_t first = line.find_first_not_of(BLANKS);
-    if (first == std::string::npos)
-        return "";
-    return line.substr(first, line.find_last_not_of(BLANKS) - first + 1);
-}
 
 GivenOption read_line(const std::string& line, const std::string& origin,
                       const std::filesystem::path& folder) {

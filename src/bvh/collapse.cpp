@@ -8,7 +8,7 @@
 namespace clrt {
 namespace {
 
-constexpr u32 PARALLEL_SUBTREE = 1u << 14; // triangles below which a subtree is not worth a task
+constexpr u32 PARALLEL_COLLAPSE = 1u << 14; // triangles below which a subtree is not worth a task
 
 float relative_area(const BinaryNode& node, double root_area) {
     // A root without surface: all triangles are one axis-parallel line, and every tree costs nothing.
@@ -35,7 +35,7 @@ void WideCollapse::find_costs(u32 node) {
         costs.fill(leaf_cost(node));
         return;
     }
-    if (n.count < PARALLEL_SUBTREE) {
+    if (n.count < PARALLEL_COLLAPSE) {
         find_costs(n.child);
         find_costs(n.child + 1);
     } else {

@@ -19,7 +19,7 @@ void write_child(u32* node, int child, const float* lower, const float* upper, u
 }
 
 // Appends a node with two empty children and returns its index.
-u32 append_node(std::vector<u32>& nodes) {
+u32 append_bvh2_node(std::vector<u32>& nodes) {
     const u32 index = u32(nodes.size() / BVH2_NODE_WORDS);
     nodes.resize(nodes.size() + BVH2_NODE_WORDS);
     const float lower[3] = {BVH_EMPTY, BVH_EMPTY, BVH_EMPTY}, upper[3] = {-BVH_EMPTY, -BVH_EMPTY, -BVH_EMPTY};
@@ -29,7 +29,7 @@ u32 append_node(std::vector<u32>& nodes) {
 }
 
 // Writes all nodes depth first and returns the leaves. The leaf triangles keep the order of the tree's.
-std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
+std::vector<LeafRange> write_bvh2_nodes(const BinaryTree& tree, Bvh& bvh) {
     struct Pending {
         u32 subtree, first; // binary node and where its triangles begin
         u32 parent;         // node to enter it into
@@ -45,7 +45,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
         stack.push_back({left + 1, first + binary[left].count, node, 1});
         stack.push_back({left, first, node, 0});
     };
-    const u32 root = append_node(bvh.nodes);
+    const u32 root = append_bvh2_node(bvh.nodes);
     if (binary[0].child == 0) {
         area_tested += half_area(binary[0]);
         stack.push_back({0, 0, root, 0});
@@ -57,7 +57,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
         stack.pop_back();
         const BinaryNode& b = binary[p.subtree];
         const bool is_leaf = b.child == 0;
-        const u32 reference = is_leaf ? BVH_LEAF_BIT | p.first : append_node(bvh.nodes);
+        const u32 reference = is_leaf ? BVH_LEAF_BIT | p.first : append_bvh2_node(bvh.nodes);
         write_child(&bvh.nodes[size_t(p.parent) * BVH2_NODE_WORDS], p.child, b.lower, b.upper, reference,
                     is_leaf ? b.count : 0);
         if (is_leaf) {
@@ -76,10 +76,10 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
 void write_bvh2(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
                 Bvh& bvh) {
     if (tree.order.empty()) {
-        append_node(bvh.nodes);
+        append_bvh2_node(bvh.nodes);
         return;
     }
-    const std::vector<LeafRange> leaves = write_nodes(tree, bvh);
+    const std::vector<LeafRange> leaves = write_bvh2_nodes(tree, bvh);
     bvh.leaves.resize(tree.order.size() * LEAF_TRIANGLE_WORDS, 0u);
     tbb::parallel_for(size_t(0), leaves.size(), [&](size_t i) {
         const LeafRange& leaf = leaves[i];

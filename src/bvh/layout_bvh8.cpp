@@ -18,7 +18,7 @@ void write_box(u32* node, int slot, const float* lower, const float* upper) {
 }
 
 // Appends a node without children and returns its index.
-u32 append_node(std::vector<u32>& nodes) {
+u32 append_bvh8_node(std::vector<u32>& nodes) {
     const u32 index = u32(nodes.size() / BVH8_NODE_WORDS);
     nodes.resize(nodes.size() + BVH8_NODE_WORDS, 0u);
     u32* node = &nodes[size_t(index) * BVH8_NODE_WORDS];
@@ -51,7 +51,7 @@ std::vector<WideChild> lane_order(const WideCollapse& collapse, const BinaryNode
 
 // Writes all nodes, siblings side by side and otherwise depth first, and returns the leaves in the same
 // order.
-std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
+std::vector<LeafRange> write_bvh8_nodes(const BinaryTree& tree, Bvh& bvh) {
     struct Pending {
         WideChild subtree;
         u32 node;
@@ -60,7 +60,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
     const BinaryNode* binary = tree.nodes.get();
     double area_tested = 0;
     std::vector<LeafRange> leaves;
-    std::vector<Pending> stack{{{0, 0}, append_node(bvh.nodes)}};
+    std::vector<Pending> stack{{{0, 0}, append_bvh8_node(bvh.nodes)}};
     while (!stack.empty()) {
         const Pending parent = stack.back();
         stack.pop_back();
@@ -77,7 +77,7 @@ std::vector<LeafRange> write_nodes(const BinaryTree& tree, Bvh& bvh) {
                 leaves.push_back({child.first, b.count});
                 area_tested += half_area(b);
             } else {
-                reference = append_node(bvh.nodes);
+                reference = append_bvh8_node(bvh.nodes);
                 stack.push_back({child, reference});
             }
             u32* node = &bvh.nodes[size_t(parent.node) * BVH8_NODE_WORDS];
@@ -112,10 +112,10 @@ void write_block(const std::vector<vec4>& positions, const std::vector<Triangle>
 void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
                 Bvh& bvh) {
     if (tree.order.empty()) {
-        append_node(bvh.nodes);
+        append_bvh8_node(bvh.nodes);
         return;
     }
-    const std::vector<LeafRange> leaves = write_nodes(tree, bvh);
+    const std::vector<LeafRange> leaves = write_bvh8_nodes(tree, bvh);
     bvh.leaves.resize(leaves.size() * BVH8_BLOCK_WORDS, 0u);
     tbb::parallel_for(size_t(0), leaves.size(), [&](size_t i) {
         const u32 count = sort_leaf(tree, leaves[i]);

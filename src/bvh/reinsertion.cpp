@@ -15,10 +15,10 @@ namespace clrt {
 namespace {
 
 constexpr int ROUNDS = 4;
-constexpr u32 CANDIDATE_SHARE = 10; // one node in so many is tried each round
-constexpr u32 MOST_STEPS = 400;     // nodes looked at for one subtree
-constexpr u32 GRAIN = 64;           // searches of a thread at a time
-constexpr float LEAST_GAIN = 1e-9f; // as a share of the root's surface: less is rounding
+constexpr u32 CANDIDATE_SHARE = 10;   // one node in so many is tried each round
+constexpr u32 MOST_STEPS = 400;       // nodes looked at for one subtree
+constexpr u32 SEARCHES_PER_TASK = 64; // searches of a thread at a time
+constexpr float LEAST_GAIN = 1e-9f;   // as a share of the root's surface: less is rounding
 
 Box box_of(const BinaryNode& node) {
     Box box;
@@ -102,7 +102,7 @@ private:
         const size_t count = std::min<size_t>(candidates.size(), tree_.node_count / CANDIDATE_SHARE + 1);
         std::nth_element(candidates.begin(), candidates.begin() + std::ptrdiff_t(count), candidates.end());
         std::vector<Move> moves(count);
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, count, GRAIN), [&](const auto& part) {
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, count, SEARCHES_PER_TASK), [&](const auto& part) {
             for (size_t i = part.begin(); i != part.end(); ++i)
                 moves[i] = find_move(candidates[i].second);
         });

@@ -13,7 +13,7 @@
 namespace clrt {
 namespace {
 
-constexpr u32 FEW_ITEMS = 64;
+constexpr u32 FEW_SLAB_ITEMS = 64;
 constexpr int FEW_SLABS = 8;
 
 // Equal slabs of a node's box along all axes. Where rounding puts an item into the next slab, no harm is
@@ -23,7 +23,8 @@ struct Slabs {
     Float4 origin, scale, width;
     bool used[3];
 
-    Slabs(const Box& box, u32 items) : count(items < FEW_ITEMS ? FEW_SLABS : MAX_BINS), origin(box.lower) {
+    Slabs(const Box& box, u32 items)
+        : count(items < FEW_SLAB_ITEMS ? FEW_SLABS : MAX_BINS), origin(box.lower) {
         width = (box.upper - box.lower) * splat(1.0f / float(count));
         for (int axis = 0; axis < 3; ++axis) {
             scale[axis] = 1.0f / width[axis];

@@ -24,7 +24,9 @@ public:
     double mantissa() { return 1 + (next() >> 9) / 8388608.0; }
     /// Of either sign, from 2^-20 to 2^20, a float.
     double number() {
-        const double size = std::ldexp(mantissa(), int(next() % 40) - 20);
+        // One draw a statement: compilers evaluate arguments in either order.
+        const int exponent = int(next() % 40) - 20;
+        const double size = std::ldexp(mantissa(), exponent);
         return next() & 1u ? size : -size;
     }
 

@@ -3,6 +3,7 @@
 
 #include "effects/effect_table.h"
 #include "scene/emission.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,6 @@
 namespace clrt {
 
 namespace {
-
-constexpr double PI = 3.14159265358979323846;
-
-glm::dvec3 to_dvec3(const vec4& v) {
-    return {v.x, v.y, v.z};
-}
 
 void take_out_area_lights(Scene& scene) {
     scene.emitters.clear();

@@ -115,16 +115,16 @@ private:
 /// The paths of one kind of light, read from the light, whose first letter is one of `first`. Turning a
 /// deterministic automaton round and making it deterministic gives the smallest one (Brzozowski 1962).
 std::vector<LightState> from_light(const Unsampled& paths, unsigned kind, unsigned first) {
-    using Places = std::set<int>;
-    std::map<Places, int> numbers;
-    std::vector<Places> sets;
-    const auto find = [&](const Places& places) {
+    using PlaceSet = std::set<int>;
+    std::map<PlaceSet, int> numbers;
+    std::vector<PlaceSet> sets;
+    const auto find = [&](const PlaceSet& places) {
         const auto [entry, is_new] = numbers.emplace(places, int(sets.size()));
         if (is_new)
             sets.push_back(places);
         return entry->second;
     };
-    Places ends;
+    PlaceSet ends;
     for (size_t s = 0; s < paths.kinds.size(); ++s)
         if (paths.kinds[s] & kind)
             ends.insert(int(s));
@@ -134,7 +134,7 @@ std::vector<LightState> from_light(const Unsampled& paths, unsigned kind, unsign
         LightState light;
         light.accepts = i > 0 && sets[i].count(0) > 0;
         for (unsigned letter = 0; letter < LETTER_COUNT; ++letter) {
-            Places before;
+            PlaceSet before;
             for (size_t s = 0; s < paths.next.size(); ++s)
                 if (sets[i].count(paths.next[s][letter]))
                     before.insert(int(s));

@@ -8,9 +8,6 @@ namespace clrt {
 
 namespace {
 
-constexpr unsigned MATTE = 1u << LETTER_MATTE, GLOSSY = 1u << LETTER_GLOSSY, MIRROR = 1u << LETTER_MIRROR,
-                   REFRACTION = 1u << LETTER_REFRACTION;
-
 /// A text and what an operator may do with it.
 struct Term {
     enum Shape { CHOICE, SEQUENCE, SINGLE } shape = SINGLE;

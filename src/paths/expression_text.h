@@ -11,6 +11,10 @@
 
 namespace clrt {
 
+/// Sets of letters: one bit each.
+constexpr unsigned MATTE = 1u << LETTER_MATTE, GLOSSY = 1u << LETTER_GLOSSY, MIRROR = 1u << LETTER_MIRROR,
+                   REFRACTION = 1u << LETTER_REFRACTION;
+
 /// One state of a deterministic automaton that reads the letters of surfaces from the light to the eye.
 struct LightState {
     std::array<int, LETTER_COUNT> next{-1, -1, -1, -1}; ///< state after a letter; -1: none

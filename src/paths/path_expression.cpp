@@ -5,6 +5,7 @@
 
 #include "error.h"
 #include "kernels/shared/path_types.h"
+#include "paths/expression_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,8 +15,6 @@ namespace clrt {
 
 namespace {
 
-constexpr unsigned MATTE = 1u << LETTER_MATTE, GLOSSY = 1u << LETTER_GLOSSY, MIRROR = 1u << LETTER_MIRROR,
-                   REFRACTION = 1u << LETTER_REFRACTION;
 /// Parentheses inside each other; the reader calls itself as deep.
 constexpr int DEEPEST_NESTING = 100;
 

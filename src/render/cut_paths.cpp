@@ -3,6 +3,7 @@
 
 #include "kernels/shared/render_types.h"
 #include "scene/brightness.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,8 +13,6 @@
 namespace clrt {
 
 namespace {
-
-constexpr double PI = 3.14159265358979323846;
 
 /// Whether light that no ray meets makes highlights.
 bool has_highlights(const Scene& scene) {

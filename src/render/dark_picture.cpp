@@ -26,7 +26,7 @@ constexpr double NEARLY_ALL = 0.95;
 /// Grey in the middle of a picture that --exposure aims at.
 constexpr double MIDDLE_GREY = 0.18;
 
-std::string triple(const glm::dvec3& v) {
+std::string short_triple(const glm::dvec3& v) {
     return fmt::format("{:.6g},{:.6g},{:.6g}", v.x + 0., v.y + 0., v.z + 0.);
 }
 
@@ -85,11 +85,11 @@ std::string explain_miss(const Scene& scene, const VoxelGrid& grid) {
         glm::all(glm::lessThan(grid.box().low, eye)) && glm::all(glm::lessThan(eye, grid.box().high));
     const bool is_behind = glm::dot(centre - camera.eye, camera.at - camera.eye) < 0;
     return fmt::format("the camera at {} looks at nothing: {}; --at {} looks at the scene's middle",
-                       triple(camera.eye),
+                       short_triple(camera.eye),
                        is_inside   ? "no surface of the scene lies before it"
                        : is_behind ? "the scene lies behind it"
                                    : "the scene lies beside its view",
-                       triple(centre));
+                       short_triple(centre));
 }
 
 bool is_black(const Material& m) {
@@ -144,7 +144,7 @@ std::string explain_darkness(const Scene& scene, const Options& options, const s
                "well";
     if (view.backs >= NEARLY_ALL)
         return fmt::format("the camera at {} sees nothing but backs of surfaces: it is inside a closed one",
-                           triple(scene.camera.eye));
+                           short_triple(scene.camera.eye));
     if (!options.paths.empty())
         return fmt::format("paths {} carry no light to the camera here", options.paths);
     if (brightest > 0 && brightest < MIDDLE_GREY)

@@ -4,6 +4,7 @@
 #include "kernels/shared/path_types.h"
 #include "scene/brightness.h"
 #include "scene/colour.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@ namespace clrt {
 
 namespace {
 
-constexpr double PI = 3.14159265358979323846;
 constexpr int QUANTUM_BITS = 20;   ///< the quantum is 2^-20 levels
 constexpr int SUSTAINED_BITS = 24; ///< every sample of a full film may have 2^24 levels
 /// A contribution is at most 2^40 levels: a point light lights matte surfaces by that at 1e-6 of the scene's

@@ -17,15 +17,16 @@
 namespace clrt {
 namespace {
 
-constexpr size_t GRAIN = 1 << 14; // elements per task: some hundred kilobytes
+constexpr size_t ELEMENTS_PER_TASK = 1 << 14; // elements per task: some hundred kilobytes
 
 /// Runs f(i) for i in [0, n) on all threads.
 template <typename F>
 void for_each_index(size_t n, const F& f) {
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, n, GRAIN), [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t i = range.begin(); i < range.end(); ++i)
-            f(i);
-    });
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, n, ELEMENTS_PER_TASK),
+                      [&](const tbb::blocked_range<size_t>& range) {
+                          for (size_t i = range.begin(); i < range.end(); ++i)
+                              f(i);
+                      });
 }
 
 template <typename T>
@@ -94,7 +95,7 @@ Bounds bounds_of_triangles(const ObjMesh& mesh) {
     if (mesh.triangles.empty())
         return {};
     return tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, mesh.triangles.size(), GRAIN), empty_bounds(),
+        tbb::blocked_range<size_t>(0, mesh.triangles.size(), ELEMENTS_PER_TASK), empty_bounds(),
         [&](const tbb::blocked_range<size_t>& range, Bounds bounds) {
             for (size_t i = range.begin(); i < range.end(); ++i)
                 for (u32 v : mesh.triangles[i].v) {

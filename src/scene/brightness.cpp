@@ -3,6 +3,7 @@
 
 #include "kernels/shared/path_types.h"
 #include "scene/colour.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <cstring>
@@ -16,10 +17,6 @@ namespace {
 
 double largest_of(const vec4& v) {
     return std::max({double(v.x), double(v.y), double(v.z)});
-}
-
-glm::dvec3 to_dvec3(const vec4& v) {
-    return {v.x, v.y, v.z};
 }
 
 float as_float(u32 word) {

@@ -5,6 +5,7 @@
 #include "scene/box_cover.h"
 #include "scene/framing.h"
 #include "scene/room_view.h"
+#include "scene/vectors.h"
 #include "scene/view_frame.h"
 
 #include <cmath>
@@ -70,14 +71,6 @@ EyeAndAt fitted_view(const Scene& scene, const Wish& wish) {
     if (inside)
         return {inside->eye, inside->at, ROOM_FOV_DEGREES};
     return from_outside();
-}
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-std::string triple(const glm::dvec3& v) {
-    return fmt::format("{},{},{}", v.x + 0., v.y + 0., v.z + 0.);
 }
 
 void check_vector(const std::optional<glm::dvec3>& v, const char* option) {

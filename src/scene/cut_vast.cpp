@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/cut_vast.h"
 
+#include "scene/vectors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -41,15 +43,11 @@ struct Site {
 };
 using Sites = std::shared_ptr<const std::vector<Site>>;
 
-struct Corners {
+struct TriangleCorners {
     glm::dvec3 p[3];
 };
 
-glm::dvec3 to_dvec3(const vec4& v) {
-    return {v.x, v.y, v.z};
-}
-
-Corners corners_of(const Scene& scene, const Triangle& t) {
+TriangleCorners corners_of(const Scene& scene, const Triangle& t) {
     return {
         {to_dvec3(scene.positions[t.v0]), to_dvec3(scene.positions[t.v1]), to_dvec3(scene.positions[t.v2])}};
 }
@@ -58,15 +56,15 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-double extent_of(const Corners& c) {
+double extent_of(const TriangleCorners& c) {
     return largest(glm::max(c.p[0], glm::max(c.p[1], c.p[2])) - glm::min(c.p[0], glm::min(c.p[1], c.p[2])));
 }
 
-double place_of(const Corners& c) {
+double place_of(const TriangleCorners& c) {
     return largest(glm::max(glm::abs(c.p[0]), glm::max(glm::abs(c.p[1]), glm::abs(c.p[2]))));
 }
 
-double distance(const glm::dvec3& point, const Corners& c) {
+double distance(const glm::dvec3& point, const TriangleCorners& c) {
     const glm::dvec3 normal = glm::cross(c.p[1] - c.p[0], c.p[2] - c.p[0]);
     double nearest = INFINITY;
     bool inside = glm::dot(normal, normal) > 0;
@@ -86,7 +84,7 @@ Sites find_sites(const Scene& scene, double most) {
     std::uint64_t last = 0;
     auto sites = std::make_shared<std::vector<Site>>();
     for (const Triangle& triangle : scene.triangles) {
-        const Corners c = corners_of(scene, triangle);
+        const TriangleCorners c = corners_of(scene, triangle);
         const double size = extent_of(c);
         if (!(size > 0 && size < most))
             continue;
@@ -111,7 +109,7 @@ public:
     CutTriangles run() {
         double most = 0;
         for (u32 t = 0; t < scene_.triangles.size(); ++t) {
-            const Corners c = corners_of(scene_, scene_.triangles[t]);
+            const TriangleCorners c = corners_of(scene_, scene_.triangles[t]);
             const double extent = extent_of(c);
             if (extent >= LEAST_EXTENT * place_of(c))
                 most = std::max(most, extent);
@@ -163,7 +161,7 @@ private:
 
     /// Keeps the sites beside which the triangle is vast: its pieces are vast beside no others.
     bool is_vast(u32 t) {
-        const Corners c = corners_of(scene_, scene_.triangles[t]);
+        const TriangleCorners c = corners_of(scene_, scene_.triangles[t]);
         const double extent = extent_of(c);
         if (!(extent >= LEAST_EXTENT * place_of(c)))
             return false;

@@ -5,6 +5,7 @@
 #include "scene/alias_table.h"
 #include "scene/colour.h"
 #include "scene/read_image.h"
+#include "scene/vectors.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -13,8 +14,6 @@
 
 namespace clrt {
 namespace {
-
-constexpr double PI = glm::pi<double>();
 
 /// A map whose bright texels exceed its mean by less than this share of its light is constant: more is not
 /// rounding.

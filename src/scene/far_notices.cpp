@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/far_notices.h"
 
+#include "scene/vectors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -53,10 +55,6 @@ double step_along(int axis, const ObjMesh& mesh, double least, double most) {
                     return 0;
             }
     return steps.front();
-}
-
-std::string triple(const glm::dvec3& v) {
-    return fmt::format("{},{},{}", v.x + 0., v.y + 0., v.z + 0.);
 }
 
 /// True if the sphere around the box is outside the cone around the picture.

@@ -5,6 +5,7 @@
 #include "scene/alias_table.h"
 #include "scene/colour.h"
 #include "scene/normalise.h"
+#include "scene/vectors.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -14,14 +15,8 @@
 namespace clrt {
 namespace {
 
-constexpr double PI = glm::pi<double>();
-
 vec4 to_vec4(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z), 0};
-}
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 void check_colour(const glm::dvec3& colour, const char* option, const char* what) {

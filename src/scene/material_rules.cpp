@@ -3,6 +3,7 @@
 
 #include "scene/colour.h"
 #include "scene/text_scanner.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,10 +61,6 @@ const Rule& find_rule(const MtlMaterial& mtl) {
 
 vec4 to_vec4(const glm::dvec3& v, double w) {
     return {float(v.x), float(v.y), float(v.z), float(w)};
-}
-
-glm::dvec3 to_dvec3(const vec4& v) {
-    return {double(v.x), double(v.y), double(v.z)};
 }
 
 /// GGX roughness along and across the tangent; `sqrt_x` squared is `x`, so that a map can scale it.

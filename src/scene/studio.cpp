@@ -4,18 +4,16 @@
 #include "scene/box_cover.h"
 #include "scene/free_way.h"
 #include "scene/ground.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace clrt {
 namespace {
-
-constexpr double PI = glm::pi<double>();
 
 // Levels, in radiance: without a tone map 1 is white. A white surface (Kd 0.8) that faces the key has
 // 0.8 (KEY / pi + SKY) = 0.80 and keeps its shape, also where others light it; towards the camera it is
@@ -61,10 +59,6 @@ SunOptions key_light(const ViewFrame& view) {
     const glm::dvec3 level = std::cos(azimuth) * view.back - std::sin(azimuth) * view.right;
     return {rounded(std::sin(elevation) * view.up + std::cos(elevation) * level), glm::dvec3(KEY_IRRADIANCE),
             KEY_DIAMETER_DEGREES};
-}
-
-std::string triple(const glm::dvec3& v) {
-    return fmt::format("{},{},{}", v.x + 0., v.y + 0., v.z + 0.);
 }
 
 /// Everything as flags to copy.

@@ -132,7 +132,9 @@ void offset_size(CaseRun& run) {
             for (size_t i = 0; i < rays.size(); ++i) {
                 const double moved = glm::length(to_dvec3(away[i].origin) - points[i].position);
                 const double ulp = distance > 0 ? std::ldexp(1.0, std::ilogb(distance) - 23) : 0;
-                const auto describe = [&] { return fmt::format("{}@{}, triangle {}", size, distance, i); };
+                const auto describe = [&, size = size, distance = distance] {
+                    return fmt::format("{}@{}, triangle {}", size, distance, i);
+                };
                 if (distance > 0)
                     of_place[build].see(moved / ulp, describe);
                 else
