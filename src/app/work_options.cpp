@@ -70,7 +70,8 @@ std::vector<OptionSpec> work_options() {
          "that is not done in time is dropped (default: no limit)",
          [](Options& o, const OptionValue& v) { o.time_seconds = parse_duration(v); }},
         {group, "e", "--error", "X",
-         "render until the picture's relative error, root of mean squared over mean, both over the pixels that "
+         "render until the picture's relative error, root of mean squared over mean, both over the pixels "
+         "that "
          "show the scene, is at most 0.02 or 2%, looked at where samples are even: --replicates times 2^k or "
          "3/2 2^k; whichever of -s, -t and -e comes first ends the render (default: no target)",
          [](Options& o, const OptionValue& v) { o.error = parse_fraction(v); }},

@@ -26,9 +26,9 @@ std::string error_line(const ErrorReport& report) {
     const FilmError& error = *report.error;
     if (!(error.relative_rmse > 0))
         return "none: all replicates give the same picture";
-    std::string text = fmt::format("{} of the {}'s mean brightness (root of mean square)",
-                                   percent_text(error.relative_rmse),
-                                   report.has_backdrop ? "scene" : "picture");
+    std::string text =
+        fmt::format("{} of the {}'s mean brightness (root of mean square)", percent_text(error.relative_rmse),
+                    report.has_backdrop ? "scene" : "picture");
     if (verdict_on(report) == Verdict::UNTRUSTED)
         return text + ", as far as can be told";
     if (error.low && error.high)
@@ -87,8 +87,8 @@ std::string percent_text(double fraction) {
 }
 
 std::string format_error_report(const ErrorReport& report) {
-    std::string text = fmt::format("error    {}\n", error_line(report)) + scene_line(report) + verdict_line(report) +
-                       format_cut(report.cut) + format_blind_spots(report.blind_spots);
+    std::string text = fmt::format("error    {}\n", error_line(report)) + scene_line(report) +
+                       verdict_line(report) + format_cut(report.cut) + format_blind_spots(report.blind_spots);
     if (report.error && report.error->relative_rmse > 0)
         text += fmt::format("price    {}\n", price_line(report));
     return text;

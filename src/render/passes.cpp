@@ -368,9 +368,10 @@ void Passes::run() {
     finish();
     const std::uint64_t fewest = options_.adaptive ? std::uint64_t(options_.replicates) : 1;
     const bool is_first_pass = samples_ == fewest && result_.passes == fewest;
-    result_.stop_text = rules_.describe(
-        result_.stop, {samples_, stop_seconds, launch_seconds_ / double(std::max<std::uint64_t>(result_.passes, 1)),
-                       is_first_pass, result_.dropped_seconds});
+    result_.stop_text =
+        rules_.describe(result_.stop, {samples_, stop_seconds,
+                                       launch_seconds_ / double(std::max<std::uint64_t>(result_.passes, 1)),
+                                       is_first_pass, result_.dropped_seconds});
     if (samples_ == 0)
         return;
     show_end();

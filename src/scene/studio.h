@@ -21,8 +21,8 @@ namespace clrt {
 /// would block the key: a white sky shines in where it is open, and a camera inside has a point light in the
 /// middle of what it sees, as bright as the free way around that asks for. It has no ground and no backdrop.
 ///
-/// `scene` has its geometry, normalisation and camera; `up` is its up, of any length but 0. A notice says what is
-/// set up, as flags to copy.
+/// `scene` has its geometry, normalisation and camera; `up` is its up, of any length but 0. A notice says
+/// what is set up, as flags to copy.
 LightOptions studio_light(const LightOptions& given, const Scene& scene, const glm::dvec3& up,
                           NoticeList& notices);
 

@@ -17,8 +17,8 @@ namespace clrt {
 
 /// A scene under test: text, textures in a folder of its own, and the options it is rendered with.
 /// The options start with 16 x 16 pixels, 1024 samples in 64 replicates and the full kernel, so that all
-/// tests of an integrator share one program; and without the studio, so that a scene without light has a white
-/// sky.
+/// tests of an integrator share one program; and without the studio, so that a scene without light has a
+/// white sky.
 class TestScene {
 public:
     TestScene();
