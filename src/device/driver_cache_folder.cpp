@@ -11,7 +11,7 @@ namespace {
 
 /// PoCL's; it comes before those of the user's home.
 const char* const VARIABLE = "POCL_CACHE_DIR";
-constexpr int REPLACE = 1;
+constexpr int OVERWRITE = 1;
 
 } // namespace
 
@@ -27,12 +27,12 @@ DriverCacheFolder::DriverCacheFolder(std::string path) : path_(std::move(path)) 
     const char* value = std::getenv(VARIABLE);
     was_set_ = value != nullptr;
     earlier_ = value ? value : "";
-    setenv(VARIABLE, path_.c_str(), REPLACE);
+    setenv(VARIABLE, path_.c_str(), OVERWRITE);
 }
 
 DriverCacheFolder::~DriverCacheFolder() {
     if (was_set_)
-        setenv(VARIABLE, earlier_.c_str(), REPLACE);
+        setenv(VARIABLE, earlier_.c_str(), OVERWRITE);
     else
         unsetenv(VARIABLE);
     std::error_code error; // a leftover in the temporary folder harms no run

@@ -31,7 +31,7 @@ using Chromaticities = std::array<glm::dvec2, 3>;
 
 /// Rec. 709's primaries and its white, D65 (ITU-R BT.709-6, items 1.3 and 1.4).
 const Chromaticities REC709 = {glm::dvec2(0.64, 0.33), glm::dvec2(0.30, 0.60), glm::dvec2(0.15, 0.06)};
-const glm::dvec2 WHITE(0.3127, 0.3290);
+const glm::dvec2 D65(0.3127, 0.3290);
 /// How far the primaries move towards white: far enough for a pure red 8 stops over middle grey to be white.
 constexpr double INSET = 0.4;
 /// Degrees by which blue turns about white, towards cyan: pure blue that pales along a straight line turns
@@ -45,7 +45,7 @@ glm::dmat3 rgb_to_xyz(const Chromaticities& primaries) {
         return glm::dvec3(xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y);
     };
     const glm::dmat3 columns(colour(primaries[0]), colour(primaries[1]), colour(primaries[2]));
-    const glm::dvec3 amounts = glm::inverse(columns) * colour(WHITE);
+    const glm::dvec3 amounts = glm::inverse(columns) * colour(D65);
     return {columns[0] * amounts.x, columns[1] * amounts.y, columns[2] * amounts.z};
 }
 
@@ -55,8 +55,8 @@ glm::dmat3 make_inset() {
     const double angle = glm::radians(BLUE_TURN_DEGREES);
     const glm::dmat2 turn(std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle));
     for (glm::dvec2& primary : primaries)
-        primary = WHITE + (1 - INSET) * (primary - WHITE);
-    primaries[2] = WHITE + turn * (primaries[2] - WHITE);
+        primary = D65 + (1 - INSET) * (primary - D65);
+    primaries[2] = D65 + turn * (primaries[2] - D65);
     return glm::inverse(rgb_to_xyz(REC709)) * rgb_to_xyz(primaries);
 }
 

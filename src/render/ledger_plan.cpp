@@ -13,11 +13,11 @@ namespace {
 /// For all rounds together, unless --time says otherwise.
 constexpr double DEFAULT_SECONDS = 60;
 /// More samples a round make no interval narrower than the machine's own unrest.
-constexpr double MOST_SAMPLES = 64;
+constexpr double MOST_LEDGER_SAMPLES = 64;
 /// Of the time that is left, what a plan counts on: rounds differ.
 constexpr double PLANNED_SHARE = 0.9;
 /// Below this a clock tells nothing, seconds.
-constexpr double SHORTEST_TIME = 1e-6;
+constexpr double SHORTEST_ROUND = 1e-6;
 
 } // namespace
 
@@ -55,8 +55,8 @@ std::uint32_t LedgerPlan::samples(size_t variants, int rounds_left, double now) 
         limit_ = now + DEFAULT_SECONDS;
     const double seconds = PLANNED_SHARE * (*limit_ - now) / (double(rounds_left) * double(variants));
     const double fitting =
-        (seconds - round_seconds(0)) / std::max(round_seconds(1) - round_seconds(0), SHORTEST_TIME);
-    return std::uint32_t(std::clamp(std::floor(fitting), 1.0, MOST_SAMPLES));
+        (seconds - round_seconds(0)) / std::max(round_seconds(1) - round_seconds(0), SHORTEST_ROUND);
+    return std::uint32_t(std::clamp(std::floor(fitting), 1.0, MOST_LEDGER_SAMPLES));
 }
 
 } // namespace clrt

@@ -2,7 +2,7 @@
 #include "scene/box_cover.h"
 
 #include "scene/normalise.h"
-
+#include "scene/triangle_corners.h"
 #include <algorithm>
 #include <bitset>
 #include <cmath>
@@ -43,17 +43,13 @@ void mark_cells(Cells& cells, const glm::dvec2 (&corner)[3]) {
         }
 }
 
-struct Corners {
-    glm::dvec3 p[3];
-};
-
 /// Component `axis` of the triangle's normal, of any length.
-double normal_along(const Corners& corners, int axis) {
+double normal_along(const TriangleCorners& corners, int axis) {
     return glm::cross(corners.p[1] - corners.p[0], corners.p[2] - corners.p[0])[axis];
 }
 
 /// Marks what one triangle covers of one face, if it lies near the face and its front looks into the box.
-void cover_face(Cells& cells, const BoxFace& face, const Corners& corners, const Bounds& box) {
+void cover_face(Cells& cells, const BoxFace& face, const TriangleCorners& corners, const Bounds& box) {
     const glm::dvec3 size = box.high - box.low;
     const double plane = face.sign > 0 ? box.high[face.axis] : box.low[face.axis];
     const int u = (face.axis + 1) % 3, v = (face.axis + 2) % 3;
@@ -68,20 +64,11 @@ void cover_face(Cells& cells, const BoxFace& face, const Corners& corners, const
         mark_cells(cells, on_grid);
 }
 
-Corners corners_of(const std::vector<vec4>& positions, const Triangle& triangle) {
-    Corners corners;
-    const u32 index[3] = {triangle.v0, triangle.v1, triangle.v2};
-    for (int i = 0; i < 3; ++i)
-        corners.p[i] = {positions[index[i]].x, positions[index[i]].y, positions[index[i]].z};
-    return corners;
-}
-
-constexpr size_t GRAIN = 1 << 14; // triangles per task
-
 Bounds bounds_of(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles) {
     const double most = std::numeric_limits<double>::max();
     return tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, triangles.size(), GRAIN), Bounds{glm::dvec3(most), glm::dvec3(-most)},
+        tbb::blocked_range<size_t>(0, triangles.size(), TRIANGLE_GRAIN),
+        Bounds{glm::dvec3(most), glm::dvec3(-most)},
         [&](const tbb::blocked_range<size_t>& range, Bounds box) {
             for (size_t i = range.begin(); i < range.end(); ++i)
                 for (const glm::dvec3& p : corners_of(positions, triangles[i]).p) {
@@ -112,10 +99,10 @@ BoxCover measure_box_cover(const std::vector<vec4>& positions, const std::vector
     if (!(size.x > 0 && size.y > 0 && size.z > 0))
         return cover; // nothing, or flat: no room
     const FaceCells cells = tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, triangles.size(), GRAIN), FaceCells{},
+        tbb::blocked_range<size_t>(0, triangles.size(), TRIANGLE_GRAIN), FaceCells{},
         [&](const tbb::blocked_range<size_t>& range, FaceCells marked) {
             for (size_t i = range.begin(); i < range.end(); ++i) {
-                const Corners corners = corners_of(positions, triangles[i]);
+                const TriangleCorners corners = corners_of(positions, triangles[i]);
                 for (size_t f = 0; f < 6; ++f)
                     cover_face(marked[f], BOX_FACES[f], corners, box);
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/cut_vast.h"
 
-#include "scene/vectors.h"
+#include "scene/triangle_corners.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,15 +43,6 @@ struct Site {
 };
 using Sites = std::shared_ptr<const std::vector<Site>>;
 
-struct TriangleCorners {
-    glm::dvec3 p[3];
-};
-
-TriangleCorners corners_of(const Scene& scene, const Triangle& t) {
-    return {
-        {to_dvec3(scene.positions[t.v0]), to_dvec3(scene.positions[t.v1]), to_dvec3(scene.positions[t.v2])}};
-}
-
 double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
@@ -84,7 +75,7 @@ Sites find_sites(const Scene& scene, double most) {
     std::uint64_t last = 0;
     auto sites = std::make_shared<std::vector<Site>>();
     for (const Triangle& triangle : scene.triangles) {
-        const TriangleCorners c = corners_of(scene, triangle);
+        const TriangleCorners c = corners_of(scene.positions, triangle);
         const double size = extent_of(c);
         if (!(size > 0 && size < most))
             continue;
@@ -109,7 +100,7 @@ public:
     CutTriangles run() {
         double most = 0;
         for (u32 t = 0; t < scene_.triangles.size(); ++t) {
-            const TriangleCorners c = corners_of(scene_, scene_.triangles[t]);
+            const TriangleCorners c = corners_of(scene_.positions, scene_.triangles[t]);
             const double extent = extent_of(c);
             if (extent >= LEAST_EXTENT * place_of(c))
                 most = std::max(most, extent);
@@ -161,7 +152,7 @@ private:
 
     /// Keeps the sites beside which the triangle is vast: its pieces are vast beside no others.
     bool is_vast(u32 t) {
-        const TriangleCorners c = corners_of(scene_, scene_.triangles[t]);
+        const TriangleCorners c = corners_of(scene_.positions, scene_.triangles[t]);
         const double extent = extent_of(c);
         if (!(extent >= LEAST_EXTENT * place_of(c)))
             return false;

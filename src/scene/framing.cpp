@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/framing.h"
 
+#include "scene/triangle_corners.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +15,6 @@
 namespace clrt {
 namespace {
 
-constexpr size_t GRAIN = 1 << 14; // triangles per task
 /// Newton's steps to the middle: two find the points that bound the picture, the third is exact.
 constexpr int CENTRING_STEPS = 3;
 /// Of the scene's height: how far a floor may be from one plane.
@@ -31,7 +32,7 @@ glm::dvec3 position(const Scene& scene, u32 vertex) {
 template <class T, class Visit, class Merge>
 T reduce_triangles(const Scene& scene, const T& start, const Visit& visit, const Merge& merge) {
     return tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, scene.triangles.size(), GRAIN), start,
+        tbb::blocked_range<size_t>(0, scene.triangles.size(), TRIANGLE_GRAIN), start,
         [&](const tbb::blocked_range<size_t>& range, T value) {
             for (size_t i = range.begin(); i < range.end(); ++i) {
                 const Triangle& t = scene.triangles[i];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/free_way.h"
 
+#include "scene/triangle_corners.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,8 +11,6 @@
 
 namespace clrt {
 namespace {
-
-constexpr size_t GRAIN = 1 << 12; // triangles per task
 
 /// The distance of the hit (Moeller and Trumbore 1997), infinite without one.
 double hit_distance(const glm::dvec3& from, const glm::dvec3& direction, const glm::dvec3& a,
@@ -36,7 +36,8 @@ std::vector<double> free_ways(const Scene& scene, const glm::dvec3& from,
                               const std::vector<glm::dvec3>& directions) {
     using Ways = std::vector<double>;
     return tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, scene.triangles.size(), GRAIN), Ways(directions.size(), INFINITY),
+        tbb::blocked_range<size_t>(0, scene.triangles.size(), TRIANGLE_GRAIN),
+        Ways(directions.size(), INFINITY),
         [&](const tbb::blocked_range<size_t>& range, Ways ways) {
             for (size_t i = range.begin(); i < range.end(); ++i) {
                 const Triangle& t = scene.triangles[i];

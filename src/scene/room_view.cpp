@@ -23,7 +23,7 @@ constexpr int OUTSIDE_GRID = 16;
 /// A side shows nothing when so many of its rays end at backs, or in one plane at the box's face.
 constexpr double BLIND = 0.7;
 /// Of the box's size: how far from the face that plane may lie.
-constexpr double NEAR_FACE = 0.05;
+constexpr double NEAR_SIDE = 0.05;
 /// A side is open when so many of its rays get so deep into the box, of its size.
 constexpr double OPEN = 0.6, DEEP = 0.3;
 /// Blind sides of a room at least.
@@ -51,13 +51,13 @@ glm::dvec3 sphere_direction(int i) {
 }
 
 /// What rays to all sides find.
-struct Surroundings {
+struct RaysAround {
     double fronts = 0;  ///< share of the rays
     double nearest = 0; ///< distance
 };
 
-Surroundings look_around(const VoxelGrid& grid, const glm::dvec3& p) {
-    Surroundings around{0, glm::length(grid.box().high - grid.box().low)};
+RaysAround cast_around(const VoxelGrid& grid, const glm::dvec3& p) {
+    RaysAround around{0, glm::length(grid.box().high - grid.box().low)};
     for (int i = 0; i < SPHERE_RAYS; ++i) {
         const VoxelGrid::Hit hit = grid.cast(p, sphere_direction(i));
         around.fronts += double(hit.is_hit && hit.is_front) / SPHERE_RAYS;
@@ -101,7 +101,7 @@ BlindSides count_blind_sides(const VoxelGrid& grid) {
     for (const BoxFace& side : BOX_FACES) {
         int hits = 0, backs = 0, planes = 0, either = 0;
         look_through(grid, side, [&](const VoxelGrid::Hit& hit, double depth) {
-            const bool is_plane = depth < NEAR_FACE;
+            const bool is_plane = depth < NEAR_SIDE;
             hits += hit.is_hit;
             backs += hit.is_hit && hit.is_back;
             planes += hit.is_hit && is_plane;
@@ -215,7 +215,7 @@ std::optional<RoomView> find_room_view(const VoxelGrid& grid, bool has_lamps, co
                 if (!grid.is_free(p))
                     continue;
                 ++free;
-                const Surroundings around = look_around(grid, p);
+                const RaysAround around = cast_around(grid, p);
                 if (around.fronts < ENCLOSED)
                     continue;
                 ++enclosed;

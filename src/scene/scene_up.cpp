@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_up.h"
 
+#include "scene/triangle_corners.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,7 +28,6 @@ constexpr double EVEN = 0.25;
 constexpr double LESS = 0.75;
 /// Radii of the scene from the origin, from which on coordinates are those of a map.
 constexpr double MAP_DISTANCE = 100;
-constexpr size_t GRAIN = 1 << 14; // triangles per task
 
 /// Ends of the points in each slice of a face.
 struct Outline {
@@ -106,7 +107,7 @@ double area_under(const std::vector<glm::dvec2>& corners, const glm::dvec2& cent
 Touching measure_touching(const ObjMesh& mesh, const Bounds& bounds) {
     const glm::dvec3 size = bounds.high - bounds.low, inverse = 1. / size;
     return tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, mesh.triangles.size(), GRAIN), Touching(),
+        tbb::blocked_range<size_t>(0, mesh.triangles.size(), TRIANGLE_GRAIN), Touching(),
         [&](const tbb::blocked_range<size_t>& range, Touching t) {
             for (size_t i = range.begin(); i < range.end(); ++i) {
                 glm::dvec3 p[3];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/voxel_grid.h"
 
+#include "scene/triangle_corners.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -20,27 +22,15 @@ constexpr int CELLS = 64; // along the longest side: of a room of 6 m, 10 cm
 constexpr double SAMPLES_PER_CELL = 1.5;
 /// Samples in all: a tenth of a second.
 constexpr double MOST_SAMPLES = 3e7;
-constexpr size_t GRAIN = 1 << 13; // triangles per task
 /// Cosine between a surface's normal and an axis from which on it faces that side: each normal has one such
 /// axis.
 constexpr double FACES_SIDE = 0.57;
 /// The same for rays, which may graze a wall: below it they say nothing about it.
 constexpr double ALONG_SIDE = 0.1;
 
-struct Corners {
-    glm::dvec3 a, b, c;
-};
-
-Corners corners_of(const Scene& scene, const Triangle& t) {
-    const auto position = [&](u32 v) {
-        return glm::dvec3(scene.positions[v].x, scene.positions[v].y, scene.positions[v].z);
-    };
-    return {position(t.v0), position(t.v1), position(t.v2)};
-}
-
 /// Steps along each edge of a triangle.
-int steps_of(const Corners& t, double cell) {
-    const glm::dvec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
+int steps_of(const TriangleCorners& t, double cell) {
+    const glm::dvec3 ab = t.p[1] - t.p[0], bc = t.p[2] - t.p[1], ca = t.p[0] - t.p[2];
     const double longest = std::max({glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
     if (longest * SAMPLES_PER_CELL * SAMPLES_PER_CELL <= cell * cell) // most
         return 1;
@@ -56,13 +46,13 @@ struct Extent {
 Extent measure_extent(const Scene& scene, double cell) {
     const double most = std::numeric_limits<double>::max();
     return tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, scene.triangles.size(), GRAIN),
+        tbb::blocked_range<size_t>(0, scene.triangles.size(), TRIANGLE_GRAIN),
         Extent{{glm::dvec3(most), glm::dvec3(-most)}, 0},
         [&](const tbb::blocked_range<size_t>& range, Extent extent) {
             for (size_t i = range.begin(); i < range.end(); ++i) {
-                const Corners t = corners_of(scene, scene.triangles[i]);
-                extent.box.low = glm::min(extent.box.low, glm::min(t.a, glm::min(t.b, t.c)));
-                extent.box.high = glm::max(extent.box.high, glm::max(t.a, glm::max(t.b, t.c)));
+                const TriangleCorners t = corners_of(scene.positions, scene.triangles[i]);
+                extent.box.low = glm::min(extent.box.low, glm::min(t.p[0], glm::min(t.p[1], t.p[2])));
+                extent.box.high = glm::max(extent.box.high, glm::max(t.p[0], glm::max(t.p[1], t.p[2])));
                 const double steps = steps_of(t, cell);
                 extent.samples += steps * steps / 2;
             }
@@ -74,8 +64,8 @@ Extent measure_extent(const Scene& scene, double cell) {
         });
 }
 
-std::uint8_t sides_of(const Corners& t) {
-    const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
+std::uint8_t sides_of(const TriangleCorners& t) {
+    const glm::dvec3 n = glm::cross(t.p[1] - t.p[0], t.p[2] - t.p[0]);
     const double least = FACES_SIDE * glm::length(n);
     unsigned sides = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -129,21 +119,23 @@ void VoxelGrid::fill(const Scene& scene) {
         if ((cell.load(std::memory_order_relaxed) & sides) != sides)
             cell.fetch_or(sides, std::memory_order_relaxed);
     };
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, scene.triangles.size(), GRAIN), [&](const auto& range) {
-        for (size_t i = range.begin(); i < range.end(); ++i) {
-            const Corners t = corners_of(scene, scene.triangles[i]);
-            const std::uint8_t sides = sides_of(t);
-            const int steps = steps_of(t, cell_);
-            if (steps == 1) { // its neighbours mark the cells beside
-                mark(t.a, sides);
-                continue;
-            }
-            const glm::dvec3 ab = (t.b - t.a) / double(steps), ac = (t.c - t.a) / double(steps);
-            for (int j = 0; j <= steps; ++j)
-                for (int k = 0; j + k <= steps; ++k)
-                    mark(t.a + double(j) * ab + double(k) * ac, sides);
-        }
-    });
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, scene.triangles.size(), TRIANGLE_GRAIN),
+                      [&](const auto& range) {
+                          for (size_t i = range.begin(); i < range.end(); ++i) {
+                              const TriangleCorners t = corners_of(scene.positions, scene.triangles[i]);
+                              const std::uint8_t sides = sides_of(t);
+                              const int steps = steps_of(t, cell_);
+                              if (steps == 1) { // its neighbours mark the cells beside
+                                  mark(t.p[0], sides);
+                                  continue;
+                              }
+                              const glm::dvec3 ab = (t.p[1] - t.p[0]) / double(steps),
+                                               ac = (t.p[2] - t.p[0]) / double(steps);
+                              for (int j = 0; j <= steps; ++j)
+                                  for (int k = 0; j + k <= steps; ++k)
+                                      mark(t.p[0] + double(j) * ab + double(k) * ac, sides);
+                          }
+                      });
     std::copy(marks.begin(), marks.end(), sides_.begin());
 }
 

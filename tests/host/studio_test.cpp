@@ -194,7 +194,9 @@ TEST(Studio, TheKeyComesFromAboveTheLeftOfAnyCamera) {
         for (const glm::dvec3 eye : {glm::dvec3(9, 3, 4), glm::dvec3(-9, 3, 4), glm::dvec3(1, -7, 1),
                                      glm::dvec3(1, 30, 0.01), glm::dvec3(1, 1.5, 40)}) {
             UnlitBox box;
-            box.options.camera = {eye, glm::dvec3(1, 1.5, 0), up, {}, {}, {}};
+            box.options.camera.eye = eye;
+            box.options.camera.at = {1, 1.5, 0};
+            box.options.camera.up = up;
             const Scene scene = box.load();
             const glm::dvec3 key = vector(scene.lights[0].vector);
             const glm::dvec3 look = glm::normalize(scene.camera.at - scene.camera.eye);

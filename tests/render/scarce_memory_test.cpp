@@ -64,10 +64,10 @@ TEST(ScarceMemory, CostsLayersAndNeverThePicture) {
         std::filesystem::remove(file);
         FinalFiles files;
         successes_left = failed;
-        const Report report{options, scene, effects, test_device().info,
-                            facts,   bvh,   render,  make_error_report(render, {}, 0, 0),
-                            "",      {},    0,       0,
-                            0};
+        Report report{options, scene, effects, test_device().info,
+                      facts,   bvh,   render,  make_error_report(render, {}, 0, 0),
+                      "",      {},    0,       0,
+                      0};
         write_outputs(report, files);
         const bool all_succeeded = successes_left >= 0;
         successes_left = -1;
