@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "output/atomic_file.h"
+#include "render/whole_numbers.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -105,18 +106,18 @@ Json counts_json(const RenderCounts& counts) {
 
 RenderCounts read_counts(const Json& json) {
     RenderCounts counts;
-    json.at("primary").get_to(counts.primary);
-    json.at("secondary").get_to(counts.secondary);
-    json.at("shadow").get_to(counts.shadow);
-    json.at("cut_paths").get_to(counts.cut_paths);
+    counts.primary = whole<decltype(counts.primary)>(json.at("primary"));
+    counts.secondary = whole<decltype(counts.secondary)>(json.at("secondary"));
+    counts.shadow = whole<decltype(counts.shadow)>(json.at("shadow"));
+    counts.cut_paths = whole<decltype(counts.cut_paths)>(json.at("cut_paths"));
     json.at("cut_weight").get_to(counts.cut_weight);
-    json.at("nan").get_to(counts.nan);
-    json.at("infinite").get_to(counts.infinite);
-    json.at("negative").get_to(counts.negative);
-    json.at("overflow").get_to(counts.overflow);
-    json.at("bad_samples").get_to(counts.bad_samples);
+    counts.nan = whole<decltype(counts.nan)>(json.at("nan"));
+    counts.infinite = whole<decltype(counts.infinite)>(json.at("infinite"));
+    counts.negative = whole<decltype(counts.negative)>(json.at("negative"));
+    counts.overflow = whole<decltype(counts.overflow)>(json.at("overflow"));
+    counts.bad_samples = whole<decltype(counts.bad_samples)>(json.at("bad_samples"));
     if (json.contains("bad_pixels"))
-        json.at("bad_pixels").get_to(counts.bad_pixels);
+        counts.bad_pixels = whole<decltype(counts.bad_pixels)>(json.at("bad_pixels"));
     return counts;
 }
 
@@ -152,7 +153,7 @@ Json header_json(const FilmFile& film) {
 std::vector<SampleRange> read_ranges(const Json& json) {
     std::vector<SampleRange> ranges;
     for (const Json& range : json.at("ranges"))
-        ranges.push_back({range.at(0), range.at(1)});
+        ranges.push_back({whole<std::uint64_t>(range.at(0)), whole<std::uint64_t>(range.at(1))});
     return ranges;
 }
 
@@ -170,13 +171,13 @@ constexpr size_t MOST_LEVELS = 32;
 /// The round of an adaptive film, with room for the samples of its tiles.
 AdaptiveRound read_round(const Json& json, const Film& film) {
     AdaptiveRound round;
-    json.at(0).get_to(round.first);
-    json.at(1).get_to(round.end);
+    round.first = whole<std::uint64_t>(json.at(0));
+    round.end = whole<std::uint64_t>(json.at(1));
     for (TileSamples* samples : {&round.start, &round.target})
         for (std::vector<std::uint32_t>& half : *samples)
             half.resize(film_tiles(film));
     const std::vector<double> noise(film_tiles(film));
-    round.noise.assign(std::min(json.at(2).get<size_t>(), MOST_LEVELS), {noise, noise});
+    round.noise.assign(std::min(whole<size_t>(json.at(2)), MOST_LEVELS), {noise, noise});
     return round;
 }
 
@@ -203,7 +204,7 @@ FilmFile read_header(const Json& json) {
     sums.width = window.x1 - window.x0;
     sums.height = window.y1 - window.y0;
     sums.scale = {film.identity.at("quantum"), film.identity.at("largest")};
-    json.at("replicates").get_to(sums.replicates);
+    sums.replicates = whole<int>(json.at("replicates"));
     sums.ranges = read_ranges(json);
     if (film.identity.value("adaptive", false))
         film.render.round = read_round(json.at("round"), sums);
@@ -212,7 +213,7 @@ FilmFile read_header(const Json& json) {
         film.bias.cut_radiance = radiance.get<double>();
     film.bias.blind_spots = read_blind_spots(json.at("blind_spots"));
     for (const Json& error : json.at("history"))
-        film.render.history.push_back({error.at("samples"), error.at("mean_squared"),
+        film.render.history.push_back({whole<std::uint64_t>(error.at("samples")), error.at("mean_squared"),
                                        error.at("mean_radiance"),
                                        error.at("without").get<std::vector<double>>()});
     json.at("seconds").get_to(film.render.seconds);
@@ -352,7 +353,8 @@ FilmFile read_film_file(const std::string& path) {
     FilmReader reader(path);
     Runs shown;
     FilmFile film = parse_header(reader, [&](const Json& json) {
-        shown = json.value("shown", Runs());
+        if (json.contains("shown"))
+            shown = whole<Runs>(json.at("shown"));
         return read_header(json);
     });
     Film& sums = film.render.film;

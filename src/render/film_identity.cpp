@@ -4,6 +4,7 @@
 #include "device/kernel_source.h"
 #include "render/kernels.h"
 #include "render/render_params.h"
+#include "render/whole_numbers.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -125,15 +126,15 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Fil
     identity["version"] = CLRT_VERSION;
     identity["integrator"] = integrator_name(options.integrator);
     identity["kernels"] = kernels_hash(options);
-    identity["scene"] = scene_hash(scene);
+    identity["size"] = {params.width, params.height};
+    identity["window"] = {params.crop_x, params.crop_y, params.crop_x + params.crop_width,
+                          params.crop_y + params.crop_height};
+    identity["scene"] = scene_hash(scene); // after the size, which a fitted camera follows
     identity["precision"] = precision_name(options.precision);
     identity["sampler"] = sampler_name(options.sampler);
     identity["adaptive"] = options.adaptive;
     identity["seed"] = params.seed;
     identity["replicates"] = params.replicates;
-    identity["size"] = {params.width, params.height};
-    identity["window"] = {params.crop_x, params.crop_y, params.crop_x + params.crop_width,
-                          params.crop_y + params.crop_height};
     identity["filter"] = filter_name(options.filter);
     identity["filter_radius"] = params.filter_radius;
     identity["max_depth"] = params.max_depth;
@@ -150,8 +151,8 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Fil
 }
 
 FilmWindow film_window(const FilmIdentity& identity) {
-    const auto window = identity.at("window").get<std::array<int, 4>>();
-    const auto size = identity.at("size").get<std::array<int, 2>>();
+    const auto window = whole<std::array<int, 4>>(identity.at("window"));
+    const auto size = whole<std::array<int, 2>>(identity.at("size"));
     return {{window[0], window[1], window[2], window[3]}, {size[0], size[1]}};
 }
 

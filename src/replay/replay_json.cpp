@@ -81,7 +81,8 @@ std::string replay_json(const ReplayReport& report) {
     json["scale"] = report.scene.normalisation.scale;
     const auto& centre = report.scene.normalisation.centre;
     json["centre"] = {centre.x, centre.y, centre.z};
-    json["traces"] = {trace_json(report.first, report.scene, report.quantum)};
+    json["traces"] = Json::array();
+    json["traces"].push_back(trace_json(report.first, report.scene, report.quantum));
     if (report.twin)
         json["traces"].push_back(trace_json(*report.twin, report.scene, report.quantum));
     json["difference"] = difference_json(report);

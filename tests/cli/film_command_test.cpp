@@ -95,6 +95,7 @@ TEST_F(FilmCommand, PixelsOfTheSceneAreThoseThatACameraRayHits) {
                                                {"--max-depth", "1"},
                                                {"--adaptive"}}) {
         arguments.insert(arguments.end(), view.begin(), view.end());
+        arguments.push_back("--force");
         render_part("a", 0, 16, arguments);
         const ReadPicture picture(folder.file("a.exr"));
         const std::vector<std::uint8_t> shown = film("a.film").render.film.shown;

@@ -250,7 +250,7 @@ TEST_F(PictureFile, DumpedKernelsAreWhatIsCompiledAndCanBeUsedAgain) {
 TEST_F(PictureFile, ResultsGoToStdoutAndTheLogToStderr) {
     write_square("scene");
     const auto loud = clrt(quick({"scene.obj"}));
-    EXPECT_TRUE(holds(loud.out, {"16 x 12", "1 spp", "seconds", "rays", "error"}));
+    EXPECT_TRUE(holds(loud.out, {"scene.png, 16 x 12, 1 spp", "time", "memory", "error"}));
     EXPECT_TRUE(holds(loud.err, {"wrote scene.png", "a studio", "--eye"}));
     const auto quiet = clrt(quick({"scene.obj", "-q"}));
     EXPECT_EQ(quiet.exit_code, 0);

@@ -194,7 +194,7 @@ void distance_and_weights(CaseRun& run) {
 void depth_order(CaseRun& run) {
     Random random(9);
     Pairs front, behind;
-    std::vector<int> steps;
+    std::vector<double> apart; // in units in the last place of the distance
     for (size_t i = 0; i < run.count(1e5, 1e6, 1e7); ++i) {
         const float z = float(std::pow(10, random.between(0, 4)));
         const int k = int(i % 64) + 1;
@@ -202,24 +202,27 @@ void depth_order(CaseRun& run) {
         for (int step = 0; step < k; ++step)
             z_behind = std::nextafter(z_behind, 1e30f);
         const glm::dvec3 way =
-            glm::normalize(glm::dvec3(random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1));
+            glm::normalize(glm::dvec3{random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1});
         const glm::dvec3 corner = way / way.z * double(z) -
-                                  glm::dvec3(random.between(0.2, 0.5) * z, random.between(0.2, 0.4) * z, 0);
+                                  glm::dvec3{random.between(0.2, 0.5) * z, random.between(0.2, 0.4) * z, 0};
         const auto add = [&](Pairs& pairs, double depth) {
             pairs.add({0, 0, 0}, way, {corner.x, corner.y, depth}, {corner.x + 1.2 * z, corner.y, depth},
                       {corner.x, corner.y + 1.2 * z, depth});
         };
         add(front, z);
         add(behind, z_behind);
-        steps.push_back(k);
+        const auto distance = float(z / way.z);
+        const double unit = double(std::nextafter(distance, 1e30f)) - double(distance);
+        apart.push_back((double(z_behind) - double(z)) / way.z / unit);
     }
-    Figure& swapped = run.figure("pairs in the wrong order, k >= 4", 0);
+    Figure& swapped = run.figure("pairs in the wrong order, 4 units or more apart", 0);
     for (const Build build : run.builds()) {
         const Found a = run_pairs(run, build, front), b = run_pairs(run, build, behind);
-        for (size_t i = 0; i < steps.size(); ++i)
-            if (steps[i] >= 4 && a[0][i] != 0 && b[0][i] != 0)
-                swapped[build].count(!(a[1][i] < b[1][i]),
-                                     [&] { return fmt::format("k = {}: {}", steps[i], front.text(i)); });
+        for (size_t i = 0; i < apart.size(); ++i)
+            if (apart[i] >= 4 && a[0][i] != 0 && b[0][i] != 0)
+                swapped[build].count(!(a[1][i] < b[1][i]), [&] {
+                    return fmt::format("{:.1f} units: {}", apart[i], front.text(i));
+                });
     }
 }
 

@@ -242,7 +242,10 @@ const std::vector<StabilityCase>& intersection_cases() {
         {"I09", "DepthOrder",
          "two parallel triangles k units in the last place apart, k from 1 to 64, at 1 to 1e4",
          "the exact order",
-         "an error of at most 2 units in the last place each keeps the order from k = 4 on", depth_order},
+         "an error of at most 2 units in the last place of the distance each keeps the order of pairs 4 or "
+         "more "
+         "apart",
+         depth_order},
         {"I10", "DeepTree",
          "triangles at 2^-k, k = 0..120; 58 shrinking groups that make the longest path of a tree",
          "a loop over all triangles", "the builders bound the depth that the stacks are made for",

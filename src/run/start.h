@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every run on a device begins with.
+#pragma once
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "device/device.h"
+#include "scene/scene.h"
+
+namespace clrt {
+
+/// The device that the options name, open; says what platforms and the cache of programs lack. Throws
+/// DeviceError.
+Device open_chosen_device(const Options& options);
+
+/// The scene of a run, whose results are known not to replace what it was loaded from. Throws SceneError and
+/// UsageError.
+Scene load_for_run(const Options& options, Progress& progress);
+
+} // namespace clrt
