@@ -110,7 +110,7 @@ RenderCounts read_counts(const Json& json) {
     counts.secondary = whole<decltype(counts.secondary)>(json.at("secondary"));
     counts.shadow = whole<decltype(counts.shadow)>(json.at("shadow"));
     counts.cut_paths = whole<decltype(counts.cut_paths)>(json.at("cut_paths"));
-    json.at("cut_weight").get_to(counts.cut_weight);
+    counts.cut_weight = whole<decltype(counts.cut_weight)>(json.at("cut_weight"));
     counts.nan = whole<decltype(counts.nan)>(json.at("nan"));
     counts.infinite = whole<decltype(counts.infinite)>(json.at("infinite"));
     counts.negative = whole<decltype(counts.negative)>(json.at("negative"));
