@@ -74,7 +74,11 @@ std::vector<OptionSpec> work_options() {
          "that "
          "show the scene, is at most 0.02 or 2%, looked at where samples are even: --replicates times 2^k or "
          "3/2 2^k; whichever of -s, -t and -e comes first ends the render (default: no target)",
-         [](Options& o, const OptionValue& v) { o.error = parse_fraction(v); }},
+         [](Options& o, const OptionValue& v) {
+             o.error = parse_fraction(v);
+             if (!(*o.error > 0)) // which no number of samples reaches
+                 reject_value(v, "an error above 0 such as 0.02 or 2%");
+         }},
         {group, "", "--max-depth", "N",
          "longest path in segments; 1 sees emitters, 2 adds direct light (default 4096, whitted 10, raycast "
          "always 2); what it cuts is reported",

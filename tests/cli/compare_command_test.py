@@ -208,6 +208,20 @@ class CompareCommand(unittest.TestCase):
         code, out, _ = self.run_command("nan.exr", self.exr("a.exr"), "--margin", "50%", "-o", "d.png", "--stats", "s.json")
         self.assertEqual((code, "1 pixels are not finite" in out), (DIFFERENT, True), out)
 
+    def test_inputs_are_never_replaced(self):
+        grey = numpy.full(SIZE, 0.5)
+        a, b = self.display("a.png", grey), self.display("b.png", grey)
+        link = os.path.join(os.path.dirname(a), "link.png")
+        os.symlink(a, link)
+        with open(a, "rb") as file:
+            before = file.read()
+        for option in ("--stats", "-o"):
+            code, _, err = self.run_command(a, b, option, link)
+            self.assertEqual(code, 2)
+            self.assertIn("would replace", err)
+        with open(a, "rb") as file:
+            self.assertEqual(file.read(), before)
+
     def test_wrong_options_are_usage_errors(self):
         a = self.exr("a.exr")
         for arguments in ((), (a,), (a, a, "--margin", "x"), (a, a, "--margin=-1"), (a, a, "--alpha", "0"),

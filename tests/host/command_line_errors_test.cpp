@@ -221,4 +221,9 @@ TEST(CommandLine, MissingOutputFolderStopsBeforeAnyWork) {
     EXPECT_NO_THROW(parse({"-o", folder.file("absent/a.png"), "--explain"}));
 }
 
+TEST(CommandLine, AnErrorThatNothingReachesIsRefused) {
+    for (const char* none : {"0", "0%"})
+        EXPECT_NE(refusal({"--error", none, "s.obj"}).find("above 0"), std::string::npos) << none;
+}
+
 } // namespace clrt
