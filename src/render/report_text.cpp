@@ -64,7 +64,10 @@ std::string left_out_lines(const Report& report) {
                             integrator_name(report.options.integrator));
     if (report.effects.paths.is_asked)
         text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
-    return text.empty() ? "left out nothing that the scene calls for\n" : text;
+    if (!text.empty())
+        return text;
+    return is_complete(report.error) ? "left out nothing that the scene calls for\n"
+                                     : "left out nothing but what the lines above name\n";
 }
 
 /// Samples that were not fit to be added, and why.
