@@ -3,6 +3,7 @@
 #include "app/progress.h"
 
 #include "app/terminal.h"
+#include "seconds.h"
 
 #include <cmath>
 #include <cstdio>
@@ -22,10 +23,6 @@ constexpr double TERMINAL_INTERVAL = 0.2, PLAIN_INTERVAL = 5;
 constexpr double WORTH_A_LINE = 1;
 /// Columns of a terminal that does not tell.
 constexpr size_t DEFAULT_COLUMNS = 80;
-
-double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
-    return duration<double>(to - from).count();
-}
 
 /// "7.3 s", "4 m 05 s", "2 h 07 m".
 std::string duration_text(double seconds) {

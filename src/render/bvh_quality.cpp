@@ -17,7 +17,6 @@ constexpr double SAVED_SHARE = 0.05;
 constexpr double MARGIN = 2;
 // A ray costs more in larger trees, by levels and by cache misses: 250 ns in a closed mesh of a million.
 constexpr double RAY_NS_A_LEVEL = 12;
-constexpr std::uint32_t DEFAULT_SPP = 64;
 // --error without --spp or --time: nobody knows yet, but who asks for an error asks for more than the
 // default.
 constexpr std::uint32_t SPP_FOR_AN_ERROR = 1024;

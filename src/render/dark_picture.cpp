@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/dark_picture.h"
 
+#include "output/exposure.h"
 #include "scene/view_frame.h"
 #include "scene/voxel_grid.h"
 
@@ -36,8 +37,7 @@ struct Lightness {
     double brightest = 0; ///< channel of any pixel, radiance
 };
 
-Lightness measure_lightness(const Film& film, double darkest_grey) {
-    const std::vector<float> mean = film_mean(film);
+Lightness measure_lightness(const std::vector<float>& mean, double darkest_grey) {
     const size_t pixels = mean.size() / 3;
     Lightness lightness;
     for (size_t i = 0; i < pixels; ++i) {
@@ -161,8 +161,9 @@ std::optional<std::string> explain_empty_picture(const Scene& scene, const Optio
                                                  const Render& render) {
     if (film_samples(render.film) == 0)
         return std::nullopt;
+    const std::vector<float> mean = film_mean(render.film);
     const Lightness lightness =
-        measure_lightness(render.film, DARKEST_GREY * std::exp2(-options.exposure_ev));
+        measure_lightness(mean, DARKEST_GREY * std::exp2(-chosen_exposure_ev(options, mean)));
     const bool is_dark = lightness.lit_share < LIT_SHARE;
     const bool met_nothing = render.counts.secondary + render.counts.shadow == 0;
     if (!is_dark && !met_nothing)

@@ -8,6 +8,7 @@
 #include "render/ledger_plan.h"
 #include "render/render.h"
 #include "render/scene_buffers.h"
+#include "seconds.h"
 
 #include <algorithm>
 #include <cassert>
@@ -22,10 +23,6 @@ namespace clrt {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Seconds that all threads of this process were at work.
 double processor_seconds() {

@@ -5,6 +5,7 @@
 #include "device/opencl_error.h"
 #include "render/film_capacity.h"
 #include "render/good_counts.h"
+#include "seconds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +26,6 @@ constexpr double SMALL_CHECK_SECONDS = 0.2;
 /// A pass may take this many times as long as those before it: other programs come to work, and adaptive
 /// rounds go where paths are long.
 constexpr double LARGEST_SLOWDOWN = 4;
-
-double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
-    return std::chrono::duration<double>(to - from).count();
-}
 
 } // namespace
 

@@ -13,6 +13,7 @@
 #include "run/simulate.h"
 #include "run/start.h"
 #include "run/turntable.h"
+#include "seconds.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -22,10 +23,6 @@
 namespace clrt {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The exit code of a finished run, and the warning that goes with it.
 int finish(const Report& report) {

@@ -147,6 +147,16 @@ TEST_F(CameraCommand, BracesInTheSceneNameAreKept) {
     EXPECT_TRUE(exists("a{b}.png"));
 }
 
+TEST_F(CameraCommand, ADimPictureThatIsExposedIsNotDark) {
+    write_pyramid("pyramid");
+    const std::vector<std::string> dim = {"pyramid.obj", "--sun", "0,0,1,1e-6,1e-6,1e-6"};
+    EXPECT_TRUE(holds(clrt(quick(dim)).err, {"--exposure"}));
+    std::vector<std::string> exposed = dim;
+    exposed.insert(exposed.end(), {"--exposure", "auto", "--stats", "s.json"});
+    EXPECT_EQ(clrt(quick(exposed)).exit_code, 0);
+    EXPECT_TRUE(holds(folder.read("s.json"), {"\"empty_picture\": null"}));
+}
+
 TEST_F(CameraCommand, APictureThatShowsNothingSaysWhy) {
     write_pyramid("pyramid");
     folder.write("black.mtl",
