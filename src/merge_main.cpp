@@ -6,13 +6,13 @@
 #include "app/signals.h"
 #include "error.h"
 #include "exit_code.h"
+#include "film/checkpoint.h"
+#include "film/merge_films.h"
 #include "output/exposure.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
 #include "output/written_files.h"
-#include "render/checkpoint.h"
 #include "render/error_text.h"
-#include "render/merge_films.h"
 #include "run/saving.h"
 
 #include <algorithm>

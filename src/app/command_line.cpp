@@ -8,10 +8,10 @@
 #include "app/options_file.h"
 #include "app/terminal.h"
 #include "error.h"
+#include "film/film_file.h"
 #include "output/file_name.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
-#include "render/film_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -3,11 +3,11 @@
 #include "app/option_checks.h"
 
 #include "error.h"
+#include "film/adaptive.h"
 #include "output/file_name.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
 #include "output/written_files.h"
-#include "render/adaptive.h"
 #include "run/run_files.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 // the variance. So a short render is told what is usual, and a long one what it has shown.
 #pragma once
 
-#include "render/film_error.h"
+#include "film/film_error.h"
 
 #include <optional>
 #include <vector>

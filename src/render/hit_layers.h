@@ -4,8 +4,8 @@
 // is resumed has no sums of its earlier samples, so that a second way would be needed in any case.
 #pragma once
 
-#include "render/film_buffers.h"
-#include "render/hit_sums.h"
+#include "film/film_buffers.h"
+#include "film/hit_sums.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
 

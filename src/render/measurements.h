@@ -2,7 +2,7 @@
 // What is known of a render while it goes on: its error and its rays, as last measured.
 #pragma once
 
-#include "render/film_buffers.h"
+#include "film/film_buffers.h"
 
 #include <optional>
 

@@ -3,7 +3,7 @@
 
 #include "app/signals.h"
 #include "device/opencl_error.h"
-#include "render/film_capacity.h"
+#include "film/film_capacity.h"
 #include "render/good_counts.h"
 #include "seconds.h"
 

@@ -2,7 +2,7 @@
 // The passes of one render: launches until a rule ends them, measurements and files between them.
 #pragma once
 
-#include "render/film_buffers.h"
+#include "film/film_buffers.h"
 #include "render/hit_layers.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"

@@ -2,8 +2,8 @@
 #include "render/render.h"
 
 #include "error.h"
-#include "render/film_buffers.h"
-#include "render/film_capacity.h"
+#include "film/film_buffers.h"
+#include "film/film_capacity.h"
 #include "render/passes.h"
 #include "render/render_params.h"
 

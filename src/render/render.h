@@ -3,10 +3,10 @@
 #pragma once
 
 #include "app/progress.h"
-#include "render/adaptive.h"
-#include "render/film.h"
-#include "render/film_error.h"
-#include "render/hit_sums.h"
+#include "film/adaptive.h"
+#include "film/film.h"
+#include "film/film_error.h"
+#include "film/hit_sums.h"
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
 #include "render/stop_rules.h"

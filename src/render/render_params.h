@@ -3,9 +3,9 @@
 #pragma once
 
 #include "app/options.h"
+#include "film/film.h"
 #include "kernels/shared/render_types.h"
 #include "paths/path_plan.h"
-#include "render/film.h"
 #include "scene/scene.h"
 
 namespace clrt {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/options.h"
-#include "render/film_error.h"
+#include "film/film_error.h"
 
 #include <cstdint>
 #include <optional>

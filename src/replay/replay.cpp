@@ -2,7 +2,7 @@
 #include "replay/replay.h"
 
 #include "device/opencl_error.h"
-#include "render/film.h"
+#include "film/film.h"
 #include "render/render_params.h"
 
 #include <algorithm>

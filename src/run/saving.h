@@ -4,8 +4,8 @@
 
 #include "app/progress.h"
 #include "error.h"
-#include "render/checkpoint.h"
-#include "render/film_identity.h"
+#include "film/checkpoint.h"
+#include "film/film_identity.h"
 #include "render/report.h"
 
 #include <functional>

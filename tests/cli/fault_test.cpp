@@ -3,7 +3,7 @@
 // What was there stays whole, what can be saved is, and the exit code says so.
 #include "clrt_command.h"
 #include "error.h"
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 #include <csignal>
 #include <random>

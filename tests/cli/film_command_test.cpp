@@ -3,7 +3,7 @@
 // of one run.
 #include "clrt_command.h"
 #include "error.h"
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 #include <csignal>
 

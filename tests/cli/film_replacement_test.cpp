@@ -2,7 +2,7 @@
 // Which film a run writes, and that no film is lost: a resumed run goes on in its own film, and samples are
 // replaced by fewer or by others only with --force.
 #include "clrt_command.h"
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 #include <chrono>
 #include <csignal>

@@ -3,7 +3,7 @@
 // here, and on every CPU device that is there and promises it. With one device only, the fixed bits of the
 // functions (real_functions_test) and the rules of the device (device_facts_test) say what others give.
 #include "clrt_command.h"
-#include "render/film_file.h"
+#include "film/film_file.h"
 #include "support/instruction_sets.h"
 
 #include <cstring>

@@ -2,8 +2,8 @@
 // Film files: any header gives a sound film or a SceneError. The input is the header's text; lengths and
 // checksum are put right, so that what is behind them is met too.
 #include "error.h"
+#include "film/film_file.h"
 #include "fuzz_target.h"
-#include "render/film_file.h"
 
 #include <algorithm>
 #include <xxhash.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adaptive rounds: where samples go, and that it does not bias the picture.
-#include "render/adaptive.h"
+#include "film/adaptive.h"
 
 #include "support/statistics.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether the interval holds the picture's own error: films of known distributions, many seeds each.
-#include "render/film_error.h"
+#include "film/film_error.h"
 
 #include "support/noise_film.h"
 #include "support/statistics.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fisher's F distribution against closed forms and published tables.
-#include "render/f_distribution.h"
+#include "film/f_distribution.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Errors, intervals, slopes and prices from made-up sums, against direct computation and the truth.
-#include "render/film_error.h"
+#include "film/film_error.h"
 
-#include "render/f_distribution.h"
+#include "film/f_distribution.h"
 #include "support/noise_film.h"
 #include "support/statistics.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Film files: what is written is read, what is damaged is refused.
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 #include "error.h"
 #include "support/file_size_limit.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The identity of a film: the same for the same scene and options, another for whatever changes a bit.
-#include "render/film_identity.h"
+#include "film/film_identity.h"
 
 #include "app/progress.h"
 #include "scene/load_scene.h"

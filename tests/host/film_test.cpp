@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures and variances from made-up sums, against direct computation.
-#include "render/film_error.h"
+#include "film/film_error.h"
 
 #include "support/noise_film.h"
 #include "support/statistics.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Merged films: any order, folded replicates, gaps, and what is refused.
-#include "render/merge_films.h"
+#include "film/merge_films.h"
 
 #include "error.h"
 #include "support/noise_film.h"

@@ -4,7 +4,7 @@
 #include "scene/studio.h"
 
 #include "command_line_support.h"
-#include "render/film_identity.h"
+#include "film/film_identity.h"
 #include "scene/ground.h"
 #include "support/render_scene.h"
 

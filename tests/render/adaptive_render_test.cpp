@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adaptive renders: no bias against uniform ones, less error for the same samples, and the same samples to
 // begin with.
-#include "render/film_error.h"
+#include "film/film_error.h"
 #include "support/render_scene.h"
 #include "support/statistics.h"
 

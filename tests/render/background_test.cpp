@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A background is what the camera sees where it hits nothing, and nothing else: it lights nothing, no mirror
 // shows it, no integrator and no layer differs about it.
-#include "render/film_identity.h"
+#include "film/film_identity.h"
 #include "support/film_estimate.h"
 #include "support/render_scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film holds every light: mapped lamps far brighter than their scene, points beside a wall, suns nearly
 // without a disc. Against closed forms.
-#include "render/film.h"
+#include "film/film.h"
 #include "render/kernels.h"
 #include "support/closed_forms.h"
 #include "support/film_estimate.h"

@@ -3,7 +3,7 @@
 // first.
 #include "bvh/bvh.h"
 #include "effects/effects.h"
-#include "render/film_buffers.h"
+#include "film/film_buffers.h"
 #include "render/kernels.h"
 #include "render/launcher.h"
 #include "render/render_params.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path notation in pictures: expressions that share no path add up to the whole, each shows what a closed
 // form says, and what they exclude costs no ray.
-#include "render/film_identity.h"
+#include "film/film_identity.h"
 #include "render/kernels.h"
 #include "support/closed_forms.h"
 #include "support/film_estimate.h"

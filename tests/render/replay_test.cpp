@@ -2,7 +2,7 @@
 // A replayed sample has the bits of the rendered one; a planted fault is found where it was planted, and so
 // is a decision that is made differently in double precision.
 #include "bvh/bvh.h"
-#include "render/film_buffers.h"
+#include "film/film_buffers.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
 #include "replay/causes.h"

@@ -2,7 +2,7 @@
 // Films as a renderer would fill them whose samples are independent and normal.
 #pragma once
 
-#include "render/film.h"
+#include "film/film.h"
 
 #include <cmath>
 #include <random>

@@ -60,7 +60,7 @@ def write_exr(path, mean, variance=None, samples=None, attributes=(), origin=(0,
 
 
 def film_bytes(sums, quantum, ranges, version=FORMAT_VERSION, seed=0, window=None, size=None):
-    """A film file as src/render/film_file.h describes it; sums: int64 (replicates, height, width, 3)."""
+    """A film file as src/film/film_file.h describes it; sums: int64 (replicates, height, width, 3)."""
     replicates, height, width, _ = sums.shape
     header = json.dumps({
         "identity": {"seed": seed, "size": size or [width, height], "window": window or [0, 0, width, height],

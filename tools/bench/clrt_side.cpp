@@ -3,7 +3,7 @@
 
 #include "device/opencl_error.h"
 #include "effects/effects.h"
-#include "render/film.h"
+#include "film/film.h"
 #include "render/kernels.h"
 #include "render/render_params.h"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads film files, as `clrt --checkpoint` writes them (layout: src/render/film_file.h)."""
+"""Reads film files, as `clrt --checkpoint` writes them (layout: src/film/film_file.h)."""
 import dataclasses
 import json
 import struct

@@ -2,8 +2,8 @@
 // Long sums: 64 pixels that add up one series of values, by the renderer's film and in the textbook's ways.
 #pragma once
 
+#include "film/film.h"
 #include "kernels/shared/render_types.h"
-#include "render/film.h"
 #include "render/render.h"
 #include "stability/probe_set.h"
 

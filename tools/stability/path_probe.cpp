@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/path_probe.h"
 
+#include "film/film.h"
 #include "kernels/shared/effects.h"
-#include "render/film.h"
 #include "render/render_params.h"
 
 #include <fmt/format.h>

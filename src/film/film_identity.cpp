@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/film_identity.h"
+#include "film/film_identity.h"
 
 #include "device/kernel_source.h"
+#include "film/whole_numbers.h"
 #include "render/kernels.h"
 #include "render/render_params.h"
-#include "render/whole_numbers.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -35,8 +35,8 @@
 // Integers are little endian.
 #pragma once
 
+#include "film/film_identity.h"
 #include "render/cut_paths.h"
-#include "render/film_identity.h"
 #include "render/render.h"
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/checkpoint.h"
+#include "film/checkpoint.h"
 
 #include "error.h"
 

@@ -13,7 +13,7 @@
 // pictures gain less than a tenth by them. No OpenCL here.
 #pragma once
 
-#include "render/film.h"
+#include "film/film.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/hit_sums.h"
+#include "film/hit_sums.h"
 
 #include <cmath>
 

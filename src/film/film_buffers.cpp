@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/film_buffers.h"
+#include "film/film_buffers.h"
 
 #include "device/opencl_error.h"
 

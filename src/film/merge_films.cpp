@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/merge_films.h"
+#include "film/merge_films.h"
 
 #include "error.h"
 #include "render/error_report.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/options.h"
-#include "render/film.h"
+#include "film/film.h"
 
 #include <cstdint>
 

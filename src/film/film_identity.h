@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/options.h"
-#include "render/film.h"
+#include "film/film.h"
 #include "scene/scene.h"
 
 #include <nlohmann/json.hpp>

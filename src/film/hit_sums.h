@@ -3,8 +3,8 @@
 // albedo, N, Z, P, objectId and materialId. No OpenCL here.
 #pragma once
 
+#include "film/film.h"
 #include "kernels/shared/aov_types.h"
-#include "render/film.h"
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/f_distribution.h"
+#include "film/f_distribution.h"
 
 #include <cmath>
 

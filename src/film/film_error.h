@@ -4,7 +4,7 @@
 // common.
 #pragma once
 
-#include "render/film.h"
+#include "film/film.h"
 
 #include <optional>
 

@@ -2,7 +2,7 @@
 // --checkpoint and --resume: film files at work.
 #pragma once
 
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 namespace clrt {
 

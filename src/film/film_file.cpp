@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 #include "error.h"
+#include "film/whole_numbers.h"
 #include "output/atomic_file.h"
-#include "render/whole_numbers.h"
 
 #include <algorithm>
 #include <filesystem>

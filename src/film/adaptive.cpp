@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/adaptive.h"
+#include "film/adaptive.h"
 
 #include <algorithm>
 #include <queue>

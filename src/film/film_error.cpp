@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/film_error.h"
+#include "film/film_error.h"
 
-#include "render/f_distribution.h"
+#include "film/f_distribution.h"
 
 #include <algorithm>
 #include <array>

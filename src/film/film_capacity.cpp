@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/film_capacity.h"
+#include "film/film_capacity.h"
 
 #include "error.h"
 

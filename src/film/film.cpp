@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/film.h"
+#include "film/film.h"
 
 #include "kernels/shared/path_types.h"
 #include "scene/brightness.h"

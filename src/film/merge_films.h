@@ -2,8 +2,8 @@
 // Film files of disjoint sample ranges -> the film of one run.
 #pragma once
 
+#include "film/film_file.h"
 #include "output/image.h"
-#include "render/film_file.h"
 
 #include <string>
 
