@@ -11,6 +11,9 @@ SHARED_BEGIN
 #define FILTER_TENT 1u
 #define FILTER_GAUSSIAN 2u
 
+/* The deepest tree of `whitted`; every level leaves at most one ray waiting on its stack. The command line refuses more. */
+#define WHITTED_MAX_DEPTH 64
+
 typedef struct {
     /* Camera in the normalised frame: the ray through film position (x, y), in pixels right of and below the
        picture's centre, has the direction look + x film_dx + y film_dy, not of unit length. */

@@ -37,15 +37,7 @@ std::vector<OptionSpec> camera_options() {
         {group, "", "--view", "NAME",
          "from where to look where --eye is not given: front, back, left, right, top, bottom or iso; with "
          "y up the front is +z, with z up -y (default: from the right, above and in front; into rooms)",
-         [](Options& o, const OptionValue& v) {
-             o.camera.view = parse_choice<View>(v, {{"front", View::FRONT},
-                                                    {"back", View::BACK},
-                                                    {"left", View::LEFT},
-                                                    {"right", View::RIGHT},
-                                                    {"top", View::TOP},
-                                                    {"bottom", View::BOTTOM},
-                                                    {"iso", View::ISO}});
-         }},
+         [](Options& o, const OptionValue& v) { o.camera.view = parse_choice<View>(v); }},
         {group, "", "--fov", "DEG", "vertical angle of view, degrees (default 40; 60 from within a room)",
          [](Options& o, const OptionValue& v) {
              o.camera.fov_degrees = parse_number(v, "an angle in degrees above 0 and below 180",

@@ -2,6 +2,7 @@
 // Options that are fine one by one and make no sense together.
 #include "app/option_checks.h"
 
+#include "app/option_values.h"
 #include "error.h"
 #include "film/adaptive.h"
 #include "output/file_name.h"
@@ -18,8 +19,6 @@ namespace clrt {
 
 namespace {
 
-/// The ray stack of the whitted kernel holds one ray a segment.
-constexpr int WHITTED_STACK_DEPTH = 64;
 /// Fewer give no interval.
 constexpr int FEWEST_REPLICATES_WITH_ERROR = 4;
 /// Two in each half, whose spread is the half's noise.
@@ -197,23 +196,29 @@ void check_replay(const Options& options) {
                             ", found " + std::to_string(options.run.sample));
 }
 
-/// Only `path` walks the automaton; the others simulate one language each.
+/// Not every integrator can tell paths apart.
 void check_paths(const Options& options) {
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
     const bool has_paths = !options.transport.paths.empty();
-    if (options.transport.integrator != Integrator::PATH &&
-        (has_paths || !options.output.path_layers.empty())) {
-        const bool whitted = options.transport.integrator == Integrator::WHITTED;
+    if ((has_paths || !options.output.path_layers.empty()) && !(integrator.takes & TAKES_PATHS))
         reject(options, std::string(has_paths ? "option --paths" : "option --aov NAME=EXPR") +
-                            ": expected --integrator path, found " +
-                            (whitted ? "whitted, which simulates 'LD?S*E' alone"
-                                     : "raycast, which simulates 'LD?E' alone"));
-    }
+                            ": expected --integrator " + alternatives(integrators_with(TAKES_PATHS)) +
+                            ", found " + integrator.name + ", which simulates '" + integrator.paths.all +
+                            "' alone");
     const bool has_exr =
         std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
     if (!options.output.path_layers.empty() && !has_exr && options.run.explain == Explain::NO &&
         !options.run.pixel)
         reject(options, "option --aov: expected an output that ends in .exr for the layer '" +
                             options.output.path_layers.front().name + "', found none; add -o FILE.exr");
+}
+
+void check_depth(const Options& options) {
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
+    const int depth = effective_max_depth(options.transport);
+    if (depth > integrator.depth.longest)
+        reject(options, "option --max-depth: expected at most " + std::to_string(integrator.depth.longest) +
+                            " with --integrator " + integrator.name + ", found " + std::to_string(depth));
 }
 
 } // namespace
@@ -231,11 +236,7 @@ void check_combinations(const Options& options) {
     check_save_every(options);
     check_paths(options);
     check_replay(options);
-    if (options.transport.integrator == Integrator::WHITTED &&
-        effective_max_depth(options.transport) > WHITTED_STACK_DEPTH)
-        reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
-                            " with --integrator whitted, found " +
-                            std::to_string(*options.transport.max_depth));
+    check_depth(options);
     if (options.camera.eye && options.camera.eye == options.camera.at)
         reject(options, "options --eye and --at: expected two different points, found the same");
 }

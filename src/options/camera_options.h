@@ -2,6 +2,8 @@
 // The camera.
 #pragma once
 
+#include "options/names.h"
+
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -10,6 +12,11 @@ namespace clrt {
 /// From where a scene is seen, in a frame whose up is the camera's and whose front is towards the eye of
 /// FRONT.
 enum class View { FRONT, BACK, LEFT, RIGHT, TOP, BOTTOM, ISO };
+
+template <>
+inline constexpr Named<View> NAMES<View>[] = {
+    {View::FRONT, "front"}, {View::BACK, "back"},     {View::LEFT, "left"}, {View::RIGHT, "right"},
+    {View::TOP, "top"},     {View::BOTTOM, "bottom"}, {View::ISO, "iso"}};
 
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
 struct CameraOptions {

@@ -10,7 +10,7 @@ namespace clrt {
 namespace {
 
 constexpr MaterialReplacement REPLACEMENTS[] = {
-    {MaterialOverride::CLAY, "clay", "clay: matte Kd 0.8, emission and coverage kept", DEFAULT_KD},
+    {MaterialOverride::CLAY, "clay: matte Kd 0.8, emission and coverage kept", DEFAULT_KD},
 };
 
 } // namespace
@@ -25,7 +25,7 @@ const MaterialReplacement* find_replacement(MaterialOverride which) {
 MtlMaterial replace_material(const MtlMaterial& mtl, const MaterialReplacement& replacement,
                              NoticeList& notices) {
     if (is_dielectric(mtl))
-        notices.add(fmt::format("--material {}: glass is opaque", replacement.name), mtl.place);
+        notices.add(fmt::format("--material {}: glass is opaque", name_of(replacement.which)), mtl.place);
     MtlMaterial result;
     result.name = mtl.name;
     result.place = mtl.place;

@@ -168,7 +168,7 @@ TEST(CommandLine, WorkOptionsArrive) {
     EXPECT_EQ(o.device.threads, 2);
     EXPECT_EQ(o.device.precision, Precision::FAST);
     EXPECT_EQ(o.sampling.replicates, 64);
-    EXPECT_EQ(o.bvh.layout, BvhChoice::BVH8);
+    EXPECT_EQ(o.bvh.layout, BvhLayout::BVH8);
     EXPECT_EQ(o.transport.min_contribution, 0.02);
     EXPECT_EQ(o.transport.roulette_depth, 3);
     EXPECT_EQ(o.sampling.first_sample, 8u);
@@ -204,17 +204,17 @@ TEST(CommandLine, PictureOptionsArrive) {
 }
 
 TEST(CommandLine, TreeTakesLayoutAndQuality) {
-    EXPECT_EQ(parse({}).bvh.quality, QualityChoice::AUTO);
+    EXPECT_FALSE(parse({}).bvh.quality);
     const Options both = parse({"--bvh", "high,bvh2"});
-    EXPECT_EQ(both.bvh.layout, BvhChoice::BVH2);
-    EXPECT_EQ(both.bvh.quality, QualityChoice::HIGH);
+    EXPECT_EQ(both.bvh.layout, BvhLayout::BVH2);
+    EXPECT_EQ(both.bvh.quality, BvhQuality::HIGH);
     const Options compressed = parse({"--bvh", "cwbvh,high"});
-    EXPECT_EQ(compressed.bvh.layout, BvhChoice::CWBVH);
-    EXPECT_EQ(compressed.bvh.quality, QualityChoice::HIGH);
+    EXPECT_EQ(compressed.bvh.layout, BvhLayout::CWBVH);
+    EXPECT_EQ(compressed.bvh.quality, BvhQuality::HIGH);
     const Options quality = parse({"--bvh", "fast"});
-    EXPECT_EQ(quality.bvh.layout, BvhChoice::AUTO);
-    EXPECT_EQ(quality.bvh.quality, QualityChoice::FAST);
-    EXPECT_EQ(parse({"--bvh", "high", "--bvh", "auto"}).bvh.quality, QualityChoice::AUTO);
+    EXPECT_FALSE(quality.bvh.layout);
+    EXPECT_EQ(quality.bvh.quality, BvhQuality::FAST);
+    EXPECT_FALSE(parse({"--bvh", "high", "--bvh", "auto"}).bvh.quality);
 }
 
 TEST(CommandLine, CameraOptionsArrive) {

@@ -106,7 +106,7 @@ TEST_F(FilmIdentityTest, OptionsThatChangeNoBitAreNone) {
     const std::function<void(Options&)> changes[] = {
         [](Options& o) { o.sampling.spp = 5; },          [](Options& o) { o.sampling.first_sample = 5; },
         [](Options& o) { o.sampling.time_seconds = 5; }, [](Options& o) { o.sampling.error = 0.5; },
-        [](Options& o) { o.effects.all = true; },        [](Options& o) { o.bvh.layout = BvhChoice::BVH2; },
+        [](Options& o) { o.effects.all = true; },        [](Options& o) { o.bvh.layout = BvhLayout::BVH2; },
         [](Options& o) { o.device.threads = 1; },        [](Options& o) { o.output.exposure_ev = 1; },
         [](Options& o) { o.output.files = {"a.exr"}; },
     };
