@@ -42,6 +42,10 @@ struct PathDepths {
     int longest; ///< that --max-depth may ask for
 };
 
+/// Which techniques find the sky: the table is all that does, or directions sampled by the BSDF do too, and
+/// multiple importance sampling weighs the two.
+enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
+
 /// An integrator. Its kernel is "render_" + name in kernels/integrators/NAME.cl.
 struct IntegratorRow {
     Integrator value;
@@ -50,6 +54,7 @@ struct IntegratorRow {
     const char* omitted; ///< light that it never simulates, for the report; null: none
     SimulatedPaths paths;
     PathDepths depth;
+    SkySampling sky;
     unsigned takes; ///< IntegratorOption
 };
 
@@ -71,6 +76,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      "all light but the direct one",
      {"LD?E", "LE", "LDE"},
      {DIRECT_LIGHT_DEPTH, DIRECT_LIGHT_DEPTH},
+     SkySampling::BY_TABLE,
      0},
     {Integrator::WHITTED,
      "whitted",
@@ -78,6 +84,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      "all indirect light but that of mirrors and smooth glass",
      {"LD?S*E", "LS*E", "LDS*E"},
      {USUAL_TREE_DEPTH, WHITTED_MAX_DEPTH},
+     SkySampling::BY_TABLE,
      TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION},
     {Integrator::PATH,
      "path",
@@ -85,6 +92,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      nullptr,
      {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E"},
      {USUAL_PATH_DEPTH, LARGEST_DEPTH},
+     SkySampling::BY_TABLE_AND_BSDF,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS},
 };
 

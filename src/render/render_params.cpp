@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <stdexcept>
 
 namespace clrt {
 
@@ -99,6 +100,9 @@ Crop render_window(const Options& options) {
 }
 
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {
+    if (!scene.environment.texels.empty() &&
+        scene.environment.sampling != integrator_row(options.transport.integrator).sky)
+        throw std::logic_error("the environment map has no table for this integrator: tabulate_sky");
     RenderParams params{};
     set_camera(scene, options, params);
     set_lights(scene, params);

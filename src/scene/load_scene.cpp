@@ -165,8 +165,7 @@ void load_camera_and_lights(const Options& options, const std::vector<double>& e
         build_lights(light, scene.normalisation, bounds.radius() * scene.normalisation.scale, notices);
     scene.lights = std::move(lights.lights);
     scene.emitted_power = emitters.power + lights.power;
-    scene.environment =
-        load_environment(light, has_light, sky_sampling(options.transport.integrator), notices);
+    scene.environment = load_environment(light, has_light, notices);
     if (light.background)
         scene.background = light.background->radiance;
     if (light.ground && light.ground->albedo)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/shared/scene_types.h"
+#include "options/integrators.h"
 #include "output/named_file.h"
 
 #include <glm/vec3.hpp>
@@ -33,6 +34,8 @@ struct Environment {
     std::vector<EnvironmentTexel> texels;
     double rotation_degrees = 0; ///< about +Y
     double mean_radiance = 0;    ///< over the sphere, luminance, factor included
+    /// What the table in the texels is made for (scene/sky_table.h); none: there is none yet.
+    std::optional<SkySampling> sampling;
 };
 
 /// Radiance that a material emits, its map included.

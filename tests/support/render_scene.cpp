@@ -9,6 +9,7 @@
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
 #include "scene/load_scene.h"
+#include "scene/sky_table.h"
 #include "support/kernel_probe.h"
 
 #include <cstdlib>
@@ -64,6 +65,7 @@ const RenderPrograms& programs_for(const Options& options, const Effects& effect
 template <typename Programs>
 Render render_by(Scene& scene, Options& options, const Programs& programs) {
     const Device& device = test_device();
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
     const Effects effects = find_effects(scene, options);
     take_out_effects(effects.left_out, scene, options);
     const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
@@ -112,7 +114,9 @@ Scene TestScene::load() const {
     Options with_path = options;
     with_path.scene.path = folder.write("scene.obj", build.obj("scene.mtl", scale));
     Progress progress(Toggle::OFF, true);
-    return load_scene(with_path, progress);
+    Scene scene = load_scene(with_path, progress);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
+    return scene;
 }
 
 Render TestScene::render() const {
