@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/render_command.h"
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/effects.h"
 #include "effects/take_out.h"
 #include "exit_code.h"

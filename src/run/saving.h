@@ -2,7 +2,7 @@
 // What a render writes: pictures and films on the way, and all its files at the end.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "error.h"
 #include "film/checkpoint.h"
 #include "film/film_identity.h"
