@@ -7,7 +7,7 @@
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/render_params.h"
-#include "render/report.h"
+#include "run/report.h"
 #include "run/run_files.h"
 #include "run/saving.h"
 #include "run/simulate.h"

@@ -6,7 +6,7 @@
 #include "error.h"
 #include "film/checkpoint.h"
 #include "film/film_identity.h"
-#include "render/report.h"
+#include "run/report.h"
 
 #include <functional>
 #include <optional>
