@@ -2,7 +2,7 @@
 // How bright a picture is to be shown.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 #include <string>
 #include <vector>

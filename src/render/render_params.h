@@ -2,9 +2,9 @@
 // Scene and options -> the constants of a launch.
 #pragma once
 
-#include "app/options.h"
 #include "film/film.h"
 #include "kernels/shared/render_types.h"
+#include "options/options.h"
 #include "paths/path_plan.h"
 #include "scene/scene.h"
 

@@ -2,8 +2,8 @@
 // When a render ends: --spp, --time, --error, a full film or a signal, whichever comes first. No OpenCL here.
 #pragma once
 
-#include "app/options.h"
 #include "film/film_error.h"
+#include "options/options.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How --threads and --cache reach the drivers: by their environment variables.
-#include "app/options.h"
 #include "device/device.h"
+#include "options/options.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST_F(DriverQuirks, ThreadsAreSetForEveryCpuDriver) {
     Options options;
     set_driver_environment(options);
     expect_threads("unset");
-    options.threads = 3;
+    options.device.threads = 3;
     set_driver_environment(options);
     expect_threads("3");
     expect_caches(false);
@@ -65,7 +65,7 @@ TEST_F(DriverQuirks, ThreadsAskedForReplaceThoseOfTheEnvironment) {
     Options options;
     set_driver_environment(options);
     expect_threads("7");
-    options.threads = 2;
+    options.device.threads = 2;
     set_driver_environment(options);
     expect_threads("2");
 }
@@ -73,11 +73,11 @@ TEST_F(DriverQuirks, ThreadsAskedForReplaceThoseOfTheEnvironment) {
 TEST_F(DriverQuirks, CacheOffTurnsEveryDriversCacheOff) {
     Options options;
     for (const Toggle kept : {Toggle::AUTO, Toggle::ON}) {
-        options.cache = kept;
+        options.device.cache = kept;
         set_driver_environment(options);
         expect_caches(false);
     }
-    options.cache = Toggle::OFF;
+    options.device.cache = Toggle::OFF;
     set_driver_environment(options);
     expect_caches(true);
     expect_threads("unset");
@@ -94,7 +94,7 @@ TEST_F(DriverQuirks, OnlyPoclAndNvidiaCacheByThemselves) {
 
 TEST_F(DriverQuirks, ThePlatformListIsMadeWithTheThreadsAskedFor) {
     Options options;
-    options.threads = 1;
+    options.device.threads = 1;
     set_driver_environment(options);
     for (const PlatformInfo& platform : list_platforms())
         for (const DeviceInfo& device : platform.devices)
