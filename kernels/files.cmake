@@ -19,6 +19,7 @@ set(CLRT_KERNEL_FILES
   geometry/visibility.h
   integrators/aov.cl
   integrators/direct.h
+  integrators/entry_point.h
   integrators/path.cl
   integrators/path.h
   integrators/pixel.h

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over a pixel's samples that all integrators share. An integrator defines
+// What all integrators share of a pixel: its samples, aimed by the camera and added to the film. An integrator is a function
 //   void NAME(const Scene*, const RenderParams*, CameraSample* samples, uint count, PixelRays*)
-// which fills in the radiance of each sample, and instantiates RENDER_KERNEL(render_x, NAME).
+// which fills in the radiance of each sample; entry_point.h makes a kernel of it.
 #ifndef CLRT_INTEGRATORS_PIXEL_H
 #define CLRT_INTEGRATORS_PIXEL_H
 
@@ -59,44 +59,5 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
         }
     }
 }
-
-#ifdef CLRT_TRACE
-#include "trace/replay.h"
-#define RENDER_KERNEL(KERNEL, RADIANCE) TRACE_KERNEL(RADIANCE)
-#else
-
-/* Defines the loop over samples and the entry point. The entry point is thin and the loop is out of line, because some
-   compilers compile an entry point's body several times. */
-#define RENDER_KERNEL(KERNEL, RADIANCE)                                                                       \
-    static CLRT_NOINLINE void KERNEL##_pixel(const Scene* scene, const RenderParams* params, TilePixel place, \
-                                             global long* film, global uint* pixel_rays,                      \
-                                             global volatile uint* counters)                                  \
-    {                                                                                                         \
-        PixelRays rays = {0u, 0u, 0u, 0ul, 0u};                                                               \
-        const SampleRange range = tile_samples(params, pixel_rays, place.slot);                               \
-        SampleCounter counter = sample_counter_make(params, range.first);                                     \
-        CameraSample samples[SAMPLES_AT_ONCE];                                                                \
-        for (uint i = 0; i < range.count; i += SAMPLES_AT_ONCE) {                                             \
-            const uint count = min((uint)SAMPLES_AT_ONCE, range.count - i);                                   \
-            CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));                            \
-            pixel_aim(params, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);   \
-            RADIANCE(scene, params, samples, count, &rays);                                                   \
-            pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
-        }                                                                                                     \
-        film_add_counts(&rays, range.count, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));           \
-    }                                                                                                         \
-                                                                                                              \
-    CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
-        const RenderParams params, SCENE_PARAMS, global long* restrict film,                                  \
-        global uint* restrict pixel_rays, global volatile uint* counters)                                     \
-    {                                                                                                         \
-        TilePixel place;                                                                                      \
-        if (!tile_pixel(&params, &place))                                                                     \
-            return;                                                                                           \
-        const Scene scene = SCENE_MAKE;                                                                       \
-        KERNEL##_pixel(&scene, &params, place, film, pixel_rays, counters);                                   \
-    }
-
-#endif
 
 #endif

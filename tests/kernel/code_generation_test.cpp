@@ -97,9 +97,8 @@ std::string include(const std::vector<std::string>& files) {
 } // namespace
 
 TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
-    const std::string text =
-        include({"integrators/path.cl", "integrators/whitted.cl", "integrators/raycast.cl",
-                 "integrators/aov.cl", "numerics/device_facts.cl"});
+    const std::string text = entry_points({"path", "whitted", "raycast"}) +
+                             include({"integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
         expect_clean_with_and_without_effects(
             layout_name(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout)), "-DSAMPLES_AT_ONCE=4"});

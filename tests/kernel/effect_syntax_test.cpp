@@ -13,12 +13,8 @@ namespace clrt {
 
 namespace {
 
-/// One file that includes all entry points: one run of the compiler checks them all.
 std::string all_entry_points() {
-    std::string text;
-    for (const char* name : {"path", "whitted", "raycast", "aov"})
-        text += fmt::format("#include \"integrators/{}.cl\"\n", name);
-    return text;
+    return entry_points({"path", "whitted", "raycast"}) + "#include \"integrators/aov.cl\"\n";
 }
 
 /// What clang says about the kernels built with a mask; empty if nothing.
