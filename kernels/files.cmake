@@ -4,6 +4,8 @@
 set(CLRT_KERNEL_FILES
   camera/camera.h
   film/film.h
+  film/splat.h
+  film/sum.h
   film/tile.h
   geometry/box.h
   geometry/leaf_triangle.h

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over a pixel's samples, and the entry point. An integrator's .cl file includes this last, after it has defined
+// The loop over a pixel's samples, and the entry point. An integrator's .cl file includes this last and defines
+// before
 //   INTEGRATOR_KERNEL    the entry point's name
 //   INTEGRATOR_RADIANCE  the integrator's function (pixel.h)
 // Builds with -DCLRT_TRACE have the entry point of trace/replay.h instead.
@@ -12,9 +13,11 @@
 #include "trace/replay.h"
 #else
 
-/* Takes a pixel's samples of this launch. Out of line, because some compilers compile an entry point's body several times. */
-static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* params, TilePixel place, global long* film,
-                                       global uint* pixel_rays, global volatile uint* counters)
+/* Takes a pixel's samples of this launch. Out of line, because some compilers compile an entry point's
+   body several times. */
+static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* params, TilePixel place,
+                                       global long* film, global uint* pixel_rays,
+                                       global volatile uint* counters)
 {
     PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
     const SampleRange range = tile_samples(params, pixel_rays, place.slot);
@@ -23,7 +26,7 @@ static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* p
     for (uint i = 0; i < range.count; i += SAMPLES_AT_ONCE) {
         const uint count = min((uint)SAMPLES_AT_ONCE, range.count - i);
         CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));
-        pixel_aim(params, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);
+        pixel_aim(params, film, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);
         INTEGRATOR_RADIANCE(scene, params, samples, count, &rays);
         pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);
     }

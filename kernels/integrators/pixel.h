@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all integrators share of a pixel: its samples, aimed by the camera and added to the film. An integrator is a function
+// What all integrators share of a pixel: its samples, aimed by the camera and added to the film. An
+// integrator is a function
 //   void NAME(const Scene*, const RenderParams*, CameraSample* samples, uint count, PixelRays*)
 // which fills in the radiance of each sample; entry_point.h makes a kernel of it.
 #ifndef CLRT_INTEGRATORS_PIXEL_H
@@ -7,6 +8,7 @@
 
 #include "camera/camera.h"
 #include "film/film.h"
+#include "film/splat.h"
 #include "film/tile.h"
 #include "geometry/scene.h"
 #include "path/layers.h"
@@ -25,18 +27,51 @@ typedef struct {
     LayerSums layers;
     Ray ray;
     real3 radiance;
+#if FILM_SPLATS
+    global long* film; /* for pixel_splat; 0 in a replay, which only looks at splats */
+    uint replicate;
+    uint splat_fault; /* under which counter the last bad splat belongs, or COUNT_WORDS */
+#endif
 } CameraSample;
 
-/* Aims `count` samples of the pixel (x, y) from the counter on. */
-static CLRT_NOINLINE void pixel_aim(const RenderParams* params, uint x, uint y, SampleCounter counter, CameraSample* samples,
-                                    uint count)
+/* Aims `count` samples of the pixel (x, y) from the counter on; `film` takes their splats. */
+static CLRT_NOINLINE void pixel_aim(const RenderParams* params, global long* film, uint x, uint y,
+                                    SampleCounter counter, CameraSample* samples, uint count)
 {
     for (uint k = 0; k < count; ++k, sample_counter_next(params, &counter)) {
         samples[k].sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
         samples[k].ray = camera_ray(params, &samples[k].sampler, x, y);
         samples[k].radiance = (real3)(REAL(0.0));
         layers_begin(&samples[k].layers);
+#if FILM_SPLATS
+        samples[k].film = film;
+        samples[k].replicate = counter.replicate;
+        samples[k].splat_fault = COUNT_WORDS;
+#endif
     }
+}
+
+#if FILM_SPLATS
+/* Adds a sample's splat number `number` (film/splat.h) to the film. A bad one is left out, and its sample
+   is counted as bad. */
+static inline void pixel_splat(const RenderParams* params, CameraSample* sample, uint number, real2 position,
+                               real3 radiance)
+{
+    const uint fault =
+        film_splat(params, sample->film, sample->replicate, &sample->sampler, number, position, radiance);
+    if (fault != COUNT_WORDS)
+        sample->splat_fault = fault;
+}
+#endif
+
+/* The fault of a sample whose gathered radiance has this one: that of a splat where the radiance is good. */
+static inline uint pixel_fault(const CameraSample* sample, uint fault)
+{
+#if FILM_SPLATS
+    if (fault == COUNT_WORDS)
+        return sample->splat_fault;
+#endif
+    return fault;
 }
 
 /* Adds finished samples to the pixel's sums and moves the counter past them. */
@@ -53,6 +88,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u || !fits)
                 fault = COUNT_OVERFLOW;
         }
+        fault = pixel_fault(&samples[k], fault);
         if (fault != COUNT_WORDS) {
             film_report_fault(counters, fault, pixel, counter->sample);
             ++pixel_rays[tile_index(place.slot, PIXEL_RAYS_WORDS) + PIXEL_BAD_SAMPLES];

@@ -29,7 +29,7 @@ static inline uint trace_film(const RenderParams* params, const CameraSample* sa
         if (film_fault(params, sample->layers.radiance[i]) != COUNT_WORDS)
             return COUNT_OVERFLOW;
 #endif
-    return COUNT_WORDS;
+    return pixel_fault(sample, COUNT_WORDS);
 }
 
 static inline void trace_finish(const Scene* scene, const CameraSample* sample)
@@ -47,7 +47,7 @@ static CLRT_NOINLINE void replay_sample(const Scene* scene, const RenderParams* 
 {
     CameraSample sample;
     PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
-    pixel_aim(params, pixel % params->width, pixel / params->width, trace_counter(params, number), &sample, 1u);
+    pixel_aim(params, 0, pixel % params->width, pixel / params->width, trace_counter(params, number), &sample, 1u);
     INTEGRATOR_RADIANCE(scene, params, &sample, 1u, &rays);
     trace_finish(scene, &sample);
     head[TRACE_HEAD_FAULT] = trace_film(params, &sample, (global long*)(head + TRACE_HEAD_FILM));

@@ -104,6 +104,12 @@ TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
             layout_name(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout)), "-DSAMPLES_AT_ONCE=4"});
 }
 
+TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
+    for (const char* int64 : {"0", "1"})
+        expect_clean(fmt::format("splats, int64 {}", int64), include({"integrators/raycast.cl"}),
+                     {"-DFILM_SPLATS=1", fmt::format("-DFILM_INT64_ATOMICS={}", int64)});
+}
+
 TEST_F(CodeGeneration, OfTheProgramsThatRecord) {
     for (const std::string integrator : {"path", "whitted", "raycast"})
         expect_clean_with_and_without_effects("recording " + integrator,

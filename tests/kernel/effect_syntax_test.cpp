@@ -45,6 +45,19 @@ TEST(EffectSyntax, EverySetOfEffectsCompilesInOpenCl12And30) {
             EXPECT_EQ(complaints(file, standard, mask), "") << standard << ", " << describe_effects(mask);
 }
 
+TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
+    const ScratchFolder folder;
+    for (const char* int64 : {"0", "1"}) {
+        const std::string defines =
+            fmt::format("#define FILM_SPLATS 1\n#define FILM_INT64_ATOMICS {}\n", int64);
+        const std::string drawing = folder.write("all.cl", defines + entry_points({"path", "raycast"}));
+        EXPECT_EQ(complaints(drawing, "CL1.2", EFFECT_ALL), "") << int64;
+        const std::string recording = folder.write("replay.cl", "#define CLRT_TRACE 1\n" + defines +
+                                                                    "#include \"integrators/path.cl\"\n");
+        EXPECT_EQ(complaints(recording, "CL1.2", EFFECT_ALL), "") << int64;
+    }
+}
+
 TEST(EffectSyntax, RecordingProgramsCompileToo) {
     const ScratchFolder folder;
     for (const char* name : {"path", "whitted", "raycast"})
