@@ -2,7 +2,7 @@
 // The one progress line on stderr: rewritten in place on a terminal, plain lines now and then otherwise.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 #include <chrono>
 #include <functional>

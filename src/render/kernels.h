@@ -2,9 +2,9 @@
 // The programs of a render: which entry point, with which defines.
 #pragma once
 
-#include "app/options.h"
 #include "bvh/bvh.h"
 #include "device/program.h"
+#include "options/options.h"
 #include "paths/path_plan.h"
 
 #include <optional>

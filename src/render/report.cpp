@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 /// The command line as one could type it again.
 std::string command_text(const Options& options) {
     std::string text;
-    for (const std::string& word : options.command) {
+    for (const std::string& word : options.run.command) {
         const bool plain = word.find_first_of(" \t'\"\\$&|;<>()*?") == std::string::npos && !word.empty();
         text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
     }
@@ -34,8 +34,8 @@ Json stop_json(const Report& report) {
               {"error_reached", nullptr},
               {"overrun_seconds", report.render.overrun_seconds},
               {"dropped_seconds", report.render.dropped_seconds}};
-    if (report.options.error) {
-        json["error_target"] = *report.options.error;
+    if (report.options.sampling.error) {
+        json["error_target"] = *report.options.sampling.error;
         json["error_reached"] = error_reached(report);
     }
     return json;
@@ -44,9 +44,9 @@ Json stop_json(const Report& report) {
 /// Whether the picture has the same bits on every device that keeps the rules. Nothing is known of a device
 /// that was not asked, nor of --precision double, whose rules are not asked.
 std::optional<bool> has_same_bits(const Report& report) {
-    if (report.options.precision == Precision::FAST)
+    if (report.options.device.precision == Precision::FAST)
         return false;
-    if (report.options.precision == Precision::DOUBLE || !report.facts)
+    if (report.options.device.precision == Precision::DOUBLE || !report.facts)
         return std::nullopt;
     return promises_bits(*report.facts);
 }
@@ -102,7 +102,7 @@ void add_paths(const PathPlan& paths, Metadata& metadata) {
 
 bool error_reached(const Report& report) {
     const std::optional<FilmError>& error = report.error.error;
-    return report.options.error && error && error->relative_rmse <= *report.options.error;
+    return report.options.sampling.error && error && error->relative_rmse <= *report.options.sampling.error;
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -117,17 +117,18 @@ std::string report_json(const Report& report) {
     Json json;
     json["version"] = CLRT_VERSION;
     json["command"] = command_text(report.options);
-    json["integrator"] = integrator_name(report.options.integrator);
+    json["integrator"] = integrator_name(report.options.transport.integrator);
     json["width"] = render.film.width;
     json["height"] = render.film.height;
     json["spp"] = film_samples(render.film);
     json["passes"] = render.passes;
-    json["resumed_at_spp"] =
-        report.options.resume_path.empty() ? Json(nullptr) : Json(film_samples(render.film) - render.passes);
-    json["first_sample"] = report.options.first_sample;
+    json["resumed_at_spp"] = report.options.film_file.resume_path.empty()
+                                 ? Json(nullptr)
+                                 : Json(film_samples(render.film) - render.passes);
+    json["first_sample"] = report.options.sampling.first_sample;
     json["adaptive"] = adaptive_json(render.film);
-    json["sampler"] = sampler_name(report.options.sampler);
-    json["seed"] = report.options.seed;
+    json["sampler"] = sampler_name(report.options.sampling.sampler);
+    json["seed"] = report.options.sampling.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = file_triangles(report.scene);
     json["seconds"] = {{"load", report.load_seconds},
@@ -153,8 +154,8 @@ std::string report_json(const Report& report) {
                          {"by_cause", causes_json(report.causes, report.scene, report.options)}};
     json["bad_samples"] = Json::array();
     for (const auto& [pixel, sample] : counts.bad_samples)
-        json["bad_samples"].push_back({{"x", pixel % u32(report.options.size.x)},
-                                       {"y", pixel / u32(report.options.size.x)},
+        json["bad_samples"].push_back({{"x", pixel % u32(report.options.film.size.x)},
+                                       {"y", pixel / u32(report.options.film.size.x)},
                                        {"sample", sample}});
     json["exposure_ev"] = report.exposure_ev;
     json["device"] = device_json(report);
@@ -180,13 +181,13 @@ Metadata report_metadata(const Report& report) {
     const auto seconds = [](double value) { return fmt::format("{:.3f}", value); };
     Metadata metadata{{"version", CLRT_VERSION},
                       {"command", command_text(report.options)},
-                      {"integrator", integrator_name(report.options.integrator)},
+                      {"integrator", integrator_name(report.options.transport.integrator)},
                       {"device", report.device.platform + ": " + report.device.name},
                       {"driver", report.device.driver},
-                      {"sampler", sampler_name(report.options.sampler)},
-                      {"seed", std::to_string(report.options.seed)},
+                      {"sampler", sampler_name(report.options.sampling.sampler)},
+                      {"seed", std::to_string(report.options.sampling.seed)},
                       {"replicates", std::to_string(render.film.replicates)},
-                      {"first_sample", std::to_string(report.options.first_sample)},
+                      {"first_sample", std::to_string(report.options.sampling.first_sample)},
                       {"spp", std::to_string(film_samples(render.film))},
                       {"stop", render.stop_text},
                       {"seconds.load", seconds(report.load_seconds)},

@@ -25,9 +25,9 @@ std::string picture_line(const Report& report) {
                                ADAPTIVE_TILE_SIZE, ADAPTIVE_TILE_SIZE);
     }
     std::vector<std::string> files;
-    for (const std::string& name : report.options.outputs)
-        files.push_back(
-            expand_file_name(name, {report.options.seed, film_samples(film), report.options.frame}));
+    for (const std::string& name : report.options.output.files)
+        files.push_back(expand_file_name(
+            name, {report.options.sampling.seed, film_samples(film), report.options.camera.frame}));
     return fmt::format("picture  {}, {} x {}, {}; {}\n", fmt::join(files, ", "), film.width, film.height,
                        samples, report.render.stop_text);
 }
@@ -59,9 +59,9 @@ std::string left_out_lines(const Report& report) {
             effects.push_back(effect.name);
     if (!effects.empty())
         text += fmt::format("left out {}, by --effects\n", fmt::join(effects, ", "));
-    if (const char* const omissions = omissions_of(report.options.integrator))
+    if (const char* const omissions = omissions_of(report.options.transport.integrator))
         text += fmt::format("left out {}, by --integrator {}\n", omissions,
-                            integrator_name(report.options.integrator));
+                            integrator_name(report.options.transport.integrator));
     if (report.effects.paths.is_asked)
         text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
     if (!text.empty())
@@ -81,18 +81,19 @@ std::string bad_lines(const Report& report) {
 }
 
 std::string missed_line(const Report& report) {
-    if (!report.options.error || error_reached(report))
+    if (!report.options.sampling.error || error_reached(report))
         return "";
-    return fmt::format("missed   --error {:g} % is not reached\n", 100 * *report.options.error);
+    return fmt::format("missed   --error {:g} % is not reached\n", 100 * *report.options.sampling.error);
 }
 
 /// How the work was done.
 std::string work_lines(const Report& report) {
     const Render& render = report.render;
     const double samples = double(render.counts.primary);
-    std::string text = fmt::format("by       {}, seed {}, {} sampler, {} replicates\n",
-                                   integrator_name(report.options.integrator), report.options.seed,
-                                   sampler_name(report.options.sampler), render.film.replicates);
+    std::string text =
+        fmt::format("by       {}, seed {}, {} sampler, {} replicates\n",
+                    integrator_name(report.options.transport.integrator), report.options.sampling.seed,
+                    sampler_name(report.options.sampling.sampler), render.film.replicates);
     text += fmt::format("stages   load {:.2f} s, bvh {:.2f} s, compile {:.2f} + {:.2f} s, render {:.2f} s\n",
                         report.load_seconds, report.bvh.seconds, report.compile_seconds,
                         render.first_launch_seconds, render.run_seconds);
@@ -120,7 +121,7 @@ std::string format_report(const Report& report) {
         picture_line(report) + time_line(report) + format_error_report(report.error) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         left_out_lines(report) + bad_lines(report);
-    if (report.options.verbosity > 0)
+    if (report.options.run.verbosity > 0)
         text += work_lines(report) + format_error_details(report.error) + proof_lines(report);
     return text;
 }

@@ -2,7 +2,7 @@
 // One material in the place of all, to show shape and light alone: --material.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "scene/mtl_reader.h"
 #include "scene/notices.h"
 

@@ -48,10 +48,10 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     const std::string path = (fs::path(CLRT_SCENES_FOLDER) / name / (name + ".obj")).string();
     const char* const command[] = {"clrt", path.c_str()};
     Options options = parse_command_line(2, command).options;
-    options.integrator = integrator;
-    options.max_depth.reset();
-    options.size = {64, 64};
-    options.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
+    options.transport.integrator = integrator;
+    options.transport.max_depth.reset();
+    options.film.size = {64, 64};
+    options.sampling.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
     Progress silent(Toggle::OFF, true);
     return find_flips(test_device(), load_scene(options, silent), options);
 }
