@@ -22,7 +22,7 @@ struct DeviceInfo {
     unsigned compute_units = 0;
     size_t memory_bytes = 0, largest_buffer_bytes = 0;
     bool fp64 = false;
-    bool int64_atomics = false;              ///< cl_khr_int64_base_atomics
+    bool int64_atomics = false;              ///< cl_khr_int64_base_atomics: of splats
     bool correctly_rounded_division = false; ///< CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
     std::vector<std::string> extensions;
     std::shared_ptr<const DriverCacheFolder> cache_folder; ///< that had to be made for its driver, or null
