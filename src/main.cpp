@@ -81,7 +81,7 @@ int run(int argc, const char* const* argv) {
         return EXIT_DONE;
     }
     const Options& options = command.options;
-    set_driver_environment(options);
+    set_driver_environment(options.device);
     start_log(options.run.verbosity);
     if (options.run.list_devices) {
         const std::vector<PlatformInfo> platforms = list_platforms();

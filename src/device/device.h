@@ -10,7 +10,7 @@
 
 namespace clrt {
 
-struct Options;
+struct DeviceOptions;
 class DriverCacheFolder;
 
 /// What clrt asks a device about itself; nothing is guessed from names.
@@ -38,7 +38,7 @@ struct PlatformInfo {
 
 /// Sets the environment variables by which drivers take --threads and --cache off. Drivers read them once, so
 /// call it before anything else of OpenCL.
-void set_driver_environment(const Options& options);
+void set_driver_environment(const DeviceOptions& options);
 
 /// True if the device's driver keeps compiled programs on disk by itself, so that a cache of ours only costs.
 bool driver_caches_programs(const DeviceInfo& device);
