@@ -46,6 +46,9 @@ struct PathDepths {
 /// multiple importance sampling weighs the two.
 enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
 
+/// Pixels that a work-item adds light to: its own, or any, by atomics.
+enum class FilmAccess { GATHER, SPLAT };
+
 /// An integrator. Its kernel is "render_" + name in kernels/integrators/NAME.cl.
 struct IntegratorRow {
     Integrator value;
@@ -55,6 +58,7 @@ struct IntegratorRow {
     SimulatedPaths paths;
     PathDepths depth;
     SkySampling sky;
+    FilmAccess film;
     unsigned takes; ///< IntegratorOption
 };
 
@@ -77,6 +81,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      {"LD?E", "LE", "LDE"},
      {DIRECT_LIGHT_DEPTH, DIRECT_LIGHT_DEPTH},
      SkySampling::BY_TABLE,
+     FilmAccess::GATHER,
      0},
     {Integrator::WHITTED,
      "whitted",
@@ -85,6 +90,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      {"LD?S*E", "LS*E", "LDS*E"},
      {USUAL_TREE_DEPTH, WHITTED_MAX_DEPTH},
      SkySampling::BY_TABLE,
+     FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION},
     {Integrator::PATH,
      "path",
@@ -93,6 +99,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E"},
      {USUAL_PATH_DEPTH, LARGEST_DEPTH},
      SkySampling::BY_TABLE_AND_BSDF,
+     FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS},
 };
 
