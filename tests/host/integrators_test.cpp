@@ -9,7 +9,6 @@
 #include "paths/automaton.h"
 #include "paths/path_expression.h"
 
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
 #include <utility>
@@ -74,12 +73,9 @@ TEST(Integrators, EachHasAKernelFileAndNoneIsForgotten) {
         EXPECT_TRUE(holds(files.at(integrator_file(row.value)), integrator_kernel(row.value))) << row.name;
         expected.insert(integrator_file(row.value));
     }
-    for (const auto& [file, text] : files) {
-        const std::filesystem::path path(file);
-        if (path.parent_path() == "integrators" && path.extension() == ".cl" &&
-            holds(text, "render_" + path.stem().string()))
+    for (const auto& [file, text] : files)
+        if (holds(text, "#define INTEGRATOR_KERNEL"))
             EXPECT_TRUE(expected.count(file)) << file << " is no row of options/integrators.h";
-    }
 }
 
 TEST(Integrators, KernelsReadWhatTheirRowTakes) {
