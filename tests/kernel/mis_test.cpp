@@ -2,6 +2,7 @@
 // path/mis.h: where only one technique finds a direction. What two of them weigh is case L09 of the
 // catalogue.
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 #include <limits>

@@ -3,6 +3,7 @@
 // leave a triangle without meeting it again.
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
+#include "support/test_device.h"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ SceneProbe& probe() {
         const std::string surface = "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; "
                                     "hit.triangle = as_uint(a.z);"
                                     "const Surface surface = surface_at(scene, &hit, vector_from(b));";
-        SceneProbe made({"geometry/surface.h", "geometry/triangle.h"});
+        SceneProbe made(test_device(), {"geometry/surface.h", "geometry/triangle.h"});
         made.add("geometry", surface + "first = probe_vec4(surface.position, surface.offset);"
                                        "second = probe_vec4(surface.normal_g, surface.front ? 1.0f : 0.0f);"
                                        "third = probe_vec4(surface.normal_s, 0.0f);");

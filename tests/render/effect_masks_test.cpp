@@ -9,6 +9,7 @@
 #include "render/kernels.h"
 #include "scene/load_scene.h"
 #include "support/effect_masks.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -168,7 +169,7 @@ TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
             small.options.device.cache = Toggle::ON;
             small.options.device.cache_folder = fs::path(cache.file("any")).parent_path().string();
             bool from_cache = false;
-            const Film cached = render_afresh(small.load(), small.options, &from_cache).film;
+            const Film cached = render_afresh(test_device(), small.load(), small.options, &from_cache).film;
             EXPECT_EQ(from_cache, round == 1) << describe_effects(effects);
             EXPECT_EQ(count_differences(plain, cached), 0u) << describe_effects(effects);
         }

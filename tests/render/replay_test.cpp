@@ -9,6 +9,7 @@
 #include "replay/flips.h"
 #include "support/effect_masks.h"
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include "app/progress.h"
 

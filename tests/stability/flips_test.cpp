@@ -8,6 +8,7 @@
 #include "replay/quantities.h"
 #include "scene/load_scene.h"
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include <cmath>
 #include <cstdlib>
