@@ -16,7 +16,6 @@ set(CLRT_KERNEL_FILES
   geometry/traverse_bvh8.h
   geometry/traverse_cwbvh.h
   geometry/triangle.h
-  geometry/visibility.h
   integrators/aov.cl
   integrators/direct.h
   integrators/path.cl
@@ -35,6 +34,7 @@ set(CLRT_KERNEL_FILES
   numerics/device.h
   numerics/device_facts.cl
   numerics/frame.h
+  numerics/mis.h
   numerics/real.h
   numerics/real_functions.h
   numerics/sampler.h
@@ -43,8 +43,8 @@ set(CLRT_KERNEL_FILES
   path/automaton.h
   path/filter.h
   path/layers.h
-  path/mis.h
   path/nan.h
+  path/visibility.h
   scattering/albedo.h
   scattering/albedo_dielectric_table.h
   scattering/albedo_reflection_table.h

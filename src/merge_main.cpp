@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-merge: film files of disjoint sample ranges -> one picture or film, with the bits of a single run.
-#include "app/log.h"
 #include "app/look_option.h"
 #include "app/run_program.h"
-#include "app/signals.h"
+#include "console/log.h"
+#include "console/signals.h"
 #include "error.h"
 #include "exit_code.h"
 #include "film/checkpoint.h"

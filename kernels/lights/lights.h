@@ -6,8 +6,8 @@
 #include "delta_light.h"
 #include "emitter.h"
 #include "environment.h"
+#include "numerics/mis.h"
 #include "numerics/sampler.h"
-#include "path/mis.h"
 
 /* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities, then a
    light of that kind, then a point on it, as seen from the point where rays start that the surface reflects. The

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/material_rules.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene/text_scanner.h"
 #include "scene/vectors.h"
 

@@ -2,7 +2,7 @@
 // The materials of a scene in words.
 #include "scene/material_rules.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/vertex_colours.h"
 
+#include "colour.h"
 #include "error.h"
-#include "scene/colour.h"
 
 #include <algorithm>
 #include <cmath>

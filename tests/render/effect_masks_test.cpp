@@ -3,16 +3,15 @@
 // picture: for every effect alone and for a covering array of their combinations. With the variable
 // CLRT_TEST_LONG set, also for all effects but one, by every integrator.
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/effects.h"
 #include "effects/take_out.h"
 #include "render/kernels.h"
 #include "scene/load_scene.h"
 #include "support/effect_masks.h"
-#include "support/test_device.h"
+#include "support/render_scene.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -24,13 +23,9 @@ namespace clrt {
 
 namespace {
 
-bool is_long_run() {
-    return std::getenv("CLRT_TEST_LONG") != nullptr;
-}
-
 std::vector<Integrator> integrators() {
-    return is_long_run() ? std::vector{Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}
-                         : std::vector{Integrator::PATH};
+    return tests_are_long() ? std::vector{Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}
+                            : std::vector{Integrator::PATH};
 }
 
 /// How many sums differ, so that a failure prints a number and no film.
@@ -105,7 +100,7 @@ TEST(EffectMasks, EveryPairOfEffectsHasTheBitsOfTheFullProgram) {
 
 TEST(EffectMasks, AllEffectsButOneHaveTheBitsOfTheFullProgram) {
     const std::vector<u32> sets = all_but_one_effect();
-    for (size_t i = 0; i < (is_long_run() ? sets.size() : 1); ++i)
+    for (size_t i = 0; i < (tests_are_long() ? sets.size() : 1); ++i)
         expect_same_bits(sets[i]);
 }
 
@@ -142,7 +137,7 @@ TEST(EffectMasks, ALeftOutEffectIsASceneWithoutIt) {
     // Whatever is left out, the program without its code and the full program render the same scene.
     const Scene scene = SceneOfEffects(EVERY_EFFECT).load();
     const std::vector<EffectSpec>& table = effect_table();
-    for (size_t i = 0; i < table.size(); i += is_long_run() ? 1 : 5) {
+    for (size_t i = 0; i < table.size(); i += tests_are_long() ? 1 : 5) {
         Options options = SceneOfEffects(EVERY_EFFECT).options;
         options.effects.off = table[i].bit;
         const Effects effects = find_effects(scene, options);

@@ -2,7 +2,7 @@
 // How many samples of the shipped scenes take another path in single precision than in double, and at which
 // decision: few, and none because of a side or a lobe where the scene is plain.
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/take_out.h"
 #include "replay/flips.h"
 #include "replay/quantities.h"
@@ -11,7 +11,6 @@
 #include "support/test_device.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -52,7 +51,7 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     options.transport.integrator = integrator;
     options.transport.max_depth.reset();
     options.film.size = {64, 64};
-    options.sampling.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
+    options.sampling.spp = tests_are_long() ? 256 : 16;
     Progress silent(Toggle::OFF, true);
     return find_flips(test_device(), load_scene(options, silent), options);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-bench: clrt's rays against Embree's.
-#include "app/log.h"
 #include "app/run_program.h"
 #include "bench/report.h"
 #include "bench/speed.h"
+#include "console/log.h"
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"

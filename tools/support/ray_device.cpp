@@ -180,7 +180,7 @@ KernelProbe& ray_probe(const ProbeDevice& device, const RayDeviceOptions& chosen
         options.defines.push_back(fmt::format("BVH_LAYOUT={}", int(chosen.layout)));
         options.defines.push_back(fmt::format("CLRT_EFFECTS={:#x}u", chosen.effects));
         options.defines.push_back(fmt::format("MOST_LAYERS={}u", MOST_LAYERS));
-        KernelProbe probe(device, {"geometry/visibility.h", "lights/emitter.h"}, options,
+        KernelProbe probe(device, {"path/visibility.h", "lights/emitter.h"}, options,
                           chosen.variant ? chosen.variant->files : device.kernels());
         probe.add_text(kernel_text());
         return probe;

@@ -152,7 +152,7 @@ void all_powers(CaseRun& run) {
 }
 
 void mis_grid(CaseRun& run) {
-    ProbeSet probes(run.device, {"path/mis.h"}, {MIS});
+    ProbeSet probes(run.device, {"numerics/mis.h"}, {MIS});
     Figure& sum = run.figure("|w_a + w_b - 1|", 4 * FLOAT_U);
     Figure& error = run.figure("|w_a - a^2 / (a^2 + b^2)|", 4 * FLOAT_U);
     Figure& bad = run.figure("weights outside [0, 1] with a density of 0 or infinity", 0);
@@ -278,7 +278,7 @@ ProbeTime time_mis_weight(const ProbeDevice& device, int rounds) {
         inputs[0].push_back(float(random.between(0.01, 10)));
         inputs[1].push_back(float(random.between(0.01, 10)));
     }
-    return ProbeSet(device, {"path/mis.h"}, {MIS}).time("mis", inputs, rounds);
+    return ProbeSet(device, {"numerics/mis.h"}, {MIS}).time("mis", inputs, rounds);
 }
 
 const std::vector<StabilityCase>& light_cases() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weights of multiple importance sampling (Veach 1997, ch. 9).
-#ifndef CLRT_PATH_MIS_H
-#define CLRT_PATH_MIS_H
+#ifndef CLRT_NUMERICS_MIS_H
+#define CLRT_NUMERICS_MIS_H
 
 #include "numerics/real.h"
 
