@@ -5,6 +5,7 @@
 #include "options/toggle.h"
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 

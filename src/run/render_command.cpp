@@ -86,7 +86,7 @@ int render_picture(const Job& job, const Options& options, Progress& progress,
     if (saving.needs_film(render))
         files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
 
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Report report{
         options,
         job.scene,

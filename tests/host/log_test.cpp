@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the log prints at each verbosity.
-#include "console/log.h"
+#include "app/log.h"
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>

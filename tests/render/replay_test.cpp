@@ -2,6 +2,7 @@
 // A replayed sample has the bits of the rendered one; a planted fault is found where it was planted, and so
 // is a decision that is made differently in double precision.
 #include "bvh/bvh.h"
+#include "console/progress.h"
 #include "film/film_buffers.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
@@ -10,8 +11,6 @@
 #include "support/effect_masks.h"
 #include "support/kernel_probe.h"
 #include "support/render_scene.h"
-
-#include "console/progress.h"
 
 #include <algorithm>
 #include <cmath>

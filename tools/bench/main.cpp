@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-bench: clrt's rays against Embree's.
+#include "app/log.h"
 #include "app/run_program.h"
 #include "bench/report.h"
 #include "bench/speed.h"
-#include "console/log.h"
 #include "error.h"
 #include "exit_code.h"
 #include "output/image.h"
@@ -23,7 +23,7 @@ namespace {
 
 /// The device that the options name, open.
 Device open_bench_device(const BenchOptions& bench) {
-    set_driver_environment(bench.clrt);
+    set_driver_environment(bench.clrt.device);
     std::string notice;
     const DeviceInfo info = choose_device(list_platforms(), bench.clrt.device.name, notice);
     if (!notice.empty())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-stability: the catalogue of hard cases on a device.
+#include "app/log.h"
 #include "app/run_program.h"
-#include "console/log.h"
 #include "console/progress.h"
 #include "exit_code.h"
 #include "output/image.h"

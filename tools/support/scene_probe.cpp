@@ -10,8 +10,9 @@
 
 namespace clrt {
 
-SceneProbe::SceneProbe(const ProbeDevice& device, std::vector<std::string> headers, const std::string& text)
-    : device_(device), probe_(device, std::move(headers)) {
+SceneProbe::SceneProbe(const ProbeDevice& device, std::vector<std::string> headers, const std::string& text,
+                       const ProbeOptions& options)
+    : device_(device), probe_(device, std::move(headers), options) {
     probe_.add_text("vec4 probe_vec4(real3 v, real w) { return (vec4)(convert_float3(v), (float)w); }\n" +
                     text);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The log: plain lines on stderr, "clrt: warning: " and "clrt: error: " before what needs attention.
-#include "console/log.h"
+#include "app/log.h"
 
 #include <memory>
 #include <spdlog/pattern_formatter.h>
