@@ -26,6 +26,7 @@ set(CLRT_KERNEL_FILES
   integrators/pixel.h
   integrators/raycast.cl
   integrators/raycast.h
+  integrators/replay.h
   integrators/whitted.cl
   integrators/whitted.h
   lights/delta_light.h
@@ -70,7 +71,6 @@ set(CLRT_KERNEL_FILES
   shared/scene_types.h
   shared/trace_types.h
   shared/types.h
-  trace/replay.h
   trace/trace.h
   trace/vertex.h
 )

@@ -176,7 +176,7 @@ FAULTS = [
     ("a cut path without its last BSDF", "integrators/path.h", "longer.throughput *= next.weight;", "", "cut_paths_test"),
     ("ways that max_depth closes not counted", "path/automaton.h", "return open != AUTOMATON_NEXT[state];",
      "return false;", "cut_paths_test"),
-    ("a replay of another sample", "trace/replay.h", "counter.index = sample / params->replicates;",
+    ("a replay of another sample", "integrators/replay.h", "counter.index = sample / params->replicates;",
      "counter.index = sample;", "replay_test"),
     ("choices left out of the hash", "trace/trace.h", "sampler_hash(x ^ sampler_hash(quantity + (y << 8)))", "quantity",
      "replay_test"),
@@ -185,7 +185,7 @@ FAULTS = [
      "++pixel_rays[tile_index(place.slot, PIXEL_RAYS_WORDS) + PIXEL_BAD_SAMPLES];", "", "replay_test"),
     ("the sampled direction not recorded", "integrators/path.h", "    TRACE_DIRECTION(scene, &next, continues);\n", "",
      "replay_test"),
-    ("the film's share not replayed", "trace/replay.h",
+    ("the film's share not replayed", "integrators/replay.h",
      "    film_add(params, sums, &sample->sampler, sample->radiance);\n", "", "replay_test"),
 ]
 
