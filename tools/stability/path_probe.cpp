@@ -4,6 +4,7 @@
 #include "film/film.h"
 #include "kernels/shared/effects.h"
 #include "render/render_params.h"
+#include "stability/probe_set.h"
 
 #include <fmt/format.h>
 
@@ -42,7 +43,7 @@ PROBE_PATHS(probe_whitted, whitted_radiance)
 KernelProbe& path_probe(const ProbeDevice& device, Build build) {
     return device.once<KernelProbe>(std::string("paths: ") + build_name(build), [&] {
         ProbeOptions options;
-        options.precision = build == Build::DOUBLE ? Precision::DOUBLE : Precision::SINGLE;
+        options.precision = precision_of(build);
         options.defines = {fmt::format("CLRT_EFFECTS={:#x}u", EFFECT_ALL & ~EFFECT_PATH_FILTER),
                            "SAMPLES_AT_ONCE=1"};
         KernelProbe made(device, {"integrators/path.h", "integrators/whitted.h"}, options);

@@ -2,6 +2,7 @@
 #include "stability/cases/ray_builds.h"
 
 #include "naive/naive_kernels.h"
+#include "stability/probe_set.h"
 
 #include <fmt/format.h>
 
@@ -27,9 +28,7 @@ const KernelVariant& plain_offsets(const ProbeDevice& device) {
 
 RayDeviceOptions ray_options(Build build, const KernelVariant& naive) {
     RayDeviceOptions options;
-    options.precision = build == Build::DOUBLE ? Precision::DOUBLE
-                        : build == Build::FAST ? Precision::FAST
-                                               : Precision::SINGLE;
+    options.precision = precision_of(build);
     options.variant = build == Build::NAIVE ? &naive : nullptr;
     return options;
 }
