@@ -2,9 +2,9 @@
 // clrt: command line -> scene -> effects -> tree and program -> passes -> picture and report.
 #include "app/command_line.h"
 #include "app/log.h"
-#include "app/progress.h"
 #include "app/run_program.h"
-#include "app/signals.h"
+#include "console/progress.h"
+#include "console/signals.h"
 #include "device/device.h"
 #include "device/device_facts.h"
 #include "effects/effects.h"

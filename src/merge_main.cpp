@@ -3,7 +3,7 @@
 #include "app/log.h"
 #include "app/look_option.h"
 #include "app/run_program.h"
-#include "app/signals.h"
+#include "console/signals.h"
 #include "error.h"
 #include "exit_code.h"
 #include "film/checkpoint.h"

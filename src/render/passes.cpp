@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes.h"
 
-#include "app/signals.h"
+#include "console/signals.h"
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
 #include "render/good_counts.h"

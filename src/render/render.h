@@ -2,7 +2,7 @@
 // The loop of launches that fills the film.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "film/hit_sums.h"
 #include "film/render_progress.h"
 #include "render/kernels.h"

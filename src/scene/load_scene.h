@@ -2,7 +2,7 @@
 // OBJ, MTL, textures and options -> Scene.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "options/options.h"
 #include "scene/scene.h"
 

@@ -2,7 +2,7 @@
 // Wavefront OBJ text -> triangles. Parallel, safe on any bytes, exact in its file:line errors.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "kernels/shared/types.h"
 
 #include <glm/vec2.hpp>
