@@ -47,9 +47,9 @@ struct Remark {
 
 /// Colours are linear and in [0,1] but for emission. What is not set is a matte grey.
 struct MaterialDescription {
-    std::string name;  ///< "" for faces without a material
-    SourcePlace place; ///< of its definition
-    std::string rule;  ///< by what it became what it is, for --explain
+    std::string name;                               ///< "" for faces without a material
+    SourcePlace place;                              ///< of its definition
+    std::string rule = "no material: matte Kd 0.8"; ///< by what it became what it is, for --explain
 
     Mapped<glm::dvec3> base{glm::dvec3(DEFAULT_REFLECTANCE)}; ///< matte reflectance, colour of a metal
     Reflection reflection = Reflection::NONE;

@@ -47,6 +47,14 @@ TEST(ReaderTable, WhatHasNoMarkIsAnObj) {
         EXPECT_EQ(name_of_reader({"stdin", text}), "a Wavefront OBJ") << text;
 }
 
+TEST(ReaderTable, BytesSayMoreThanTheExtension) {
+    const std::string stl = "solid a\nfacet normal 0 0 1\n";
+    for (const char* name : {"a.obj", "a.stl", "stdin"})
+        EXPECT_EQ(name_of_reader({name, stl}), "an STL file") << name;
+    EXPECT_EQ(name_of_reader({"a.STL", "v 0 0 0\n"}), "an STL file") << "where they say nothing";
+    EXPECT_EQ(reader_names(), "a Wavefront OBJ or an STL file");
+}
+
 TEST(ReaderTable, OtherFormatsAreNamed) {
     EXPECT_EQ(error_of({"scene.obj", std::string("glTF\2\0\0\0", 8)})
                   .find("scene.obj: expected " + reader_names() +

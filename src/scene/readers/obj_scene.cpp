@@ -58,7 +58,6 @@ MaterialDescription describe_undefined(const MaterialUse& use, const ReadContext
                         use.first_colour ? "with the colours of the vertices" : "grey (Kd 0.8)"),
             use.place);
     MaterialDescription material;
-    material.rule = "no material: matte Kd 0.8";
     if (use.first_colour) {
         material = describe_mtl(with_vertex_colours({}, *use.first_colour), context.notices);
         material.rule = "no material: matte, Kd of the vertices";

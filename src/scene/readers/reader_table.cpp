@@ -4,6 +4,7 @@
 #include "error.h"
 #include "scene/readers/foreign_format.h"
 #include "scene/readers/obj_scene.h"
+#include "scene/readers/stl_reader.h"
 
 #include <algorithm>
 #include <cctype>
@@ -25,6 +26,7 @@ std::string extension_of(const std::string& name) {
 
 const std::vector<SceneReader>& scene_readers() {
     static const std::vector<SceneReader> readers = {
+        {"an STL file", ".stl", is_stl, read_stl_scene},
         {"a Wavefront OBJ", ".obj", nullptr, read_obj_scene},
     };
     return readers;
