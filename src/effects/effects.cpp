@@ -4,7 +4,7 @@
 #include "colour.h"
 #include "paths/path_report.h"
 #include "scene/material_override.h"
-#include "scene/material_rules.h"
+#include "scene/material_table.h"
 
 #include <algorithm>
 #include <cassert>

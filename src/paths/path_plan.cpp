@@ -2,7 +2,7 @@
 #include "paths/path_plan.h"
 
 #include "colour.h"
-#include "scene/material_rules.h"
+#include "scene/material_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>

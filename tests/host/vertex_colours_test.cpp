@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/vertex_colours.h"
+#include "scene/readers/obj_colours.h"
 
 #include "colour.h"
 #include "scene/load_scene.h"
