@@ -4,9 +4,9 @@
 
 #include "device/device.h"
 #include "device/program.h"
+#include "film/render_progress.h"
 #include "kernels/shared/render_types.h"
 #include "options/integrators.h"
-#include "render/render.h"
 
 namespace clrt {
 

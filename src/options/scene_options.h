@@ -22,7 +22,7 @@ inline constexpr Named<MaterialOverride> NAMES<MaterialOverride>[] = {{MaterialO
                                                                       {MaterialOverride::CLAY, "clay"}};
 
 struct SceneOptions {
-    std::string path;                  ///< an OBJ file; "-": the standard input
+    std::string path;                  ///< a file; "-": the standard input
     MtlReading mtl = MtlReading::AUTO; ///< auto: as the writers of libraries mean them
     MaterialOverride material_override = MaterialOverride::NONE;
 };

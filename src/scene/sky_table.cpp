@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/sky_table.h"
 
+#include "colour.h"
 #include "scene/alias_table.h"
-#include "scene/colour.h"
 #include "scene/vectors.h"
 
 #include <algorithm>

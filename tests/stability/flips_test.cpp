@@ -9,9 +9,9 @@
 #include "scene/load_scene.h"
 #include "scene/sky_table.h"
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     options.transport.integrator = integrator;
     options.transport.max_depth.reset();
     options.film.size = {64, 64};
-    options.sampling.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
+    options.sampling.spp = tests_are_long() ? 256 : 16;
     Progress silent(Toggle::OFF, true);
     Scene scene = load_scene(options, silent);
     tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
