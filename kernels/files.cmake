@@ -3,6 +3,9 @@
 # a test compares this list with the folder.
 set(CLRT_KERNEL_FILES
   camera/camera.h
+  camera/camera_connection.h
+  camera/camera_orthographic.h
+  camera/camera_perspective.h
   film/film.h
   film/splat.h
   film/sum.h
@@ -63,6 +66,7 @@ set(CLRT_KERNEL_FILES
   scattering/microfacet.h
   shared/aov_types.h
   shared/bvh_types.h
+  shared/camera_types.h
   shared/effects.h
   shared/fact_types.h
   shared/path_types.h
