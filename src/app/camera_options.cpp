@@ -22,6 +22,8 @@ glm::dvec3 up_direction(const OptionValue& v) {
     return direction(v, "x, y, z, or a direction x,y,z other than 0,0,0");
 }
 
+#define PROJECTION_CHOICE(constant, name) {#name, PROJECTION_##constant},
+
 } // namespace
 
 std::vector<OptionSpec> camera_options() {
@@ -45,6 +47,19 @@ std::vector<OptionSpec> camera_options() {
                                                     {"top", View::TOP},
                                                     {"bottom", View::BOTTOM},
                                                     {"iso", View::ISO}});
+         }},
+        {group, "", "--projection", "NAME",
+         "how rays leave the film: perspective (from the eye) or orthographic (parallel, from the plane "
+         "through the eye; default perspective)",
+         [](Options& o, const OptionValue& v) {
+             o.camera.projection = parse_choice<Projection>(v, {PROJECTION_ROWS(PROJECTION_CHOICE)});
+         }},
+        {group, "", "--ortho-height", "X",
+         "orthographic: height of what the picture shows, scene units (default: fitted to the scene; with "
+         "--eye, "
+         "what perspective shows at --at)",
+         [](Options& o, const OptionValue& v) {
+             o.camera.ortho_height = parse_number(v, "a length above 0", positive);
          }},
         {group, "", "--fov", "DEG", "vertical angle of view, degrees (default 40; 60 from within a room)",
          [](Options& o, const OptionValue& v) {

@@ -2,6 +2,8 @@
 // The camera.
 #pragma once
 
+#include "kernels/shared/camera_types.h"
+
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -17,8 +19,10 @@ struct CameraOptions {
     std::optional<View> view;                       ///< direction of a fitted eye; none: three quarters
     std::optional<double> fov_degrees;              ///< vertical angle of view
     std::optional<double> focal_length, film_width; ///< any common unit; fov = 2 atan(width H / (2 W focal))
-    std::optional<int> frames;                      ///< pictures of a turn around what the camera looks at
-    int frame = 0;                                  ///< which of them this is, from 1; 0: none of them
+    Projection projection = PROJECTION_PERSPECTIVE;
+    std::optional<double> ortho_height; ///< orthographic: of what the picture shows, scene units
+    std::optional<int> frames;          ///< pictures of a turn around what the camera looks at
+    int frame = 0;                      ///< which of them this is, from 1; 0: none of them
 };
 
 } // namespace clrt
