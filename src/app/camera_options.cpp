@@ -41,9 +41,7 @@ std::vector<OptionSpec> camera_options() {
         {group, "", "--projection", "NAME",
          "how rays leave the film: perspective (from the eye) or orthographic (parallel, from the plane "
          "through the eye; default perspective)",
-         [](Options& o, const OptionValue& v) {
-             o.camera.projection = parse_choice<Projection>(v);
-         }},
+         [](Options& o, const OptionValue& v) { o.camera.projection = parse_choice<Projection>(v); }},
         {group, "", "--ortho-height", "X",
          "orthographic: height of what the picture shows, scene units (default: fitted to the scene; with "
          "--eye, "
