@@ -14,13 +14,6 @@ namespace {
 
 /// Splats what raycast_radiance gathers; `position` is the film position of sample k.
 const char* const SPLATTING = R"(
-static inline real2 splat_position(const RenderParams* params, real3 direction)
-{
-    const real3 d = direction / dot(direction, vector_from(params->look));
-    const real3 dx = vector_from(params->film_dx), dy = vector_from(params->film_dy);
-    return (real2)(dot(d, dx) / dot(dx, dx), dot(d, dy) / dot(dy, dy));
-}
-
 static CLRT_NOINLINE void splat_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples,
                                          uint count, PixelRays* rays)
 {
@@ -59,7 +52,8 @@ struct LitBox : TestScene {
     }
 };
 
-const char* const OF_THE_RAY = "splat_position(params, samples[k].ray.direction)";
+const char* const OF_THE_RAY = "camera_project(&params->camera, samples[k].ray.origin + "
+                               "samples[k].ray.direction, (real2)(REAL(0.5))).film";
 
 } // namespace
 
