@@ -3,7 +3,7 @@
 
 #include "device/kernel_source.h"
 #include "film/whole_numbers.h"
-#include "render/kernels.h"
+#include "options/integrators.h"
 
 #include <array>
 #include <fmt/format.h>
