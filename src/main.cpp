@@ -2,9 +2,9 @@
 // clrt: command line -> scene -> effects -> tree and program -> passes -> picture and report.
 #include "app/command_line.h"
 #include "app/log.h"
-#include "app/progress.h"
 #include "app/run_program.h"
-#include "app/signals.h"
+#include "console/progress.h"
+#include "console/signals.h"
 #include "device/device.h"
 #include "device/device_facts.h"
 #include "effects/effects.h"
@@ -81,7 +81,7 @@ int run(int argc, const char* const* argv) {
         return EXIT_DONE;
     }
     const Options& options = command.options;
-    set_driver_environment(options);
+    set_driver_environment(options.device);
     start_log(options.run.verbosity);
     if (options.run.list_devices) {
         const std::vector<PlatformInfo> platforms = list_platforms();

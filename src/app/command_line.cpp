@@ -6,7 +6,7 @@
 #include "app/help_text.h"
 #include "app/option_checks.h"
 #include "app/options_file.h"
-#include "app/terminal.h"
+#include "console/terminal.h"
 #include "error.h"
 #include "film/film_file.h"
 #include "output/file_name.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/ledger.h"
 
-#include "app/signals.h"
 #include "bvh/bvh.h"
+#include "console/signals.h"
 #include "effects/take_out.h"
 #include "error.h"
 #include "render/ledger_plan.h"

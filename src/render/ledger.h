@@ -3,7 +3,7 @@
 // pays.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "device/device.h"
 #include "effects/effects.h"
 #include "options/options.h"

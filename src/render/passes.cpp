@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes.h"
 
-#include "app/signals.h"
+#include "console/signals.h"
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
 #include "render/good_counts.h"
@@ -37,7 +37,8 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
       film_buffers_(device, params, programs.paths.layers.size()),
       launcher_(device, programs.picture,
                 std::string("render_") + integrator_name(options.transport.integrator), params, buffers),
-      rules_(options, film_limit(result.film, options)), picture_reminder_(options.output.save_every_seconds),
+      rules_(options.sampling, film_limit(result.film, options)),
+      picture_reminder_(options.output.save_every_seconds),
       film_reminder_(options.film_file.checkpoint_path.empty()
                          ? std::nullopt
                          : std::optional(options.film_file.checkpoint_seconds)),

@@ -63,7 +63,7 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
 }
 
 Render render_nothing(const Scene& scene, const Options& options) {
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Render result;
     Film& film = result.film;
     film.scale = film_scale(scene);

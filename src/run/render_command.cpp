@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/render_command.h"
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/effects.h"
 #include "effects/take_out.h"
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/render_params.h"
-#include "render/report.h"
+#include "run/report.h"
 #include "run/run_files.h"
 #include "run/saving.h"
 #include "run/simulate.h"
@@ -86,7 +86,7 @@ int render_picture(const Job& job, const Options& options, Progress& progress,
     if (saving.needs_film(render))
         files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
 
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Report report{
         options,
         job.scene,

@@ -2,7 +2,7 @@
 // What every run on a device begins with.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "device/device.h"
 #include "options/options.h"
 #include "scene/scene.h"

@@ -2,7 +2,7 @@
 // A scene's file, its textures and options -> Scene.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "scene/scene.h"
 #include "scene/scene_request.h"
 

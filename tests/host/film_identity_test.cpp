@@ -2,7 +2,7 @@
 // The identity of a film: the same for the same scene and options, another for whatever changes a bit.
 #include "film/film_identity.h"
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "scene/load_scene.h"
 #include "scene_support.h"
 

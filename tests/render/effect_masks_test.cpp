@@ -3,7 +3,7 @@
 // picture: for every effect alone and for a covering array of their combinations. With the variable
 // CLRT_TEST_LONG set, also for all effects but one, by every integrator.
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/effects.h"
 #include "effects/take_out.h"
 #include "render/kernels.h"

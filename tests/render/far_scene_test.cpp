@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene in map coordinates has the bits of the same scene at the origin.
-#include "app/progress.h"
+#include "console/progress.h"
 #include "scene/load_scene.h"
 #include "support/render_scene.h"
 

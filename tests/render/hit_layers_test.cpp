@@ -3,8 +3,8 @@
 // by a signal.
 #include "render/hit_layers.h"
 
-#include "app/signals.h"
 #include "bvh/bvh.h"
+#include "console/signals.h"
 #include "effects/effects.h"
 #include "render/kernels.h"
 #include "render/render_params.h"

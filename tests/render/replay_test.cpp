@@ -2,6 +2,7 @@
 // A replayed sample has the bits of the rendered one; a planted fault is found where it was planted, and so
 // is a decision that is made differently in double precision.
 #include "bvh/bvh.h"
+#include "console/progress.h"
 #include "film/film_buffers.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
@@ -9,8 +10,6 @@
 #include "replay/flips.h"
 #include "support/effect_masks.h"
 #include "support/kernel_probe.h"
-
-#include "app/progress.h"
 
 #include <algorithm>
 #include <cmath>

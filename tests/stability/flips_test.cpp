@@ -2,7 +2,7 @@
 // How many samples of the shipped scenes take another path in single precision than in double, and at which
 // decision: few, and none because of a side or a lobe where the scene is plain.
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/take_out.h"
 #include "replay/flips.h"
 #include "replay/quantities.h"

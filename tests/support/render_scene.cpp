@@ -2,8 +2,8 @@
 // Scene text -> files in a scratch folder -> film.
 #include "support/render_scene.h"
 
-#include "app/progress.h"
 #include "bvh/bvh.h"
+#include "console/progress.h"
 #include "effects/take_out.h"
 #include "render/bvh_quality.h"
 #include "render/kernels.h"

@@ -2,7 +2,7 @@
 #include "stability/shipped_scenes.h"
 
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "error.h"
 #include "scene/load_scene.h"
 

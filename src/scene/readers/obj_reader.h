@@ -2,7 +2,7 @@
 // Wavefront OBJ text -> triangles. Parallel, safe on any bytes, exact in its file:line errors.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "scene/mesh.h"
 #include "scene/readers/scene_file.h"
 

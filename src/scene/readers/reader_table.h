@@ -2,7 +2,7 @@
 // The formats of scenes: one row each. A new one is a row and its files.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "options/scene_options.h"
 #include "scene/notices.h"
 #include "scene/readers/scene_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/report_facts.h"
+#include "run/report_facts.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one progress line on stderr.
-#include "app/progress.h"
+#include "console/progress.h"
 
-#include "app/terminal.h"
+#include "console/terminal.h"
 #include "seconds.h"
 
 #include <cmath>

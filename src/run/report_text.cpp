@@ -4,8 +4,8 @@
 #include "output/file_name.h"
 #include "paths/path_report.h"
 #include "render/error_text.h"
-#include "render/report.h"
-#include "render/report_facts.h"
+#include "run/report.h"
+#include "run/report_facts.h"
 
 #include <fmt/format.h>
 

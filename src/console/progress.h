@@ -2,9 +2,10 @@
 // The one progress line on stderr: rewritten in place on a terminal, plain lines now and then otherwise.
 #pragma once
 
-#include "options/options.h"
+#include "options/toggle.h"
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 

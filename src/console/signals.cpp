@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ctrl-C and SIGTERM: the handler only sets a flag, and ends the process when it is set already.
-#include "app/signals.h"
+#include "console/signals.h"
 
 #include <csignal>
 #include <unistd.h>

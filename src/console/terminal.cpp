@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the terminal is like (POSIX).
-#include "app/terminal.h"
+#include "console/terminal.h"
 
 #include <sys/ioctl.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/report.h"
+#include "run/report.h"
 
 #include "paths/path_report.h"
-#include "render/report_facts.h"
+#include "run/report_facts.h"
 #include "scene/ground.h"
 #include "scene/normalise.h"
 
