@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paths/path_plan.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene/material_table.h"
 
 #include <algorithm>

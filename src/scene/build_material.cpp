@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/build_material.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene/vectors.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/material_table.h"
 
+#include "colour.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>

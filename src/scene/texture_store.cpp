@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/texture_store.h"
 
+#include "colour.h"
 #include "error.h"
-#include "scene/colour.h"
 #include "scene/find_file.h"
 #include "scene/text_scanner.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/vertex_colours.h"
 
+#include "colour.h"
 #include "error.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/texture_store.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene_support.h"
 
 #include <array>

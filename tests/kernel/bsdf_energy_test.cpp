@@ -4,6 +4,7 @@
 #include "support/mtl_material.h"
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cstring>
@@ -63,7 +64,7 @@ real3 furnace_albedo(const Bsdf* bsdf, uint count)
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"scattering/material.h"}, TEXT);
+        SceneProbe made(test_device(), {"scattering/material.h"}, TEXT);
         // a: barycentric weights, triangle, number of directions; b: wo
         made.add(
             "albedo",

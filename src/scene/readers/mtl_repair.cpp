@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/readers/mtl_repair.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/readers/mtl_rules.h"
 
+#include "colour.h"
 #include "scene/build_material.h"
-#include "scene/colour.h"
 
 #include <cmath>
 #include <fmt/format.h>

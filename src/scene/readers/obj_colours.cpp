@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/readers/obj_colours.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 
 #include <algorithm>
 #include <cmath>

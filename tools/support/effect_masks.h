@@ -3,7 +3,7 @@
 #pragma once
 
 #include "effects/effect_table.h"
-#include "support/render_scene.h"
+#include "support/scratch_scene.h"
 
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ std::string describe_effects(u32 effects);
 
 /// A scene that calls for exactly these effects, each of which shows where light and lobes allow; 16 x 16
 /// pixels.
-class SceneOfEffects : public TestScene {
+class SceneOfEffects : public ScratchScene {
 public:
     explicit SceneOfEffects(u32 effects);
 

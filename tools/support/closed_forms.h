@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiometry in double precision, for tests to compare pictures with.
+// Radiometry in double precision, to compare pictures with.
 #pragma once
 
 #include <functional>

@@ -3,9 +3,7 @@
 
 #include "effects/take_out.h"
 #include "render/bvh_quality.h"
-#include "support/ray_device.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
@@ -19,17 +17,9 @@ Effects take_out_unwanted(Scene& scene, Options& options) {
     return effects;
 }
 
-Options with_kernels(Options options) {
-    const char* folder = std::getenv("CLRT_TEST_KERNELS");
-    if (options.device.kernels_folder.empty() && folder)
-        options.device.kernels_folder = folder;
-    return options;
-}
-
 } // namespace
 
-PatchedKernels::PatchedKernels(const std::vector<KernelPatch>& patches) {
-    KernelFiles files = kernels_under_test();
+PatchedKernels::PatchedKernels(KernelFiles files, const std::vector<KernelPatch>& patches) {
     for (const KernelPatch& patch : patches) {
         std::string& text = files[patch.file];
         const size_t place = text.find(patch.from);
@@ -45,8 +35,8 @@ PatchedKernels::PatchedKernels(const std::vector<KernelPatch>& patches) {
     }
 }
 
-PreparedRender::PreparedRender(Scene scene, Options options, const Device& device)
-    : device_(device), scene_(std::move(scene)), options_(with_kernels(std::move(options))),
+PreparedRender::PreparedRender(const ProbeDevice& device, Scene scene, Options options)
+    : device_(device), scene_(std::move(scene)), options_(with_kernels_of(device, std::move(options))),
       effects_(take_out_unwanted(scene_, options_)),
       programs_(build_render_programs(device, options_, effects_.mask,
                                       choose_layout(options_.bvh.layout, device.info), effects_.paths)),

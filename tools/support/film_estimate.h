@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a film says about a number, and whether it agrees with a closed form.
+// What a film says about a number.
 #pragma once
 
 #include "film/film.h"
 #include "options/options.h"
 
 #include <glm/vec3.hpp>
-#include <gtest/gtest.h>
 
 namespace clrt {
 
@@ -29,10 +28,5 @@ constexpr double RENDER_ROUNDING = 4e-6;
 
 /// Standard errors that a right picture may be off. With 64 replicates the chance is about 1e-7 a comparison.
 constexpr double LARGEST_Z = 6;
-
-/// Whether an estimate is within LARGEST_Z standard errors, plus `rounding` of the expected value. The
-/// standard error must not exceed `sharpness` of the expected value, so that the comparison can fail.
-testing::AssertionResult agrees(const Estimate& estimate, double expected, double sharpness = 2e-3,
-                                double rounding = RENDER_ROUNDING);
 
 } // namespace clrt

@@ -45,13 +45,13 @@ inline bool operator!=(const TestHit& a, const TestHit& b) {
     return !(a == b);
 }
 
-/// Other kernel files than those under test; the name tells them apart.
+/// Other kernel files than the device's; the name tells them apart.
 struct KernelVariant {
     std::string name;
     KernelFiles files;
 };
 
-/// What a test may choose about the tree and the programs.
+/// What may be chosen about the tree and the programs.
 struct RayDeviceOptions {
     BvhLayout layout = BvhLayout::BVH8;
     BvhQuality quality = BvhQuality::FAST;
@@ -60,12 +60,12 @@ struct RayDeviceOptions {
     std::vector<std::string> defines = {};
     std::optional<float> extent =
         {}; ///< the scene's, where `extent_of` would meet coordinates that are not finite
-    const KernelVariant* variant = nullptr; ///< nullptr: the kernels under test
+    const KernelVariant* variant = nullptr; ///< nullptr: the device's kernels
 };
 
-/// The program of these options, one a process. What RayDevice runs, and what a test may compile for other
+/// The program of these options, one a device. What RayDevice runs, and what a test may compile for other
 /// devices.
-KernelProbe& ray_probe(const RayDeviceOptions& options);
+KernelProbe& ray_probe(const ProbeDevice& device, const RayDeviceOptions& options);
 
 /// What RayDevice::lights_seen gives.
 constexpr u32 NO_LIGHT = 0, LIGHT_SEEN = 1, LIGHT_HIDDEN = 2;
@@ -76,12 +76,13 @@ struct TestPoint {
     double offset;
 };
 
-/// A scene on the test device. Its programs are built once a process for each layout, precision, mask and set
-/// of defines ("NAME=value").
+/// A scene on a device. Its programs are built once a device for each layout, precision, mask and set of
+/// defines ("NAME=value").
 class RayDevice {
 public:
-    RayDevice(const Scene& scene, const RayDeviceOptions& options);
-    RayDevice(const Scene& scene, BvhLayout layout, Precision precision = Precision::SINGLE, u32 effects = 0);
+    RayDevice(const ProbeDevice& device, const Scene& scene, const RayDeviceOptions& options);
+    RayDevice(const ProbeDevice& device, const Scene& scene, BvhLayout layout,
+              Precision precision = Precision::SINGLE, u32 effects = 0);
 
     /// scene_closest_hit for every ray.
     std::vector<TestHit> closest(const std::vector<TestRay>& rays) const;
@@ -142,6 +143,7 @@ private:
     std::vector<Out> at_surfaces(const std::string& kernel, const std::vector<TestRay>& rays,
                                  const std::vector<TestHit>& hits, const std::vector<vec4>& in) const;
 
+    const ProbeDevice& device_;
     KernelProbe& probe_;
     Precision precision_;
     Bvh bvh_;

@@ -2,7 +2,6 @@
 // Writes one kernel around each expression and builds them as one program.
 #include "support/kernel_probe.h"
 
-#include <cstdlib>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <utility>
@@ -38,24 +37,12 @@ std::string kernel_text(const std::string& name, const std::string& code, const 
 
 } // namespace
 
-const Device& test_device() {
-    // Never freed: at exit some drivers are gone before our statics.
-    static const Device* const device = [] {
-        const char* name = std::getenv("CLRT_TEST_DEVICE");
-        std::string notice;
-        return new Device(open_device(choose_device(list_platforms(), name ? name : "pocl", notice)));
-    }();
-    return *device;
-}
-
-KernelFiles kernels_under_test() {
-    const char* const folder = std::getenv("CLRT_TEST_KERNELS");
-    return folder ? read_kernel_files(folder) : embedded_kernel_files();
-}
-
 KernelProbe::KernelProbe(const Device& device, std::vector<std::string> headers, ProbeOptions options,
                          KernelFiles files)
     : device_(device), headers_(std::move(headers)), options_(std::move(options)), files_(std::move(files)) {}
+
+KernelProbe::KernelProbe(const ProbeDevice& device, std::vector<std::string> headers, ProbeOptions options)
+    : KernelProbe(device, std::move(headers), std::move(options), device.kernels()) {}
 
 void KernelProbe::add_expression(const std::string& name, Expression expression) {
     if (program_)

@@ -46,7 +46,7 @@ struct AlbedoSample {
 /// The program; its surface is tilted, so that frames take part. Directions are local, z is the normal.
 class BsdfProbe {
 public:
-    BsdfProbe();
+    explicit BsdfProbe(const ProbeDevice& device);
 
     /// `normal_g`: the geometric normal, local.
     BsdfValues eval(const LobeSet& set, const std::vector<glm::dvec3>& wo, const std::vector<glm::dvec3>& wi,
@@ -64,6 +64,7 @@ public:
 private:
     Kernel prepare(const char* name, const LobeSet& set, const std::vector<glm::dvec3>& a,
                    const std::vector<glm::dvec3>& b, const glm::dvec3& normal_g);
+    const ProbeDevice& device_;
     KernelProbe probe_;
 };
 

@@ -16,10 +16,9 @@
 // expression little. So one probe serves a test file, and add() comes before the first run().
 #pragma once
 
-#include "device/device.h"
-#include "device/kernel_source.h"
 #include "device/program.h"
 #include "kernels/shared/types.h"
+#include "support/probe_device.h"
 
 #include <map>
 #include <optional>
@@ -27,14 +26,6 @@
 #include <vector>
 
 namespace clrt {
-
-/// The kernels inside the test, or those in the folder that the variable CLRT_TEST_KERNELS names: so faults
-/// can be planted without a build.
-KernelFiles kernels_under_test();
-
-/// The device that tests run on: CLRT_TEST_DEVICE (as --device takes it; default "pocl"), opened once a
-/// process.
-const Device& test_device();
 
 /// How a probe's program is compiled.
 struct ProbeOptions {
@@ -70,8 +61,11 @@ class KernelProbe {
 public:
     /// `headers` are kernel files that the expressions need, by their path below kernels/; `files` are where
     /// they come from.
-    KernelProbe(const Device& device, std::vector<std::string> headers, ProbeOptions options = {},
-                KernelFiles files = kernels_under_test());
+    KernelProbe(const Device& device, std::vector<std::string> headers, ProbeOptions options,
+                KernelFiles files);
+
+    /// The same by the kernels of the device.
+    KernelProbe(const ProbeDevice& device, std::vector<std::string> headers, ProbeOptions options = {});
 
     /// Registers an expression under a name (an identifier). Signature says the types, such as float(float,
     /// u32). The expression reads the inputs as a, b, c, ... and the element's index as `i` (u32); its value

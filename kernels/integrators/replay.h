@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The entry point of builds with -DCLRT_TRACE: one work-item replays one sample of the picture and writes its record.
-// Included by integrators/entry_point.h, in place of the loop over samples.
-#ifndef CLRT_TRACE_REPLAY_H
-#define CLRT_TRACE_REPLAY_H
+// Included by entry_point.h, in place of the loop over samples.
+#ifndef CLRT_INTEGRATORS_REPLAY_H
+#define CLRT_INTEGRATORS_REPLAY_H
 
-#include "integrators/pixel.h"
+#include "pixel.h"
 
 /* The counter that stands at a sample. */
 static inline SampleCounter trace_counter(const RenderParams* params, uint sample)

@@ -16,8 +16,8 @@ namespace clrt {
 class SceneProbe {
 public:
     /// `headers` by their path below kernels/; `text` stands between them and the kernels.
-    explicit SceneProbe(std::vector<std::string> headers, const std::string& text = "",
-                        const ProbeOptions& options = {});
+    SceneProbe(const ProbeDevice& device, std::vector<std::string> headers, const std::string& text = "",
+               const ProbeOptions& options = {});
 
     /// Registers statements. They read `scene` and `params` (pointers), vec4 inputs a, b, c and the index i,
     /// and assign vec4 outputs first, second, third, which are 0 before.
@@ -32,6 +32,7 @@ public:
                 const std::vector<vec4>& a, std::vector<vec4> b = {}, std::vector<vec4> c = {});
 
 private:
+    const ProbeDevice& device_;
     KernelProbe probe_;
 };
 

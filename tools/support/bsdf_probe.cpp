@@ -146,7 +146,7 @@ LobeSet lobe_set(const std::string& name) {
     throw std::logic_error("there is no lobe set \"" + name + "\"");
 }
 
-BsdfProbe::BsdfProbe() : probe_(test_device(), {"scattering/bsdf.h"}) {
+BsdfProbe::BsdfProbe(const ProbeDevice& device) : device_(device), probe_(device, {"scattering/bsdf.h"}) {
     probe_.add_text(TEXT);
     probe_.add_text(ALBEDO_TEXT);
 }
@@ -172,8 +172,8 @@ Kernel BsdfProbe::prepare(const char* name, const LobeSet& set, const std::vecto
 BsdfValues BsdfProbe::eval(const LobeSet& set, const std::vector<glm::dvec3>& wo,
                            const std::vector<glm::dvec3>& wi, const glm::dvec3& normal_g) {
     Kernel kernel = prepare("probe_eval", set, wo, wi, normal_g);
-    const cl::Buffer first = create_buffer(test_device(), "values", wo.size() * sizeof(vec4));
-    const cl::Buffer second = create_buffer(test_device(), "smooth", wo.size() * sizeof(vec4));
+    const cl::Buffer first = create_buffer(device_, "values", wo.size() * sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "smooth", wo.size() * sizeof(vec4));
     kernel.set("out_first", first);
     kernel.set("out_second", second);
     probe_.launch(kernel, wo.size());
@@ -188,8 +188,8 @@ BsdfValues BsdfProbe::eval(const LobeSet& set, const std::vector<glm::dvec3>& wo
 BsdfSamples BsdfProbe::sample(const LobeSet& set, const std::vector<glm::dvec3>& wo,
                               const std::vector<glm::dvec3>& u, const glm::dvec3& normal_g) {
     Kernel kernel = prepare("probe_sample", set, wo, u, normal_g);
-    const cl::Buffer first = create_buffer(test_device(), "directions", wo.size() * sizeof(vec4));
-    const cl::Buffer second = create_buffer(test_device(), "weights", wo.size() * sizeof(vec4));
+    const cl::Buffer first = create_buffer(device_, "directions", wo.size() * sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "weights", wo.size() * sizeof(vec4));
     kernel.set("out_first", first);
     kernel.set("out_second", second);
     probe_.launch(kernel, wo.size());
@@ -207,8 +207,8 @@ BsdfSamples BsdfProbe::sample(const LobeSet& set, const std::vector<glm::dvec3>&
 
 std::vector<AlbedoSample> BsdfProbe::albedos(const LobeSet& set, const std::vector<glm::dvec3>& w) {
     Kernel kernel = prepare("probe_albedo", set, w, w, {0, 0, 1});
-    const cl::Buffer first = create_buffer(test_device(), "albedos", w.size() * sizeof(vec4));
-    const cl::Buffer second = create_buffer(test_device(), "nothing", w.size() * sizeof(vec4));
+    const cl::Buffer first = create_buffer(device_, "albedos", w.size() * sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "nothing", w.size() * sizeof(vec4));
     kernel.set("out_first", first);
     kernel.set("out_second", second);
     probe_.launch(kernel, w.size());
@@ -221,8 +221,8 @@ std::vector<AlbedoSample> BsdfProbe::albedos(const LobeSet& set, const std::vect
 bool BsdfProbe::has_smooth_lobe(const LobeSet& set) {
     const std::vector<glm::dvec3> up = {{0, 0, 1}};
     Kernel kernel = prepare("probe_eval", set, up, up, {0, 0, 1});
-    const cl::Buffer first = create_buffer(test_device(), "values", sizeof(vec4));
-    const cl::Buffer second = create_buffer(test_device(), "smooth", sizeof(vec4));
+    const cl::Buffer first = create_buffer(device_, "values", sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "smooth", sizeof(vec4));
     kernel.set("out_first", first);
     kernel.set("out_second", second);
     probe_.launch(kernel, 1);

@@ -10,8 +10,9 @@
 
 namespace clrt {
 
-SceneProbe::SceneProbe(std::vector<std::string> headers, const std::string& text, const ProbeOptions& options)
-    : probe_(test_device(), std::move(headers), options, kernels_under_test()) {
+SceneProbe::SceneProbe(const ProbeDevice& device, std::vector<std::string> headers, const std::string& text,
+                       const ProbeOptions& options)
+    : device_(device), probe_(device, std::move(headers), options) {
     probe_.add_text("vec4 probe_vec4(real3 v, real w) { return (vec4)(convert_float3(v), (float)w); }\n" +
                     text);
 }
@@ -45,16 +46,16 @@ SceneProbe::Outputs SceneProbe::run(const std::string& name, const Scene& scene,
     b.resize(a.size());
     c.resize(a.size());
     Kernel kernel = probe_.kernel("probe_" + name);
-    bind_scene(upload_scene(test_device(), scene, Bvh{}), kernel);
+    bind_scene(upload_scene(device_, scene, Bvh{}), kernel);
     kernel.set("params_value", params);
     kernel.set("count", u32(a.size()));
     kernel.set("in_a", probe_.upload(a));
     kernel.set("in_b", probe_.upload(b));
     kernel.set("in_c", probe_.upload(c));
     const size_t bytes = a.size() * sizeof(vec4);
-    const cl::Buffer first = create_buffer(test_device(), "first", bytes);
-    const cl::Buffer second = create_buffer(test_device(), "second", bytes);
-    const cl::Buffer third = create_buffer(test_device(), "third", bytes);
+    const cl::Buffer first = create_buffer(device_, "first", bytes);
+    const cl::Buffer second = create_buffer(device_, "second", bytes);
+    const cl::Buffer third = create_buffer(device_, "third", bytes);
     kernel.set("out_first", first);
     kernel.set("out_second", second);
     kernel.set("out_third", third);

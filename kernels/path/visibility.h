@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hits and shadow rays that see through cut-outs.
-#ifndef CLRT_GEOMETRY_VISIBILITY_H
-#define CLRT_GEOMETRY_VISIBILITY_H
+#ifndef CLRT_PATH_VISIBILITY_H
+#define CLRT_PATH_VISIBILITY_H
 
+#include "geometry/traverse.h"
 #include "numerics/sampler.h"
 #include "scattering/material.h"
-#include "traverse.h"
 
 /* Coverage of the surface at a hit. */
 static inline real visibility_coverage(const Scene* scene, const Hit* hit)

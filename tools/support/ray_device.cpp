@@ -5,12 +5,9 @@
 #include "support/random_inputs.h"
 
 #include <cassert>
-#include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <memory>
-#include <tuple>
 
 namespace clrt {
 
@@ -172,26 +169,22 @@ struct NumberPoint {
 
 } // namespace
 
-KernelProbe& ray_probe(const RayDeviceOptions& chosen) {
-    // Never freed, like the test device that they refer to.
-    using Key = std::tuple<BvhLayout, Precision, u32, std::vector<std::string>, std::string>;
-    static auto* const probes = new std::map<Key, std::unique_ptr<KernelProbe>>;
-    std::unique_ptr<KernelProbe>& probe =
-        (*probes)[{chosen.layout, chosen.precision, chosen.effects, chosen.defines,
-                   chosen.variant ? chosen.variant->name : ""}];
-    if (!probe) {
+KernelProbe& ray_probe(const ProbeDevice& device, const RayDeviceOptions& chosen) {
+    const std::string key =
+        fmt::format("rays: {} {} {:#x} {} {}", int(chosen.layout), int(chosen.precision), chosen.effects,
+                    fmt::join(chosen.defines, " "), chosen.variant ? chosen.variant->name : "");
+    return device.once<KernelProbe>(key, [&] {
         ProbeOptions options;
         options.precision = chosen.precision;
         options.defines = chosen.defines;
         options.defines.push_back(fmt::format("BVH_LAYOUT={}", int(chosen.layout)));
         options.defines.push_back(fmt::format("CLRT_EFFECTS={:#x}u", chosen.effects));
         options.defines.push_back(fmt::format("MOST_LAYERS={}u", MOST_LAYERS));
-        probe = std::make_unique<KernelProbe>(
-            test_device(), std::vector<std::string>{"geometry/visibility.h", "lights/emitter.h"}, options,
-            chosen.variant ? chosen.variant->files : kernels_under_test());
-        probe->add_text(kernel_text());
-    }
-    return *probe;
+        KernelProbe probe(device, {"path/visibility.h", "lights/emitter.h"}, options,
+                          chosen.variant ? chosen.variant->files : device.kernels());
+        probe.add_text(kernel_text());
+        return probe;
+    });
 }
 
 TestRay make_ray(const glm::dvec3& origin, const glm::dvec3& direction, float t_max) {
@@ -209,13 +202,15 @@ bool operator==(const TestHit& a, const TestHit& b) {
            std::memcmp(&a.b2, &b.b2, sizeof a.b2) == 0 && a.triangle == b.triangle;
 }
 
-RayDevice::RayDevice(const Scene& scene, BvhLayout layout, Precision precision, u32 effects)
-    : RayDevice(scene, RayDeviceOptions{layout, BvhQuality::FAST, precision, effects, {}, {}, nullptr}) {}
+RayDevice::RayDevice(const ProbeDevice& device, const Scene& scene, BvhLayout layout, Precision precision,
+                     u32 effects)
+    : RayDevice(device, scene,
+                RayDeviceOptions{layout, BvhQuality::FAST, precision, effects, {}, {}, nullptr}) {}
 
-RayDevice::RayDevice(const Scene& scene, const RayDeviceOptions& options)
-    : probe_(ray_probe(options)), precision_(options.precision),
+RayDevice::RayDevice(const ProbeDevice& device, const Scene& scene, const RayDeviceOptions& options)
+    : device_(device), probe_(ray_probe(device, options)), precision_(options.precision),
       bvh_(build_bvh(scene.positions, scene.triangles, options.layout, options.quality)),
-      buffers_(upload_scene(test_device(), scene, bvh_)) {
+      buffers_(upload_scene(device_, scene, bvh_)) {
     params_.scene_extent = options.extent ? *options.extent : extent_of(scene);
     params_.emitter_count = static_cast<u32>(scene.emitters.size());
     params_.width = static_cast<u32>(scene.triangles.size()); // how many trace_all tests
@@ -236,7 +231,7 @@ template <class Out>
 std::vector<Out> RayDevice::trace(const std::string& name, const std::vector<TestRay>& rays,
                                   size_t per_ray) const {
     const size_t count = rays.size() * per_ray;
-    const cl::Buffer out = create_buffer(test_device(), "traced", count * sizeof(Out));
+    const cl::Buffer out = create_buffer(device_, "traced", count * sizeof(Out));
     probe_.launch(make_kernel(name, rays, out), rays.size());
     return probe_.read<Out>(out, count);
 }
@@ -288,7 +283,7 @@ Kernel RayDevice::make_surface_kernel(const std::string& name, const std::vector
 template <class Out>
 std::vector<Out> RayDevice::at_surfaces(const std::string& name, const std::vector<TestRay>& rays,
                                         const std::vector<TestHit>& hits, const std::vector<vec4>& in) const {
-    const cl::Buffer out = create_buffer(test_device(), "surfaces", in.size() * sizeof(Out));
+    const cl::Buffer out = create_buffer(device_, "surfaces", in.size() * sizeof(Out));
     probe_.launch(make_surface_kernel(name, rays, hits, in, out), rays.size());
     return probe_.read<Out>(out, in.size());
 }
@@ -336,14 +331,14 @@ std::function<void()> RayDevice::leaver(const std::vector<TestRay>& rays,
     std::vector<vec4> back;
     for (const TestRay& ray : rays)
         back.push_back({-ray.direction.x, -ray.direction.y, -ray.direction.z, 0});
-    const cl::Buffer out = create_buffer(test_device(), "left", rays.size() * sizeof(vec4));
+    const cl::Buffer out = create_buffer(device_, "left", rays.size() * sizeof(vec4));
     return [this, count = rays.size(), kernel = make_surface_kernel("surface_leave", rays, hits, back, out)] {
         probe_.launch(kernel, count);
     };
 }
 
 std::function<void()> RayDevice::tracer(const std::vector<TestRay>& rays) const {
-    const cl::Buffer out = create_buffer(test_device(), "traced", rays.size() * sizeof(DoubleHit));
+    const cl::Buffer out = create_buffer(device_, "traced", rays.size() * sizeof(DoubleHit));
     return [this, count = rays.size(), kernel = make_kernel("trace_closest", rays, out)] {
         probe_.launch(kernel, count);
     };

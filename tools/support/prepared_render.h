@@ -3,8 +3,7 @@
 // kernels whose text was changed.
 #pragma once
 
-#include "support/kernel_probe.h"
-#include "support/render_scene.h"
+#include "support/scratch_scene.h"
 
 #include <string>
 #include <vector>
@@ -17,10 +16,10 @@ struct KernelPatch {
     std::string from, to;
 };
 
-/// The kernels under test with patches, as a folder for --kernels. Throws where a text is not found.
+/// Kernels with patches, as a folder for --kernels. Throws where a text is not found.
 class PatchedKernels {
 public:
-    explicit PatchedKernels(const std::vector<KernelPatch>& patches);
+    PatchedKernels(KernelFiles files, const std::vector<KernelPatch>& patches);
     const std::string& path() const { return path_; }
 
 private:
@@ -30,8 +29,8 @@ private:
 
 class PreparedRender {
 public:
-    /// Takes the kernels of options.device.kernels_folder, else those under test. The device must outlive it.
-    PreparedRender(Scene scene, Options options, const Device& device = test_device());
+    /// Takes the kernels of options.device.kernels_folder, else the device's. The device must outlive it.
+    PreparedRender(const ProbeDevice& device, Scene scene, Options options);
 
     Render run() const;
     /// Seconds that compiling took.
