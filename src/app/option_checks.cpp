@@ -10,6 +10,7 @@
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "run/run_files.h"
+#include "scene/camera_params.h"
 
 #include <algorithm>
 #include <string>
@@ -82,6 +83,27 @@ void check_lens(const Options& options) {
     reject(options, std::string("option ") + (has_focal ? "--focal-length" : "--film-width") +
                         ": expected together with " + (has_focal ? "--film-width" : "--focal-length") +
                         ", found alone");
+}
+
+/// Each projection has its own option for the size of what it shows. Where only the command line asks for
+/// parallel rays, the angle in an options file stands for the height that it shows.
+void check_projection(const Options& options) {
+    const CameraOptions& camera = options.camera;
+    if (camera.projection != PROJECTION_ORTHOGRAPHIC) {
+        if (camera.ortho_height)
+            reject(options, std::string("option --ortho-height: expected --projection orthographic, found ") +
+                                name_of(camera.projection) + "; --fov is its angle of view");
+        return;
+    }
+    const auto is_in_file = [&](const char* name) {
+        const auto given = options.run.given.find(name);
+        return given != options.run.given.end() && !given->second.empty();
+    };
+    for (const char* const name : {"--fov", "--focal-length", "--film-width"})
+        if (options.run.given.count(name) && (!is_in_file(name) || is_in_file("--projection")))
+            reject(options,
+                   std::string("option ") + name +
+                       ": expected --ortho-height with --projection orthographic, found an angle of view");
 }
 
 void check_samples(const Options& options) {
@@ -227,6 +249,7 @@ void check_combinations(const Options& options) {
     check_crop(options);
     check_output_sizes(options);
     check_lens(options);
+    check_projection(options);
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);

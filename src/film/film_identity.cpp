@@ -90,6 +90,8 @@ std::string scene_hash(const Scene& scene) {
     hash.vector(scene.camera.at);
     hash.vector(scene.camera.up);
     hash.number(scene.camera.fov_degrees);
+    hash.number(scene.camera.projection);
+    hash.number(scene.camera.ortho_height);
     hash.vector(scene.normalisation.centre);
     hash.number(scene.normalisation.scale);
     return hash.text();

@@ -3,6 +3,7 @@
 // behaviour.
 #pragma once
 
+#include "kernels/shared/camera_types.h"
 #include "kernels/shared/scene_types.h"
 #include "options/integrators.h"
 #include "output/named_file.h"
@@ -21,10 +22,12 @@ struct Normalisation {
     double scale = 1;
 };
 
-/// A pinhole camera in world units.
+/// A camera in world units.
 struct Camera {
     glm::dvec3 eye{0}, at{0, 0, -1}, up{0, 1, 0};
-    double fov_degrees = 40; ///< vertical
+    double fov_degrees = 40; ///< perspective: vertical angle of view
+    Projection projection = PROJECTION_PERSPECTIVE;
+    double ortho_height = 0; ///< orthographic: of what the picture shows
 };
 
 /// A lat-long environment or, without texels, a constant one.

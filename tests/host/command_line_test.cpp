@@ -8,6 +8,7 @@
 #include "effects/effect_table.h"
 #include "error.h"
 #include "host/command_line_support.h"
+#include "scene/camera_params.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -51,6 +52,8 @@ const std::map<std::string, std::string>& samples() {
         {"--at", "-0,.5,1e2"},
         {"--up", "0,0,1"},
         {"--view", "iso"},
+        {"--projection", "orthographic"},
+        {"--ortho-height", "2.5"},
         {"--fov", "35"},
         {"--focal-length", "50"},
         {"--film-width", "36"},
@@ -96,6 +99,8 @@ std::vector<std::string> companions(const std::string& option) {
         return {"--film-width", "36"};
     if (option == "--film-width")
         return {"--focal-length", "50"};
+    if (option == "--ortho-height")
+        return {"--projection", "orthographic"};
     if (option == "--sample")
         return {"--pixel", "3,4"};
     return {};
@@ -226,6 +231,17 @@ TEST(CommandLine, CameraOptionsArrive) {
     EXPECT_EQ(o.camera.focal_length, 35.0);
     EXPECT_EQ(o.camera.film_width, 24.0);
     EXPECT_EQ(parse({"--fov", "39.3"}).camera.fov_degrees, 39.3);
+    EXPECT_EQ(o.camera.projection, PROJECTION_PERSPECTIVE);
+    EXPECT_EQ(parse({"--projection", "orthographic", "--ortho-height", "2.5"}).camera.ortho_height, 2.5);
+}
+
+TEST(CommandLine, EveryProjectionHasItsNameAndIsInTheHelp) {
+    const std::string help = find_option("--projection")->help;
+    for (int i = 0; i < PROJECTION_COUNT; ++i) {
+        const char* const name = name_of(Projection(i));
+        EXPECT_EQ(parse({"--projection", name}).camera.projection, Projection(i));
+        EXPECT_NE(help.find(name), std::string::npos) << name;
+    }
 }
 
 TEST(CommandLine, StudioOptionsArrive) {

@@ -71,6 +71,8 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
         [](Scene& s) { s.camera.at.z += 1; },
         [](Scene& s) { s.camera.up.x += 1; },
         [](Scene& s) { s.camera.fov_degrees += 1; },
+        [](Scene& s) { s.camera.projection = PROJECTION_ORTHOGRAPHIC; },
+        [](Scene& s) { s.camera.ortho_height += 1; },
         [](Scene& s) { s.normalisation.scale *= 2; },
     };
     for (size_t i = 0; i < std::size(changes); ++i) {
