@@ -64,6 +64,7 @@ set(CLRT_KERNEL_FILES
   shared/fact_types.h
   shared/path_types.h
   shared/render_types.h
+  shared/scene_arrays.h
   shared/scene_types.h
   shared/trace_types.h
   shared/types.h

@@ -86,7 +86,7 @@ ClrtSide::ClrtSide(const Device& device, const KernelFiles& files, const Options
 
 Kernel ClrtSide::make_kernel(const Program& program, const std::string& name) const {
     Kernel kernel(program, name);
-    if (kernel.has("bvh_nodes"))
+    if (takes_scene(kernel))
         bind_scene(buffers_, kernel);
     kernel.set("params", params_);
     return kernel;
