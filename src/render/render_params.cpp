@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render_params.h"
 
+#include "scene/vectors.h"
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -12,10 +14,6 @@ namespace clrt {
 namespace {
 
 constexpr double RADIANS = 3.14159265358979323846 / 180;
-
-vec4 to_vec4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0.0f};
-}
 
 /// Puts the camera into the normalised frame: the eye, and directions to film positions in pixels.
 void set_camera(const Scene& scene, const Options& options, RenderParams& params) {

@@ -59,10 +59,6 @@ const Rule& find_rule(const MtlMaterial& mtl) {
     return ILLUM_RULES[mtl.illum.value_or(gloss ? 2 : 1)];
 }
 
-vec4 to_vec4(const glm::dvec3& v, double w) {
-    return {float(v.x), float(v.y), float(v.z), float(w)};
-}
-
 /// GGX roughness along and across the tangent; `sqrt_x` squared is `x`, so that a map can scale it.
 struct Roughness {
     double x = 0, y = 0, sqrt_x = 0, sqrt_y = 0;

@@ -8,8 +8,6 @@
 
 namespace clrt {
 
-constexpr double PI = 3.14159265358979323846;
-
 /// Irradiance at a point with normal n from a polygon of radiance 1 that is seen as a whole; what lies below
 /// the horizon is cut off (Lambert 1760; Arvo 1995, eq. 2.1). The same for both windings.
 double polygon_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
