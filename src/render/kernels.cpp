@@ -4,6 +4,7 @@
 #include "device/kernel_source.h"
 #include "film/film_buffers.h"
 #include "output/image.h"
+#include "render/layer_table.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,11 +16,6 @@ namespace {
 
 /// The program of the layers of hits, and what tells the program of a replay from the picture's.
 const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay";
-
-/// Layers that come from the primary hits; the others are made from the film.
-bool is_hit_layer(const std::string& name) {
-    return name != "variance" && name != "samples" && name != "alpha" && name != "badSamples";
-}
 
 /// Samples of a pixel that a work-item simulates side by side (kernels/integrators/pixel.h): a CPU's core
 /// fills the waits of one with the others, a GPU has other work-items for that.
@@ -104,7 +100,7 @@ bool wants_layers(const Options& options) {
     if (!has_exr || !options.output.aovs)
         return has_exr;
     return std::any_of(options.output.aovs->begin(), options.output.aovs->end(),
-                       [](const std::string& name) { return is_hit_layer(name) || name == "alpha"; });
+                       [](const std::string& name) { return find_layer(name)->is_from_hits; });
 }
 
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
