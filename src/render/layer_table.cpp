@@ -133,6 +133,10 @@ const LayerRow* find_layer(const std::string& name) {
     return found == rows.end() ? nullptr : &*found;
 }
 
+Layer make_layer(const LayerRow& row, std::vector<float> values) {
+    return {row.channels.size() > 1 ? row.name : "", row.channels, std::move(values), row.is_id};
+}
+
 std::string layer_names(const char* separator) {
     std::vector<std::string> names;
     for (const LayerRow& row : layer_table())

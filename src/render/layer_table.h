@@ -3,6 +3,7 @@
 // read them.
 #pragma once
 
+#include "output/image.h"
 #include "scene/scene.h"
 
 #include <string>
@@ -47,6 +48,9 @@ const std::vector<LayerRow>& layer_table();
 
 /// The row of a name, or null.
 const LayerRow* find_layer(const std::string& name);
+
+/// The layer of a row with these values.
+Layer make_layer(const LayerRow& row, std::vector<float> values);
 
 /// All names, with this between them.
 std::string layer_names(const char* separator);

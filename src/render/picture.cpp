@@ -44,8 +44,7 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
             continue;
         std::vector<float> values = row.make({render, scene, options});
         if (!values.empty())
-            picture.layers.push_back(
-                {row.channels.size() > 1 ? row.name : "", row.channels, std::move(values), row.is_id});
+            picture.layers.push_back(make_layer(row, std::move(values)));
     }
     return picture;
 }

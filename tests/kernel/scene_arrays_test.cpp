@@ -2,6 +2,7 @@
 // Kernels find every array of a scene where the upload has put it.
 #include "render/scene_buffers.h"
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include <cstring>
 #include <gmock/gmock.h>
