@@ -42,7 +42,7 @@ static inline void aov_add(long* sums, real3 v)
 static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* params, uint x, uint y,
                                      SampleCounter counter, AovSums* sums)
 {
-    const Sampler sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
+    const Sampler sampler = tile_sampler(params, x, y, counter);
     const Ray ray = camera_ray(params, &sampler, x, y);
     Hit hit = visible_hit(scene, params, &sampler, 1u, &ray);
     if (hit.triangle == NO_INDEX)

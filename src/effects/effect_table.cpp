@@ -60,13 +60,6 @@ u32 without_effects(u32 effects, u32 taken) {
     return left;
 }
 
-bool is_permitted(u32 effects) {
-    for (const EffectSpec& effect : effect_table())
-        if ((effects & effect.bit) && effect.one_of && !(effects & effect.one_of))
-            return false;
-    return with_implied(effects) == effects;
-}
-
 std::optional<u32> effect_by_name(const std::string& name) {
     for (const EffectSpec& effect : effect_table())
         if (with_hyphens(name) == with_hyphens(effect.name))
