@@ -54,6 +54,7 @@ set(CLRT_KERNEL_FILES
   scattering/bsdf_energy.h
   scattering/bsdf_glossy.h
   scattering/bsdf_matte.h
+  scattering/bsdf_mirror.h
   scattering/bsdf_types.h
   scattering/fresnel.h
   scattering/material.h
@@ -62,6 +63,7 @@ set(CLRT_KERNEL_FILES
   shared/bvh_types.h
   shared/effects.h
   shared/fact_types.h
+  shared/lobes.h
   shared/path_types.h
   shared/render_types.h
   shared/scene_types.h

@@ -107,14 +107,14 @@ static inline void path_connect_layers(const Bsdf* bsdf, const AutomatonStep* st
 {
 #if PATH_LAYERS > 0
     path->layers.kind = light->kind;
-    path->layers.matte_state = step->matte;
-    path->layers.glossy_state = step->glossy;
+    path->layers.matte_state = step->next[LETTER_MATTE];
+    path->layers.glossy_state = step->next[LETTER_GLOSSY];
     const real3 shared = factor * path->layers.share;
     path->layers.matte = path->layers.glossy = (real3)(REAL(0.0));
     if (filter_is_ambiguous(step, bsdf)) {
-        path->layers.matte = shared * filter_matte_part(bsdf, light->wi);
-        path->layers.glossy = shared * filter_glossy_part(bsdf, light->wi);
-    } else if (bsdf->lobes & LOBE_MATTE)
+        path->layers.matte = shared * filter_part(bsdf, LETTER_MATTE, light->wi);
+        path->layers.glossy = shared * filter_part(bsdf, LETTER_GLOSSY, light->wi);
+    } else if (bsdf_smooth_letters(bsdf) & LETTER_BIT(LETTER_MATTE))
         path->layers.matte = path->connection * path->layers.share;
     else
         path->layers.glossy = path->connection * path->layers.share;
@@ -164,19 +164,19 @@ static inline bool path_follow(const Sampler* sampler, uint segment, const Bsdf*
                                const BsdfSample* next, Path* path)
 {
     if (!filter_is_ambiguous(step, bsdf) || next->pdf_w == REAL(0.0)) {
-        path->state = filter_state(step, bsdf, next);
+        path->state = step->next[filter_letter(bsdf, next)];
         return automaton_continues(path->state);
     }
     real3 share;
     const real u = sampler_number(sampler, segment, SAMPLE_CLASS);
-    const bool is_matte = filter_choose_matte(step, bsdf, next->wi, u, &share);
+    const uint letter = filter_choose_letter(step, bsdf, next->wi, u, &share);
     if (automaton_splits(path->state))
         path->throughput *= share;
 #if PATH_LAYERS > 0
     else
         path->layers.share *= share;
 #endif
-    path->state = is_matte ? step->matte : step->glossy;
+    path->state = step->next[letter];
     return true;
 }
 
@@ -265,7 +265,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
         TRACE_VECTOR(scene, TRACE_ADDED, path->throughput * emitted);
         path_add_layers(path, KIND_AREA, emitted, sample);
     }
-    Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    Bsdf bsdf = material_bsdf(scene, &surface, wo, TRANSPORT_RADIANCE);
     if (segment >= params->max_depth) {
         path_cut(scene, params, &sample->sampler, segment, &bsdf, path, rays);
         return;

@@ -32,7 +32,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     }
     if (params->max_depth < 2u)
         return radiance;
-    const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+    const Bsdf bsdf = material_bsdf(scene, &surface, wo, TRANSPORT_RADIANCE);
     TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
     nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
     const real3 direct = direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays);

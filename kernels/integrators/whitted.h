@@ -78,7 +78,7 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     const real3 refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
     if (surface_reflects(surface, refracted))
         return top;
-    const real3 color = bsdf->transmission * ((REAL(1.0) - f) * bsdf->eta * bsdf->eta);
+    const real3 color = bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
     return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack, top);
 }
 
@@ -132,7 +132,7 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
         }
 
         /* Light it, then follow reflection and refraction. */
-        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
+        const Bsdf bsdf = material_bsdf(scene, &surface, wo, TRANSPORT_RADIANCE);
         TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
         nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
         const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);

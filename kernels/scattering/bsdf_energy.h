@@ -19,6 +19,12 @@
 #include "fresnel.h"
 #include "numerics/warp.h"
 
+/* The colour of a reflection whose half vector meets the directions at this cosine. */
+static inline real3 bsdf_reflection_color(const Bsdf* bsdf, real cos_h)
+{
+    return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
+}
+
 /* The facets' reflectance in light from everywhere. */
 static inline real3 bsdf_energy_facet_mean(const Bsdf* bsdf)
 {
@@ -116,7 +122,7 @@ static inline void bsdf_energy_set_dielectric(Bsdf* bsdf)
     const real crossing = (REAL(1.0) - fresnel_dielectric_mean(bsdf->eta)) / fmax(here, there);
     const real crosses = crossing * there;
     bsdf->multiple = bsdf->specular * ((REAL(1.0) - crosses) * loss / here);
-    bsdf->multiple_through = bsdf->transmission * (crossing * loss * bsdf->eta * bsdf->eta);
+    bsdf->multiple_through = bsdf->transmission * bsdf_cross(bsdf, crossing * loss);
     bsdf->multiple_size = loss;
     bsdf->multiple_reflects = REAL(1.0) - crosses;
 }

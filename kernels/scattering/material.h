@@ -148,8 +148,8 @@ static inline real3 material_emitted(const Scene* scene, const Surface* surface)
                                                     : (real3)(REAL(0.0));
 }
 
-/* Builds the BSDF of a surface point as wo sees it. */
-static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo)
+/* Builds the BSDF of a surface point as wo sees it, for radiance or importance (TRANSPORT_*). */
+static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo, uint transport)
 {
     global const Material* material = scene->materials + surface->material;
     Bsdf bsdf;
@@ -161,7 +161,7 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     bsdf.exponent = (real)material->specular.w;
     bsdf.lobes = material->lobes;
     bsdf.fresnel = material->fresnel;
-    bsdf.flags = material->flags;
+    bsdf.flags = material->flags | transport;
     bsdf.normal_g = surface->normal_g;
     bsdf.normal_s = surface->normal_s;
     bsdf.is_curved = surface->is_curved;
