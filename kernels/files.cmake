@@ -55,6 +55,7 @@ set(CLRT_KERNEL_FILES
   scattering/bsdf_glossy.h
   scattering/bsdf_matte.h
   scattering/bsdf_mirror.h
+  scattering/bsdf_reverse.h
   scattering/bsdf_types.h
   scattering/fresnel.h
   scattering/material.h
