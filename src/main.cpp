@@ -2,9 +2,9 @@
 // clrt: command line -> scene -> effects -> tree and program -> passes -> picture and report.
 #include "app/command_line.h"
 #include "app/log.h"
-#include "app/progress.h"
 #include "app/run_program.h"
-#include "app/signals.h"
+#include "console/progress.h"
+#include "console/signals.h"
 #include "device/device.h"
 #include "device/device_facts.h"
 #include "effects/effects.h"
@@ -29,7 +29,7 @@ namespace {
 
 /// Prints what would be rendered and why.
 int run_explain(const Options& options) {
-    Progress progress(options.progress, options.verbosity < 0);
+    Progress progress(options.run.progress, options.run.verbosity < 0);
     const Scene scene = load_scene(options, progress);
     progress.finish();
     Effects effects = find_effects(scene, options);
@@ -45,14 +45,14 @@ int run_explain(const Options& options) {
 
 /// Writes --stats of a run without a picture, which has no samples to be named by.
 void write_statistics(const Options& options, const std::string& json) {
-    if (!options.stats_path.empty())
-        write_text_file(expand_file_name(options.stats_path, {options.seed, 0, 0}), json);
+    if (!options.output.stats_path.empty())
+        write_text_file(expand_file_name(options.output.stats_path, {options.sampling.seed, 0, 0}), json);
 }
 
 /// Prints what every effect costs and gives.
 int run_ledger(const Options& options) {
     const Device device = open_chosen_device(options);
-    Progress progress(options.progress, options.verbosity < 0);
+    Progress progress(options.run.progress, options.run.verbosity < 0);
     const Scene scene = load_for_run(options, progress);
     const Ledger ledger = make_ledger(device, scene, options, progress);
     progress.finish();
@@ -64,9 +64,9 @@ int run_ledger(const Options& options) {
 /// Prints the path of one sample.
 int run_replay(const Options& options) {
     const Device device = open_chosen_device(options);
-    Progress progress(options.progress, options.verbosity < 0);
+    Progress progress(options.run.progress, options.run.verbosity < 0);
     Scene scene = load_for_run(options, progress);
-    if (options.given.count("--output"))
+    if (options.run.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
     const PixelReplay replay = replay_pixel(device, std::move(scene), options);
     print_report(options, replay.text);
@@ -81,24 +81,24 @@ int run(int argc, const char* const* argv) {
         return EXIT_DONE;
     }
     const Options& options = command.options;
-    set_driver_environment(options);
-    start_log(options.verbosity);
-    if (options.list_devices) {
+    set_driver_environment(options.device);
+    start_log(options.run.verbosity);
+    if (options.run.list_devices) {
         const std::vector<PlatformInfo> platforms = list_platforms();
         fmt::print("{}", format_device_table(platforms));
-        if (options.verbosity > 0)
-            fmt::print("{}", format_facts(platforms, {options.cache, options.cache_folder}));
+        if (options.run.verbosity > 0)
+            fmt::print("{}", format_facts(platforms, {options.device.cache, options.device.cache_folder}));
         return EXIT_DONE;
     }
-    if (!options.sidecar_path.empty())
-        spdlog::info("options file: {}", options.sidecar_path);
-    if (options.explain != Explain::NO) // has nothing to save
+    if (!options.run.sidecar_path.empty())
+        spdlog::info("options file: {}", options.run.sidecar_path);
+    if (options.run.explain != Explain::NO) // has nothing to save
         return run_explain(options);
     catch_stop_signals();
     report_broken_pipes();
-    if (options.pixel)
+    if (options.run.pixel)
         return run_replay(options);
-    return options.ledger ? run_ledger(options) : run_render(options);
+    return options.run.ledger ? run_ledger(options) : run_render(options);
 }
 
 } // namespace

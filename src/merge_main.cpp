@@ -3,7 +3,7 @@
 #include "app/log.h"
 #include "app/look_option.h"
 #include "app/run_program.h"
-#include "app/signals.h"
+#include "console/signals.h"
 #include "error.h"
 #include "exit_code.h"
 #include "film/checkpoint.h"
@@ -132,8 +132,8 @@ void merge(const MergeOptions& options, const Options& look) {
 
     check_replaced_films(options, sum);
     const Picture picture = film_picture(sum);
-    const double exposure_ev = chosen_exposure_ev(look, picture.layers[0].values);
-    if (look.auto_exposure)
+    const double exposure_ev = chosen_exposure_ev(look.output, picture.layers[0].values);
+    if (look.output.auto_exposure)
         spdlog::info("{}", exposure_notice(exposure_ev));
     warn_of_lost_alpha(picture, options.outputs);
     FinalFiles files;
@@ -142,7 +142,7 @@ void merge(const MergeOptions& options, const Options& look) {
             if (is_film_path(path))
                 write_film_file(path, sum);
             else
-                write_picture(picture, path, exposure_ev, look.tonemap);
+                write_picture(picture, path, exposure_ev, look.output.tonemap);
         });
     files.finish();
     if (options.quiet)

@@ -6,7 +6,7 @@
 #include "app/help_text.h"
 #include "app/option_checks.h"
 #include "app/options_file.h"
-#include "app/terminal.h"
+#include "console/terminal.h"
 #include "error.h"
 #include "film/film_file.h"
 #include "output/file_name.h"
@@ -120,10 +120,10 @@ std::vector<std::string> resumable_command(const Arguments& arguments) {
 
 /// The name of --checkpoint. A film is one file that grows, so of the placeholders only {seed} has one value.
 std::string film_name(const Options& options) {
-    const std::string& name = options.checkpoint_path;
+    const std::string& name = options.film_file.checkpoint_path;
     try {
-        const std::string film = expand_file_name(name, {options.seed, 0, 1});
-        if (film != expand_file_name(name, {options.seed, 1, 2}))
+        const std::string film = expand_file_name(name, {options.sampling.seed, 0, 1});
+        if (film != expand_file_name(name, {options.sampling.seed, 1, 2}))
             throw UsageError("expected no placeholder but {seed}, found '" + name + "'");
         return film;
     } catch (const UsageError& error) {
@@ -135,23 +135,23 @@ std::string film_name(const Options& options) {
 void check_folders(const Options& options) {
     const auto check = [&](const std::string& name) {
         if (!name.empty())
-            check_output_folder(expand_file_name(name, {options.seed, 0, 1}));
+            check_output_folder(expand_file_name(name, {options.sampling.seed, 0, 1}));
     };
-    check(options.stats_path);
-    if (options.pixel) // writes nothing else
+    check(options.output.stats_path);
+    if (options.run.pixel) // writes nothing else
         return;
-    for (const std::string& path : options.outputs)
+    for (const std::string& path : options.output.files)
         check(path);
-    if (!options.checkpoint_path.empty())
-        check_output_folder(options.checkpoint_path);
+    if (!options.film_file.checkpoint_path.empty())
+        check_output_folder(options.film_file.checkpoint_path);
 }
 
 /// Every picture of a turn gets a name of its own.
 void number_names(Options& options) {
-    for (std::string& path : options.outputs)
+    for (std::string& path : options.output.files)
         path = with_frame_number(path);
-    if (!options.stats_path.empty())
-        options.stats_path = with_frame_number(options.stats_path);
+    if (!options.output.stats_path.empty())
+        options.output.stats_path = with_frame_number(options.output.stats_path);
 }
 
 } // namespace
@@ -175,16 +175,16 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
     // Read the options file beside the scene, less what the command line overrules.
     Options& options = result.options;
-    options.command.assign(argv, argv + argc);
-    options.resumable_command = resumable_command(arguments);
+    options.run.command.assign(argv, argv + argc);
+    options.run.resumable_command = resumable_command(arguments);
     const bool list_devices = is_given(arguments.options, "--list-devices");
-    options.scene_path = only_scene(arguments.scenes, list_devices);
+    options.scene.path = only_scene(arguments.scenes, list_devices);
     if (!list_devices && !is_given(arguments.options, "--no-sidecar") &&
-        !is_standard_input(options.scene_path))
-        options.sidecar_path = find_options_file(options.scene_path);
+        !is_standard_input(options.scene.path))
+        options.run.sidecar_path = find_options_file(options.scene.path);
     std::vector<GivenOption> given;
-    if (!options.sidecar_path.empty()) {
-        given = read_options_file(options.sidecar_path);
+    if (!options.run.sidecar_path.empty()) {
+        given = read_options_file(options.run.sidecar_path);
         reject_exclusive(given);
         given.erase(
             std::remove_if(given.begin(), given.end(),
@@ -198,25 +198,26 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     for (const GivenOption& option : given) {
         option.spec->apply(options, option.value);
         const std::string& origin = option.value.origin; // "file:line: "
-        options.given[option.value.option] = origin.substr(0, origin.find_last_not_of(": ") + 1);
+        options.run.given[option.value.option] = origin.substr(0, origin.find_last_not_of(": ") + 1);
     }
-    if (options.outputs.empty() && !options.scene_path.empty())
-        options.outputs.push_back(literal_file_name(
-            std::filesystem::path(input_name(options.scene_path)).stem().string() + ".png"));
-    options.checkpoint_path =
-        options.resume_path.empty() || names_checkpoint ? film_name(options) : options.resume_path;
+    if (options.output.files.empty() && !options.scene.path.empty())
+        options.output.files.push_back(literal_file_name(
+            std::filesystem::path(input_name(options.scene.path)).stem().string() + ".png"));
+    options.film_file.checkpoint_path = options.film_file.resume_path.empty() || names_checkpoint
+                                            ? film_name(options)
+                                            : options.film_file.resume_path;
     // A ledger's compile seconds are those of a first start; its samples are its own unless the command line
     // says how many.
-    if (options.ledger && options.cache == Toggle::AUTO)
-        options.cache = Toggle::OFF;
-    if (options.ledger && !is_given(arguments.options, "--spp"))
-        options.spp.reset();
-    if (options.ledger && !is_given(arguments.options, "--time"))
-        options.time_seconds.reset();
+    if (options.run.ledger && options.device.cache == Toggle::AUTO)
+        options.device.cache = Toggle::OFF;
+    if (options.run.ledger && !is_given(arguments.options, "--spp"))
+        options.sampling.spp.reset();
+    if (options.run.ledger && !is_given(arguments.options, "--time"))
+        options.sampling.time_seconds.reset();
     check_combinations(options);
-    if (options.frames)
+    if (options.camera.frames)
         number_names(options);
-    if (!options.scene_path.empty() && !list_devices && options.explain == Explain::NO)
+    if (!options.scene.path.empty() && !list_devices && options.run.explain == Explain::NO)
         check_folders(options);
     return result;
 }

@@ -2,7 +2,7 @@
 // argv and the options file -> Options.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 #include <optional>
 #include <string>

@@ -24,9 +24,9 @@ u32 known_effect(const OptionValue& value, const std::string& name) {
 } // namespace
 
 void apply_effects(Options& options, const OptionValue& value) {
-    options.all_effects = false;
-    options.effects_list.reset();
-    options.effects_off = 0;
+    options.effects.all = false;
+    options.effects.list.reset();
+    options.effects.off = 0;
     bool is_first = true;
     for (const std::string& part : split_list(value.text)) {
         const bool is_start = part == "auto" || part == "all";
@@ -34,15 +34,15 @@ void apply_effects(Options& options, const OptionValue& value) {
         if (is_start && !is_first)
             reject_value(value, "auto or all before everything else");
         if (part == "all")
-            options.all_effects = true;
+            options.effects.all = true;
         else if (is_away)
-            options.effects_off |= known_effect(value, part.substr(1));
+            options.effects.off |= known_effect(value, part.substr(1));
         else if (!is_start) {
             const u32 bit = known_effect(value, part);
-            if (!is_first && !options.effects_list)
+            if (!is_first && !options.effects.list)
                 reject_value(value, "effects with a '-' after auto, all or another '-', which '" + part +
                                         "' adds nothing to");
-            options.effects_list = options.effects_list.value_or(0) | bit;
+            options.effects.list = options.effects.list.value_or(0) | bit;
         }
         is_first = false;
     }

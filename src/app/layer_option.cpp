@@ -30,15 +30,15 @@ void add_path_layer(Options& o, const OptionValue& v, const std::string& name,
                          LETTERS.find(name[0]) != std::string::npos &&
                          name.find_first_not_of(LETTERS + REST) == std::string::npos;
     const bool is_taken = std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
-                          std::any_of(o.path_layers.begin(), o.path_layers.end(),
+                          std::any_of(o.output.path_layers.begin(), o.output.path_layers.end(),
                                       [&](const auto& l) { return l.name == name; });
     if (!is_name || is_taken)
         reject_value(v,
                      "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
-    if (o.path_layers.size() == PATH_LAYERS_LIMIT)
+    if (o.output.path_layers.size() == PATH_LAYERS_LIMIT)
         reject_value(v, "at most " + std::to_string(PATH_LAYERS_LIMIT) + " layers NAME=EXPR");
     check_paths(v, expression);
-    o.path_layers.push_back({name, expression});
+    o.output.path_layers.push_back({name, expression});
 }
 
 } // namespace
@@ -53,9 +53,9 @@ void check_paths(const OptionValue& v, const std::string& expression) {
 
 void apply_aov(Options& o, const OptionValue& v) {
     const std::vector<std::string>& fixed = fixed_layers();
-    const bool is_first = !o.aovs;
+    const bool is_first = !o.output.aovs;
     if (is_first)
-        o.aovs.emplace();
+        o.output.aovs.emplace();
     if (v.text == "none" && is_first)
         return;
     for (const std::string& layer : split_list(v.text)) {
@@ -64,12 +64,13 @@ void apply_aov(Options& o, const OptionValue& v) {
             continue;
         }
         const bool known = std::find(fixed.begin(), fixed.end(), layer) != fixed.end();
-        const bool repeated = std::find(o.aovs->begin(), o.aovs->end(), layer) != o.aovs->end();
+        const bool repeated =
+            std::find(o.output.aovs->begin(), o.output.aovs->end(), layer) != o.output.aovs->end();
         if (!known || repeated)
             reject_value(
                 v, "none or a list such as albedo,N of different layers out of albedo, N, Z, P, objectId, "
                    "materialId, variance, samples, badSamples, alpha, and NAME=EXPR");
-        o.aovs->push_back(layer);
+        o.output.aovs->push_back(layer);
     }
 }
 

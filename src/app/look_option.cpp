@@ -23,21 +23,21 @@ const char* const TONEMAP_HELP =
 void apply_exposure(Options& options, const OptionValue& value) {
     const std::string expected = "stops from -100 to 100, auto, or auto with a sign and stops such as auto+1";
     const std::string word = "auto";
-    options.auto_exposure = value.text.compare(0, word.size(), word) == 0;
+    options.output.auto_exposure = value.text.compare(0, word.size(), word) == 0;
     OptionValue stops = value;
-    if (options.auto_exposure)
+    if (options.output.auto_exposure)
         stops.text = value.text == word ? "+0" : value.text.substr(word.size());
-    if (options.auto_exposure && stops.text[0] != '+' && stops.text[0] != '-')
+    if (options.output.auto_exposure && stops.text[0] != '+' && stops.text[0] != '-')
         reject_value(value, expected);
-    options.exposure_ev = parse_number(stops, expected, is_exposure);
+    options.output.exposure_ev = parse_number(stops, expected, is_exposure);
 }
 
 void apply_tonemap(Options& options, const OptionValue& value) {
-    options.tonemap = parse_choice<Tonemap>(value, {{"none", Tonemap::NONE},
-                                                    {"reinhard", Tonemap::REINHARD},
-                                                    {"aces", Tonemap::ACES},
-                                                    {"filmic", Tonemap::FILMIC},
-                                                    {"agx", Tonemap::AGX}});
+    options.output.tonemap = parse_choice<Tonemap>(value, {{"none", Tonemap::NONE},
+                                                           {"reinhard", Tonemap::REINHARD},
+                                                           {"aces", Tonemap::ACES},
+                                                           {"filmic", Tonemap::FILMIC},
+                                                           {"agx", Tonemap::AGX}});
 }
 
 } // namespace clrt

@@ -44,32 +44,32 @@ std::vector<std::string> options_named(const std::string& message) {
 [[noreturn]] void reject(const Options& options, const std::string& message) {
     std::string origins;
     for (const std::string& name : options_named(message))
-        if (const auto given = options.given.find(name);
-            given != options.given.end() && !given->second.empty())
+        if (const auto given = options.run.given.find(name);
+            given != options.run.given.end() && !given->second.empty())
             origins += (origins.empty() ? " (" : ", ") + name + " is from " + given->second;
     throw UsageError(message + (origins.empty() ? "" : origins + ")"));
 }
 
 void check_crop(const Options& options) {
-    if (!options.crop)
+    if (!options.film.crop)
         return;
-    const Crop& c = *options.crop;
-    if (c.x1 <= options.size.x && c.y1 <= options.size.y)
+    const Crop& c = *options.film.crop;
+    if (c.x1 <= options.film.size.x && c.y1 <= options.film.size.y)
         return;
     const auto text = [](int x) { return std::to_string(x); };
-    reject(options, "option --crop: expected a window inside the picture of " + text(options.size.x) + "x" +
-                        text(options.size.y) + " pixels (--size), found " + text(c.x0) + "," + text(c.y0) +
-                        "," + text(c.x1) + "," + text(c.y1));
+    reject(options, "option --crop: expected a window inside the picture of " + text(options.film.size.x) +
+                        "x" + text(options.film.size.y) + " pixels (--size), found " + text(c.x0) + "," +
+                        text(c.y0) + "," + text(c.x1) + "," + text(c.y1));
 }
 
 void check_output_sizes(const Options& options) {
-    const glm::ivec2 window =
-        options.crop ? glm::ivec2(options.crop->x1 - options.crop->x0, options.crop->y1 - options.crop->y0)
-                     : options.size;
-    for (const std::string& path : options.outputs) {
+    const glm::ivec2 window = options.film.crop ? glm::ivec2(options.film.crop->x1 - options.film.crop->x0,
+                                                             options.film.crop->y1 - options.film.crop->y0)
+                                                : options.film.size;
+    for (const std::string& path : options.output.files) {
         const int limit = largest_output_side(path);
         if (window.x > limit || window.y > limit)
-            reject(options, std::string("option ") + (options.crop ? "--crop" : "--size") +
+            reject(options, std::string("option ") + (options.film.crop ? "--crop" : "--size") +
                                 ": expected at most " + std::to_string(limit) + " pixels a side for '" +
                                 path + "', found " + std::to_string(window.x) + "x" +
                                 std::to_string(window.y) + "; .png and .exr hold it");
@@ -86,41 +86,43 @@ void check_lens(const Options& options) {
 }
 
 void check_samples(const Options& options) {
-    const std::uint64_t end = std::uint64_t(options.first_sample) +
-                              options.spp.value_or(options.error ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
+    const std::uint64_t end =
+        std::uint64_t(options.sampling.first_sample) +
+        options.sampling.spp.value_or(options.sampling.error ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
     if (end >= SAMPLE_LIMIT)
         reject(options, "options --first-sample and --spp: expected a sum below " +
                             std::to_string(SAMPLE_LIMIT) + ", found " + std::to_string(end));
 }
 
 void check_error_target(const Options& options) {
-    if (options.error && options.replicates < FEWEST_REPLICATES_WITH_ERROR)
-        reject(options,
-               "option --error: expected --replicates " + std::to_string(FEWEST_REPLICATES_WITH_ERROR) +
-                   " or more, whose spread is the error, found " + std::to_string(options.replicates));
+    if (options.sampling.error && options.sampling.replicates < FEWEST_REPLICATES_WITH_ERROR)
+        reject(options, "option --error: expected --replicates " +
+                            std::to_string(FEWEST_REPLICATES_WITH_ERROR) +
+                            " or more, whose spread is the error, found " +
+                            std::to_string(options.sampling.replicates));
 }
 
 /// Halves of the replicates decide for each other, from two samples in each replicate on.
 void check_adaptive(const Options& options) {
-    if (!options.adaptive)
+    if (!options.sampling.adaptive)
         return;
-    const int replicates = options.replicates;
+    const int replicates = options.sampling.replicates;
     if (replicates < FEWEST_ADAPTIVE_REPLICATES || replicates % 2 != 0)
         reject(options, "option --adaptive: expected an even number of --replicates from " +
                             std::to_string(FEWEST_ADAPTIVE_REPLICATES) + ", found " +
                             std::to_string(replicates));
-    if (options.spp && *options.spp < pilot_samples(replicates))
+    if (options.sampling.spp && *options.sampling.spp < pilot_samples(replicates))
         reject(options, "option --adaptive: expected --spp " + std::to_string(pilot_samples(replicates)) +
                             " or more with --replicates " + std::to_string(replicates) + ", found " +
-                            std::to_string(*options.spp));
-    if (options.first_sample != 0)
+                            std::to_string(*options.sampling.spp));
+    if (options.sampling.first_sample != 0)
         reject(options, "option --adaptive: expected no --first-sample, found " +
-                            std::to_string(options.first_sample) +
+                            std::to_string(options.sampling.first_sample) +
                             "; adaptive films do not merge, --resume goes on with them");
-    if (!options.path_layers.empty())
+    if (!options.output.path_layers.empty())
         reject(options, "option --adaptive: expected no --aov NAME=EXPR, found the layer '" +
-                            options.path_layers.front().name + "', which is not summed by halves");
-    if (options.ledger)
+                            options.output.path_layers.front().name + "', which is not summed by halves");
+    if (options.run.ledger)
         reject(options, "option --adaptive: expected no --ledger, found both; the ledger compares pictures "
                         "of equal samples");
 }
@@ -133,81 +135,85 @@ void check_name(const Options& options, const char* option, const std::string& n
     } catch (const UsageError& error) {
         reject(options, std::string("option ") + option + ": " + error.what());
     }
-    if (has_frame && !options.frames)
+    if (has_frame && !options.camera.frames)
         reject(options,
                std::string("option ") + option + ": expected --frames with '" + name + "', found none");
 }
 
 void check_names(const Options& options) {
-    for (const std::string& path : options.outputs)
+    for (const std::string& path : options.output.files)
         check_name(options, "--output", path);
-    check_name(options, "--stats", options.stats_path);
+    check_name(options, "--stats", options.output.stats_path);
 }
 
 /// A turn is pictures, one after the other.
 void check_frames(const Options& options) {
-    if (!options.frames)
+    if (!options.camera.frames)
         return;
-    const std::pair<const char*, bool> others[] = {{"--resume", !options.resume_path.empty()},
-                                                   {"--checkpoint", !options.checkpoint_path.empty()},
-                                                   {"--pixel", options.pixel.has_value()},
-                                                   {"--ledger", options.ledger},
-                                                   {"--explain", options.explain != Explain::NO}};
+    const std::pair<const char*, bool> others[] = {
+        {"--resume", !options.film_file.resume_path.empty()},
+        {"--checkpoint", !options.film_file.checkpoint_path.empty()},
+        {"--pixel", options.run.pixel.has_value()},
+        {"--ledger", options.run.ledger},
+        {"--explain", options.run.explain != Explain::NO}};
     for (const auto& [name, is_given] : others)
         if (is_given)
             reject(options,
                    std::string("options --frames and ") + name + ": expected one of them, found both");
-    std::vector<std::string> results = options.outputs;
-    results.push_back(options.stats_path);
+    std::vector<std::string> results = options.output.files;
+    results.push_back(options.output.stats_path);
     if (std::any_of(results.begin(), results.end(), is_standard_output))
         reject(options, "option --frames: expected files for its results, found the standard output");
 }
 
 /// The standard output takes one picture, at the end.
 void check_save_every(const Options& options) {
-    if (options.save_every_seconds && !options.outputs.empty() &&
-        std::all_of(options.outputs.begin(), options.outputs.end(), is_standard_output))
+    if (options.output.save_every_seconds && !options.output.files.empty() &&
+        std::all_of(options.output.files.begin(), options.output.files.end(), is_standard_output))
         reject(options,
                "option --save-every: expected an --output to a file, found the standard output alone");
 }
 
 /// --pixel and --sample name a sample of the picture.
 void check_replay(const Options& options) {
-    if (!options.pixel) {
-        if (options.given.count("--sample"))
+    if (!options.run.pixel) {
+        if (options.run.given.count("--sample"))
             reject(options, "option --sample: expected together with --pixel, found alone");
         return;
     }
-    const Crop window = options.crop.value_or(Crop{0, 0, options.size.x, options.size.y});
-    const glm::ivec2 p = *options.pixel;
+    const Crop window = options.film.crop.value_or(Crop{0, 0, options.film.size.x, options.film.size.y});
+    const glm::ivec2 p = *options.run.pixel;
     if (p.x < window.x0 || p.x >= window.x1 || p.y < window.y0 || p.y >= window.y1)
         reject(options, "option --pixel: expected a pixel of the picture, from " + std::to_string(window.x0) +
                             "," + std::to_string(window.y0) + " to " + std::to_string(window.x1 - 1) + "," +
                             std::to_string(window.y1 - 1) + ", found " + std::to_string(p.x) + "," +
                             std::to_string(p.y));
-    if (!options.spp) // no known end
+    if (!options.sampling.spp) // no known end
         return;
-    const std::uint64_t end = std::uint64_t(options.first_sample) + *options.spp;
-    if (options.sample < options.first_sample || options.sample >= end)
+    const std::uint64_t end = std::uint64_t(options.sampling.first_sample) + *options.sampling.spp;
+    if (options.run.sample < options.sampling.first_sample || options.run.sample >= end)
         reject(options, "option --sample: expected a sample of the picture, from " +
-                            std::to_string(options.first_sample) + " to " + std::to_string(end - 1) +
-                            ", found " + std::to_string(options.sample));
+                            std::to_string(options.sampling.first_sample) + " to " + std::to_string(end - 1) +
+                            ", found " + std::to_string(options.run.sample));
 }
 
 /// Only `path` walks the automaton; the others simulate one language each.
 void check_paths(const Options& options) {
-    const bool has_paths = !options.paths.empty();
-    if (options.integrator != Integrator::PATH && (has_paths || !options.path_layers.empty())) {
-        const bool whitted = options.integrator == Integrator::WHITTED;
+    const bool has_paths = !options.transport.paths.empty();
+    if (options.transport.integrator != Integrator::PATH &&
+        (has_paths || !options.output.path_layers.empty())) {
+        const bool whitted = options.transport.integrator == Integrator::WHITTED;
         reject(options, std::string(has_paths ? "option --paths" : "option --aov NAME=EXPR") +
                             ": expected --integrator path, found " +
                             (whitted ? "whitted, which simulates 'LD?S*E' alone"
                                      : "raycast, which simulates 'LD?E' alone"));
     }
-    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_layered_output);
-    if (!options.path_layers.empty() && !has_exr && options.explain == Explain::NO && !options.pixel)
+    const bool has_exr =
+        std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
+    if (!options.output.path_layers.empty() && !has_exr && options.run.explain == Explain::NO &&
+        !options.run.pixel)
         reject(options, "option --aov: expected an output that ends in .exr for the layer '" +
-                            options.path_layers.front().name + "', found none; add -o FILE.exr");
+                            options.output.path_layers.front().name + "', found none; add -o FILE.exr");
 }
 
 } // namespace
@@ -225,9 +231,11 @@ void check_combinations(const Options& options) {
     check_save_every(options);
     check_paths(options);
     check_replay(options);
-    if (options.integrator == Integrator::WHITTED && effective_max_depth(options) > WHITTED_STACK_DEPTH)
+    if (options.transport.integrator == Integrator::WHITTED &&
+        effective_max_depth(options.transport) > WHITTED_STACK_DEPTH)
         reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
-                            " with --integrator whitted, found " + std::to_string(*options.max_depth));
+                            " with --integrator whitted, found " +
+                            std::to_string(*options.transport.max_depth));
     if (options.camera.eye && options.camera.eye == options.camera.at)
         reject(options, "options --eye and --at: expected two different points, found the same");
 }

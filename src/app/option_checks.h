@@ -2,7 +2,7 @@
 // Options that are fine one by one and make no sense together.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 namespace clrt {
 

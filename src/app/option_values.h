@@ -3,7 +3,7 @@
 // UsageError that names the option, the value found and what was expected.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 #include <array>
 #include <filesystem>

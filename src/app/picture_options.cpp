@@ -19,21 +19,21 @@ void apply_filter(Options& o, const OptionValue& v) {
     const size_t colon = v.text.find(':');
     OptionValue name = v, radius = v;
     name.text = v.text.substr(0, colon);
-    o.filter = parse_choice<Filter>(
+    o.film.filter = parse_choice<Filter>(
         name, {{"box", Filter::BOX}, {"tent", Filter::TENT}, {"gaussian", Filter::GAUSSIAN}});
-    o.filter_radius.reset();
+    o.film.filter_radius.reset();
     if (colon == std::string::npos)
         return;
     radius.text = v.text.substr(colon + 1);
-    o.filter_radius = parse_number(radius, "a radius in pixels above 0 and up to 100 after the ':'",
-                                   [](double r) { return r > 0 && r <= LARGEST_FILTER_RADIUS; });
+    o.film.filter_radius = parse_number(radius, "a radius in pixels above 0 and up to 100 after the ':'",
+                                        [](double r) { return r > 0 && r <= LARGEST_FILTER_RADIUS; });
 }
 
 void apply_output(Options& o, const OptionValue& v) {
     const std::string path = parse_result(v);
     if (!is_output_path(path))
         reject_value(v, expected_output());
-    o.outputs.push_back(path);
+    o.output.files.push_back(path);
 }
 
 } // namespace
@@ -42,7 +42,7 @@ std::vector<OptionSpec> picture_options() {
     const char* const group = "Picture";
     return {
         {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",
-         [](Options& o, const OptionValue& v) { o.size = parse_size(v); }},
+         [](Options& o, const OptionValue& v) { o.film.size = parse_size(v); }},
         {group, "o", "--output", "FILE",
          ".png .jpg .bmp .tga .ppm (8-bit sRGB), .exr .hdr .pfm .tif (linear), or to the standard output as "
          "png:-, exr:- and so on, the report then to stderr; {seed}, {spp} and {frame} in it and in --stats "
@@ -54,11 +54,11 @@ std::vector<OptionSpec> picture_options() {
          "names get "
          "-0001 and so on, or say where by {frame}; -s, -t and -e count for each (default: one picture)",
          [](Options& o, const OptionValue& v) {
-             o.frames = static_cast<int>(parse_whole(v, 1, MOST_FRAMES));
+             o.camera.frames = static_cast<int>(parse_whole(v, 1, MOST_FRAMES));
          }},
         {group, "", "--crop", "X0,Y0,X1,Y1",
          "render this window only; pixels from the top left, end excluded",
-         [](Options& o, const OptionValue& v) { o.crop = parse_crop(v); }},
+         [](Options& o, const OptionValue& v) { o.film.crop = parse_crop(v); }},
         {group, "", "--filter", "NAME[:RADIUS]",
          "box, tent or gaussian; radius in pixels (default box; radius 0.5, 1 or 1.5)", apply_filter},
         {group, "", "--exposure", "auto|EV", EXPOSURE_HELP, apply_exposure},

@@ -13,7 +13,7 @@ std::vector<OptionSpec> promise_options() {
          [](Options& o, const OptionValue& v) {
              if (!v.text.empty() && v.text != "json")
                  reject_value(v, "--explain or --explain=json");
-             o.explain = v.text.empty() ? Explain::TABLE : Explain::JSON;
+             o.run.explain = v.text.empty() ? Explain::TABLE : Explain::JSON;
          }},
         {group, "", "--effects", "auto|all|LIST",
          "simulate what the scene needs (auto), with everything compiled in (all; same picture), or only the "
@@ -27,30 +27,31 @@ std::vector<OptionSpec> promise_options() {
          "'L(D|S)*E' (default: all)",
          [](Options& o, const OptionValue& v) {
              check_paths(v, v.text);
-             o.paths = v.text;
+             o.transport.paths = v.text;
          }},
         {group, "", "--ledger", "",
          "measure what every effect costs in time and gives in light, by rendering without it; --time bounds "
          "all of it, and effects that do not fit are named (default: all effects, a minute after compiling); "
          "writes no picture",
-         [](Options& o, const OptionValue&) { o.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
+         [](Options& o, const OptionValue&) { o.run.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--stats", "FILE",
          "write statistics of the run as JSON, in SI units; - is the standard output, the report then goes "
          "to stderr",
-         [](Options& o, const OptionValue& v) { o.stats_path = parse_result(v); }},
+         [](Options& o, const OptionValue& v) { o.output.stats_path = parse_result(v); }},
         {group, "", "--check", "MODE", "non-finite samples: off, count, strict (exit 4) (default count)",
          [](Options& o, const OptionValue& v) {
-             o.check = parse_choice<Check>(
+             o.run.check = parse_choice<Check>(
                  v, {{"off", Check::OFF}, {"count", Check::COUNT}, {"strict", Check::STRICT}});
          }},
         {group, "", "--pixel", "X,Y",
          "replay one sample of this pixel and print its path, in single and double precision side by side; "
          "-v adds "
          "hexadecimal numbers, --stats writes JSON; no picture",
-         [](Options& o, const OptionValue& v) { o.pixel = parse_pixel(v); }, Repeat::NO, COMMAND_LINE_ONLY},
+         [](Options& o, const OptionValue& v) { o.run.pixel = parse_pixel(v); }, Repeat::NO,
+         COMMAND_LINE_ONLY},
         {group, "", "--sample", "N", "which sample of --pixel (default 0)",
          [](Options& o, const OptionValue& v) {
-             o.sample = static_cast<std::uint32_t>(parse_whole(v, 0, LARGEST_U32 - 1));
+             o.run.sample = static_cast<std::uint32_t>(parse_whole(v, 0, LARGEST_U32 - 1));
          },
          Repeat::NO, COMMAND_LINE_ONLY},
     };

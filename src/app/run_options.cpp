@@ -18,14 +18,14 @@ void apply_checkpoint(Options& o, const OptionValue& v) {
                               std::isdigit(static_cast<unsigned char>(v.text[comma + 1]));
     OptionValue path = v, interval = v;
     path.text = has_interval ? v.text.substr(0, comma) : v.text;
-    o.checkpoint_path = parse_path(path);
+    o.film_file.checkpoint_path = parse_path(path);
     if (is_standard_output(path.text))
         reject_value(v, "a file: films are read again, the standard output is not");
-    o.checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;
+    o.film_file.checkpoint_seconds = DEFAULT_CHECKPOINT_SECONDS;
     if (!has_interval)
         return;
     interval.text = v.text.substr(comma + 1);
-    o.checkpoint_seconds = parse_duration(interval);
+    o.film_file.checkpoint_seconds = parse_duration(interval);
 }
 
 Toggle parse_toggle(const OptionValue& v) {
@@ -45,35 +45,35 @@ std::vector<OptionSpec> run_options() {
         {group, "", "--resume", "FILE",
          "go on from a film file and write it anew: with the same command, or alone with another --spp, "
          "--time or --error, and then without the -q, -v, --progress and --checkpoint of its command",
-         [](Options& o, const OptionValue& v) { o.resume_path = parse_path(v); }, Repeat::NO,
+         [](Options& o, const OptionValue& v) { o.film_file.resume_path = parse_path(v); }, Repeat::NO,
          COMMAND_LINE_ONLY},
         {group, "", "--force", "",
          "let --checkpoint replace what is there, be it a film of more samples, one of another scene, or "
          "no film",
-         [](Options& o, const OptionValue&) { o.force = true; }, Repeat::NO, COMMAND_LINE_ONLY},
+         [](Options& o, const OptionValue&) { o.film_file.force = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--save-every", "DURATION",
          "write the pictures so far so often (default: at the end only)",
-         [](Options& o, const OptionValue& v) { o.save_every_seconds = parse_duration(v); }},
+         [](Options& o, const OptionValue& v) { o.output.save_every_seconds = parse_duration(v); }},
         {group, "", "--kernels", "DIR", "take the kernels from here (default: those inside clrt)",
-         [](Options& o, const OptionValue& v) { o.kernels_folder = parse_path(v); }},
+         [](Options& o, const OptionValue& v) { o.device.kernels_folder = parse_path(v); }},
         {group, "", "--dump-kernels", "DIR", "write here exactly what is compiled",
-         [](Options& o, const OptionValue& v) { o.dump_folder = parse_path(v); }},
+         [](Options& o, const OptionValue& v) { o.device.dump_folder = parse_path(v); }},
         {group, "", "--cache", "MODE",
          "keep compiled kernels: on; auto: unless the driver does; off: neither (default auto)",
-         [](Options& o, const OptionValue& v) { o.cache = parse_toggle(v); }},
+         [](Options& o, const OptionValue& v) { o.device.cache = parse_toggle(v); }},
         {group, "", "--no-cache", "", "same as --cache off",
-         [](Options& o, const OptionValue&) { o.cache = Toggle::OFF; }},
+         [](Options& o, const OptionValue&) { o.device.cache = Toggle::OFF; }},
         {group, "", "--cache-dir", "DIR", "where to keep them (default: clrt in the user's cache folder)",
-         [](Options& o, const OptionValue& v) { o.cache_folder = parse_path(v); }},
+         [](Options& o, const OptionValue& v) { o.device.cache_folder = parse_path(v); }},
         {group, "", "--progress", "MODE",
          "auto (a line on a terminal, else one now and then), on, off (default auto)",
-         [](Options& o, const OptionValue& v) { o.progress = parse_toggle(v); }},
+         [](Options& o, const OptionValue& v) { o.run.progress = parse_toggle(v); }},
         {group, "q", "--quiet", "", "errors only, no progress",
-         [](Options& o, const OptionValue&) { o.verbosity = -1; }},
+         [](Options& o, const OptionValue&) { o.run.verbosity = -1; }},
         {group, "v", "--verbose", "", "say everything: the report too",
-         [](Options& o, const OptionValue&) { o.verbosity = 1; }},
+         [](Options& o, const OptionValue&) { o.run.verbosity = 1; }},
         {group, "", "--no-sidecar", "", "leave the options file SCENE.clrt unread",
-         [](Options& o, const OptionValue&) { o.no_sidecar = true; }, Repeat::NO, COMMAND_LINE_ONLY},
+         [](Options& o, const OptionValue&) { o.run.no_sidecar = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "h", "--help", "", "print this page and exit", no_effect, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--version", "", "print the version and exit", no_effect, Repeat::NO, COMMAND_LINE_ONLY},
     };

@@ -2,9 +2,9 @@
 // Kernel programs: options, build with log, disk cache, arguments bound by name.
 #pragma once
 
-#include "app/options.h"
 #include "device/device.h"
 #include "device/opencl_error.h"
+#include "options/options.h"
 
 #include <map>
 #include <string>

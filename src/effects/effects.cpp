@@ -30,8 +30,8 @@ std::string quoted_place(const SourcePlace& place) {
 
 /// Where an option was given: a line of the options file, or the command line.
 SourcePlace place_of(const Options& options, const std::string& name) {
-    const auto given = options.given.find(name);
-    if (given == options.given.end())
+    const auto given = options.run.given.find(name);
+    if (given == options.run.given.end())
         return {};
     const size_t colon = given->second.rfind(':');
     if (colon == std::string::npos)
@@ -150,7 +150,7 @@ void find_light_effects(const Scene& scene, const Options& options, EffectFinder
 
 /// --material may be the reason why effects of materials are absent.
 void find_material_effects(const Options& options, EffectFinder& finder) {
-    const MaterialReplacement* replacement = find_replacement(options.material_override);
+    const MaterialReplacement* replacement = find_replacement(options.scene.material_override);
     const std::string by =
         replacement ? fmt::format(", by {} {}", describe_option(options, "--material"), replacement->name)
                     : "";
@@ -186,18 +186,19 @@ void find_cut_outs(EffectFinder& finder) {
 }
 
 void find_filter(const Options& options, EffectFinder& finder) {
-    const bool filtered = options.filter != Filter::BOX;
+    const bool filtered = options.film.filter != Filter::BOX;
     finder.fact(EFFECT_FILTER, filtered, filtered ? describe_option(options, "--filter") : "box filter",
                 place_of(options, "--filter"));
 }
 
 /// A path of three segments scatters twice.
 void find_interreflection(const Scene& scene, const Options& options, EffectFinder& finder) {
-    const int depth = effective_max_depth(options);
+    const int depth = effective_max_depth(options.transport);
     const size_t reflecting = finder.first_material([](const Material& m) { return m.lobes != 0; });
-    const std::string limit = options.max_depth && options.integrator != Integrator::RAYCAST
-                                  ? fmt::format("{} {}", describe_option(options, "--max-depth"), depth)
-                                  : fmt::format("paths of at most {} segments", depth);
+    const std::string limit =
+        options.transport.max_depth && options.transport.integrator != Integrator::RAYCAST
+            ? fmt::format("{} {}", describe_option(options, "--max-depth"), depth)
+            : fmt::format("paths of at most {} segments", depth);
     if (reflecting == scene.materials.size())
         finder.fact(EFFECT_INTERREFLECTION, false, "no material reflects");
     else if (depth <= 2)
@@ -209,10 +210,10 @@ void find_interreflection(const Scene& scene, const Options& options, EffectFind
 
 /// What --effects asks for, of all effects.
 u32 chosen_effects(const Options& options, u32 needed) {
-    const u32 start = options.effects_list  ? with_implied(*options.effects_list)
-                      : options.all_effects ? EVERY_EFFECT
+    const u32 start = options.effects.list  ? with_implied(*options.effects.list)
+                      : options.effects.all ? EVERY_EFFECT
                                             : needed;
-    return without_effects(start, options.effects_off);
+    return without_effects(start, options.effects.off);
 }
 
 } // namespace
@@ -239,8 +240,8 @@ Effects find_effects(const Scene& scene, const Options& options) {
     effects.left_out = effects.needed & ~chosen;
     if (effects.left_out & EFFECT_PATH_FILTER) {
         Options every = options;
-        every.paths.clear();
-        every.path_layers.clear();
+        every.transport.paths.clear();
+        every.output.path_layers.clear();
         effects.paths = plan_paths(scene, every);
     }
     return effects;

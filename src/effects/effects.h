@@ -3,8 +3,8 @@
 // kernel code on or off (kernels/shared/effects.h).
 #pragma once
 
-#include "app/options.h"
 #include "effects/effect_table.h"
+#include "options/options.h"
 #include "paths/path_plan.h"
 #include "scene/scene.h"
 

@@ -43,7 +43,7 @@ Json materials_json(const Scene& scene) {
 
 std::string explain_json(const Scene& scene, const Effects& effects, const Options& options) {
     Json json;
-    json["scene"] = input_name(options.scene_path);
+    json["scene"] = input_name(options.scene.path);
     json["triangles"] = file_triangles(scene);
     json["effects"] = Json::array();
     for (const Effect& effect : effects.list)
@@ -59,9 +59,9 @@ std::string explain_json(const Scene& scene, const Effects& effects, const Optio
 } // namespace
 
 std::string explain(const Scene& scene, const Effects& effects, const Options& options) {
-    if (options.explain == Explain::JSON)
+    if (options.run.explain == Explain::JSON)
         return explain_json(scene, effects, options);
-    std::string text = fmt::format("Effects of {} ({} triangles):\n{}", input_name(options.scene_path),
+    std::string text = fmt::format("Effects of {} ({} triangles):\n{}", input_name(options.scene.path),
                                    file_triangles(scene), format_effects(effects));
     for (const std::string& line : describe_left_out(effects))
         text += line + "\n";

@@ -2,8 +2,8 @@
 // The text of --explain: what would be rendered and why, without rendering.
 #pragma once
 
-#include "app/options.h"
 #include "effects/effects.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 #include <string>

@@ -145,15 +145,15 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
     if (effects & EFFECT_CUT_OUT)
         take_out_cut_outs(scene);
     if (effects & EFFECT_FILTER) {
-        options.filter = Filter::BOX;
-        options.filter_radius.reset();
+        options.film.filter = Filter::BOX;
+        options.film.filter_radius.reset();
     }
     if (effects & EFFECT_PATH_FILTER) {
-        options.paths.clear();
-        options.path_layers.clear();
+        options.transport.paths.clear();
+        options.output.path_layers.clear();
     }
     if (effects & EFFECT_INTERREFLECTION)
-        options.max_depth = std::min(effective_max_depth(options), 2);
+        options.transport.max_depth = std::min(effective_max_depth(options.transport), 2);
 }
 
 } // namespace clrt

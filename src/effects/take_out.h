@@ -3,7 +3,7 @@
 // that every program renders it alike and no kernel meets data that it was not built for.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 namespace clrt {

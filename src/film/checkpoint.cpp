@@ -36,13 +36,13 @@ std::string samples_text(const std::vector<SampleRange>& ranges) {
 
 FilmFile make_film_file(const RenderProgress& render, const BiasSources& bias, const FilmIdentity& identity,
                         const Options& options, const DeviceInfo& device) {
-    const FilmOrigin origin{options.resumable_command, std::filesystem::current_path().string(),
+    const FilmOrigin origin{options.run.resumable_command, std::filesystem::current_path().string(),
                             device.platform + ": " + device.name};
     return {identity, origin, render, bias};
 }
 
 void check_checkpoint(const Options& options) {
-    const std::string& path = options.checkpoint_path;
+    const std::string& path = options.film_file.checkpoint_path;
     std::error_code error; // what cannot be looked at is refused when it is written
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (path.empty() || !std::filesystem::exists(status))
@@ -50,7 +50,7 @@ void check_checkpoint(const Options& options) {
     if (!std::filesystem::is_regular_file(status))
         throw UsageError(
             fmt::format("option --checkpoint: expected a file, found '{}', a folder or device", path));
-    if (!options.resume_path.empty() || options.force)
+    if (!options.film_file.resume_path.empty() || options.film_file.force)
         return;
     const std::optional<FilmContent> film = content_if_film(path);
     throw UsageError(
@@ -83,15 +83,15 @@ std::optional<std::string> replacement_obstacle(const std::string& path, const F
 }
 
 RenderProgress read_resumed_film(const Options& options, const FilmIdentity& identity) {
-    FilmFile film = read_film_file(options.resume_path);
+    FilmFile film = read_film_file(options.film_file.resume_path);
     std::optional<std::string> difference = identity_difference(film.identity, identity);
     const std::uint64_t first = film.render.film.ranges.front().first;
-    if (!difference && first != options.first_sample)
-        difference = fmt::format("first_sample: expected {}, found {}", first, options.first_sample);
+    if (!difference && first != options.sampling.first_sample)
+        difference = fmt::format("first_sample: expected {}, found {}", first, options.sampling.first_sample);
     if (difference)
         throw UsageError(
             fmt::format("option --resume: scene and options must be those of '{}', but they differ in {}",
-                        options.resume_path, *difference));
+                        options.film_file.resume_path, *difference));
     return std::move(film.render);
 }
 

@@ -9,22 +9,24 @@
 namespace clrt {
 
 std::uint64_t film_capacity(const Film& film, const Options& options) {
-    return FILM_SAMPLES_PER_REPLICATE * std::uint64_t(options.path_layers.empty() ? film.replicates : 1);
+    return FILM_SAMPLES_PER_REPLICATE *
+           std::uint64_t(options.output.path_layers.empty() ? film.replicates : 1);
 }
 
 std::uint64_t film_limit(const Film& film, const Options& options) {
-    const std::uint64_t next = film.ranges.empty() ? options.first_sample : film.ranges.back().end;
+    const std::uint64_t next = film.ranges.empty() ? options.sampling.first_sample : film.ranges.back().end;
     return std::min(film_capacity(film, options), film_samples(film) + UINT32_MAX - next);
 }
 
 void check_film_capacity(const Options& options, const Film& film) {
     const std::uint64_t most = film_capacity(film, options);
-    if (options.spp && *options.spp > most)
-        throw UsageError(fmt::format(
-            "--spp {}: the film holds at most {} samples a pixel with {}; "
-            "render disjoint ranges with --first-sample",
-            *options.spp, most,
-            options.path_layers.empty() ? fmt::format("{} replicates", film.replicates) : "layers of paths"));
+    if (options.sampling.spp && *options.sampling.spp > most)
+        throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with {}; "
+                                     "render disjoint ranges with --first-sample",
+                                     *options.sampling.spp, most,
+                                     options.output.path_layers.empty()
+                                         ? fmt::format("{} replicates", film.replicates)
+                                         : "layers of paths"));
 }
 
 } // namespace clrt

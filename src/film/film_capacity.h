@@ -2,8 +2,8 @@
 // How many samples a film holds. No OpenCL here.
 #pragma once
 
-#include "app/options.h"
 #include "film/film.h"
+#include "options/options.h"
 
 #include <cstdint>
 

@@ -75,7 +75,7 @@ const char* filter_name(Filter filter) {
 
 /// "sky", "transparent", or a radiance.
 FilmIdentity background_identity(const Scene& scene, const Options& options) {
-    if (has_transparent_background(options))
+    if (has_transparent_background(options.light))
         return TRANSPARENT_BACKGROUND;
     if (!scene.background)
         return "sky";
@@ -84,9 +84,11 @@ FilmIdentity background_identity(const Scene& scene, const Options& options) {
 
 /// Hash of the kernels that the options name.
 std::string kernels_hash(const Options& options) {
-    const KernelFiles files =
-        options.kernels_folder.empty() ? embedded_kernel_files() : read_kernel_files(options.kernels_folder);
-    const std::string entry = std::string("integrators/") + integrator_name(options.integrator) + ".cl";
+    const KernelFiles files = options.device.kernels_folder.empty()
+                                  ? embedded_kernel_files()
+                                  : read_kernel_files(options.device.kernels_folder);
+    const std::string entry =
+        std::string("integrators/") + integrator_name(options.transport.integrator) + ".cl";
     const std::string source = expand_kernel_source(files, entry);
     Hash hash;
     hash.bytes(source.data(), source.size());
@@ -124,26 +126,26 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Fil
     const RenderParams params = make_render_params(scene, options, scale);
     FilmIdentity identity;
     identity["version"] = CLRT_VERSION;
-    identity["integrator"] = integrator_name(options.integrator);
+    identity["integrator"] = integrator_name(options.transport.integrator);
     identity["kernels"] = kernels_hash(options);
     identity["size"] = {params.width, params.height};
     identity["window"] = {params.crop_x, params.crop_y, params.crop_x + params.crop_width,
                           params.crop_y + params.crop_height};
     identity["scene"] = scene_hash(scene); // after the size, which a fitted camera follows
-    identity["precision"] = precision_name(options.precision);
-    identity["sampler"] = sampler_name(options.sampler);
-    identity["adaptive"] = options.adaptive;
+    identity["precision"] = precision_name(options.device.precision);
+    identity["sampler"] = sampler_name(options.sampling.sampler);
+    identity["adaptive"] = options.sampling.adaptive;
     identity["seed"] = params.seed;
     identity["replicates"] = params.replicates;
-    identity["filter"] = filter_name(options.filter);
+    identity["filter"] = filter_name(options.film.filter);
     identity["filter_radius"] = params.filter_radius;
     identity["max_depth"] = params.max_depth;
     identity["roulette_depth"] = params.roulette_depth;
     identity["min_contribution"] = params.min_contribution;
     identity["background"] = background_identity(scene, options);
-    identity["paths"] = options.paths;
+    identity["paths"] = options.transport.paths;
     identity["layers"] = FilmIdentity::array();
-    for (const PathLayerOption& layer : options.path_layers)
+    for (const PathLayerOption& layer : options.output.path_layers)
         identity["layers"].push_back({{"name", layer.name}, {"expression", layer.expression}});
     identity["quantum"] = scale.quantum;
     identity["largest"] = scale.largest;

@@ -3,8 +3,8 @@
 // same.
 #pragma once
 
-#include "app/options.h"
 #include "film/film.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 #include <nlohmann/json.hpp>

@@ -151,7 +151,7 @@ void plan_automaton(const PathExpression& picture, const Options& options, PathP
     plan.automaton = make_automaton(picture, layers, plan.alphabet);
 
     // A path of n scattering events has n + 1 segments.
-    const int depth = effective_max_depth(options);
+    const int depth = effective_max_depth(options.transport);
     plan.is_empty = plan.automaton.is_empty() || plan.automaton.states[1].distance + 1 > depth;
     if (const std::optional<int> longest = longest_path(plan.automaton))
         plan.segments = std::min(*longest + 1, depth);
@@ -162,8 +162,8 @@ void plan_automaton(const PathExpression& picture, const Options& options, PathP
 
 PathPlan plan_paths(const Scene& scene, const Options& options) {
     PathPlan plan;
-    plan.expression = options.paths;
-    plan.layers = options.path_layers;
+    plan.expression = options.transport.paths;
+    plan.layers = options.output.path_layers;
     plan.letters = find_letters(scene);
     plan.alphabet = make_alphabet(plan.letters);
     plan.found_by_rays = find_found_by_rays(scene);
@@ -173,7 +173,8 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
         parse_path_expression(plan.expression.empty() ? EVERY_PATH : plan.expression);
     if (plan.is_asked)
         plan_automaton(picture, options, plan);
-    plan.blind_spots = find_blind_spots(plan, picture, options.integrator, effective_max_depth(options));
+    plan.blind_spots =
+        find_blind_spots(plan, picture, options.transport.integrator, effective_max_depth(options.transport));
     return plan;
 }
 

@@ -3,7 +3,7 @@
 // is told.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "paths/automaton.h"
 #include "paths/blind_spots.h"
 #include "scene/scene.h"

@@ -24,28 +24,31 @@ constexpr std::uint32_t SPP_FOR_AN_ERROR = 1024;
 // Rays of a sample: each segment and its shadow ray, as long as roulette lets paths live.
 double rays_per_sample(const Options& options) {
     constexpr int USUAL_SEGMENTS = 5;
-    return options.integrator == Integrator::RAYCAST
+    return options.transport.integrator == Integrator::RAYCAST
                ? 2.0
-               : 2.0 * std::min(effective_max_depth(options), USUAL_SEGMENTS);
+               : 2.0 * std::min(effective_max_depth(options.transport), USUAL_SEGMENTS);
 }
 
 double predicted_seconds(const Options& options, size_t triangles) {
-    double pixels = double(options.size.x) * options.size.y;
-    if (options.crop)
-        pixels = double(options.crop->x1 - options.crop->x0) * (options.crop->y1 - options.crop->y0);
+    double pixels = double(options.film.size.x) * options.film.size.y;
+    if (options.film.crop)
+        pixels = double(options.film.crop->x1 - options.film.crop->x0) *
+                 (options.film.crop->y1 - options.film.crop->y0);
     const double ray_ns = RAY_NS_A_LEVEL * std::log2(double(triangles) + 2);
-    const double seconds = pixels * options.spp.value_or(options.error ? SPP_FOR_AN_ERROR : DEFAULT_SPP) *
-                           rays_per_sample(options) * ray_ns * 1e-9;
-    if (!options.time_seconds)
+    const double seconds =
+        pixels * options.sampling.spp.value_or(options.sampling.error ? SPP_FOR_AN_ERROR : DEFAULT_SPP) *
+        rays_per_sample(options) * ray_ns * 1e-9;
+    if (!options.sampling.time_seconds)
         return seconds;
-    return options.spp ? std::min(seconds, *options.time_seconds) : *options.time_seconds;
+    return options.sampling.spp ? std::min(seconds, *options.sampling.time_seconds)
+                                : *options.sampling.time_seconds;
 }
 
 } // namespace
 
 BvhQualityChoice choose_bvh_quality(const Options& options, size_t triangles) {
-    if (options.bvh_quality != QualityChoice::AUTO)
-        return {options.bvh_quality == QualityChoice::HIGH ? BvhQuality::HIGH : BvhQuality::FAST,
+    if (options.bvh.quality != QualityChoice::AUTO)
+        return {options.bvh.quality == QualityChoice::HIGH ? BvhQuality::HIGH : BvhQuality::FAST,
                 "as chosen"};
     const double saved = SAVED_SHARE * predicted_seconds(options, triangles);
     const double extra = double(triangles) * EXTRA_BUILD_NS * 1e-9;

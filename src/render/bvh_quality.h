@@ -2,8 +2,8 @@
 // Whether a render is long enough to pay for a better tree.
 #pragma once
 
-#include "app/options.h"
 #include "bvh/bvh.h"
+#include "options/options.h"
 
 #include <cstddef>
 #include <string>

@@ -57,16 +57,17 @@ InView probe_view(const VoxelGrid& grid, const Scene& scene, const Options& opti
     const Camera& camera = scene.camera;
     const PictureAxes axes = picture_axes(camera.at - camera.eye, camera.up);
     const double vertical = std::tan(glm::radians(camera.fov_degrees) / 2),
-                 horizontal = vertical * options.size.x / options.size.y;
-    const Crop whole{0, 0, options.size.x, options.size.y}, window = options.crop.value_or(whole);
+                 horizontal = vertical * options.film.size.x / options.film.size.y;
+    const Crop whole{0, 0, options.film.size.x, options.film.size.y},
+        window = options.film.crop.value_or(whole);
     InView view;
     for (int y = 0; y < PROBES; ++y)
         for (int x = 0; x < PROBES; ++x) {
             const double px = window.x0 + (x + 0.5) * (window.x1 - window.x0) / PROBES,
                          py = window.y0 + (y + 0.5) * (window.y1 - window.y0) / PROBES;
             const glm::dvec3 direction = axes.look +
-                                         axes.right * (horizontal * (2 * px / options.size.x - 1)) -
-                                         axes.up * (vertical * (2 * py / options.size.y - 1));
+                                         axes.right * (horizontal * (2 * px / options.film.size.x - 1)) -
+                                         axes.up * (vertical * (2 * py / options.film.size.y - 1));
             const VoxelGrid::Hit hit =
                 grid.cast(to_normalised(scene.normalisation, camera.eye), glm::normalize(direction));
             view.hits += double(hit.is_hit) / (PROBES * PROBES);
@@ -135,7 +136,7 @@ std::string explain_darkness(const Scene& scene, const Options& options, const s
                              const InView& view, double brightest) {
     if (!has_light(scene))
         return "the scene has no light: --env 1,1,1 or --sun gives it some";
-    if (effective_max_depth(options) < 2)
+    if (effective_max_depth(options.transport) < 2)
         return "--max-depth 1 shows emitters alone, and none is in view: 2 adds direct light";
     if (reflects_nothing(scene))
         return "there is light, but every surface is black (Kd and Ks are 0)";
@@ -145,8 +146,8 @@ std::string explain_darkness(const Scene& scene, const Options& options, const s
     if (view.backs >= NEARLY_ALL)
         return fmt::format("the camera at {} sees nothing but backs of surfaces: it is inside a closed one",
                            short_triple(scene.camera.eye));
-    if (!options.paths.empty())
-        return fmt::format("paths {} carry no light to the camera here", options.paths);
+    if (!options.transport.paths.empty())
+        return fmt::format("paths {} carry no light to the camera here", options.transport.paths);
     if (brightest > 0 && brightest < MIDDLE_GREY)
         return fmt::format(
             "the light is weak, the brightest pixel has radiance {:.2g}: --exposure {:.0f} shows it",
@@ -163,7 +164,7 @@ std::optional<std::string> explain_empty_picture(const Scene& scene, const Optio
         return std::nullopt;
     const std::vector<float> mean = film_mean(render.film);
     const Lightness lightness =
-        measure_lightness(mean, DARKEST_GREY * std::exp2(-chosen_exposure_ev(options, mean)));
+        measure_lightness(mean, DARKEST_GREY * std::exp2(-chosen_exposure_ev(options.output, mean)));
     const bool is_dark = lightness.lit_share < LIT_SHARE;
     const bool met_nothing = render.counts.secondary + render.counts.shadow == 0;
     if (!is_dark && !met_nothing)

@@ -2,7 +2,7 @@
 // Pictures that show nothing: black ones, and those of nothing but sky.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "render/render.h"
 #include "scene/scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/hit_layers.h"
 
-#include "app/signals.h"
+#include "console/signals.h"
 #include "device/opencl_error.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "render/kernels.h"
 
 #include "device/kernel_source.h"
+#include "film/film_buffers.h"
 #include "output/image.h"
 
 #include <algorithm>
@@ -27,8 +28,12 @@ int samples_at_once(const DeviceInfo& device) {
 }
 
 KernelFiles kernel_files(const Options& options) {
-    return options.kernels_folder.empty() ? embedded_kernel_files()
-                                          : read_kernel_files(options.kernels_folder);
+    return options.device.kernels_folder.empty() ? embedded_kernel_files()
+                                                 : read_kernel_files(options.device.kernels_folder);
+}
+
+void append(std::vector<std::string>& defines, const std::vector<std::string>& more) {
+    defines.insert(defines.end(), more.begin(), more.end());
 }
 
 /// What every program of integrators/NAME.cl is built with.
@@ -39,11 +44,11 @@ ProgramRequest make_request(const KernelFiles& files, const std::string& name, c
     request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
     request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
                        fmt::format("SAMPLES_AT_ONCE={}", samples)};
-    if (options.sampler == SamplerChoice::INDEPENDENT)
+    if (options.sampling.sampler == SamplerChoice::INDEPENDENT)
         request.defines.push_back("CLRT_SAMPLER=SAMPLER_INDEPENDENT");
-    request.precision = options.precision;
-    request.dump_folder = options.dump_folder;
-    request.cache = {options.cache, options.cache_folder};
+    request.precision = options.device.precision;
+    request.dump_folder = options.device.dump_folder;
+    request.cache = {options.device.cache, options.device.cache_folder};
     return request;
 }
 
@@ -59,6 +64,16 @@ const char* integrator_name(Integrator integrator) {
         break;
     }
     return "path";
+}
+
+bool integrator_splats(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::PATH:
+    case Integrator::WHITTED:
+    case Integrator::RAYCAST:
+        break;
+    }
+    return false;
 }
 
 const char* sampler_name(SamplerChoice sampler) {
@@ -80,13 +95,15 @@ BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
 }
 
 bool wants_layers(const Options& options) {
-    const auto& outputs = options.outputs;
-    if (has_transparent_background(options) && std::any_of(outputs.begin(), outputs.end(), can_hold_alpha))
+    const auto& outputs = options.output.files;
+    if (has_transparent_background(options.light) &&
+        std::any_of(outputs.begin(), outputs.end(), can_hold_alpha))
         return true;
-    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_layered_output);
-    if (!has_exr || !options.aovs)
+    const bool has_exr =
+        std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
+    if (!has_exr || !options.output.aovs)
         return has_exr;
-    return std::any_of(options.aovs->begin(), options.aovs->end(),
+    return std::any_of(options.output.aovs->begin(), options.output.aovs->end(),
                        [](const std::string& name) { return is_hit_layer(name) || name == "alpha"; });
 }
 
@@ -97,12 +114,14 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
         ProgramRequest request =
             make_request(files, name, options, effects, layout, samples_at_once(device.info));
-        request.defines.insert(request.defines.end(), defines.begin(), defines.end());
+        append(request.defines, defines);
         return build_program(device, request);
     };
     RenderPrograms programs;
     programs.paths = paths;
-    programs.picture = build(integrator_name(options.integrator), path_defines(paths));
+    std::vector<std::string> of_picture = path_defines(paths);
+    append(of_picture, film_defines(device.info, integrator_splats(options.transport.integrator)));
+    programs.picture = build(integrator_name(options.transport.integrator), of_picture);
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -111,23 +130,23 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
-    ProgramRequest request =
-        make_request(kernel_files(options), integrator_name(options.integrator), options, effects, layout, 1);
+    ProgramRequest request = make_request(
+        kernel_files(options), integrator_name(options.transport.integrator), options, effects, layout, 1);
     request.name += REPLAY_ENDING;
     request.precision = precision;
     request.defines.emplace_back("CLRT_TRACE=1");
-    const std::vector<std::string> automaton = path_defines(paths);
-    request.defines.insert(request.defines.end(), automaton.begin(), automaton.end());
+    append(request.defines, path_defines(paths));
+    append(request.defines, film_defines(device.info, integrator_splats(options.transport.integrator)));
     return build_program(device, request);
 }
 
 std::vector<std::string> dumped_files(const Options& options) {
     std::vector<std::string> paths;
-    if (options.dump_folder.empty())
+    if (options.device.dump_folder.empty())
         return paths;
-    const std::string integrator = integrator_name(options.integrator);
+    const std::string integrator = integrator_name(options.transport.integrator);
     for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING}) {
-        const auto [source, flags] = dump_paths(options.dump_folder, name);
+        const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});
     }
     return paths;

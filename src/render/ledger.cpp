@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/ledger.h"
 
-#include "app/signals.h"
 #include "bvh/bvh.h"
+#include "console/signals.h"
 #include "effects/take_out.h"
 #include "error.h"
 #include "render/ledger_plan.h"
@@ -74,7 +74,7 @@ public:
         variant.programs =
             build_render_programs(device_, variant.options, variant.mask, layout_, effects.paths);
         const double built = processor_seconds() - start;
-        variant.options.spp = 1;
+        variant.options.sampling.spp = 1;
         const auto rendered = Clock::now();
         const Render render = run(variant, nullptr);
         const double launched = render.first_launch_seconds;
@@ -85,11 +85,11 @@ public:
 
     /// Renders a variant; adds the seconds of one sample a pixel and the light to it.
     void measure(Variant& variant, int round, std::uint32_t samples) const {
-        variant.options.seed += u32(round);
-        variant.options.spp = samples;
+        variant.options.sampling.seed += u32(round);
+        variant.options.sampling.spp = samples;
         double seconds = 0;
         const Render render = run(variant, &seconds);
-        variant.options.seed -= u32(round);
+        variant.options.sampling.seed -= u32(round);
         variant.seconds.push_back(seconds / double(samples));
         variant.light.push_back(mean_luminance(render.film));
     }
@@ -121,21 +121,21 @@ private:
 
 /// The picture as asked for, the full program, and the picture without each effect that it shows.
 std::vector<Variant> make_variants(const Scene& scene, Options options) {
-    options.outputs.clear();
-    options.time_seconds.reset();
+    options.output.files.clear();
+    options.sampling.time_seconds.reset();
     const Effects effects = find_effects(scene, options);
     Variant as_asked;
     as_asked.options = options;
     std::vector<Variant> variants(2, as_asked);
-    variants[1].options.effects_list.reset();
-    variants[1].options.all_effects = true;
-    variants[1].options.effects_off = effects.left_out;
+    variants[1].options.effects.list.reset();
+    variants[1].options.effects.all = true;
+    variants[1].options.effects.off = effects.left_out;
     for (const Effect& effect : effects.list) {
         if (!effect.present || (effects.left_out & effect.bit))
             continue;
         variants.push_back(as_asked);
         variants.back().effect = effect.name;
-        variants.back().options.effects_off |= effect.bit;
+        variants.back().options.effects.off |= effect.bit;
     }
     return variants;
 }
@@ -201,7 +201,7 @@ void announce(const LedgerPlan& plan, const Options& options, size_t variants, d
         spdlog::warn("the ledger of {} effects takes {:.0f} s or more, compiling included: about {} of them "
                      "fit --time "
                      "{:g}",
-                     variants - 2, needed, fitting - 2, *options.time_seconds);
+                     variants - 2, needed, fitting - 2, *options.sampling.time_seconds);
 }
 
 /// Compiles the variants that fit the time and gives back the effects of the others. The first program is
@@ -245,9 +245,9 @@ std::uint32_t take_turns(const Bench& bench, Clock::time_point start, std::vecto
 
 Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress) {
     const auto start = Clock::now();
-    const Bench bench(device, scene, choose_layout(options.bvh, device.info));
+    const Bench bench(device, scene, choose_layout(options.bvh.layout, device.info));
     std::vector<Variant> variants = make_variants(scene, options);
-    LedgerPlan plan(options.time_seconds, options.spp);
+    LedgerPlan plan(options.sampling.time_seconds, options.sampling.spp);
     Ledger ledger;
     ledger.not_measured = compile_fitting(bench, options, start, variants, plan, progress);
     ledger.compile_seconds = seconds_since(start);
@@ -256,8 +256,8 @@ Ledger make_ledger(const Device& device, const Scene& scene, const Options& opti
 
     // Draw up the bill.
     const Variant &picture = variants[0], &full = variants[1];
-    ledger.width = options.crop ? options.crop->x1 - options.crop->x0 : options.size.x;
-    ledger.height = options.crop ? options.crop->y1 - options.crop->y0 : options.size.y;
+    ledger.width = options.film.crop ? options.film.crop->x1 - options.film.crop->x0 : options.film.size.x;
+    ledger.height = options.film.crop ? options.film.crop->y1 - options.film.crop->y0 : options.film.size.y;
     ledger.is_processor_time = bench.is_processor_time();
     ledger.specialised = {picture.compile_seconds, ledger_value(picture.seconds)};
     ledger.full = {full.compile_seconds, ledger_value(full.seconds)};

@@ -3,10 +3,10 @@
 // pays.
 #pragma once
 
-#include "app/options.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "device/device.h"
 #include "effects/effects.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 #include <optional>

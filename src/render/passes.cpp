@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/passes.h"
 
-#include "app/signals.h"
+#include "console/signals.h"
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
 #include "render/good_counts.h"
@@ -35,15 +35,17 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
       progress_(progress), hooks_(hooks), result_(result),
       film_buffers_(device, params, programs.paths.layers.size()),
-      launcher_(device, programs.picture, std::string("render_") + integrator_name(options.integrator),
-                params, buffers),
-      rules_(options, film_limit(result.film, options)), picture_reminder_(options.save_every_seconds),
-      film_reminder_(options.checkpoint_path.empty() ? std::nullopt
-                                                     : std::optional(options.checkpoint_seconds)),
+      launcher_(device, programs.picture,
+                std::string("render_") + integrator_name(options.transport.integrator), params, buffers),
+      rules_(options.sampling, film_limit(result.film, options)),
+      picture_reminder_(options.output.save_every_seconds),
+      film_reminder_(options.film_file.checkpoint_path.empty()
+                         ? std::nullopt
+                         : std::optional(options.film_file.checkpoint_seconds)),
       launch_size_(device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
     take_host_memory();
-    first_ = options.first_sample;
+    first_ = options.sampling.first_sample;
     if (!result.film.ranges.empty()) {
         film_buffers_.write_sums(result);
         first_ = result.film.ranges.back().end;
@@ -74,7 +76,7 @@ void Passes::begin_hits() {
     if (!programs_.layers)
         return;
     try {
-        hit_layers_.emplace(device_, *programs_.layers, params_, options_.adaptive, scene_buffers_,
+        hit_layers_.emplace(device_, *programs_.layers, params_, options_.sampling.adaptive, scene_buffers_,
                             film_buffers_, result_.hits);
     } catch (const DeviceError& error) {
         give_up_hits(error);
@@ -111,7 +113,7 @@ void Passes::give_up_hits(const DeviceError& error) {
 /// the end.
 std::uint32_t Passes::next_samples(const RenderState& state) const {
     std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
-    if (options_.adaptive)
+    if (options_.sampling.adaptive)
         end = std::min(end, result_.round.end);
     double samples = 1;
     if (result_.passes > 0) {
@@ -120,12 +122,13 @@ std::uint32_t Passes::next_samples(const RenderState& state) const {
         samples = fitting <= 1 ? 1 : std::ceil(fitting / SAMPLE_GROUP) * SAMPLE_GROUP;
         // Grow slowly: the first passes may be unlike the later ones.
         samples = std::min(samples, 2.0 * double(result_.passes));
-        if (options_.time_seconds)
-            samples = std::min(samples, std::max(1.0, (*options_.time_seconds - state.seconds) / pass));
+        if (options_.sampling.time_seconds)
+            samples =
+                std::min(samples, std::max(1.0, (*options_.sampling.time_seconds - state.seconds) / pass));
     }
     // Adaptive tiles advance by whole samples of every replicate.
-    if (options_.adaptive)
-        samples = std::ceil(samples / options_.replicates) * options_.replicates;
+    if (options_.sampling.adaptive)
+        samples = std::ceil(samples / options_.sampling.replicates) * options_.sampling.replicates;
     return std::uint32_t(std::min(double(end - samples_), samples));
 }
 
@@ -145,9 +148,9 @@ void Passes::keep_film(const RenderState& state, std::uint32_t samples) {
 bool Passes::may_be_interrupted(const RenderState& state, std::uint32_t samples) const {
     const double seconds = state.pass_seconds * samples;
     const bool is_one_launch =
-        !options_.adaptive && launch_size_.tiles(samples, params_.tile_count) == params_.tile_count;
-    const bool may_be_late =
-        options_.time_seconds && state.seconds + LARGEST_SLOWDOWN * seconds > *options_.time_seconds;
+        !options_.sampling.adaptive && launch_size_.tiles(samples, params_.tile_count) == params_.tile_count;
+    const bool may_be_late = options_.sampling.time_seconds &&
+                             state.seconds + LARGEST_SLOWDOWN * seconds > *options_.sampling.time_seconds;
     return seconds > LONGEST_WAIT || (may_be_late && !is_one_launch);
 }
 
@@ -158,7 +161,8 @@ std::optional<StopRule> Passes::interruption(double seconds_left) const {
         return StopRule::SIGNAL;
     // A pass is not finished before the layers of hits have it too.
     const double hit_seconds = result_.passes > 0 ? hit_seconds_ / double(result_.passes) : 0;
-    if (is_kept_ && options_.time_seconds && seconds() + hit_seconds > *options_.time_seconds)
+    if (is_kept_ && options_.sampling.time_seconds &&
+        seconds() + hit_seconds > *options_.sampling.time_seconds)
         return StopRule::TIME;
     return std::nullopt;
 }
@@ -226,7 +230,7 @@ void Passes::begin_round() {
 
 /// Takes the tiles of both halves to where they are when the mean is `end` samples a pixel.
 bool Passes::run_adaptive(std::uint64_t end) {
-    const int replicates = options_.replicates;
+    const int replicates = options_.sampling.replicates;
     const TileSamples from = samples_within(result_.round, samples_, replicates);
     const TileSamples to = samples_within(result_.round, end, replicates);
     const double samples = 0.5 * double(end - samples_);
@@ -247,10 +251,11 @@ bool Passes::run_adaptive(std::uint64_t end) {
 
 /// Runs whole passes; false where they are interrupted.
 bool Passes::run_launches(std::uint32_t samples) {
-    const bool done = options_.adaptive ? run_adaptive(samples_ + samples)
-                                        : run_tiles(samples, double(samples_), [&](u32 tile, u32 end) {
-                                              launcher_.run(std::uint32_t(first_), samples, tile, end);
-                                          });
+    const bool done = options_.sampling.adaptive
+                          ? run_adaptive(samples_ + samples)
+                          : run_tiles(samples, double(samples_), [&](u32 tile, u32 end) {
+                                launcher_.run(std::uint32_t(first_), samples, tile, end);
+                            });
     if (!done)
         return false;
     samples_ += samples;
@@ -266,12 +271,12 @@ bool Passes::run_launches(std::uint32_t samples) {
 /// Whether the error is measured now: where it may end the render, and where it tells how the error falls, if
 /// that does not take long.
 bool Passes::is_worth_measuring() const {
-    if (options_.error) {
+    if (options_.sampling.error) {
         const bool is_resumed = samples_ > 0 && result_.passes == 0;
         return is_resumed || rules_.is_check(samples_, measurements_.error());
     }
     const double affordable = std::max(SMALL_CHECK_SECONDS, LARGEST_CHECK_SHARE * seconds());
-    return is_doubling(samples_, options_.replicates) && result_.check_seconds <= affordable;
+    return is_doubling(samples_, options_.sampling.replicates) && result_.check_seconds <= affordable;
 }
 
 /// Where the render stands, with the error where it is time to measure it.
@@ -279,7 +284,7 @@ RenderState Passes::measured_state() {
     if (is_worth_measuring()) {
         measurements_.measure_film(film_buffers_, earlier_samples_, result_);
         const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
-        if (measurements_.error() && is_new && is_doubling(samples_, options_.replicates))
+        if (measurements_.error() && is_new && is_doubling(samples_, options_.sampling.replicates))
             result_.history.push_back(*measurements_.error());
     }
     RenderState state;
@@ -329,7 +334,7 @@ StopRule Passes::run_until_stopped() {
         const RenderState state = measured_state();
         if (const std::optional<StopRule> rule = rules_.ended(state))
             return *rule;
-        if (options_.adaptive)
+        if (options_.sampling.adaptive)
             begin_round();
         const std::uint32_t samples = next_samples(state);
         keep_film(state, samples);
@@ -360,10 +365,10 @@ void Passes::run() {
     result_.stop = run_until_stopped();
     const double stop_seconds = seconds();
     result_.stop_signal = result_.stop == StopRule::SIGNAL ? stop_signal() : 0;
-    if (options_.time_seconds)
-        result_.overrun_seconds = std::max(0.0, stop_seconds - *options_.time_seconds);
+    if (options_.sampling.time_seconds)
+        result_.overrun_seconds = std::max(0.0, stop_seconds - *options_.sampling.time_seconds);
     finish();
-    const std::uint64_t fewest = options_.adaptive ? std::uint64_t(options_.replicates) : 1;
+    const std::uint64_t fewest = options_.sampling.adaptive ? std::uint64_t(options_.sampling.replicates) : 1;
     const bool is_first_pass = samples_ == fewest && result_.passes == fewest;
     result_.stop_text =
         rules_.describe(result_.stop, {samples_, stop_seconds,

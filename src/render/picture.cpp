@@ -25,9 +25,10 @@ Layer bad_samples_layer(const Render& render, const Crop& window, int full_width
 }
 
 bool wants(const Options& options, const std::string& name) {
-    if (!options.aovs)
+    if (!options.output.aovs)
         return name != "alpha";
-    return std::find(options.aovs->begin(), options.aovs->end(), name) != options.aovs->end();
+    return std::find(options.output.aovs->begin(), options.output.aovs->end(), name) !=
+           options.output.aovs->end();
 }
 
 /// Makes layers from the sums over the primary hits.
@@ -118,16 +119,16 @@ void add_hit_layers(const Render& render, const Scene& scene, const Options& opt
 } // namespace
 
 Picture make_plain_picture(const Render& render, const Options& options) {
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Picture picture;
     picture.width = render.film.width;
     picture.height = render.film.height;
     picture.x0 = window.x0;
     picture.y0 = window.y0;
-    picture.full_width = options.size.x;
-    picture.full_height = options.size.y;
+    picture.full_width = options.film.size.x;
+    picture.full_height = options.film.size.y;
     picture.layers.push_back({"", {"R", "G", "B"}, film_mean(render.film), false});
-    picture.is_transparent = has_transparent_background(options);
+    picture.is_transparent = has_transparent_background(options.light);
     return picture;
 }
 
@@ -135,7 +136,7 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     Picture picture = make_plain_picture(render, options);
     for (size_t i = 0; i < render.path_layers.size(); ++i)
         picture.layers.push_back(
-            {options.path_layers[i].name, {"R", "G", "B"}, film_mean(render.path_layers[i]), false});
+            {options.output.path_layers[i].name, {"R", "G", "B"}, film_mean(render.path_layers[i]), false});
     add_hit_layers(render, scene, options, picture);
     if (wants(options, "variance")) {
         std::vector<float> variance = film_variance(render.film);
@@ -144,8 +145,8 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     }
     if (wants(options, "samples"))
         picture.layers.push_back({"", {"samples"}, film_pixel_samples(render.film), false});
-    if (options.aovs ? wants(options, "badSamples") : !render.counts.bad_pixels.empty())
-        picture.layers.push_back(bad_samples_layer(render, render_window(options), options.size.x));
+    if (options.output.aovs ? wants(options, "badSamples") : !render.counts.bad_pixels.empty())
+        picture.layers.push_back(bad_samples_layer(render, render_window(options.film), options.film.size.x));
     return picture;
 }
 

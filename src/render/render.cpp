@@ -50,11 +50,11 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
         fold_replicates(film, std::min(fitting, film.replicates));
     params.film_replicates = u32(film.replicates);
     check_film_capacity(options, film);
-    if (options.adaptive && film.replicates != options.replicates)
+    if (options.sampling.adaptive && film.replicates != options.sampling.replicates)
         throw DeviceError(
             fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
                         "a smaller --size or fewer --replicates",
-                        options.replicates, film.replicates));
+                        options.sampling.replicates, film.replicates));
 
     progress.update({"compile", -1, 0, -1, -1});
     Passes passes(device, programs, buffers, options, params, progress, hooks, result);
@@ -63,14 +63,14 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
 }
 
 Render render_nothing(const Scene& scene, const Options& options) {
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Render result;
     Film& film = result.film;
     film.scale = film_scale(scene);
     film.width = window.x1 - window.x0;
     film.height = window.y1 - window.y0;
     film.sums.resize(film_plane(film));
-    result.path_layers.assign(options.path_layers.size(), film);
+    result.path_layers.assign(options.output.path_layers.size(), film);
     result.stop_text = "no path of the scene is asked for";
     return result;
 }

@@ -2,7 +2,7 @@
 // The loop of launches that fills the film.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "film/adaptive.h"
 #include "film/film.h"
 #include "film/film_error.h"

@@ -23,7 +23,7 @@ void set_camera(const Scene& scene, const Options& options, RenderParams& params
     const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
     const glm::dvec3 right = glm::normalize(glm::cross(look, camera.up));
     const glm::dvec3 up = glm::cross(right, look);
-    const double pixel = 2 * std::tan(0.5 * camera.fov_degrees * RADIANS) / options.size.y;
+    const double pixel = 2 * std::tan(0.5 * camera.fov_degrees * RADIANS) / options.film.size.y;
     params.eye = to_vec4((camera.eye - scene.normalisation.centre) * scene.normalisation.scale);
     params.film_dx = to_vec4(right * pixel);
     params.film_dy = to_vec4(up * -pixel);
@@ -63,9 +63,9 @@ u32 tile_stride(u32 tiles) {
 }
 
 void set_window(const Options& options, RenderParams& params) {
-    const Crop window = render_window(options);
-    params.width = u32(options.size.x);
-    params.height = u32(options.size.y);
+    const Crop window = render_window(options.film);
+    params.width = u32(options.film.size.x);
+    params.height = u32(options.film.size.y);
     params.crop_x = u32(window.x0);
     params.crop_y = u32(window.y0);
     params.crop_width = u32(window.x1 - window.x0);
@@ -76,26 +76,26 @@ void set_window(const Options& options, RenderParams& params) {
 }
 
 void set_filter(const Options& options, RenderParams& params) {
-    switch (options.filter) {
+    switch (options.film.filter) {
     case Filter::BOX:
         params.filter = FILTER_BOX;
-        params.filter_radius = float(options.filter_radius.value_or(0.5));
+        params.filter_radius = float(options.film.filter_radius.value_or(0.5));
         break;
     case Filter::TENT:
         params.filter = FILTER_TENT;
-        params.filter_radius = float(options.filter_radius.value_or(1.0));
+        params.filter_radius = float(options.film.filter_radius.value_or(1.0));
         break;
     case Filter::GAUSSIAN:
         params.filter = FILTER_GAUSSIAN;
-        params.filter_radius = float(options.filter_radius.value_or(1.5));
+        params.filter_radius = float(options.film.filter_radius.value_or(1.5));
         break;
     }
 }
 
 } // namespace
 
-Crop render_window(const Options& options) {
-    return options.crop.value_or(Crop{0, 0, options.size.x, options.size.y});
+Crop render_window(const FilmOptions& film) {
+    return film.crop.value_or(Crop{0, 0, film.size.x, film.size.y});
 }
 
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {
@@ -104,13 +104,13 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     set_lights(scene, params);
     set_window(options, params);
     set_filter(options, params);
-    params.seed = options.seed;
-    params.replicates = u32(options.replicates);
-    params.dealt_replicates = u32(options.replicates);
-    params.film_replicates = u32(options.replicates);
-    params.max_depth = u32(effective_max_depth(options));
-    params.min_contribution = float(options.min_contribution);
-    params.roulette_depth = u32(options.roulette_depth);
+    params.seed = options.sampling.seed;
+    params.replicates = u32(options.sampling.replicates);
+    params.dealt_replicates = u32(options.sampling.replicates);
+    params.film_replicates = u32(options.sampling.replicates);
+    params.max_depth = u32(effective_max_depth(options.transport));
+    params.min_contribution = float(options.transport.min_contribution);
+    params.roulette_depth = u32(options.transport.roulette_depth);
     params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);

@@ -2,16 +2,16 @@
 // Scene and options -> the constants of a launch.
 #pragma once
 
-#include "app/options.h"
 #include "film/film.h"
 #include "kernels/shared/render_types.h"
+#include "options/options.h"
 #include "paths/path_plan.h"
 #include "scene/scene.h"
 
 namespace clrt {
 
 /// The window of pixels that the options ask for: the crop, or the whole picture.
-Crop render_window(const Options& options);
+Crop render_window(const FilmOptions& film);
 
 /// Everything but the samples and tiles of a single launch, which are 0.
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale);

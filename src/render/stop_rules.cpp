@@ -23,7 +23,7 @@ constexpr double STEEPEST_SLOPE = -1;
 constexpr double WORTH_SAYING = 0.05;
 
 /// Samples after which the options end the render, whatever the film holds.
-std::uint64_t samples_of_options(const Options& options) {
+std::uint64_t samples_of_options(const SamplingOptions& options) {
     if (options.spp)
         return *options.spp;
     if (options.error)
@@ -49,7 +49,7 @@ const char* stop_rule_name(StopRule rule) {
     return "signal";
 }
 
-StopRules::StopRules(const Options& options, std::uint64_t film_limit)
+StopRules::StopRules(const SamplingOptions& options, std::uint64_t film_limit)
     : options_(options), film_limit_(film_limit),
       last_samples_(std::min(samples_of_options(options), film_limit)) {}
 

@@ -15,12 +15,13 @@ namespace {
 constexpr u32 LAST_BOUNCE_COLUMN = 6;
 
 std::vector<SampleAddress> all_samples(const Options& options) {
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     std::vector<SampleAddress> addresses;
     for (int y = window.y0; y < window.y1; ++y)
         for (int x = window.x0; x < window.x1; ++x)
-            for (u32 s = 0; s < options.spp.value_or(DEFAULT_SPP); ++s)
-                addresses.push_back({u32(y) * u32(options.size.x) + u32(x), options.first_sample + s});
+            for (u32 s = 0; s < options.sampling.spp.value_or(DEFAULT_SPP); ++s)
+                addresses.push_back(
+                    {u32(y) * u32(options.film.size.x) + u32(x), options.sampling.first_sample + s});
     return addresses;
 }
 
@@ -51,7 +52,7 @@ std::map<std::pair<std::string, u32>, std::uint64_t> FlipStatistics::counts() co
 
 FlipStatistics find_flips(const Device& device, const Scene& scene, const Options& options) {
     const Effects effects = find_effects(scene, options);
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     const SceneBuffers buffers =
         upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout));
     Replay single(device, scene, options, Precision::SINGLE, effects, layout, buffers);

@@ -34,15 +34,15 @@ std::string shell_text(const std::vector<std::string>& words) {
 }
 
 std::string replay_command(const Options& options, const SampleAddress& address) {
-    const u32 width = u32(options.size.x);
+    const u32 width = u32(options.film.size.x);
     std::vector<std::string> words{"clrt",
                                    fmt::format("--pixel={},{}", address.pixel % width, address.pixel / width),
                                    fmt::format("--sample={}", address.sample)};
-    for (size_t i = 1; i < options.resumable_command.size(); ++i)
-        if (options.resumable_command[i] != "--" && !is_written(options.resumable_command[i]))
-            words.push_back(options.resumable_command[i]);
+    for (size_t i = 1; i < options.run.resumable_command.size(); ++i)
+        if (options.run.resumable_command[i] != "--" && !is_written(options.run.resumable_command[i]))
+            words.push_back(options.run.resumable_command[i]);
     // A scene may start with a dash.
-    if (!options.scene_path.empty() && options.scene_path[0] == '-')
+    if (!options.scene.path.empty() && options.scene.path[0] == '-')
         words.insert(words.end() - 1, "--");
     return shell_text(words);
 }

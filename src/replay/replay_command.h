@@ -2,7 +2,7 @@
 // The command line that replays a sample of a picture.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "replay/replay.h"
 
 namespace clrt {

@@ -69,11 +69,11 @@ Json difference_json(const ReplayReport& report) {
 } // namespace
 
 std::string replay_json(const ReplayReport& report) {
-    const u32 width = u32(report.options.size.x), pixel = report.first.address.pixel;
+    const u32 width = u32(report.options.film.size.x), pixel = report.first.address.pixel;
     Json json;
     json["version"] = CLRT_VERSION;
-    json["command"] = shell_text(report.options.command);
-    json["integrator"] = integrator_name(report.options.integrator);
+    json["command"] = shell_text(report.options.run.command);
+    json["integrator"] = integrator_name(report.options.transport.integrator);
     json["device"] = {
         {"platform", report.device.platform}, {"name", report.device.name}, {"driver", report.device.driver}};
     json["pixel"] = {pixel % width, pixel / width};

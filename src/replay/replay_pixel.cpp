@@ -18,23 +18,23 @@ PixelReplay replay_pixel(const Device& device, Scene scene, Options options) {
     if (effects.paths.is_empty)
         spdlog::warn("{}", path_summary(effects.paths));
 
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     const SceneBuffers buffers =
         upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout));
-    const SampleAddress address{u32(options.pixel->y) * u32(options.size.x) + u32(options.pixel->x),
-                                options.sample};
+    const SampleAddress address{
+        u32(options.run.pixel->y) * u32(options.film.size.x) + u32(options.run.pixel->x), options.run.sample};
     double quantum = 1;
     const auto trace = [&](Precision precision) {
         Replay replay(device, scene, options, precision, effects, layout, buffers);
         quantum = replay.quantum();
         return replay.run({address}).front();
     };
-    const Precision first = options.precision == Precision::FAST ? Precision::FAST : Precision::SINGLE;
+    const Precision first = options.device.precision == Precision::FAST ? Precision::FAST : Precision::SINGLE;
     ReplayReport report{options, scene, device.info, 1, trace(first), std::nullopt};
-    if (device.info.fp64 || options.precision == Precision::DOUBLE)
+    if (device.info.fp64 || options.device.precision == Precision::DOUBLE)
         report.twin = trace(Precision::DOUBLE);
     report.quantum = quantum;
-    return {format_replay(report, options.verbosity > 0), replay_json(report)};
+    return {format_replay(report, options.run.verbosity > 0), replay_json(report)};
 }
 
 } // namespace clrt

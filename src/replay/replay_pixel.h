@@ -2,8 +2,8 @@
 // --pixel x,y --sample n: everything from the scene to the text.
 #pragma once
 
-#include "app/options.h"
 #include "device/device.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 #include <string>

@@ -74,12 +74,12 @@ std::string film_text(const SampleTrace& trace, double quantum) {
 
 std::string header(const ReplayReport& report) {
     const Options& options = report.options;
-    const u32 width = u32(options.size.x), pixel = report.first.address.pixel;
+    const u32 width = u32(options.film.size.x), pixel = report.first.address.pixel;
     std::string text =
         fmt::format("sample {} of pixel {},{}: {} x {}, {}, seed {}, on {}\n", report.first.address.sample,
-                    pixel % width, pixel / width, options.size.x, options.size.y,
-                    integrator_name(options.integrator), options.seed, report.device.name);
-    if (options.precision == Precision::FAST)
+                    pixel % width, pixel / width, options.film.size.x, options.film.size.y,
+                    integrator_name(options.transport.integrator), options.sampling.seed, report.device.name);
+    if (options.device.precision == Precision::FAST)
         text += "relaxed maths: this program's last bits may differ from the picture's\n";
     if (!report.twin)
         text += "the device has no fp64: single precision alone\n";

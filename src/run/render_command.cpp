@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/render_command.h"
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/effects.h"
 #include "effects/take_out.h"
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/render_params.h"
-#include "render/report.h"
+#include "run/report.h"
 #include "run/run_files.h"
 #include "run/saving.h"
 #include "run/simulate.h"
@@ -27,7 +27,7 @@ namespace {
 /// The exit code of a finished run, and the warning that goes with it.
 int finish(const Report& report) {
     const Render& render = report.render;
-    if (report.options.check != Check::OFF && render.counts.bad() > 0)
+    if (report.options.run.check != Check::OFF && render.counts.bad() > 0)
         spdlog::warn(
             "{} samples were not finite, negative or too large and count as 0; see the causes in the "
             "report and `nonfinite` in the JSON of --stats",
@@ -41,10 +41,11 @@ int finish(const Report& report) {
         return EXIT_DEVICE;
     }
     spdlog::info("ended after {} spp: {}", film_samples(render.film), render.stop_text);
-    const bool missed = report.options.error && film_samples(render.film) > 0 && !error_reached(report);
+    const bool missed =
+        report.options.sampling.error && film_samples(render.film) > 0 && !error_reached(report);
     if (missed)
-        spdlog::warn("--error {:g} % is not reached", 100 * *report.options.error);
-    if (report.options.check == Check::STRICT && render.counts.bad() > 0)
+        spdlog::warn("--error {:g} % is not reached", 100 * *report.options.sampling.error);
+    if (report.options.run.check == Check::STRICT && render.counts.bad() > 0)
         return EXIT_CHECK;
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
 }
@@ -83,9 +84,9 @@ int render_picture(const Job& job, const Options& options, Progress& progress,
     }
     FinalFiles files;
     if (saving.needs_film(render))
-        files.write(options.checkpoint_path, [&] { saving.write_film(render); });
+        files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
 
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Report report{
         options,
         job.scene,
@@ -104,8 +105,8 @@ int render_picture(const Job& job, const Options& options, Progress& progress,
         explain_empty_picture(job.scene, options, render)};
     write_outputs(report, files);
     files.finish();
-    const bool is_frame = options.frame > 0 && options.verbosity == 0;
-    if (options.verbosity >= 0)
+    const bool is_frame = options.camera.frame > 0 && options.run.verbosity == 0;
+    if (options.run.verbosity >= 0)
         print_report(options, is_frame ? format_frame(report) : format_report(report));
     if (report.empty_picture)
         spdlog::warn("{}", *report.empty_picture);
@@ -117,8 +118,8 @@ int render_turn(Job& job, Options options, Progress& progress) {
     const Camera camera = job.scene.camera;
     std::optional<Simulation> done;
     int exit_code = EXIT_DONE;
-    for (options.frame = 1; options.frame <= *options.frames; ++options.frame) {
-        job.scene.camera = turned_camera(camera, options.frame, *options.frames);
+    for (options.camera.frame = 1; options.camera.frame <= *options.camera.frames; ++options.camera.frame) {
+        job.scene.camera = turned_camera(camera, options.camera.frame, *options.camera.frames);
         exit_code = graver_exit(exit_code, render_picture(job, options, progress, done));
         if (done->render.stop_signal)
             break;
@@ -132,7 +133,7 @@ int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     check_checkpoint(options);
     const Device device = open_chosen_device(options);
-    Progress progress(options.progress, options.verbosity < 0);
+    Progress progress(options.run.progress, options.run.verbosity < 0);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
     for (const std::string& notice : scene.notices)
@@ -146,9 +147,9 @@ int run_render(Options options) {
     for (const BlindSpot& spot : effects.paths.blind_spots)
         spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
                      "with a diameter",
-                     integrator_name(options.integrator), spot.paths, spot.cause);
+                     integrator_name(options.transport.integrator), spot.paths, spot.cause);
     Job job{start, device, std::move(scene), std::move(effects), load_seconds};
-    if (options.frames)
+    if (options.camera.frames)
         return render_turn(job, options, progress);
     std::optional<Simulation> done;
     return render_picture(job, options, progress, done);

@@ -3,7 +3,7 @@
 // turn.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 namespace clrt {
 

@@ -19,18 +19,18 @@ namespace {
 
 /// A replay and a ledger write neither pictures nor films.
 bool writes_pictures(const Options& options) {
-    return !options.pixel && !options.ledger;
+    return !options.run.pixel && !options.run.ledger;
 }
 
 /// The names that a result gets: one, or one a frame. Where --spp does not say, the number of samples is that
 /// of a render without limits.
 std::vector<std::string> planned_names(const std::string& name, const Options& options) {
-    const std::uint32_t spp = options.spp.value_or(DEFAULT_SPP);
-    if (!options.frames)
-        return {expand_file_name(name, {options.seed, spp, 0})};
+    const std::uint32_t spp = options.sampling.spp.value_or(DEFAULT_SPP);
+    if (!options.camera.frames)
+        return {expand_file_name(name, {options.sampling.seed, spp, 0})};
     std::vector<std::string> names;
-    for (int frame = 1; frame <= *options.frames; ++frame)
-        names.push_back(expand_file_name(with_frame_number(name), {options.seed, spp, frame}));
+    for (int frame = 1; frame <= *options.camera.frames; ++frame)
+        names.push_back(expand_file_name(with_frame_number(name), {options.sampling.seed, spp, frame}));
     return names;
 }
 
@@ -38,18 +38,18 @@ std::vector<std::string> planned_names(const std::string& name, const Options& o
 
 std::vector<NamedFile> files_to_write(const Options& options) {
     std::vector<NamedFile> files;
-    if (options.explain != Explain::NO)
+    if (options.run.explain != Explain::NO)
         return files;
     const bool has_picture = writes_pictures(options);
-    const bool is_default = options.given.count("--output") == 0;
+    const bool is_default = options.run.given.count("--output") == 0;
     if (has_picture)
-        for (const std::string& name : options.outputs)
+        for (const std::string& name : options.output.files)
             for (const std::string& path : planned_names(name, options))
                 files.push_back({is_default ? "--output (by default)" : "--output", path});
-    if (has_picture && !options.checkpoint_path.empty())
-        files.push_back({"--checkpoint", options.checkpoint_path});
-    if (!options.stats_path.empty())
-        for (const std::string& path : planned_names(options.stats_path, options))
+    if (has_picture && !options.film_file.checkpoint_path.empty())
+        files.push_back({"--checkpoint", options.film_file.checkpoint_path});
+    if (!options.output.stats_path.empty())
+        for (const std::string& path : planned_names(options.output.stats_path, options))
             files.push_back({"--stats", path});
     for (const std::string& path : dumped_files(options))
         files.push_back({"--dump-kernels", path});
@@ -57,12 +57,13 @@ std::vector<NamedFile> files_to_write(const Options& options) {
 }
 
 std::vector<NamedFile> files_to_read(const Options& options) {
-    const bool is_piped = is_standard_input(options.scene_path);
-    std::vector<NamedFile> files = {{"the scene", is_piped ? "/dev/stdin" : options.scene_path},
-                                    {"the options file", options.sidecar_path},
+    const bool is_piped = is_standard_input(options.scene.path);
+    std::vector<NamedFile> files = {{"the scene", is_piped ? "/dev/stdin" : options.scene.path},
+                                    {"the options file", options.run.sidecar_path},
                                     {"the environment map", options.light.environment_file}};
-    if (!writes_pictures(options) || !is_same_file(options.resume_path, options.checkpoint_path))
-        files.push_back({"the film to go on from", options.resume_path});
+    if (!writes_pictures(options) ||
+        !is_same_file(options.film_file.resume_path, options.film_file.checkpoint_path))
+        files.push_back({"the film to go on from", options.film_file.resume_path});
     return files;
 }
 
@@ -78,10 +79,10 @@ void print_report(const Options& options, const std::string& text) {
 void check_run_files(const Options& options, const Scene& scene) {
     std::vector<NamedFile> read = files_to_read(options);
     read.insert(read.end(), scene.files.begin(), scene.files.end());
-    if (!options.kernels_folder.empty())
-        for (const auto& [name, text] : read_kernel_files(options.kernels_folder))
+    if (!options.device.kernels_folder.empty())
+        for (const auto& [name, text] : read_kernel_files(options.device.kernels_folder))
             read.push_back(
-                {"the kernel file", (std::filesystem::path(options.kernels_folder) / name).string()});
+                {"the kernel file", (std::filesystem::path(options.device.kernels_folder) / name).string()});
     check_written_files(files_to_write(options), read);
 }
 

@@ -2,7 +2,7 @@
 // All files that a run reads and writes, so that the one never replaces the other.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "output/named_file.h"
 
 #include <string>

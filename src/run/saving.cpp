@@ -19,10 +19,10 @@ namespace {
 
 /// Auto exposure is that of the samples so far.
 void write_pictures(const Picture& picture, const Options& options, const Film& film) {
-    const double exposure_ev = chosen_exposure_ev(options, picture.layers[0].values);
-    for (const std::string& name : options.outputs)
+    const double exposure_ev = chosen_exposure_ev(options.output, picture.layers[0].values);
+    for (const std::string& name : options.output.files)
         if (!is_standard_output(name)) // which takes one picture, at the end
-            write_picture(picture, output_name(name, options, film), exposure_ev, options.tonemap);
+            write_picture(picture, output_name(name, options, film), exposure_ev, options.output.tonemap);
 }
 
 /// Saves while the render goes on, whatever happens to the file.
@@ -43,8 +43,9 @@ Picture picture_within_memory(const Report& report, FinalFiles& files) {
     try {
         return make_picture(report.render, report.scene, report.options);
     } catch (const std::bad_alloc&) {
-        files.fail(SceneError(output_name(report.options.outputs.front(), report.options, report.render.film),
-                              0, "not enough memory for the layers: the picture is written without them"));
+        files.fail(
+            SceneError(output_name(report.options.output.files.front(), report.options, report.render.film),
+                       0, "not enough memory for the layers: the picture is written without them"));
         return make_plain_picture(report.render, report.options);
     }
 }
@@ -52,7 +53,7 @@ Picture picture_within_memory(const Report& report, FinalFiles& files) {
 } // namespace
 
 std::string output_name(const std::string& name, const Options& options, const Film& film) {
-    return expand_file_name(name, {options.seed, film_samples(film), options.frame});
+    return expand_file_name(name, {options.sampling.seed, film_samples(film), options.camera.frame});
 }
 
 void FinalFiles::write(const std::string& path, const std::function<void()>& writer) {
@@ -92,28 +93,28 @@ void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& 
 void write_outputs(Report& report, FinalFiles& files) {
     const Options& options = report.options;
     Picture picture = picture_within_memory(report, files);
-    report.exposure_ev = chosen_exposure_ev(options, picture.layers[0].values);
+    report.exposure_ev = chosen_exposure_ev(options.output, picture.layers[0].values);
     picture.metadata = report_metadata(report);
-    if (options.auto_exposure)
+    if (options.output.auto_exposure)
         spdlog::info("{}", exposure_notice(report.exposure_ev));
-    warn_of_lost_alpha(picture, options.outputs);
+    warn_of_lost_alpha(picture, options.output.files);
     const Film& film = report.render.film;
-    for (const std::string& name : options.outputs) {
+    for (const std::string& name : options.output.files) {
         const std::string path = output_name(name, options, film);
-        files.write(path, [&] { write_picture(picture, path, report.exposure_ev, options.tonemap); });
+        files.write(path, [&] { write_picture(picture, path, report.exposure_ev, options.output.tonemap); });
     }
-    if (options.stats_path.empty())
+    if (options.output.stats_path.empty())
         return;
-    const std::string stats = output_name(options.stats_path, options, film);
+    const std::string stats = output_name(options.output.stats_path, options, film);
     files.write(stats, [&] { write_text_file(stats, report_json(report)); });
 }
 
 Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,
                Progress& progress)
     : scene_(scene), paths_(paths), options_(options), device_(device) {
-    if (!options.checkpoint_path.empty())
+    if (!options.film_file.checkpoint_path.empty())
         identity = film_identity(scene, options, film_scale(scene));
-    if (!options.resume_path.empty())
+    if (!options.film_file.resume_path.empty())
         resume();
     hooks.resume = resumed ? &*resumed : nullptr;
     hooks.save_picture = [&](const Render& render) {
@@ -126,24 +127,24 @@ Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options
 /// Takes up the film of --resume. Whatever it is to replace must be part of it.
 void Saving::resume() {
     resumed = read_resumed_film(options_, identity);
-    spdlog::info("resumed at {} spp: {}", film_samples(resumed->film), options_.resume_path);
-    if (options_.force)
+    spdlog::info("resumed at {} spp: {}", film_samples(resumed->film), options_.film_file.resume_path);
+    if (options_.film_file.force)
         return;
     if (const auto obstacle =
-            replacement_obstacle(options_.checkpoint_path, {identity, resumed->film.ranges}))
+            replacement_obstacle(options_.film_file.checkpoint_path, {identity, resumed->film.ranges}))
         throw UsageError(fmt::format("option --checkpoint: '{}' cannot be replaced: {}; --force replaces it",
-                                     options_.checkpoint_path, *obstacle));
+                                     options_.film_file.checkpoint_path, *obstacle));
 }
 
 bool Saving::needs_film(const Render& render) const {
-    const bool is_whole =
-        resumed && render.passes == 0 && is_same_file(options_.checkpoint_path, options_.resume_path);
-    return !options_.checkpoint_path.empty() && film_samples(render.film) > 0 && !is_whole;
+    const bool is_whole = resumed && render.passes == 0 &&
+                          is_same_file(options_.film_file.checkpoint_path, options_.film_file.resume_path);
+    return !options_.film_file.checkpoint_path.empty() && film_samples(render.film) > 0 && !is_whole;
 }
 
 void Saving::write_film(const Render& render) const {
-    const std::string& path = options_.checkpoint_path;
-    if (!options_.force)
+    const std::string& path = options_.film_file.checkpoint_path;
+    if (!options_.film_file.force)
         if (const auto obstacle = replacement_obstacle(path, {identity, render.film.ranges}))
             throw SceneError(
                 path, 0,

@@ -2,11 +2,11 @@
 // What a render writes: pictures and films on the way, and all its files at the end.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "error.h"
 #include "film/checkpoint.h"
 #include "film/film_identity.h"
-#include "render/report.h"
+#include "run/report.h"
 
 #include <functional>
 #include <optional>

@@ -18,18 +18,18 @@ namespace {
 /// How the device computes, said where its pictures are its own. Not asked without a cache, where every start
 /// would pay. A device that cannot answer renders all the same.
 std::optional<DeviceFacts> ask_facts(const Device& device, const Options& options, Progress& progress) {
-    if (options.cache == Toggle::OFF)
+    if (options.device.cache == Toggle::OFF)
         return std::nullopt;
     std::optional<DeviceFacts> facts;
     try {
-        facts = device_facts(device, {options.cache, options.cache_folder});
+        facts = device_facts(device, {options.device.cache, options.device.cache_folder});
     } catch (const DeviceError& error) {
         progress.finish();
         spdlog::warn("how the device computes stays unknown: {}", error.what());
         return std::nullopt;
     }
-    const bool is_odd = options.precision == Precision::SINGLE && !promises_bits(*facts);
-    if (is_odd || options.verbosity > 0)
+    const bool is_odd = options.device.precision == Precision::SINGLE && !promises_bits(*facts);
+    if (is_odd || options.run.verbosity > 0)
         progress.finish();
     spdlog::debug("device: {}", describe_facts(*facts));
     if (is_odd)
@@ -43,7 +43,7 @@ std::optional<DeviceFacts> ask_facts(const Device& device, const Options& option
 std::vector<CauseCount> explain_bad_samples(const Device& device, const Scene& scene, const Effects& effects,
                                             const Options& options, const BvhLayout layout,
                                             const SceneBuffers& buffers, const Render& render) {
-    if (options.check == Check::OFF || render.counts.bad_samples.empty() || render.stop_signal)
+    if (options.run.check == Check::OFF || render.counts.bad_samples.empty() || render.stop_signal)
         return {};
     try {
         return find_causes(device, scene, options, effects, layout, buffers, render.counts);
@@ -58,7 +58,7 @@ std::vector<CauseCount> explain_bad_samples(const Device& device, const Scene& s
 Simulation simulate(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
                     Progress& progress, const RenderHooks& hooks) {
     // Compile while the tree is built.
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     progress.update({"compile", -1, 0, -1});
     std::future<RenderPrograms> compiling = std::async(std::launch::async, [&] {
         return build_render_programs(device, options, effects.mask, layout, effects.paths);
@@ -66,7 +66,7 @@ Simulation simulate(const Device& device, const Scene& scene, const Effects& eff
     Simulation done;
     const BvhQualityChoice quality = choose_bvh_quality(options, scene.triangles.size());
     spdlog::debug("tree: {} ({})", quality_name(quality.quality), quality.reason);
-    const bool compare = quality.quality == BvhQuality::HIGH && options.bvh_quality == QualityChoice::AUTO;
+    const bool compare = quality.quality == BvhQuality::HIGH && options.bvh.quality == QualityChoice::AUTO;
     done.bvh = compare ? build_better_bvh(scene.positions, scene.triangles, layout)
                        : build_bvh(scene.positions, scene.triangles, layout, quality.quality);
     done.bvh_reason = quality.reason;

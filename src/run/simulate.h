@@ -2,8 +2,8 @@
 // From a scene to radiance: the tree and the program, side by side, then the passes.
 #pragma once
 
-#include "app/progress.h"
 #include "bvh/bvh.h"
+#include "console/progress.h"
 #include "device/device_facts.h"
 #include "effects/effects.h"
 #include "render/kernels.h"

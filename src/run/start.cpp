@@ -14,14 +14,14 @@ namespace clrt {
 Device open_chosen_device(const Options& options) {
     const std::vector<PlatformInfo> platforms = list_platforms();
     std::string notice;
-    const DeviceInfo info = choose_device(platforms, options.device, notice);
+    const DeviceInfo info = choose_device(platforms, options.device.name, notice);
     for (const PlatformInfo& platform : platforms)
         if (!platform.note.empty())
             spdlog::log(platform.index == info.platform_index ? spdlog::level::warn : spdlog::level::debug,
                         "platform {}: {}", platform.name, platform.note);
     if (!notice.empty())
         spdlog::info("{}", notice);
-    const ProgramCache cache{options.cache, options.cache_folder};
+    const ProgramCache cache{options.device.cache, options.device.cache_folder};
     if (const std::string obstacle = program_cache_obstacle(cache); !obstacle.empty())
         spdlog::warn(
             "The program cache's folder {} cannot be written ({}): what is compiled and measured is not "

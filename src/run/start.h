@@ -2,9 +2,9 @@
 // What every run on a device begins with.
 #pragma once
 
-#include "app/options.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "device/device.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 namespace clrt {

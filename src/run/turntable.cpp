@@ -26,8 +26,8 @@ Camera turned_camera(const Camera& camera, int frame, int frames) {
 
 std::string format_frame(const Report& report) {
     const std::optional<FilmError>& error = report.error.error;
-    return fmt::format("frame {} of {}: {} spp, {}{:.2f} s\n", report.options.frame, *report.options.frames,
-                       film_samples(report.render.film),
+    return fmt::format("frame {} of {}: {} spp, {}{:.2f} s\n", report.options.camera.frame,
+                       *report.options.camera.frames, film_samples(report.render.film),
                        error ? fmt::format("error {:.2g} %, ", 100 * error->relative_rmse) : "",
                        report.render.run_seconds);
 }

@@ -2,7 +2,7 @@
 // --frames: pictures of a turn.
 #pragma once
 
-#include "render/report.h"
+#include "run/report.h"
 #include "scene/scene.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 // The camera of the options; parts that are not given are fitted to the scene.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "scene/normalise.h"
 #include "scene/notices.h"
 #include "scene/scene.h"

@@ -2,7 +2,7 @@
 // The light from infinitely far away: a lat-long map with its table for importance sampling, or a constant.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 

@@ -92,7 +92,7 @@ void note_relative_positions(const Normalisation& frame, const Options& options,
     const auto is_exr = [](const std::string& path) {
         return path.size() > 4 && path.compare(path.size() - 4, 4, ".exr") == 0;
     };
-    const bool has_exr = std::any_of(options.outputs.begin(), options.outputs.end(), is_exr);
+    const bool has_exr = std::any_of(options.output.files.begin(), options.output.files.end(), is_exr);
     if (origin == glm::dvec3(0) || !has_exr)
         return;
     notices.add(fmt::format(
@@ -112,11 +112,11 @@ void note_far_options(const Camera& camera, const Bounds& bounds, const Options&
             "{:g} from the scene, whose centre is {} and radius {:g} in the file's coordinates",
             glm::distance(p, centre), triple(centre), radius);
     };
-    const double pixel = 2 * std::tan(glm::radians(camera.fov_degrees) / 2) / options.size.y;
+    const double pixel = 2 * std::tan(glm::radians(camera.fov_degrees) / 2) / options.film.size.y;
     if (2 * radius < pixel * glm::distance(camera.eye, centre))
         notices.add(fmt::format("camera: --eye {} is {}: it covers less than a pixel", triple(camera.eye),
                                 where(camera.eye)));
-    else if (is_out_of_view(camera, bounds, options.size))
+    else if (is_out_of_view(camera, bounds, options.film.size))
         notices.add(
             fmt::format("camera: --at {} is {}: it is out of view", triple(camera.at), where(camera.at)));
     for (const PointOptions& point : options.light.points)

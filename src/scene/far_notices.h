@@ -2,10 +2,10 @@
 // Scenes far from the origin, as map coordinates make them: what cannot be precise there is said.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "scene/normalise.h"
 #include "scene/notices.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/obj_reader.h"
 #include "scene/scene.h"
 
 #include <string>

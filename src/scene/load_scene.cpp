@@ -13,10 +13,10 @@
 #include "scene/lights.h"
 #include "scene/material_override.h"
 #include "scene/material_rules.h"
-#include "scene/mtl_libraries.h"
-#include "scene/mtl_repair.h"
 #include "scene/normalise.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/mtl_libraries.h"
+#include "scene/readers/mtl_repair.h"
+#include "scene/readers/obj_reader.h"
 #include "scene/scene_up.h"
 #include "scene/smoothing.h"
 #include "scene/studio.h"
@@ -93,11 +93,11 @@ RuledMaterial material_by_name(const std::string& name, size_t line, const std::
 std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progress& progress, Scene& scene,
                                    NoticeList& notices) {
     MaterialReader reader;
-    reader.replacement = find_replacement(options.material_override);
+    reader.replacement = find_replacement(options.scene.material_override);
     if (reader.replacement)
         mesh.colours.clear();
     std::vector<bool> coloured = coloured_materials(mesh);
-    decode_vertex_colours(mesh, input_name(options.scene_path), notices);
+    decode_vertex_colours(mesh, input_name(options.scene.path), notices);
     if (mesh.colours.empty())
         coloured.assign(mesh.material_names.size(), false);
     TextureStore store;
@@ -107,12 +107,12 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         scene.statistics.texture_seconds += watch.seconds();
         return answer;
     };
-    reader.library = read_mtl_libraries(input_name(options.scene_path), mesh.libraries, notices, scene.files);
+    reader.library = read_mtl_libraries(input_name(options.scene.path), mesh.libraries, notices, scene.files);
     reader.context = {scene.normalisation.scale, options.light.two_sided};
     reader.load_map = [&](const MtlTexture& use, TextureRole role) {
         return timed([&] { return store.add(use, role, notices); });
     };
-    if (options.mtl == MtlReading::AUTO) {
+    if (options.scene.mtl == MtlReading::AUTO) {
         note_writers(reader.library, notices);
         reader.facts = MapFacts{
             [&](const MtlTexture& use, TextureRole role) {
@@ -126,9 +126,9 @@ std::vector<double> load_materials(ObjMesh& mesh, const Options& options, Progre
         SourcePlace place;
         std::optional<SourcePlace> first_colour;
         if (coloured[i])
-            first_colour = {input_name(options.scene_path), mesh.first_colour_line};
+            first_colour = {input_name(options.scene.path), mesh.first_colour_line};
         const RuledMaterial ruled =
-            material_by_name(mesh.material_names[i], mesh.material_lines[i], input_name(options.scene_path),
+            material_by_name(mesh.material_names[i], mesh.material_lines[i], input_name(options.scene.path),
                              reader, first_colour, place, notices);
         const Material& m = ruled.material;
         scene.emitted.push_back(emitted_radiance(m, store));
@@ -155,7 +155,7 @@ void load_camera_and_lights(const Options& options, const std::vector<double>& e
     LightOptions light = options.light;
     const bool has_light = !scene.emitters.empty() || !light.points.empty() || !light.suns.empty();
     scene.is_studio = light.studio && !has_light && !light.environment && light.environment_file.empty();
-    scene.camera = fit_camera(options.camera, options.size, scene, bounds, notices);
+    scene.camera = fit_camera(options.camera, options.film.size, scene, bounds, notices);
     note_far_options(scene.camera, bounds, options, notices);
     const glm::dvec3 up = options.camera.up.value_or(DEFAULT_UP);
     if (scene.is_studio)
@@ -165,7 +165,8 @@ void load_camera_and_lights(const Options& options, const std::vector<double>& e
         build_lights(light, scene.normalisation, bounds.radius() * scene.normalisation.scale, notices);
     scene.lights = std::move(lights.lights);
     scene.emitted_power = emitters.power + lights.power;
-    scene.environment = load_environment(light, has_light, sky_sampling(options.integrator), notices);
+    scene.environment =
+        load_environment(light, has_light, sky_sampling(options.transport.integrator), notices);
     if (light.background)
         scene.background = light.background->radiance;
     if (light.ground && light.ground->albedo)
@@ -185,7 +186,7 @@ Options with_up(const Options& given, const ObjMesh& mesh, const Bounds& bounds,
         notices.add_line(fmt::format(options.camera.up
                                          ? "{}: z is taken as up, --up z, since {}; --up y keeps y"
                                          : "{}: it looks as if z is up, since {}: --up z turns it",
-                                     input_name(options.scene_path), found.reason));
+                                     input_name(options.scene.path), found.reason));
     return options;
 }
 
@@ -195,7 +196,7 @@ Scene load_all(const Options& given, Progress& progress) {
 
     // Geometry and names.
     const Stopwatch watch;
-    ObjMesh mesh = read_obj(given.scene_path, progress);
+    ObjMesh mesh = read_obj(given.scene.path, progress);
     scene.statistics.obj_seconds = watch.seconds();
     scene.statistics.obj_bytes = mesh.bytes;
     scene.statistics.dropped_faces = mesh.dropped_faces;
@@ -207,16 +208,16 @@ Scene load_all(const Options& given, Progress& progress) {
     const Bounds bounds = bounds_of_triangles(mesh);
     const Options options = with_up(given, mesh, bounds, notices);
     scene.normalisation = fit_normalisation(bounds);
-    note_coarse_digits(mesh, bounds, input_name(options.scene_path), notices);
+    note_coarse_digits(mesh, bounds, input_name(options.scene.path), notices);
     note_relative_positions(scene.normalisation, options, notices);
-    smooth_by_groups(mesh, input_name(options.scene_path), notices);
+    smooth_by_groups(mesh, input_name(options.scene.path), notices);
     const std::vector<double> exitance = load_materials(mesh, options, progress, scene, notices);
-    assemble_geometry(mesh, bounds, scene.normalisation, input_name(options.scene_path), scene, notices);
+    assemble_geometry(mesh, bounds, scene.normalisation, input_name(options.scene.path), scene, notices);
     const CutTriangles cut = cut_vast_triangles(scene);
     if (cut.vast)
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
-                                     input_name(options.scene_path), cut.vast, cut.vast + cut.added));
-    store_vertex_colours(scene, input_name(options.scene_path));
+                                     input_name(options.scene.path), cut.vast, cut.vast + cut.added));
+    store_vertex_colours(scene, input_name(options.scene.path));
     load_camera_and_lights(options, exitance, bounds, scene, notices);
     scene.notices = notices.lines();
     return scene;
@@ -229,7 +230,7 @@ Scene load_scene(const Options& options, Progress& progress) {
         return load_all(options, progress);
     } catch (const std::bad_alloc&) {
         throw SceneError(
-            input_name(options.scene_path), 0,
+            input_name(options.scene.path), 0,
             "not enough memory to load the scene: expected a smaller one, smaller textures, or a "
             "machine with more memory");
     }

@@ -2,8 +2,8 @@
 // OBJ, MTL, textures and options -> Scene.
 #pragma once
 
-#include "app/options.h"
-#include "app/progress.h"
+#include "console/progress.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 namespace clrt {

@@ -2,9 +2,9 @@
 // One material in the place of all, to show shape and light alone: --material.
 #pragma once
 
-#include "app/options.h"
-#include "scene/mtl_reader.h"
+#include "options/options.h"
 #include "scene/notices.h"
+#include "scene/readers/mtl_reader.h"
 
 namespace clrt {
 

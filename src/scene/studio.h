@@ -5,7 +5,7 @@
 // bit.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 

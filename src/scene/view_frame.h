@@ -3,7 +3,7 @@
 // the scene's own up.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>

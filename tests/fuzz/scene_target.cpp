@@ -44,7 +44,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
     const std::string_view text = as_text(data, size);
     const size_t mark = text.find(MTL_MARK);
     Options options;
-    options.scene_path = fuzz_folder().write("a.obj", std::string(text.substr(0, mark)));
+    options.scene.path = fuzz_folder().write("a.obj", std::string(text.substr(0, mark)));
     fuzz_folder().write("m.mtl", std::string(mark == text.npos ? "" : text.substr(mark + MTL_MARK.size())));
     try {
         Progress silent(Toggle::OFF, true);

@@ -21,7 +21,7 @@ namespace {
 class LitFloor : public TestScene {
 public:
     LitFloor() {
-        options.all_effects = false;
+        options.effects.all = false;
         build.material("floor", "Kd 0.5 0.5 0.5").material("glass", "Ni 1.5\nillum 7");
         build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3")
             .material("frosted", "Ni 1.5\nillum 7\nPr 0.5");
@@ -94,7 +94,7 @@ TEST(BlindSpots, GlossyAndMatteAreOneLetterUntilTheyDiffer) {
     LitFloor scene;
     scene.pane("glass").pane("shiny");
     EXPECT_EQ(scene.paths(), "LpS+D.*E");
-    scene.options.paths = "L.*GE";
+    scene.options.transport.paths = "L.*GE";
     EXPECT_TRUE(same_paths(scene.paths(), "LpS(D|G|S)*GE")) << scene.paths();
 }
 
@@ -124,7 +124,7 @@ TEST(BlindSpots, OnlyWhatIsAskedForCounts) {
     LitFloor scene;
     scene.pane("glass");
     const auto asked = [&](const char* paths) {
-        scene.options.paths = paths;
+        scene.options.transport.paths = paths;
         return scene.paths();
     };
     EXPECT_EQ(asked("LD+S*E"), "") << "no caustics";
@@ -134,16 +134,16 @@ TEST(BlindSpots, OnlyWhatIsAskedForCounts) {
     EXPECT_EQ(asked("LTTDE"), "LpTTDE");
     EXPECT_EQ(asked("LDE|LRDE"), "LpRDE");
     EXPECT_EQ(asked("E(S|D)*L"), "LpS+D(D|S)*E") << "written from the eye";
-    scene.options.paths.clear();
-    scene.options.max_depth = 2;
+    scene.options.transport.paths.clear();
+    scene.options.transport.max_depth = 2;
     EXPECT_EQ(scene.paths(), "") << "a caustic has three segments";
-    scene.options.max_depth = 3;
+    scene.options.transport.max_depth = 3;
     EXPECT_EQ(scene.paths(), "LpS+D(D|S)*E");
 }
 
 TEST(BlindSpots, LongExpressionsAreHeldByAShortOne) {
     LitFloor scene;
-    scene.pane("glass").options.paths = "LS+" + std::string(40, 'D') + "E";
+    scene.pane("glass").options.transport.paths = "LS+" + std::string(40, 'D') + "E";
     EXPECT_EQ(scene.paths(), "LpS.*E");
 }
 
@@ -151,7 +151,7 @@ TEST(BlindSpots, TheOtherIntegratorsSampleAllOfTheirLanguage) {
     LitFloor scene;
     scene.pane("glass").pane("mirror").pane("frosted").options.light.suns = {{{0, 1, 0}, glm::dvec3(1), 0}};
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_EQ(scene.paths(), "") << int(integrator);
     }
 }
@@ -164,7 +164,7 @@ TEST(BlindSpots, AreExplained) {
     EXPECT_EQ(text().find("Not seen"), std::string::npos);
     scene.pane("glass");
     EXPECT_NE(text().find("\nNot seen:\n  LpS+D(D|S)*E: point light"), std::string::npos) << text();
-    scene.options.explain = Explain::JSON;
+    scene.options.run.explain = Explain::JSON;
     const auto json = nlohmann::json::parse(text());
     ASSERT_EQ(json["blind_spots"].size(), 1u);
     EXPECT_EQ(json["blind_spots"][0]["paths"], "LpS+D(D|S)*E");

@@ -15,31 +15,31 @@ BvhQuality choose(const Options& options, size_t triangles) {
 
 TEST(BvhQuality, ChoiceOfTheUserStands) {
     Options options;
-    options.bvh_quality = QualityChoice::HIGH;
-    options.spp = 1;
+    options.bvh.quality = QualityChoice::HIGH;
+    options.sampling.spp = 1;
     EXPECT_EQ(choose(options, 10000000), BvhQuality::HIGH);
     EXPECT_EQ(choose_bvh_quality(options, 10000000).reason, "as chosen");
-    options.bvh_quality = QualityChoice::FAST;
-    options.spp = 100000;
+    options.bvh.quality = QualityChoice::FAST;
+    options.sampling.spp = 100000;
     EXPECT_EQ(choose(options, 100), BvhQuality::FAST);
 }
 
 TEST(BvhQuality, MoreSamplesPixelsOrDepthCanOnlyRaiseIt) {
     Options options;
-    options.spp = 1;
+    options.sampling.spp = 1;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
-    options.spp = 4096;
+    options.sampling.spp = 4096;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
-    options.size = {80, 60};
+    options.film.size = {80, 60};
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
-    options.size = {8000, 6000};
-    options.crop = Crop{0, 0, 80, 60};
+    options.film.size = {8000, 6000};
+    options.film.crop = Crop{0, 0, 80, 60};
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
-    options.crop.reset();
-    options.size = {800, 600};
-    options.spp = 64;
+    options.film.crop.reset();
+    options.film.size = {800, 600};
+    options.sampling.spp = 64;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
-    options.max_depth = 1;
+    options.transport.max_depth = 1;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
 }
 
@@ -52,14 +52,14 @@ TEST(BvhQuality, SmallMeshesGetTheBetterTreeAtOnce) {
 
 TEST(BvhQuality, TimeBoundsThePrediction) {
     Options options;
-    options.time_seconds = 1;
+    options.sampling.time_seconds = 1;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
-    options.time_seconds = 600;
+    options.sampling.time_seconds = 600;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
-    options.spp = 1; // ends long before
+    options.sampling.spp = 1; // ends long before
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
-    options.spp = 100000;
-    options.time_seconds = 1;
+    options.sampling.spp = 100000;
+    options.sampling.time_seconds = 1;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
 }
 
@@ -67,11 +67,11 @@ TEST(BvhQuality, TimeBoundsThePrediction) {
 // otherwise.
 TEST(BvhQuality, AnErrorTargetCountsAsALongRender) {
     Options options;
-    options.size = {512, 512};
+    options.film.size = {512, 512};
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
-    options.error = 0.02;
+    options.sampling.error = 0.02;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::HIGH);
-    options.spp = 16;
+    options.sampling.spp = 16;
     EXPECT_EQ(choose(options, 1000000), BvhQuality::FAST);
 }
 

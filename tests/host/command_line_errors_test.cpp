@@ -15,7 +15,7 @@ TEST(CommandLine, OneSceneIsExpected) {
     EXPECT_NE(refusal({"a.obj", "b.obj"}).find("expected one scene, found 2: 'a.obj' and 'b.obj'"),
               std::string::npos);
     EXPECT_NE(refusal({"a.clrt"}).find("expected a scene such as STEM.obj"), std::string::npos);
-    EXPECT_EQ(parse_all({"--", "-odd.obj"}).options.scene_path, "-odd.obj");
+    EXPECT_EQ(parse_all({"--", "-odd.obj"}).options.scene.path, "-odd.obj");
 }
 
 TEST(CommandLine, UnknownOptionsNameTheNearest) {
@@ -209,8 +209,8 @@ TEST(CommandLine, ContradictionsAreNamed) {
            "layer 'c'");
     expect({"--adaptive", "--ledger"}, "option --adaptive: expected no --ledger");
     expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
-    EXPECT_EQ(parse({"--first-sample", "4294967231"}).first_sample, 4294967231u);
-    EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).max_depth, 64);
+    EXPECT_EQ(parse({"--first-sample", "4294967231"}).sampling.first_sample, 4294967231u);
+    EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).transport.max_depth, 64);
 }
 
 TEST(CommandLine, MissingOutputFolderStopsBeforeAnyWork) {

@@ -105,34 +105,34 @@ std::vector<std::string> companions(const std::string& option) {
 
 TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     const Options o = parse({});
-    EXPECT_EQ(o.scene_path, "scene.obj");
-    EXPECT_EQ(o.integrator, Integrator::PATH);
-    EXPECT_FALSE(o.spp);
-    EXPECT_FALSE(o.time_seconds);
-    EXPECT_FALSE(o.error);
-    EXPECT_EQ(effective_max_depth(o), 4096);
-    EXPECT_EQ(o.roulette_depth, 5);
-    EXPECT_EQ(o.min_contribution, 0.002);
-    EXPECT_EQ(o.replicates, 8);
-    EXPECT_EQ(o.sampler, SamplerChoice::SOBOL);
-    EXPECT_EQ(o.size, glm::ivec2(800, 600));
-    EXPECT_EQ(o.outputs, std::vector<std::string>{"scene.png"});
-    EXPECT_EQ(o.filter, Filter::BOX);
-    EXPECT_EQ(o.check, Check::COUNT);
-    EXPECT_FALSE(o.aovs);
-    EXPECT_EQ(o.command, (std::vector<std::string>{"clrt", "scene.obj"}));
+    EXPECT_EQ(o.scene.path, "scene.obj");
+    EXPECT_EQ(o.transport.integrator, Integrator::PATH);
+    EXPECT_FALSE(o.sampling.spp);
+    EXPECT_FALSE(o.sampling.time_seconds);
+    EXPECT_FALSE(o.sampling.error);
+    EXPECT_EQ(effective_max_depth(o.transport), 4096);
+    EXPECT_EQ(o.transport.roulette_depth, 5);
+    EXPECT_EQ(o.transport.min_contribution, 0.002);
+    EXPECT_EQ(o.sampling.replicates, 8);
+    EXPECT_EQ(o.sampling.sampler, SamplerChoice::SOBOL);
+    EXPECT_EQ(o.film.size, glm::ivec2(800, 600));
+    EXPECT_EQ(o.output.files, std::vector<std::string>{"scene.png"});
+    EXPECT_EQ(o.film.filter, Filter::BOX);
+    EXPECT_EQ(o.run.check, Check::COUNT);
+    EXPECT_FALSE(o.output.aovs);
+    EXPECT_EQ(o.run.command, (std::vector<std::string>{"clrt", "scene.obj"}));
 }
 
 TEST(CommandLine, PictureIsNamedAfterTheSceneInTheCurrentFolder) {
-    EXPECT_EQ(parse_all({"some/folder/my hall.v2.obj"}).options.outputs,
+    EXPECT_EQ(parse_all({"some/folder/my hall.v2.obj"}).options.output.files,
               std::vector<std::string>{"my hall.v2.png"});
 }
 
 TEST(CommandLine, DepthDefaultsDependOnTheIntegrator) {
-    EXPECT_EQ(effective_max_depth(parse({"-i", "whitted"})), 10);
-    EXPECT_EQ(effective_max_depth(parse({"-i", "whitted", "--max-depth", "3"})), 3);
-    EXPECT_EQ(effective_max_depth(parse({"-i", "raycast", "--max-depth", "3"})), 2);
-    EXPECT_EQ(effective_max_depth(parse({"--max-depth", "3"})), 3);
+    EXPECT_EQ(effective_max_depth(parse({"-i", "whitted"}).transport), 10);
+    EXPECT_EQ(effective_max_depth(parse({"-i", "whitted", "--max-depth", "3"}).transport), 3);
+    EXPECT_EQ(effective_max_depth(parse({"-i", "raycast", "--max-depth", "3"}).transport), 2);
+    EXPECT_EQ(effective_max_depth(parse({"--max-depth", "3"}).transport), 3);
 }
 
 TEST(CommandLine, WorkOptionsArrive) {
@@ -160,61 +160,61 @@ TEST(CommandLine, WorkOptionsArrive) {
                              "3",
                              "--first-sample",
                              "8"});
-    EXPECT_EQ(o.device, "pocl");
-    EXPECT_EQ(o.integrator, Integrator::RAYCAST);
-    EXPECT_EQ(o.spp, 7u);
-    EXPECT_EQ(o.time_seconds, 90.0);
-    EXPECT_EQ(o.seed, 3u);
-    EXPECT_EQ(o.threads, 2);
-    EXPECT_EQ(o.precision, Precision::FAST);
-    EXPECT_EQ(o.replicates, 64);
-    EXPECT_EQ(o.bvh, BvhChoice::BVH8);
-    EXPECT_EQ(o.min_contribution, 0.02);
-    EXPECT_EQ(o.roulette_depth, 3);
-    EXPECT_EQ(o.first_sample, 8u);
+    EXPECT_EQ(o.device.name, "pocl");
+    EXPECT_EQ(o.transport.integrator, Integrator::RAYCAST);
+    EXPECT_EQ(o.sampling.spp, 7u);
+    EXPECT_EQ(o.sampling.time_seconds, 90.0);
+    EXPECT_EQ(o.sampling.seed, 3u);
+    EXPECT_EQ(o.device.threads, 2);
+    EXPECT_EQ(o.device.precision, Precision::FAST);
+    EXPECT_EQ(o.sampling.replicates, 64);
+    EXPECT_EQ(o.bvh.layout, BvhChoice::BVH8);
+    EXPECT_EQ(o.transport.min_contribution, 0.02);
+    EXPECT_EQ(o.transport.roulette_depth, 3);
+    EXPECT_EQ(o.sampling.first_sample, 8u);
 }
 
 TEST(CommandLine, PictureOptionsArrive) {
     const Options o =
         parse({"-r", "1280X720", "-o", "a.PNG", "--output=b.exr", "--crop", "1,2,1280,720", "--filter",
                "tent:1.25", "--exposure", "-2", "--tonemap", "reinhard", "--aov", "N, Z"});
-    EXPECT_EQ(o.size, glm::ivec2(1280, 720));
-    EXPECT_EQ(o.outputs, (std::vector<std::string>{"a.PNG", "b.exr"}));
-    ASSERT_TRUE(o.crop);
-    EXPECT_EQ(o.crop->x0, 1);
-    EXPECT_EQ(o.crop->y0, 2);
-    EXPECT_EQ(o.crop->x1, 1280);
-    EXPECT_EQ(o.crop->y1, 720);
-    EXPECT_EQ(o.filter, Filter::TENT);
-    EXPECT_EQ(o.filter_radius, 1.25);
-    EXPECT_EQ(o.exposure_ev, -2);
-    EXPECT_EQ(o.tonemap, Tonemap::REINHARD);
-    EXPECT_EQ(o.aovs, (std::vector<std::string>{"N", "Z"}));
-    EXPECT_TRUE(parse({"--aov", "none"}).aovs->empty());
-    EXPECT_FALSE(o.auto_exposure);
+    EXPECT_EQ(o.film.size, glm::ivec2(1280, 720));
+    EXPECT_EQ(o.output.files, (std::vector<std::string>{"a.PNG", "b.exr"}));
+    ASSERT_TRUE(o.film.crop);
+    EXPECT_EQ(o.film.crop->x0, 1);
+    EXPECT_EQ(o.film.crop->y0, 2);
+    EXPECT_EQ(o.film.crop->x1, 1280);
+    EXPECT_EQ(o.film.crop->y1, 720);
+    EXPECT_EQ(o.film.filter, Filter::TENT);
+    EXPECT_EQ(o.film.filter_radius, 1.25);
+    EXPECT_EQ(o.output.exposure_ev, -2);
+    EXPECT_EQ(o.output.tonemap, Tonemap::REINHARD);
+    EXPECT_EQ(o.output.aovs, (std::vector<std::string>{"N", "Z"}));
+    EXPECT_TRUE(parse({"--aov", "none"}).output.aovs->empty());
+    EXPECT_FALSE(o.output.auto_exposure);
     for (const auto& [text, ev] :
          std::map<std::string, double>{{"auto", 0}, {"auto+1", 1}, {"auto-0.5", -0.5}}) {
-        EXPECT_TRUE(parse({"--exposure", text}).auto_exposure) << text;
-        EXPECT_EQ(parse({"--exposure", text}).exposure_ev, ev) << text;
+        EXPECT_TRUE(parse({"--exposure", text}).output.auto_exposure) << text;
+        EXPECT_EQ(parse({"--exposure", text}).output.exposure_ev, ev) << text;
     }
-    EXPECT_EQ(parse({"--tonemap", "filmic"}).tonemap, Tonemap::FILMIC);
-    EXPECT_EQ(parse({"--tonemap", "agx"}).tonemap, Tonemap::AGX);
-    EXPECT_EQ(o.material_override, MaterialOverride::NONE);
-    EXPECT_EQ(parse({"--material", "clay"}).material_override, MaterialOverride::CLAY);
+    EXPECT_EQ(parse({"--tonemap", "filmic"}).output.tonemap, Tonemap::FILMIC);
+    EXPECT_EQ(parse({"--tonemap", "agx"}).output.tonemap, Tonemap::AGX);
+    EXPECT_EQ(o.scene.material_override, MaterialOverride::NONE);
+    EXPECT_EQ(parse({"--material", "clay"}).scene.material_override, MaterialOverride::CLAY);
 }
 
 TEST(CommandLine, TreeTakesLayoutAndQuality) {
-    EXPECT_EQ(parse({}).bvh_quality, QualityChoice::AUTO);
+    EXPECT_EQ(parse({}).bvh.quality, QualityChoice::AUTO);
     const Options both = parse({"--bvh", "high,bvh2"});
-    EXPECT_EQ(both.bvh, BvhChoice::BVH2);
-    EXPECT_EQ(both.bvh_quality, QualityChoice::HIGH);
+    EXPECT_EQ(both.bvh.layout, BvhChoice::BVH2);
+    EXPECT_EQ(both.bvh.quality, QualityChoice::HIGH);
     const Options compressed = parse({"--bvh", "cwbvh,high"});
-    EXPECT_EQ(compressed.bvh, BvhChoice::CWBVH);
-    EXPECT_EQ(compressed.bvh_quality, QualityChoice::HIGH);
+    EXPECT_EQ(compressed.bvh.layout, BvhChoice::CWBVH);
+    EXPECT_EQ(compressed.bvh.quality, QualityChoice::HIGH);
     const Options quality = parse({"--bvh", "fast"});
-    EXPECT_EQ(quality.bvh, BvhChoice::AUTO);
-    EXPECT_EQ(quality.bvh_quality, QualityChoice::FAST);
-    EXPECT_EQ(parse({"--bvh", "high", "--bvh", "auto"}).bvh_quality, QualityChoice::AUTO);
+    EXPECT_EQ(quality.bvh.layout, BvhChoice::AUTO);
+    EXPECT_EQ(quality.bvh.quality, QualityChoice::FAST);
+    EXPECT_EQ(parse({"--bvh", "high", "--bvh", "auto"}).bvh.quality, QualityChoice::AUTO);
 }
 
 TEST(CommandLine, CameraOptionsArrive) {
@@ -236,8 +236,9 @@ TEST(CommandLine, StudioOptionsArrive) {
     EXPECT_TRUE(parse({"--ground", "none"}).light.ground &&
                 !parse({"--ground", "none"}).light.ground->albedo);
     EXPECT_EQ(parse({"--background", "9,0,1"}).light.background->radiance, glm::dvec3(9, 0, 1));
-    EXPECT_TRUE(has_transparent_background(parse({"--background", "transparent"})));
-    EXPECT_FALSE(has_transparent_background(parse({"--background", "transparent", "--background", "1,1,1"})));
+    EXPECT_TRUE(has_transparent_background(parse({"--background", "transparent"}).light));
+    EXPECT_FALSE(
+        has_transparent_background(parse({"--background", "transparent", "--background", "1,1,1"}).light));
 }
 
 TEST(CommandLine, LightOptionsArrive) {
@@ -269,13 +270,13 @@ TEST(CommandLine, EnvironmentIsAColourWhereItLooksLikeNumbers) {
 
 TEST(CommandLine, EffectsAreAListOrTakenAway) {
     const Options list = parse({"--effects", "matte, area-lights"});
-    EXPECT_EQ(list.effects_list, std::optional<std::uint32_t>(EFFECT_MATTE | EFFECT_AREA_LIGHT));
-    EXPECT_FALSE(list.all_effects);
+    EXPECT_EQ(list.effects.list, std::optional<std::uint32_t>(EFFECT_MATTE | EFFECT_AREA_LIGHT));
+    EXPECT_FALSE(list.effects.all);
     const Options less = parse({"--effects=all,-refraction,-interreflection"});
-    EXPECT_TRUE(less.all_effects);
-    EXPECT_EQ(less.effects_off, EFFECT_REFRACTION | EFFECT_INTERREFLECTION);
-    EXPECT_EQ(parse({"--effects", "-matte"}).effects_off, EFFECT_MATTE);
-    EXPECT_EQ(parse({"--effects", "all", "--effects", "auto"}).all_effects, false);
+    EXPECT_TRUE(less.effects.all);
+    EXPECT_EQ(less.effects.off, EFFECT_REFRACTION | EFFECT_INTERREFLECTION);
+    EXPECT_EQ(parse({"--effects", "-matte"}).effects.off, EFFECT_MATTE);
+    EXPECT_EQ(parse({"--effects", "all", "--effects", "auto"}).effects.all, false);
     EXPECT_NE(refusal({"--effects", "mate", "s.obj"}).find("the nearest to 'mate' is matte"),
               std::string::npos);
     for (const char* wrong : {"matte,all", "auto,matte", "-matte,glossy", ",", "-"})
@@ -287,43 +288,43 @@ TEST(CommandLine, PromisesAndRunOptionsArrive) {
     const Options o =
         parse({"--effects", "all", "--stats", "s.json", "--check", "off", "--kernels", "k", "--dump-kernels",
                "d", "--cache", "on", "--cache-dir", "c", "--progress", "on", "-v"});
-    EXPECT_TRUE(o.all_effects);
-    EXPECT_EQ(o.stats_path, "s.json");
-    EXPECT_EQ(o.check, Check::OFF);
-    EXPECT_EQ(o.kernels_folder, "k");
-    EXPECT_EQ(o.dump_folder, "d");
-    EXPECT_EQ(o.cache, Toggle::ON);
-    EXPECT_EQ(o.cache_folder, "c");
-    EXPECT_EQ(o.progress, Toggle::ON);
-    EXPECT_EQ(o.verbosity, 1);
-    EXPECT_EQ(parse({"-q"}).verbosity, -1);
-    EXPECT_EQ(parse({"--no-cache"}).cache, Toggle::OFF);
-    EXPECT_EQ(parse({"--check", "strict"}).check, Check::STRICT);
+    EXPECT_TRUE(o.effects.all);
+    EXPECT_EQ(o.output.stats_path, "s.json");
+    EXPECT_EQ(o.run.check, Check::OFF);
+    EXPECT_EQ(o.device.kernels_folder, "k");
+    EXPECT_EQ(o.device.dump_folder, "d");
+    EXPECT_EQ(o.device.cache, Toggle::ON);
+    EXPECT_EQ(o.device.cache_folder, "c");
+    EXPECT_EQ(o.run.progress, Toggle::ON);
+    EXPECT_EQ(o.run.verbosity, 1);
+    EXPECT_EQ(parse({"-q"}).run.verbosity, -1);
+    EXPECT_EQ(parse({"--no-cache"}).device.cache, Toggle::OFF);
+    EXPECT_EQ(parse({"--check", "strict"}).run.check, Check::STRICT);
 }
 
 TEST(CommandLine, ExplainDoesNotSwallowTheScene) {
-    EXPECT_EQ(parse({"--explain"}).explain, Explain::TABLE);
-    EXPECT_EQ(parse({"--explain"}).scene_path, "scene.obj");
-    EXPECT_EQ(parse({"--explain=json"}).explain, Explain::JSON);
+    EXPECT_EQ(parse({"--explain"}).run.explain, Explain::TABLE);
+    EXPECT_EQ(parse({"--explain"}).scene.path, "scene.obj");
+    EXPECT_EQ(parse({"--explain=json"}).run.explain, Explain::JSON);
     EXPECT_NE(refusal({"--explain=xml", "s.obj"}).find("--explain=json"), std::string::npos);
 }
 
 TEST(CommandLine, DurationsHaveUnits) {
-    EXPECT_EQ(parse({"-t", "90s"}).time_seconds, 90.0);
-    EXPECT_EQ(parse({"-t", "5m"}).time_seconds, 300.0);
-    EXPECT_EQ(parse({"-t", "1.5h"}).time_seconds, 5400.0);
+    EXPECT_EQ(parse({"-t", "90s"}).sampling.time_seconds, 90.0);
+    EXPECT_EQ(parse({"-t", "5m"}).sampling.time_seconds, 300.0);
+    EXPECT_EQ(parse({"-t", "1.5h"}).sampling.time_seconds, 5400.0);
 }
 
 TEST(CommandLine, TheErrorTargetIsAFractionOrPercent) {
-    EXPECT_EQ(parse({"-e", "0.02"}).error, 0.02);
-    EXPECT_EQ(parse({"--error=2%"}).error, 0.02);
+    EXPECT_EQ(parse({"-e", "0.02"}).sampling.error, 0.02);
+    EXPECT_EQ(parse({"--error=2%"}).sampling.error, 0.02);
 }
 
 TEST(CommandLine, ACheckpointMayHaveAnInterval) {
     const auto expect = [](const std::string& text, const std::string& path, double seconds) {
         const Options o = parse({"--checkpoint", text});
-        EXPECT_EQ(o.checkpoint_path, path);
-        EXPECT_EQ(o.checkpoint_seconds, seconds);
+        EXPECT_EQ(o.film_file.checkpoint_path, path);
+        EXPECT_EQ(o.film_file.checkpoint_seconds, seconds);
     };
     expect("a.film", "a.film", 300);
     expect("a.film,90s", "a.film", 90);
@@ -341,16 +342,16 @@ TEST(CommandLine, ACheckpointMayHaveAnInterval) {
 TEST(CommandLine, TheCommandOfAFilmLacksWhatIsAboutOneRunAlone) {
     const Options o =
         parse({"--resume", "a.film", "-s", "16", "--checkpoint=b.film", "-v", "--force", "--progress", "on"});
-    EXPECT_EQ(o.resume_path, "a.film");
-    EXPECT_EQ(o.checkpoint_path, "b.film");
-    EXPECT_TRUE(o.force);
-    EXPECT_EQ(o.resumable_command,
+    EXPECT_EQ(o.film_file.resume_path, "a.film");
+    EXPECT_EQ(o.film_file.checkpoint_path, "b.film");
+    EXPECT_TRUE(o.film_file.force);
+    EXPECT_EQ(o.run.resumable_command,
               (std::vector<std::string>{"clrt", "--spp=16", "--checkpoint=b.film", "--", "scene.obj"}));
 }
 
 TEST(CommandLine, AResumedFilmIsWrittenAnewUnlessTheCommandLineNamesAnother) {
-    EXPECT_EQ(parse({"--resume", "a.film"}).checkpoint_path, "a.film");
-    EXPECT_EQ(parse({"-s", "16"}).checkpoint_path, "");
+    EXPECT_EQ(parse({"--resume", "a.film"}).film_file.checkpoint_path, "a.film");
+    EXPECT_EQ(parse({"-s", "16"}).film_file.checkpoint_path, "");
 }
 
 TEST(CommandLine, UpMayBeTheNameOfAnAxis) {
@@ -363,22 +364,22 @@ TEST(CommandLine, UpMayBeTheNameOfAnAxis) {
 
 TEST(CommandLine, FramesNumberTheNamesOfOutputs) {
     const Options o = parse({"--frames", "3", "--stats", "a.json", "-o", "b.png", "-o", "{frame}.exr"});
-    EXPECT_EQ(o.outputs, (std::vector<std::string>{"b-{frame:4}.png", "{frame}.exr"}));
-    EXPECT_EQ(o.stats_path, "a-{frame:4}.json");
-    EXPECT_EQ(parse({}).outputs.front(), "scene.png");
+    EXPECT_EQ(o.output.files, (std::vector<std::string>{"b-{frame:4}.png", "{frame}.exr"}));
+    EXPECT_EQ(o.output.stats_path, "a-{frame:4}.json");
+    EXPECT_EQ(parse({}).output.files.front(), "scene.png");
 }
 
 TEST(CommandLine, ShortOptionsCanBeGlued) {
     const Options o = parse({"-s4", "-r16x8", "-lv"});
-    EXPECT_EQ(o.spp, 4u);
-    EXPECT_EQ(o.size, glm::ivec2(16, 8));
-    EXPECT_TRUE(o.list_devices);
-    EXPECT_EQ(o.verbosity, 1);
+    EXPECT_EQ(o.sampling.spp, 4u);
+    EXPECT_EQ(o.film.size, glm::ivec2(16, 8));
+    EXPECT_TRUE(o.run.list_devices);
+    EXPECT_EQ(o.run.verbosity, 1);
 }
 
 TEST(CommandLine, LastValueCounts) {
-    EXPECT_EQ(parse({"--spp", "4", "--spp", "8"}).spp, 8u);
-    EXPECT_FALSE(parse({"--filter", "tent:2", "--filter", "box"}).filter_radius);
+    EXPECT_EQ(parse({"--spp", "4", "--spp", "8"}).sampling.spp, 8u);
+    EXPECT_FALSE(parse({"--filter", "tent:2", "--filter", "box"}).film.filter_radius);
     EXPECT_TRUE(parse({"--env", "1,1,1", "--env", "a.exr"}).light.environment == std::nullopt);
 }
 
@@ -423,7 +424,7 @@ TEST(CommandLine, HelpAndVersionNeedNoScene) {
         EXPECT_EQ(text->find("Usage: clrt [options] scene.obj\n"), 0u);
     }
     EXPECT_EQ(parse_all({"--version"}).print, "clrt " CLRT_VERSION "\n");
-    EXPECT_TRUE(parse_all({"-l"}).options.list_devices);
+    EXPECT_TRUE(parse_all({"-l"}).options.run.list_devices);
 }
 
 TEST(CommandLine, StatisticsNeverReplaceTheScene) {

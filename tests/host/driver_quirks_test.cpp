@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How --threads and --cache reach the drivers: by their environment variables.
-#include "app/options.h"
 #include "device/device.h"
+#include "options/options.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ protected:
 } // namespace
 
 TEST_F(DriverQuirks, ThreadsAreSetForEveryCpuDriver) {
-    Options options;
+    DeviceOptions options;
     set_driver_environment(options);
     expect_threads("unset");
     options.threads = 3;
@@ -62,7 +62,7 @@ TEST_F(DriverQuirks, ThreadsAreSetForEveryCpuDriver) {
 TEST_F(DriverQuirks, ThreadsAskedForReplaceThoseOfTheEnvironment) {
     for (const char* name : THREADS)
         setenv(name, "7", 1);
-    Options options;
+    DeviceOptions options;
     set_driver_environment(options);
     expect_threads("7");
     options.threads = 2;
@@ -71,7 +71,7 @@ TEST_F(DriverQuirks, ThreadsAskedForReplaceThoseOfTheEnvironment) {
 }
 
 TEST_F(DriverQuirks, CacheOffTurnsEveryDriversCacheOff) {
-    Options options;
+    DeviceOptions options;
     for (const Toggle kept : {Toggle::AUTO, Toggle::ON}) {
         options.cache = kept;
         set_driver_environment(options);
@@ -93,7 +93,7 @@ TEST_F(DriverQuirks, OnlyPoclAndNvidiaCacheByThemselves) {
 }
 
 TEST_F(DriverQuirks, ThePlatformListIsMadeWithTheThreadsAskedFor) {
-    Options options;
+    DeviceOptions options;
     options.threads = 1;
     set_driver_environment(options);
     for (const PlatformInfo& platform : list_platforms())

@@ -20,7 +20,7 @@ public:
         build.textured_quad({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
         texture("map.exr", 2, 1, 3, {1, 1, 1, 0.5f, 0.5f, 0.5f});
         options.light.environment = glm::dvec3(0);
-        options.all_effects = false;
+        options.effects.all = false;
     }
     Effects effects() const { return find_effects(load(), options); }
 };
@@ -153,14 +153,14 @@ TEST(Effects, NormalsAndFiltersAreFoundWithoutMaterials) {
     expect_present(smooth, EFFECT_SMOOTH_NORMALS, "triangle 2 (" + smooth.folder.file("scene.obj") + ":");
 
     OneQuad filtered;
-    filtered.options.filter = Filter::GAUSSIAN;
+    filtered.options.film.filter = Filter::GAUSSIAN;
     expect_present(filtered, EFFECT_FILTER, "--filter");
 }
 
 TEST(Effects, AllIsTheFullMaskAndChangesNoWitness) {
     OneQuad scene;
     const Effects needed = scene.effects();
-    scene.options.all_effects = true;
+    scene.options.effects.all = true;
     const Effects all = scene.effects();
     EXPECT_EQ(all.mask, u32(EFFECT_ALL));
     for (size_t i = 0; i < all.list.size(); ++i) {
@@ -172,12 +172,12 @@ TEST(Effects, AllIsTheFullMaskAndChangesNoWitness) {
 TEST(Effects, OptionsOfTheOptionsFileAreNamedWithTheirLine) {
     OneQuad scene;
     scene.options.light.environment = glm::dvec3(1);
-    scene.options.given["--env"] = "room.clrt:7";
+    scene.options.run.given["--env"] = "room.clrt:7";
     expect_present(scene, EFFECT_ENVIRONMENT, "--env (room.clrt:7)");
     const Effects effects = scene.effects();
     EXPECT_EQ(find(effects, EFFECT_ENVIRONMENT).place.file, "room.clrt");
     EXPECT_EQ(find(effects, EFFECT_ENVIRONMENT).place.line, 7u);
-    scene.options.given["--env"] = ""; // on the command line
+    scene.options.run.given["--env"] = ""; // on the command line
     EXPECT_EQ(scene.effects().list[2].witness, "--env: radiance above 0");
 }
 
@@ -192,10 +192,10 @@ TEST(Effects, MapsAreNamedWithTheLineOfTheirStatement) {
 TEST(Effects, InterreflectionTakesAThirdSegment) {
     OneQuad scene;
     expect_present_at_run_time(scene, EFFECT_INTERREFLECTION, "4096 segments, material \"thing\"");
-    scene.options.max_depth = 2;
+    scene.options.transport.max_depth = 2;
     EXPECT_FALSE(find(scene.effects(), EFFECT_INTERREFLECTION).present);
-    scene.options.max_depth.reset();
-    scene.options.integrator = Integrator::RAYCAST;
+    scene.options.transport.max_depth.reset();
+    scene.options.transport.integrator = Integrator::RAYCAST;
     EXPECT_FALSE(find(scene.effects(), EFFECT_INTERREFLECTION).present);
     EXPECT_EQ(find(OneQuad("Kd 0 0 0").effects(), EFFECT_INTERREFLECTION).witness, "no material reflects");
 }
@@ -203,29 +203,29 @@ TEST(Effects, InterreflectionTakesAThirdSegment) {
 TEST(Effects, AListIsCompiledAndWhatItLacksIsLeftOut) {
     OneQuad scene("Ni 1.5\nillum 7\nPr 0.3");
     scene.options.light.environment = glm::dvec3(1);
-    scene.options.effects_list = EFFECT_ROUGH_REFRACTION | EFFECT_MATTE;
+    scene.options.effects.list = EFFECT_ROUGH_REFRACTION | EFFECT_MATTE;
     const Effects list = scene.effects();
     EXPECT_EQ(list.mask, u32(EFFECT_ROUGH_REFRACTION | EFFECT_REFRACTION | EFFECT_MATTE));
     EXPECT_EQ(list.left_out, u32(EFFECT_ENVIRONMENT) | EFFECT_INTERREFLECTION);
     EXPECT_NE(describe_left_out(list).at(0).find("environment: black"), std::string::npos);
 
-    scene.options.effects_list.reset();
-    scene.options.effects_off = EFFECT_REFRACTION | EFFECT_MIRROR;
+    scene.options.effects.list.reset();
+    scene.options.effects.off = EFFECT_REFRACTION | EFFECT_MIRROR;
     const Effects without = scene.effects();
     EXPECT_EQ(without.mask, u32(EFFECT_ENVIRONMENT));
     EXPECT_EQ(without.left_out, u32(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION));
 
-    scene.options.all_effects = true;
+    scene.options.effects.all = true;
     EXPECT_EQ(scene.effects().mask,
               u32(EFFECT_ALL & ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR)));
-    scene.options.effects_off = 0;
+    scene.options.effects.off = 0;
     EXPECT_EQ(scene.effects().left_out, 0u);
     EXPECT_TRUE(describe_left_out(scene.effects()).empty());
 }
 
 TEST(Explain, TheTableNamesEffectsMaterialsAndFallbacks) {
     OneQuad scene("Kd 0.5 0.5 0.5\nmap_Kd none.png");
-    scene.options.scene_path = "quad.obj";
+    scene.options.scene.path = "quad.obj";
     const std::string text = explain(scene.load(), scene.effects(), scene.options);
     for (const char* expected : {"quad.obj", "2 triangles", "present  matte ", "absent   refraction", "thing",
                                  "illum 1: matte Kd", "CLRT_EFFECTS=0x10", "none.png", "camera: --eye"})
@@ -234,7 +234,7 @@ TEST(Explain, TheTableNamesEffectsMaterialsAndFallbacks) {
 
 TEST(Explain, TheJsonHoldsTheSame) {
     OneQuad scene("Ni 1.5\nillum 7");
-    scene.options.explain = Explain::JSON;
+    scene.options.run.explain = Explain::JSON;
     const auto json = nlohmann::json::parse(explain(scene.load(), scene.effects(), scene.options));
     EXPECT_EQ(json["triangles"], 2);
     ASSERT_EQ(json["effects"].size(), scene.effects().list.size());

@@ -2,7 +2,7 @@
 // The identity of a film: the same for the same scene and options, another for whatever changes a bit.
 #include "film/film_identity.h"
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "scene/load_scene.h"
 #include "scene_support.h"
 
@@ -22,7 +22,7 @@ protected:
     }
     void write(const std::string& name, const std::string& text) const { folder.write(name, text); }
     Scene load(Options options = {}) const {
-        options.scene_path = folder.path("s.obj");
+        options.scene.path = folder.path("s.obj");
         Progress progress(Toggle::OFF, true);
         return load_scene(options, progress);
     }
@@ -83,36 +83,32 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
 }
 
 TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
-    EXPECT_EQ(field([](Options& o) { o.integrator = Integrator::WHITTED; }), "integrator");
-    EXPECT_EQ(field([](Options& o) { o.precision = Precision::DOUBLE; }), "precision");
-    EXPECT_EQ(field([](Options& o) { o.seed = 1; }), "seed");
-    EXPECT_EQ(field([](Options& o) { o.replicates = 4; }), "replicates");
-    EXPECT_EQ(field([](Options& o) { o.crop = Crop{0, 0, 8, 8}; }), "window");
-    EXPECT_EQ(field([](Options& o) { o.filter = Filter::TENT; }), "filter");
-    EXPECT_EQ(field([](Options& o) { o.filter_radius = 0.7; }), "filter_radius");
-    EXPECT_EQ(field([](Options& o) { o.max_depth = 5; }), "max_depth");
-    EXPECT_EQ(field([](Options& o) { o.roulette_depth = 9; }), "roulette_depth");
-    EXPECT_EQ(field([](Options& o) { o.adaptive = true; }), "adaptive");
-    EXPECT_EQ(field([](Options& o) { o.sampler = SamplerChoice::INDEPENDENT; }), "sampler");
-    EXPECT_EQ(field([](Options& o) { o.min_contribution = 0.1; }), "min_contribution");
-    EXPECT_EQ(field([](Options& o) { o.paths = "LDE"; }), "paths");
-    EXPECT_EQ(field([](Options& o) { o.path_layers = {{"direct", "LDE"}}; }), "layers");
-    EXPECT_EQ(field([](Options& o) { o.size = {800, 599}; }), "size");
+    EXPECT_EQ(field([](Options& o) { o.transport.integrator = Integrator::WHITTED; }), "integrator");
+    EXPECT_EQ(field([](Options& o) { o.device.precision = Precision::DOUBLE; }), "precision");
+    EXPECT_EQ(field([](Options& o) { o.sampling.seed = 1; }), "seed");
+    EXPECT_EQ(field([](Options& o) { o.sampling.replicates = 4; }), "replicates");
+    EXPECT_EQ(field([](Options& o) { o.film.crop = Crop{0, 0, 8, 8}; }), "window");
+    EXPECT_EQ(field([](Options& o) { o.film.filter = Filter::TENT; }), "filter");
+    EXPECT_EQ(field([](Options& o) { o.film.filter_radius = 0.7; }), "filter_radius");
+    EXPECT_EQ(field([](Options& o) { o.transport.max_depth = 5; }), "max_depth");
+    EXPECT_EQ(field([](Options& o) { o.transport.roulette_depth = 9; }), "roulette_depth");
+    EXPECT_EQ(field([](Options& o) { o.sampling.adaptive = true; }), "adaptive");
+    EXPECT_EQ(field([](Options& o) { o.sampling.sampler = SamplerChoice::INDEPENDENT; }), "sampler");
+    EXPECT_EQ(field([](Options& o) { o.transport.min_contribution = 0.1; }), "min_contribution");
+    EXPECT_EQ(field([](Options& o) { o.transport.paths = "LDE"; }), "paths");
+    EXPECT_EQ(field([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "layers");
+    EXPECT_EQ(field([](Options& o) { o.film.size = {800, 599}; }), "size");
     EXPECT_EQ(field([](Options& o) { o.camera.fov_degrees = 30; }), "scene");
     EXPECT_EQ(field([](Options& o) { o.light.environment = glm::dvec3(1); }), "scene");
 }
 
 TEST_F(FilmIdentityTest, OptionsThatChangeNoBitAreNone) {
     const std::function<void(Options&)> changes[] = {
-        [](Options& o) { o.spp = 5; },
-        [](Options& o) { o.first_sample = 5; },
-        [](Options& o) { o.time_seconds = 5; },
-        [](Options& o) { o.error = 0.5; },
-        [](Options& o) { o.all_effects = true; },
-        [](Options& o) { o.bvh = BvhChoice::BVH2; },
-        [](Options& o) { o.threads = 1; },
-        [](Options& o) { o.exposure_ev = 1; },
-        [](Options& o) { o.outputs = {"a.exr"}; },
+        [](Options& o) { o.sampling.spp = 5; },          [](Options& o) { o.sampling.first_sample = 5; },
+        [](Options& o) { o.sampling.time_seconds = 5; }, [](Options& o) { o.sampling.error = 0.5; },
+        [](Options& o) { o.effects.all = true; },        [](Options& o) { o.bvh.layout = BvhChoice::BVH2; },
+        [](Options& o) { o.device.threads = 1; },        [](Options& o) { o.output.exposure_ev = 1; },
+        [](Options& o) { o.output.files = {"a.exr"}; },
     };
     for (size_t i = 0; i < std::size(changes); ++i)
         EXPECT_EQ(field(changes[i]), "none") << "change " << i;

@@ -24,7 +24,7 @@ Scene load(Options options) {
 /// Without the studio, whose ground is not of the file.
 Scene load(const std::string& path) {
     Options options;
-    options.scene_path = path;
+    options.scene.path = path;
     options.light.studio = false;
     return load(options);
 }
@@ -69,7 +69,7 @@ TEST(LoadScene, TwoSidedLightsAndCoverageChangeThePower) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl lamp\nKe 2 2 2\nd 0.25\n");
     Options options;
-    options.scene_path = folder.write("a.obj", quad("mtllib a.mtl\n", "usemtl lamp\n"));
+    options.scene.path = folder.write("a.obj", quad("mtllib a.mtl\n", "usemtl lamp\n"));
     EXPECT_NEAR(load(options).emitted_power, M_PI * 4 * 2 * 0.25, 1e-6);
     options.light.two_sided = true;
     EXPECT_NEAR(load(options).emitted_power, M_PI * 4 * 2 * 0.5, 1e-6);
@@ -90,7 +90,7 @@ TEST(LoadScene, EmissionMapsCountWithTheirMean) {
 TEST(LoadScene, LightOptionsReplaceTheDefaultSky) {
     const TemporaryFolder folder;
     Options options;
-    options.scene_path = folder.write("a.obj", quad("", ""));
+    options.scene.path = folder.write("a.obj", quad("", ""));
     options.light.environment = glm::dvec3(0);
     EXPECT_EQ(count_notices(load(options).notices, "no light"), 0);
     options.light.environment.reset();
@@ -155,7 +155,7 @@ TEST(LoadScene, LibrariesAreReadAsTheirWritersMeanThem) {
          {"colour.png", "level.png", "metal.png", "roughness.png", "mask.png", "relief.png"})
         folder.write_image(name, 1, 1, 3, std::vector<std::uint8_t>{128, 128, 255}, OIIO::TypeDesc::UINT8);
     Options options;
-    options.scene_path = folder.write("a.obj", quad("mtllib a.mtl\n", "usemtl glass\n") +
+    options.scene.path = folder.write("a.obj", quad("mtllib a.mtl\n", "usemtl glass\n") +
                                                    "usemtl mapped\nf 1 2 3\nusemtl coated\nf 1 2 3\n");
     const Scene scene = load(options);
     EXPECT_EQ(scene.materials[0].lobes, LOBE_DIELECTRIC);
@@ -170,7 +170,7 @@ TEST(LoadScene, LibrariesAreReadAsTheirWritersMeanThem) {
         << "one line a repair";
     EXPECT_EQ(count_notices(scene.notices, "Pc (coat) has no effect"), 1);
 
-    options.mtl = MtlReading::PLAIN;
+    options.scene.mtl = MtlReading::PLAIN;
     const Scene plain = load(options);
     EXPECT_EQ(plain.materials[0].lobes, LOBE_MATTE | LOBE_MIRROR);
     EXPECT_EQ(plain.materials[1].map_normal, NO_INDEX);

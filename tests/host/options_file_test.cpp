@@ -56,21 +56,21 @@ TEST_F(OptionsFile, GivesOptionsOfItsScene) {
                             "--explain json");
     EXPECT_EQ(o.camera.eye, glm::dvec3(-1, 2, 3));
     EXPECT_EQ(o.camera.fov_degrees, 35.5);
-    EXPECT_EQ(o.size, glm::ivec2(640, 480));
+    EXPECT_EQ(o.film.size, glm::ivec2(640, 480));
     EXPECT_TRUE(o.light.two_sided);
     EXPECT_EQ(o.light.points.size(), 2u);
-    EXPECT_EQ(o.explain, Explain::JSON);
-    EXPECT_EQ(o.sidecar_path, folder.file("hall.clrt"));
+    EXPECT_EQ(o.run.explain, Explain::JSON);
+    EXPECT_EQ(o.run.sidecar_path, folder.file("hall.clrt"));
 }
 
 TEST_F(OptionsFile, MayHaveWindowsLineEndsAndAByteOrderMark) {
     const Options o = parse("\xEF\xBB\xBF--spp 4\r\n\r\n# comment\r\n--device pocl\r\n");
-    EXPECT_EQ(o.spp, 4u);
-    EXPECT_EQ(o.device, "pocl");
+    EXPECT_EQ(o.sampling.spp, 4u);
+    EXPECT_EQ(o.device.name, "pocl");
 }
 
 TEST_F(OptionsFile, ValuesMayHoldBlanksAndNumberSigns) {
-    EXPECT_EQ(parse("--device Portable Computing #1\n").device, "Portable Computing #1");
+    EXPECT_EQ(parse("--device Portable Computing #1\n").device.name, "Portable Computing #1");
 }
 
 TEST_F(OptionsFile, RelativePathsCountFromItsFolder) {
@@ -78,11 +78,11 @@ TEST_F(OptionsFile, RelativePathsCountFromItsFolder) {
         parse("--env textures/Sky 19.exr\n--output out.png\n--output /tmp/b.exr\n--stats s.json\n"
               "--kernels k\n--dump-kernels d\n--cache-dir ../c\n");
     EXPECT_EQ(o.light.environment_file, folder.file("textures/Sky 19.exr"));
-    EXPECT_EQ(o.outputs, (std::vector<std::string>{folder.file("out.png"), "/tmp/b.exr"}));
-    EXPECT_EQ(o.stats_path, folder.file("s.json"));
-    EXPECT_EQ(o.kernels_folder, folder.file("k"));
-    EXPECT_EQ(o.dump_folder, folder.file("d"));
-    EXPECT_EQ(o.cache_folder, folder.file("../c"));
+    EXPECT_EQ(o.output.files, (std::vector<std::string>{folder.file("out.png"), "/tmp/b.exr"}));
+    EXPECT_EQ(o.output.stats_path, folder.file("s.json"));
+    EXPECT_EQ(o.device.kernels_folder, folder.file("k"));
+    EXPECT_EQ(o.device.dump_folder, folder.file("d"));
+    EXPECT_EQ(o.device.cache_folder, folder.file("../c"));
     EXPECT_EQ(parse("--env 1,0.5,0\n").light.environment, glm::dvec3(1, 0.5, 0));
     EXPECT_EQ(parse("", {"--env", "sky.exr"}).light.environment_file, "sky.exr");
 }
@@ -91,8 +91,8 @@ TEST_F(OptionsFile, CommandLineWinsOptionByOption) {
     const Options o =
         parse("--spp 4\n--size 10x10\n--point 0,1,0,1,1,1\n--point 1,1,0,1,1,1\n--env sky.exr\n",
               {"--spp", "8", "--point", "9,9,9,1,1,1", "--env", "1,1,1"});
-    EXPECT_EQ(o.spp, 8u);
-    EXPECT_EQ(o.size, glm::ivec2(10, 10));
+    EXPECT_EQ(o.sampling.spp, 8u);
+    EXPECT_EQ(o.film.size, glm::ivec2(10, 10));
     ASSERT_EQ(o.light.points.size(), 1u);
     EXPECT_EQ(o.light.points[0].position, glm::dvec3(9));
     EXPECT_TRUE(o.light.environment_file.empty());
@@ -103,17 +103,17 @@ TEST_F(OptionsFile, CommandLineWinsOverWhatContradictsIt) {
     EXPECT_FALSE(lens.camera.fov_degrees);
     const Options angle = parse("--focal-length 35\n--film-width 24\n", {"--fov", "50"});
     EXPECT_FALSE(angle.camera.focal_length || angle.camera.film_width);
-    EXPECT_EQ(parse("--quiet\n", {"-v"}).verbosity, 1);
-    EXPECT_EQ(parse("--no-cache\n", {"--cache", "on"}).cache, Toggle::ON);
+    EXPECT_EQ(parse("--quiet\n", {"-v"}).run.verbosity, 1);
+    EXPECT_EQ(parse("--no-cache\n", {"--cache", "on"}).device.cache, Toggle::ON);
 }
 
 TEST_F(OptionsFile, IsSkippedOnRequestOrWhenAbsent) {
     const Options skipped = parse("--nonsense\n", {"--no-sidecar"});
-    EXPECT_EQ(skipped.sidecar_path, "");
-    EXPECT_TRUE(skipped.no_sidecar);
+    EXPECT_EQ(skipped.run.sidecar_path, "");
+    EXPECT_TRUE(skipped.run.no_sidecar);
     const std::string scene = folder.file("other.obj");
     const char* argv[] = {"clrt", scene.c_str()};
-    EXPECT_EQ(parse_command_line(2, argv).options.sidecar_path, "");
+    EXPECT_EQ(parse_command_line(2, argv).options.run.sidecar_path, "");
 }
 
 TEST_F(OptionsFile, MistakesCarryFileAndLine) {
@@ -159,7 +159,7 @@ TEST_F(OptionsFile, AFolderOfThatNameIsNoOptionsFile) {
     std::filesystem::create_directory(folder.file("room.clrt"));
     const std::string scene = folder.file("room.obj");
     const char* argv[] = {"clrt", scene.c_str()};
-    EXPECT_EQ(parse_command_line(2, argv).options.sidecar_path, "");
+    EXPECT_EQ(parse_command_line(2, argv).options.run.sidecar_path, "");
 }
 
 } // namespace clrt

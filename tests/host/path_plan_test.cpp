@@ -21,7 +21,7 @@ namespace {
 class PlannedScene : public TestScene {
 public:
     PlannedScene() {
-        options.all_effects = false;
+        options.effects.all = false;
         build.material("thing", "Kd 0.5 0.5 0.5").material("lamp", "Kd 0 0 0\nKe 1 1 1");
         quad("thing");
         quad("lamp");
@@ -30,7 +30,7 @@ public:
         build.use(material).polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
     }
     PathPlan plan(const std::string& paths) {
-        options.paths = paths;
+        options.transport.paths = paths;
         return plan_paths(load(), options);
     }
 };
@@ -51,7 +51,7 @@ TEST(PathPlan, EveryLetterOfTheSceneHasItsWitness) {
     PlannedScene scene;
     scene.build.material("unused", "illum 7\nNi 1.5").material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3");
     scene.build.material("frosted", "illum 7\nNi 1.5\nPr 0.5").material("flat", "illum 7\nNi 1");
-    scene.options.mtl = MtlReading::PLAIN; // "flat" is glass that bends nothing
+    scene.options.scene.mtl = MtlReading::PLAIN; // "flat" is glass that bends nothing
     scene.options.light.points.push_back({{0, 1, 0}, glm::dvec3(1)});
     PathPlan plan = scene.plan("L.*E");
     EXPECT_EQ(plan.alphabet.letters, 1u << LETTER_MATTE) << "materials on no triangle count for nothing";
@@ -103,7 +103,7 @@ TEST(PathPlan, SaysWhenNoPathIsLeft) {
               std::string::npos);
     EXPECT_TRUE(scene.plan("LpDE").is_empty);
     EXPECT_FALSE(scene.plan("LDDDE").is_empty);
-    scene.options.max_depth = 3;
+    scene.options.transport.max_depth = 3;
     plan = scene.plan("LDDDE");
     EXPECT_TRUE(plan.is_empty);
     EXPECT_NE(path_summary(plan).find("4 segments, more than --max-depth allows"), std::string::npos);
@@ -121,7 +121,7 @@ TEST(PathPlan, AFiniteLanguageBoundsTheLoop) {
     EXPECT_TRUE(has_define(scene.plan("LD?D?E"), "PATH_SEGMENTS=3u"));
     EXPECT_TRUE(has_define(scene.plan("LD?S*E"), "PATH_SEGMENTS=2u")) << "nothing is specular";
     EXPECT_EQ(scene.plan("LDD*E").segments, std::nullopt);
-    scene.options.max_depth = 2;
+    scene.options.transport.max_depth = 2;
     EXPECT_TRUE(has_define(scene.plan("LD?D?E"), "PATH_SEGMENTS=2u"));
 }
 
@@ -158,7 +158,7 @@ TEST(PathPlan, LightSamplingLeavesLightsAloneThatEndNoPath) {
 
 TEST(PathPlan, LayersAreTold) {
     PlannedScene scene;
-    scene.options.path_layers = {{"direct", "LDE"}, {"lamp", "LE"}};
+    scene.options.output.path_layers = {{"direct", "LDE"}, {"lamp", "LE"}};
     const PathPlan plan = scene.plan("");
     EXPECT_TRUE(plan.is_filter);
     EXPECT_TRUE(has_define(plan, "PATH_LAYERS=2"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The progress line: its text, and when it appears.
-#include "app/progress.h"
+#include "console/progress.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

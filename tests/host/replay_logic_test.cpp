@@ -197,14 +197,14 @@ TEST(ReplayLogic, EveryQuantityHasARowOfItsOwn) {
 
 TEST(ReplayLogic, TheCommandNamesTheSampleAndWritesNothing) {
     Options options;
-    options.size = {100, 50};
-    options.scene_path = "my scene.obj";
-    options.resumable_command = {
+    options.film.size = {100, 50};
+    options.scene.path = "my scene.obj";
+    options.run.resumable_command = {
         "clrt",           "--spp=4", "--output=a b.exr", "--stats=s.json", "--paths=L(D)*E",
         "--check=strict", "--",      "my scene.obj"};
     EXPECT_EQ(replay_command(options, {203, 3}),
               "clrt --pixel=3,2 --sample=3 --spp=4 '--paths=L(D)*E' 'my scene.obj'");
-    options.scene_path = options.resumable_command.back() = "-it's.obj";
+    options.scene.path = options.run.resumable_command.back() = "-it's.obj";
     EXPECT_EQ(replay_command(options, {0, 0}),
               "clrt --pixel=0,0 --sample=0 --spp=4 '--paths=L(D)*E' -- '-it'\\''s.obj'");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The first signal asks, the second ends.
-#include "app/signals.h"
+#include "console/signals.h"
 
 #include <csignal>
 #include <gtest/gtest.h>

@@ -27,7 +27,7 @@ RenderState state(std::uint64_t samples, double seconds = 0, double pass_seconds
 } // namespace
 
 TEST(StopRules, SamplesEndTheRender) {
-    Options options;
+    SamplingOptions options;
     EXPECT_EQ(StopRules(options, FILM_LIMIT).last_samples(), 64u) << "without any rule";
     options.spp = 100;
     const StopRules rules(options, FILM_LIMIT);
@@ -37,10 +37,10 @@ TEST(StopRules, SamplesEndTheRender) {
 }
 
 TEST(StopRules, EveryRuleAloneHasAFiniteEnd) {
-    Options options;
+    SamplingOptions options;
     options.error = 0.01;
     EXPECT_EQ(StopRules(options, FILM_LIMIT).last_samples(), 65536u);
-    options = Options();
+    options = SamplingOptions();
     options.time_seconds = 1e9;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_EQ(rules.last_samples(), FILM_LIMIT);
@@ -48,7 +48,7 @@ TEST(StopRules, EveryRuleAloneHasAFiniteEnd) {
 }
 
 TEST(StopRules, TimeEndsTheRenderBeforeAPassThatItLeavesNoRoomFor) {
-    Options options;
+    SamplingOptions options;
     options.time_seconds = 2;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_FALSE(rules.ended(state(10, 1.7, 0.3)));
@@ -59,7 +59,7 @@ TEST(StopRules, TimeEndsTheRenderBeforeAPassThatItLeavesNoRoomFor) {
 }
 
 TEST(StopRules, HowTimeEndedTheRenderIsSaid) {
-    Options options;
+    SamplingOptions options;
     options.time_seconds = 10;
     const StopRules rules(options, FILM_LIMIT);
     const auto said = [&](const StopMoment& moment) { return rules.describe(StopRule::TIME, moment); };
@@ -72,7 +72,7 @@ TEST(StopRules, HowTimeEndedTheRenderIsSaid) {
 }
 
 TEST(StopRules, TheErrorEndsTheRenderWhereItIsMeasured) {
-    Options options;
+    SamplingOptions options;
     options.error = 0.02;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_FALSE(rules.ended(state(64))) << "not measured";
@@ -84,7 +84,7 @@ TEST(StopRules, TheErrorEndsTheRenderWhereItIsMeasured) {
 }
 
 TEST(StopRules, TheFirstRuleThatHoldsIsNamed) {
-    Options options;
+    SamplingOptions options;
     options.spp = 64;
     options.time_seconds = 2;
     options.error = 0.02;
@@ -105,7 +105,7 @@ TEST(StopRules, TheFirstRuleThatHoldsIsNamed) {
 }
 
 TEST(StopRules, TheErrorIsMeasuredWhereSamplesAreEven) {
-    Options options;
+    SamplingOptions options;
     options.replicates = 8;
     const auto checks = [&] {
         const StopRules rules(options, FILM_LIMIT);
@@ -129,12 +129,12 @@ TEST(StopRules, TheErrorIsMeasuredWhereSamplesAreEven) {
 }
 
 TEST(StopRules, ProgressFollowsTheNearestLimit) {
-    Options options;
+    SamplingOptions options;
     options.spp = 100;
     options.time_seconds = 10;
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(50, 2, std::nullopt), 0.5);
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(50, 8, std::nullopt), 0.8);
-    options = Options();
+    options = SamplingOptions();
     options.error = 0.01;
     const SquaredError check{
         16, 0.0009, 1, {}}; // three times the target: nine times the samples, 192 is next
@@ -162,7 +162,7 @@ TEST(StopRules, EndingByTheErrorDoesNotMakeItLookSmaller) {
     std::mt19937 random(1);
     const int trials = 300;
     for (const double target : {0.0125, 0.0115, 0.0105}) { // the true error is 0.0125 at 64 samples
-        Options options;
+        SamplingOptions options;
         options.error = target;
         const StopRules rules(options, FILM_LIMIT);
         double ratio = 0;

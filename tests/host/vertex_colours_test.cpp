@@ -19,7 +19,7 @@ std::string triangle(const std::string& a, const std::string& b, const std::stri
 
 Scene load(const TemporaryFolder& folder, const std::string& obj) {
     Options options;
-    options.scene_path = folder.write("a.obj", obj);
+    options.scene.path = folder.write("a.obj", obj);
     options.light.studio = false; // its ground is not of the file
     Progress silent(Toggle::OFF, true);
     return load_scene(options, silent);

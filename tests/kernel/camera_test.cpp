@@ -87,8 +87,8 @@ RenderParams camera_params(const Pinhole& view, u32 width, u32 height) {
     Scene scene;
     scene.camera = {view.eye, view.eye + view.look, view.up, view.fov_degrees};
     Options options;
-    options.size = {int(width), int(height)};
-    options.filter = Filter::BOX;
+    options.film.size = {int(width), int(height)};
+    options.film.filter = Filter::BOX;
     return make_render_params(scene, options, FilmScale{});
 }
 

@@ -28,9 +28,9 @@ void make_floor(TestScene& scene) {
         {{-0.1, 1.7, -0.5}, {0.1, 1.7, -0.5}, {0.1, 1.7, -0.3}, {-0.1, 1.7, -0.3}});
     scene.build.use("mirror").box({0.2, 0.01, -0.7}, {0.7, 1.1, -0.2});
     scene.look({0.2, 1, 1.4}, {0, 0.9, -1}, 70);
-    scene.options.size = {64, 48}; // 4 x 3 tiles
-    scene.options.replicates = 8;
-    scene.options.spp = SPP;
+    scene.options.film.size = {64, 48}; // 4 x 3 tiles
+    scene.options.sampling.replicates = 8;
+    scene.options.sampling.spp = SPP;
 }
 
 /// Mean over the pixels of each tile, and behind them that of the picture.
@@ -53,11 +53,11 @@ struct Seeds {
 };
 
 Seeds render_seeds(TestScene& scene, bool adaptive, std::uint32_t first_seed) {
-    scene.options.adaptive = adaptive;
+    scene.options.sampling.adaptive = adaptive;
     const Scene loaded = scene.load();
     Seeds seeds;
     for (std::uint32_t seed = 0; seed < SEEDS; ++seed) {
-        scene.options.seed = first_seed + seed;
+        scene.options.sampling.seed = first_seed + seed;
         const Film film = render_loaded(loaded, scene.options).film;
         const std::vector<double> means = tile_means(film);
         seeds.means.resize(means.size());
@@ -73,9 +73,9 @@ Seeds render_seeds(TestScene& scene, bool adaptive, std::uint32_t first_seed) {
 TEST(AdaptiveRender, BeginsWithTheUniformPicture) {
     TestScene scene;
     make_floor(scene);
-    scene.options.spp = 16;
+    scene.options.sampling.spp = 16;
     const Render uniform = scene.render();
-    scene.options.adaptive = true;
+    scene.options.sampling.adaptive = true;
     const Render adaptive = scene.render();
     EXPECT_TRUE(uniform.film.sums == adaptive.film.sums);
     EXPECT_EQ(film_mean(uniform.film), film_mean(adaptive.film));
@@ -85,7 +85,7 @@ TEST(AdaptiveRender, BeginsWithTheUniformPicture) {
 TEST(AdaptiveRender, TakesItsSamplesWhereThePictureIsNoisy) {
     TestScene scene;
     make_floor(scene);
-    scene.options.adaptive = true;
+    scene.options.sampling.adaptive = true;
     const Render rendered = scene.render();
     const std::vector<float> samples = film_pixel_samples(rendered.film);
     const auto [fewest, most] = std::minmax_element(samples.begin(), samples.end());

@@ -23,8 +23,8 @@ public:
         build.polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
         options.light.environment = glm::dvec3(0.7, 0.8, 0.9);
         options.light.suns.push_back({{0, 0, -1}, {1, 1, 1}, 60});
-        options.spp = 64;
-        options.replicates = 8;
+        options.sampling.spp = 64;
+        options.sampling.replicates = 8;
         look({0, 0, 4}, {0, 0, 0}, 60); // 16 pixels see 4.6 units
     }
     void background(const glm::dvec3& radiance) {
@@ -44,7 +44,7 @@ Sees what_is_seen(int x, int y) {
 TEST(Background, TheCameraSeesItAndNothingElseDoes) {
     for (const Integrator integrator : INTEGRATORS) {
         SquareBeforeSky scene;
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Render without = scene.render();
         scene.background({3, 0.25, 0});
         const Render with = scene.render();
@@ -65,7 +65,7 @@ TEST(Background, TheCameraSeesItAndNothingElseDoes) {
 TEST(Background, MirrorsShowTheSky) {
     for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED}) {
         SquareBeforeSky scene("Ks 1 1 1\nillum 3");
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         scene.background({3, 0.25, 0});
         const Render render = scene.render();
         EXPECT_NEAR(film_pixel(render.film, 7, 7).x, 0.7, 1e-5);
@@ -79,9 +79,9 @@ TEST(Background, ItLightsAFurnaceByNothing) {
         scene.build.material("white", "Kd 1 1 1").use("white").icosphere({0, 0, 0}, 1, 2);
         scene.options.light.environment = glm::dvec3(0);
         scene.options.light.background = BackgroundOptions{{5, 5, 5}, false};
-        scene.options.integrator = integrator;
-        scene.options.spp = 64;
-        scene.options.replicates = 8;
+        scene.options.transport.integrator = integrator;
+        scene.options.sampling.spp = 64;
+        scene.options.sampling.replicates = 8;
         scene.look({0, 0, 5}, {0, 0, 0}, 60);
         const Render render = scene.render();
         EXPECT_EQ(film_pixel(render.film, 7, 8), glm::dvec3(0));
@@ -105,7 +105,7 @@ TEST(Background, CutOutsAreSeenThrough) {
 TEST(Background, IsOfTheSkysPaths) {
     SquareBeforeSky scene;
     scene.background({3, 0.25, 0});
-    scene.options.path_layers = {{"sky", "LeE"}, {"sun", "LdE"}, {"lit", "LD.*E|LD+E"}};
+    scene.options.output.path_layers = {{"sky", "LeE"}, {"sun", "LdE"}, {"lit", "LD.*E|LD+E"}};
     const Render render = scene.render();
     ASSERT_EQ(render.path_layers.size(), 3u);
     for (int y = 0; y < 16; ++y)
@@ -114,8 +114,8 @@ TEST(Background, IsOfTheSkysPaths) {
                 EXPECT_EQ(film_pixel(render.path_layers[0], x, y), glm::dvec3(3, 0.25, 0));
                 EXPECT_EQ(film_pixel(render.path_layers[1], x, y), glm::dvec3(0));
             }
-    scene.options.path_layers.clear();
-    scene.options.paths = "LdE";
+    scene.options.output.path_layers.clear();
+    scene.options.transport.paths = "LdE";
     EXPECT_EQ(film_pixel(scene.render().film, 0, 0), glm::dvec3(0));
 }
 
@@ -142,9 +142,9 @@ TEST(Background, ChangesNoBitWhereEffectsAreCompiledOut) {
         for (const Integrator integrator : INTEGRATORS) {
             SquareBeforeSky scene;
             change(scene);
-            scene.options.integrator = integrator;
+            scene.options.transport.integrator = integrator;
             const Render full = scene.render();
-            scene.options.all_effects = false;
+            scene.options.effects.all = false;
             EXPECT_EQ(scene.render().film.sums, full.film.sums);
         }
 }
@@ -152,7 +152,7 @@ TEST(Background, ChangesNoBitWhereEffectsAreCompiledOut) {
 TEST(Background, IsBlackWithoutTheEnvironmentsEffect) {
     SquareBeforeSky scene;
     scene.background({3, 0.25, 0});
-    scene.options.effects_off = EFFECT_ENVIRONMENT;
+    scene.options.effects.off = EFFECT_ENVIRONMENT;
     EXPECT_EQ(film_pixel(scene.render().film, 0, 0), glm::dvec3(0));
 }
 

@@ -50,7 +50,7 @@ TEST(CutOut, TheBackgroundShowsThroughInProportion) {
     scene.add(1, "Ke 0 1 0\nd 0.5");
     scene.add(2, "Ke 1 0 0\nTr 0.75");
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
         SCOPED_TRACE(integrator_name(integrator));
         EXPECT_TRUE(agrees(film_estimate(film, 0), 0.25, 5e-3));
@@ -80,7 +80,7 @@ TEST(CutOut, AMaskCutsAlongItsPicture) {
     scene.add(0, "Ke 0 1 0");
     scene.add(0.01, "Ke 1 0 0\nmap_d -clamp on mask.png");
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
         EXPECT_TRUE(agrees(film_estimate(film, 0, {0, 0, 6, 16}), 1, 1e-6)) << integrator_name(integrator);
         EXPECT_EQ(film_estimate(film, 1, {0, 0, 6, 16}).mean, 0) << integrator_name(integrator);
@@ -94,7 +94,7 @@ TEST(CutOut, ShadowsOfScreensLetTheirShareThrough) {
          {std::pair{"d 1", 0.0}, {"d 0.25", 0.75}, {"Tr 0.4", 0.4}, {"d 0", 1.0}}) {
         ShadedFloor scene(keys);
         for (const Integrator integrator : INTEGRATORS) {
-            scene.options.integrator = integrator;
+            scene.options.transport.integrator = integrator;
             EXPECT_TRUE(agrees(film_estimate(scene.render().film), share * scene.unshaded(), 1e-4, 4e-5))
                 << keys << ", " << integrator_name(integrator);
         }
@@ -114,7 +114,7 @@ TEST(CutOut, ALampGivesLightInProportionToItsCoverage) {
     scene.build.use("matte").floor(9).use("lamp").polygon(corners);
     scene.look_at_point({3, 0.8, 0.4}, {0, 0, 0});
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film),
                            0.25 * 3 * 0.5 * polygon_irradiance({0, 0, 0}, UP, corners) / PI, 4e-3))
             << integrator_name(integrator);

@@ -21,11 +21,12 @@ public:
         build.material("wall", "Kd " + std::to_string(kd) + "\nKe " + std::to_string(ke)).use("wall");
         build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
         look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
-        options.size = {8, 8};
-        options.replicates = 16;
+        options.film.size = {8, 8};
+        options.sampling.replicates = 16;
     }
     std::uint64_t samples() const {
-        return std::uint64_t(options.size.x) * std::uint64_t(options.size.y) * *options.spp;
+        return std::uint64_t(options.film.size.x) * std::uint64_t(options.film.size.y) *
+               *options.sampling.spp;
     }
     CutPaths cut(const Render& render) const {
         const Scene scene = load();
@@ -49,8 +50,8 @@ TEST(CutPaths, WhatAForcedDepthLosesIsInTheBound) {
     constexpr int DEPTH = 64;
     for (const int roulette : {5, NO_ROULETTE}) {
         ClosedRoom room(0.98, 0.02);
-        room.options.max_depth = DEPTH;
-        room.options.roulette_depth = roulette;
+        room.options.transport.max_depth = DEPTH;
+        room.options.transport.roulette_depth = roulette;
         const Render render = room.render();
         const double loss = std::pow(0.98, DEPTH);
         EXPECT_TRUE(agrees(film_estimate(render.film), 1 - loss, 1e-2)) << roulette;
@@ -76,10 +77,10 @@ TEST(CutPaths, TheLossStaysBelowTheBoundWhereLightIsUneven) {
     for (const bool point : {false, true}) {
         if (point)
             room.options.light.points = {{{0, 0.2, 0}, glm::dvec3(0.5)}};
-        room.options.max_depth.reset();
+        room.options.transport.max_depth.reset();
         const Estimate whole = film_estimate(room.render().film);
         for (const int depth : {1, 2, 8}) {
-            room.options.max_depth = depth;
+            room.options.transport.max_depth = depth;
             const Render render = room.render();
             const Estimate part = film_estimate(render.film);
             const double noise = 6 * std::hypot(whole.error, part.error);
@@ -92,8 +93,8 @@ TEST(CutPaths, TheLossStaysBelowTheBoundWhereLightIsUneven) {
 
 TEST(CutPaths, WhiteWallsHaveNoBound) {
     ClosedRoom room(1, 0.01);
-    room.options.spp = 16;
-    room.options.max_depth = 50;
+    room.options.sampling.spp = 16;
+    room.options.transport.max_depth = 50;
     const Render render = room.render();
     const CutPaths cut = room.cut(render);
     EXPECT_EQ(cut.paths, room.samples()) << "nothing ends a path in a white room";
@@ -108,8 +109,8 @@ TEST(CutPaths, EndsOfPathsAreNoCuts) {
     scene.options.light.environment = glm::dvec3(1);
     scene.look({0, 1, 2}, {0, 0, 0}, 60);
     for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}) {
-        scene.options.integrator = integrator;
-        scene.options.max_depth = 1;
+        scene.options.transport.integrator = integrator;
+        scene.options.transport.max_depth = 1;
         EXPECT_EQ(scene.render().counts.cut_paths, 0u);
     }
 }
@@ -120,10 +121,10 @@ TEST(CutPaths, WhittedCountsTheRaysOfItsTree) {
     scene.build.polygon({{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}});
     scene.build.polygon({{-9, 9, 1}, {9, 9, 1}, {9, -9, 1}, {-9, -9, 1}});
     scene.look_at_point({0, 0, 0.5}, {0, 0, -1});
-    scene.options.integrator = Integrator::WHITTED;
-    scene.options.min_contribution = 0;
-    scene.options.max_depth = 4;
-    scene.options.spp = 16;
+    scene.options.transport.integrator = Integrator::WHITTED;
+    scene.options.transport.min_contribution = 0;
+    scene.options.transport.max_depth = 4;
+    scene.options.sampling.spp = 16;
     const Render render = scene.render();
     EXPECT_EQ(render.counts.cut_paths, std::uint64_t(16 * 16 * 16));
     const CutPaths cut = cut_paths(render, cut_radiance(scene.load(), 15u));
@@ -133,10 +134,10 @@ TEST(CutPaths, WhittedCountsTheRaysOfItsTree) {
 
 TEST(CutPaths, OnlyPathsThatAreAskedForAreCut) {
     ClosedRoom room(0.5, 0.5);
-    room.options.spp = 64;
-    room.options.max_depth = 3;
+    room.options.sampling.spp = 64;
+    room.options.transport.max_depth = 3;
     const auto cut = [&](const char* paths) {
-        room.options.paths = paths;
+        room.options.transport.paths = paths;
         return room.render().counts.cut_paths;
     };
     EXPECT_EQ(cut("LE|LDE|LDDE"), 0u) << "all within three segments";
@@ -148,15 +149,15 @@ TEST(CutPaths, OnlyPathsThatAreAskedForAreCut) {
 
 TEST(CutPaths, TheCountDoesNotDependOnLaunches) {
     ClosedRoom room(0.9, 0.1);
-    room.options.max_depth = 6;
-    room.options.spp = 24;
-    room.options.replicates = 8;
+    room.options.transport.max_depth = 6;
+    room.options.sampling.spp = 24;
+    room.options.sampling.replicates = 8;
     const RenderCounts whole = room.render().counts;
     EXPECT_GT(whole.cut_paths, 0u);
     RenderCounts parts;
     for (const std::uint32_t first : {0u, 8u}) {
-        room.options.first_sample = first;
-        room.options.spp = first == 0 ? 8 : 16;
+        room.options.sampling.first_sample = first;
+        room.options.sampling.spp = first == 0 ? 8 : 16;
         parts.add(room.render().counts);
     }
     EXPECT_EQ(parts.cut_paths, whole.cut_paths);
@@ -166,15 +167,15 @@ TEST(CutPaths, TheCountDoesNotDependOnLaunches) {
 TEST(CutPaths, DoNotChangeThePictureUpToTheirDepth) {
     // Segment 65 and later are the only difference: the expression's bound on the length, or --max-depth.
     ClosedRoom room(0.98, 0.02);
-    room.options.spp = 32;
-    room.options.max_depth = 64;
+    room.options.sampling.spp = 32;
+    room.options.transport.max_depth = 64;
     const Film at_64 = room.render().film;
-    room.options.max_depth = 4096;
+    room.options.transport.max_depth = 4096;
     std::string up_to_64 = "LE";
     for (int i = 0; i < 63; ++i)
         up_to_64 = i == 0 ? "D" : "D(" + up_to_64 + ")?";
-    room.options.paths = "L(" + up_to_64 + ")?E";
-    room.options.adaptive = false;
+    room.options.transport.paths = "L(" + up_to_64 + ")?E";
+    room.options.sampling.adaptive = false;
     EXPECT_TRUE(room.render().film.sums == at_64.sums);
 }
 

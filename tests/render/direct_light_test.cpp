@@ -38,7 +38,7 @@ public:
 /// would give `irradiance`.
 void expect_lamp_irradiance(FloorScene& scene, double irradiance) {
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
         SCOPED_TRACE(integrator_name(integrator));
         EXPECT_TRUE(agrees(film_estimate(film, 0), 3 * KD * irradiance / PI));
@@ -50,7 +50,7 @@ void expect_lamp_irradiance(FloorScene& scene, double irradiance) {
 void expect_radiance(FloorScene& scene, double radiance, double sharpness = 1e-6,
                      double rounding = RENDER_ROUNDING) {
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         SCOPED_TRACE(integrator_name(integrator));
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), radiance, sharpness, rounding));
     }
@@ -115,7 +115,7 @@ TEST(DirectLight, APanelOverAWholeFloorIsNearlyASky) {
     FloorScene scene;
     scene.build.use("lamp").polygon(corners);
     scene.look_at_point({0.5, 0.3, 0.2}, {0, 0, 0});
-    scene.options.integrator = Integrator::PATH;
+    scene.options.transport.integrator = Integrator::PATH;
     const double irradiance = polygon_irradiance({0, 0, 0}, UP, corners);
     EXPECT_GT(irradiance, 0.99 * PI);
     EXPECT_TRUE(agrees(film_estimate(scene.render().film), 3 * KD * irradiance / PI));
@@ -144,7 +144,7 @@ TEST(DirectLight, LampsShineOnTheirFrontOnlyUnlessToldOtherwise) {
     scene.build.use("lamp").polygon(corners);
     scene.look_at_point({3, 0.8, 0.4}, {0, 0, 0});
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_EQ(film_estimate(scene.render().film).mean, 0) << integrator_name(integrator);
     }
     scene.options.light.two_sided = true;
@@ -152,7 +152,7 @@ TEST(DirectLight, LampsShineOnTheirFrontOnlyUnlessToldOtherwise) {
 
     // Seen from below the lamp is bright with two sides, and black with one.
     scene.look({-0.3, 0.5, 0}, {-0.3, 1, 0}, 20);
-    scene.options.integrator = Integrator::PATH;
+    scene.options.transport.integrator = Integrator::PATH;
     EXPECT_TRUE(agrees(film_estimate(scene.render().film), 3, 1e-6));
     scene.options.light.two_sided = false;
     EXPECT_EQ(film_estimate(scene.render().film).mean, 0);
@@ -229,10 +229,10 @@ TEST(DirectLight, ALightInAClosedBoxLeaksNothing) {
     scene.build.use("lamp").icosphere({0, 1, 0}, 0.3, 1);
     scene.build.use("matte").box({-0.5, 0.5, -0.5}, {0.5, 1.5, 0.5});
     scene.look({3, 2, 4}, {0, 0.8, 0}, 40);
-    scene.options.size = {64, 64};
-    scene.options.spp = 64;
+    scene.options.film.size = {64, 64};
+    scene.options.sampling.spp = 64;
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
         EXPECT_EQ(std::count(film.sums.begin(), film.sums.end(), 0), std::int64_t(film.sums.size()));
     }
@@ -243,10 +243,10 @@ TEST(DirectLight, ARoomWithoutGapsKeepsTheSkyOut) {
     scene.build.box({-1, 0.25, -1}, {1, 2, 1}, Facing::INWARD);
     scene.options.light.environment = glm::dvec3(1000);
     scene.look({0.9, 0.3, 0.9}, {-1, 2, -1}, 120);
-    scene.options.size = {64, 64};
-    scene.options.spp = 256;
+    scene.options.film.size = {64, 64};
+    scene.options.sampling.spp = 256;
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
         EXPECT_EQ(std::count(film.sums.begin(), film.sums.end(), 0), std::int64_t(film.sums.size()));
     }

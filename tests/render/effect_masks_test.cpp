@@ -3,7 +3,7 @@
 // picture: for every effect alone and for a covering array of their combinations. With the variable
 // CLRT_TEST_LONG set, also for all effects but one, by every integrator.
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/effects.h"
 #include "effects/take_out.h"
 #include "render/kernels.h"
@@ -43,9 +43,9 @@ size_t count_differences(const Film& a, const Film& b) {
 
 /// Renders a loaded scene by a program with its own effects and by the full one, and expects one film.
 void expect_same_bits(const Scene& scene, Options options, const std::string& what) {
-    options.all_effects = false;
+    options.effects.all = false;
     const Render needed = render_loaded(scene, options);
-    options.all_effects = true;
+    options.effects.all = true;
     const Render all = render_loaded(scene, options);
     EXPECT_EQ(count_differences(needed.film, all.film), 0u) << what;
     EXPECT_EQ(needed.counts.rays(), all.counts.rays()) << what;
@@ -55,9 +55,9 @@ void expect_same_bits(const Scene& scene, Options options, const std::string& wh
 void expect_same_bits(u32 effects) {
     for (const Integrator integrator : integrators()) {
         SceneOfEffects small(effects);
-        small.options.integrator = integrator;
+        small.options.transport.integrator = integrator;
         if (integrator != Integrator::PATH)
-            small.options.paths.clear();
+            small.options.transport.paths.clear();
         const Scene scene = small.load();
         const u32 needed = find_effects(scene, small.options).needed;
         const u32 expected = effects & ~(integrator == Integrator::RAYCAST ? EFFECT_INTERREFLECTION : 0u) &
@@ -74,9 +74,9 @@ Options shipped_options(const fs::path& obj) {
     const std::string path = obj.string();
     const char* const command[] = {"clrt", path.c_str()};
     Options options = parse_command_line(2, command).options;
-    options.size = {16, 16};
-    options.spp = 16;
-    options.outputs.clear();
+    options.film.size = {16, 16};
+    options.sampling.spp = 16;
+    options.output.files.clear();
     return options;
 }
 
@@ -113,9 +113,9 @@ TEST(EffectMasks, EveryShippedSceneHasTheBitsOfTheFullProgram) {
     for (const fs::path& path : shipped_scenes())
         for (const Integrator integrator : integrators()) {
             Options options = shipped_options(path);
-            options.integrator = integrator;
+            options.transport.integrator = integrator;
             if (integrator == Integrator::WHITTED)
-                options.max_depth = std::min(options.max_depth.value_or(10), 10);
+                options.transport.max_depth = std::min(options.transport.max_depth.value_or(10), 10);
             Progress progress(Toggle::OFF, true);
             expect_same_bits(load_scene(options, progress), options,
                              path.string() + ", " + integrator_name(integrator));
@@ -143,14 +143,14 @@ TEST(EffectMasks, ALeftOutEffectIsASceneWithoutIt) {
     const std::vector<EffectSpec>& table = effect_table();
     for (size_t i = 0; i < table.size(); i += is_long_run() ? 1 : 5) {
         Options options = SceneOfEffects(EVERY_EFFECT).options;
-        options.effects_off = table[i].bit;
+        options.effects.off = table[i].bit;
         const Effects effects = find_effects(scene, options);
         EXPECT_EQ(effects.left_out, EVERY_EFFECT & ~without_effects(EVERY_EFFECT, table[i].bit));
         const Render without = render_loaded(scene, options);
         Scene reduced = scene;
         take_out_effects(effects.left_out, reduced, options);
-        options.effects_off = 0;
-        options.all_effects = true;
+        options.effects.off = 0;
+        options.effects.all = true;
         EXPECT_EQ(count_differences(without.film, render_loaded(reduced, options).film), 0u) << table[i].name;
         EXPECT_EQ(without.counts.bad(), 0u) << table[i].name;
     }
@@ -165,8 +165,8 @@ TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
         for (const u32 effects : sets) {
             SceneOfEffects small(effects);
             const Film plain = small.render().film;
-            small.options.cache = Toggle::ON;
-            small.options.cache_folder = fs::path(cache.file("any")).parent_path().string();
+            small.options.device.cache = Toggle::ON;
+            small.options.device.cache_folder = fs::path(cache.file("any")).parent_path().string();
             bool from_cache = false;
             const Film cached = render_afresh(small.load(), small.options, &from_cache).film;
             EXPECT_EQ(from_cache, round == 1) << describe_effects(effects);

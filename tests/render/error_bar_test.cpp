@@ -31,8 +31,8 @@ void make_room(TestScene& scene) {
     scene.build.use("red").box({-0.6, 0.01, -0.5}, {0, 0.8, 0.1});
     scene.build.use("mirror").box({0.2, 0.01, -0.7}, {0.7, 1.1, -0.2});
     scene.look({0.2, 1, 0.9}, {0, 0.7, -1}, 80);
-    scene.options.size = {32, 32};
-    scene.options.replicates = 8;
+    scene.options.film.size = {32, 32};
+    scene.options.sampling.replicates = 8;
 }
 
 /// The same with a camera that sees a small bright lamp: the pixels at its edge hold nearly all of the error.
@@ -66,19 +66,19 @@ struct ErrorBar : testing::TestWithParam<Case> {};
 TEST_P(ErrorBar, HoldsTheErrorOfThePicture) {
     TestScene scene;
     GetParam().make_scene(scene);
-    scene.options.integrator = GetParam().integrator;
+    scene.options.transport.integrator = GetParam().integrator;
     if (GetParam().adaptive) // 3 x 3 tiles
-        scene.options.size = {48, 48};
+        scene.options.film.size = {48, 48};
     const Scene loaded = scene.load();
     const auto render = [&](std::uint32_t seed, std::uint32_t spp) {
-        scene.options.seed = seed;
-        scene.options.spp = spp;
+        scene.options.sampling.seed = seed;
+        scene.options.sampling.spp = spp;
         return render_loaded(loaded, scene.options).film;
     };
     const std::vector<float> a = film_mean(render(REFERENCE_SEED, REFERENCE_SPP));
     const std::vector<float> b = film_mean(render(REFERENCE_SEED + 1, REFERENCE_SPP));
 
-    scene.options.adaptive = GetParam().adaptive;
+    scene.options.sampling.adaptive = GetParam().adaptive;
     const std::uint32_t spp = GetParam().adaptive ? ADAPTIVE_SPP : SPP;
 
     // Compare what each render says with what it is wrong by.
@@ -129,10 +129,10 @@ TEST(ErrorSlope, OfUnshadowedDirectLightIsSteep) {
     scene.build.use("white").floor(3);
     scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
     scene.look({0, 1.5, 3}, {0, 0, 0}, 30);
-    scene.options.size = {32, 32};
-    scene.options.replicates = 8;
-    scene.options.max_depth = 2;
-    scene.options.spp = 512;
+    scene.options.film.size = {32, 32};
+    scene.options.sampling.replicates = 8;
+    scene.options.transport.max_depth = 2;
+    scene.options.sampling.spp = 512;
     const Render rendered = scene.render();
     const auto slope = error_slope(rendered.history);
     ASSERT_TRUE(slope);

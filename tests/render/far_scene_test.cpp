@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene in map coordinates has the bits of the same scene at the origin.
-#include "app/progress.h"
+#include "console/progress.h"
 #include "scene/load_scene.h"
 #include "support/render_scene.h"
 
@@ -43,8 +43,8 @@ std::string moved_box(const ScratchFolder& folder, const glm::ivec3& by) {
 
 Options box_options(const glm::dvec3& by) {
     Options options;
-    options.size = {48, 40};
-    options.spp = 16;
+    options.film.size = {48, 40};
+    options.sampling.spp = 16;
     options.light.points.push_back({glm::dvec3(100, 500, 100) + by, glm::dvec3(3000, 2000, 1000)});
     options.camera.eye = glm::dvec3(278, 273, -800) + by;
     options.camera.at = glm::dvec3(278, 273, 0) + by;
@@ -55,7 +55,7 @@ Options box_options(const glm::dvec3& by) {
 Render render_box(const glm::ivec3& by) {
     const ScratchFolder folder;
     Options options = box_options(by);
-    options.scene_path = moved_box(folder, by);
+    options.scene.path = moved_box(folder, by);
     Progress silent(Toggle::OFF, true);
     return render_loaded(load_scene(options, silent), options);
 }

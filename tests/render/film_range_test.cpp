@@ -31,8 +31,8 @@ Render render_small_lamp(const std::string& map, Integrator integrator) {
     const double h = 2e-4;
     scene.build.use("lamp").textured_quad({{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}});
     scene.look({0, 0, 1}, {0, 0, 0}, 0.01);
-    scene.options.integrator = integrator;
-    scene.options.spp = 64;
+    scene.options.transport.integrator = integrator;
+    scene.options.sampling.spp = 64;
     return scene.render();
 }
 
@@ -70,7 +70,7 @@ TEST(FilmRange, PointsBesideAWallLightItAsTheSolidAngleSays) {
             scene.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(1);
             // Off the diagonal: points at the edges of triangles are kept a few offset bounds inside.
             scene.options.light.points.push_back({{0.25, distance, 0.125}, {3, 2, 1}});
-            scene.options.integrator = integrator;
+            scene.options.transport.integrator = integrator;
             const double half_side = 10 * distance;
             scene.look({0.25, 1, 0.125}, {0.25, 0, 0.125}, 2 * std::atan(half_side) * 180 / PI);
             const Render render = scene.render();
@@ -90,8 +90,8 @@ TEST(FilmRange, TheSmallestDiscOfASunLeavesTheQuantumFine) {
         TestScene scene;
         scene.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(1);
         scene.options.light.suns.push_back({{0.6, 0.8, 0}, {IRRADIANCE, 1, 1}, 2 * RADIUS * 180 / PI});
-        scene.options.integrator = integrator;
-        scene.options.spp = 128;
+        scene.options.transport.integrator = integrator;
+        scene.options.sampling.spp = 128;
         scene.look_at_point({0.5, 0.8, 0.4}, {0, 0, 0});
         ASSERT_GT(scene.load().lights.at(0).one_minus_cos, 0) << "it has a disc";
         const Render render = scene.render();
@@ -109,7 +109,7 @@ TEST(FilmRange, AFilmFullOfASmallDiscHoldsItsRadiance) {
     scene.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(1, -0.5);
     scene.options.light.suns.push_back({{0, 0, -1}, {1, 1, 1}, 2 * RADIUS * 180 / PI});
     scene.look({0, 0, 0}, {0, 0, -1}, 1e-3);
-    scene.options.spp = 512;
+    scene.options.sampling.spp = 512;
     const Render render = scene.render();
     expect_no_bad_sample(render);
     EXPECT_TRUE(agrees(film_estimate(render.film), 1 / (PI * RADIUS * RADIUS), 1e-6, 1e-5));
@@ -121,9 +121,9 @@ TEST(FilmRange, ASumThatIsFullStaysFullAndIsReported) {
     scene.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(1, -0.5);
     scene.options.light.suns.push_back({{0, 0, -1}, {1, 1e-9, 0}, 2 * 1.01e-6 * 180 / PI});
     scene.look({0, 0, 0}, {0, 0, -1}, 1e-5);
-    scene.options.size = {1, 1};
-    scene.options.replicates = 1;
-    scene.options.spp = 512;
+    scene.options.film.size = {1, 1};
+    scene.options.sampling.replicates = 1;
+    scene.options.sampling.spp = 512;
     const Render render = scene.render();
     EXPECT_EQ(render.film.sums[0], INT64_MAX);
     EXPECT_LT(render.film.sums[1], INT64_MAX);

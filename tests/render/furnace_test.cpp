@@ -22,7 +22,7 @@ public:
         build.material("wall", "Kd " + grey(reflectance) + "\nKe " + grey(emission));
         build.use("wall");
         look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
-        options.roulette_depth = NO_ROULETTE;
+        options.transport.roulette_depth = NO_ROULETTE;
     }
 };
 
@@ -105,7 +105,7 @@ TEST(Furnace, PathsOfAtMostNSegmentsGiveTheirPartialSum) {
     ClosedFurnace scene(0.5, 0.5);
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     for (const int depth : {1, 2, 3, 5, 32}) {
-        scene.options.max_depth = depth;
+        scene.options.transport.max_depth = depth;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1 - std::ldexp(1.0, -depth))) << depth;
     }
 }
@@ -113,7 +113,7 @@ TEST(Furnace, PathsOfAtMostNSegmentsGiveTheirPartialSum) {
 TEST(Furnace, EveryPartOfAnIcosphereHasTheSameRadiance) {
     ClosedFurnace scene(0.5, 0.5);
     scene.build.icosphere({0, 0, 0}, 1, 2, Facing::INWARD);
-    scene.options.max_depth = 32;
+    scene.options.transport.max_depth = 32;
     const Film film = scene.render().film;
     for (int y = 0; y < 16; y += 4)
         for (int x = 0; x < 16; x += 4)
@@ -125,7 +125,7 @@ TEST(Furnace, TheOtherIntegratorsStopAfterOneBounce) {
     ClosedFurnace scene(0.5, 0.5);
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.75, 4e-3)) << integrator_name(integrator);
     }
 }
@@ -133,10 +133,10 @@ TEST(Furnace, TheOtherIntegratorsStopAfterOneBounce) {
 TEST(Furnace, RouletteEndsPathsWithoutChangingTheMean) {
     ClosedFurnace scene(0.9, 0.1);
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
-    scene.options.max_depth = 1000;
-    scene.options.spp = 512;
+    scene.options.transport.max_depth = 1000;
+    scene.options.sampling.spp = 512;
     for (const int start : {1, 5}) {
-        scene.options.roulette_depth = start;
+        scene.options.transport.roulette_depth = start;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 5e-3)) << start;
     }
 }
@@ -147,8 +147,8 @@ TEST(Furnace, RouletteIsIndependentOfTheChoiceOfLobe) {
     scene.build.material("wall", "Kd 0.6 0.2 0.1\nKs 0.2 0.2 0.5\nillum 3\nKe 0.2 0.6 0.4").use("wall");
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     scene.look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
-    scene.options.max_depth = 1000;
-    scene.options.roulette_depth = 1;
+    scene.options.transport.max_depth = 1000;
+    scene.options.transport.roulette_depth = 1;
     const Film film = scene.render().film;
     for (const int channel : {0, 1, 2})
         EXPECT_TRUE(agrees(film_estimate(film, channel), 1, 5e-3)) << channel;
@@ -160,7 +160,7 @@ TEST(Furnace, ThingsInsideCannotBeSeen) {
     scene.build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3").material("glass", "Ni 1.5\nillum 7");
     scene.build.use("mirror").box({-0.6, -0.6, -0.6}, {-0.2, -0.2, -0.2});
     scene.build.use("glass").icosphere({0.3, 0, -0.2}, 0.3, 2);
-    scene.options.max_depth = 64;
+    scene.options.transport.max_depth = 64;
     const Film film = scene.render().film;
     for (int y = 0; y < 16; y += 4)
         for (int x = 0; x < 16; x += 4)
@@ -185,11 +185,11 @@ TEST(Furnace, LosslessBodiesReturnAllLight) {
             scene.build.material("m", keys).use("m").box({-1, -1, -1},
                                                          {1, 1, 1}); // a box of glass traps no ray
             scene.options.light.environment = glm::dvec3(1);
-            scene.options.integrator = integrator;
-            scene.options.max_depth = 64;
-            scene.options.min_contribution = 0;
-            scene.options.spp = 64;
-            scene.options.mtl = MtlReading::PLAIN; // Ni 1 is glass that bends nothing
+            scene.options.transport.integrator = integrator;
+            scene.options.transport.max_depth = 64;
+            scene.options.transport.min_contribution = 0;
+            scene.options.sampling.spp = 64;
+            scene.options.scene.mtl = MtlReading::PLAIN; // Ni 1 is glass that bends nothing
             scene.look({3, 4, 5}, {0, 0, 0}, 10);
             EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-5))
                 << keys << ", " << integrator_name(integrator);
@@ -264,7 +264,7 @@ TEST(Furnace, ASmoothBoundaryOfGlassReflectsAndRefracts) {
         const double eta = 1 / 1.5, f = fresnel_reflectance(cos_o, eta);
         FloorUnderSky scene("Ni 1.5\nillum 7", cos_o);
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), f + (1 - f) * eta * eta)) << cos_o;
-        scene.options.integrator = Integrator::WHITTED;
+        scene.options.transport.integrator = Integrator::WHITTED;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), f + (1 - f) * eta * eta, 1e-5, 1e-5)) << cos_o;
     }
 }
@@ -273,7 +273,7 @@ TEST(Furnace, MirrorsWithFresnelFollowSchlick) {
     for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED})
         for (const double cos_o : {0.1, 0.5, 0.95}) {
             FloorUnderSky scene("Kd 0 0 0\nKs 0.3 0.3 0.3\nillum 5", cos_o);
-            scene.options.integrator = integrator;
+            scene.options.transport.integrator = integrator;
             const double expected = 0.3 + 0.7 * std::pow(1 - cos_o, 5);
             EXPECT_TRUE(agrees(film_estimate(scene.render().film), expected, 1e-4, 1e-5)) << cos_o;
         }
@@ -282,7 +282,7 @@ TEST(Furnace, MirrorsWithFresnelFollowSchlick) {
 TEST(Furnace, PhongsHighlightIsNormalisedForALookStraightDown) {
     for (const Integrator integrator : {Integrator::RAYCAST, Integrator::WHITTED}) {
         FloorUnderSky scene("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 7\nillum 2", 1);
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.8)) << integrator_name(integrator);
     }
 }

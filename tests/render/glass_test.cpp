@@ -21,9 +21,9 @@ public:
         build.material("glass", glass_keys).material("lamp", "Kd 0 0 0\nKe 1 1 1");
         build.use("glass").box({-60, -60, -0.5}, {60, 60, 0.5});
         build.use("lamp").polygon({{edge, -50, -2}, {50, -50, -2}, {50, 50, -2}, {edge, 50, -2}});
-        options.max_depth = 30;
-        options.min_contribution = 0;
-        options.spp = 256;
+        options.transport.max_depth = 30;
+        options.transport.min_contribution = 0;
+        options.sampling.spp = 256;
     }
 };
 
@@ -34,7 +34,7 @@ public:
         build.material("glass", "Ni 1.5\nillum 7").material("lamp", "Kd 0 0 0\nKe 0 1 0");
         build.use("glass").floor(20).use("lamp").floor(20, -3);
         options.light.environment = glm::dvec3(1, 0, 0);
-        options.min_contribution = 0;
+        options.transport.min_contribution = 0;
     }
 };
 
@@ -45,7 +45,7 @@ TEST(Glass, ASlabHeadOnReflectsWhatItDoesNotTransmit) {
     scene.build.polygon({{-50, 50, 8}, {50, 50, 8}, {50, -50, 8}, {-50, -50, 8}}); // a lamp behind the camera
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
     for (const Integrator integrator : TREE_AND_PATH) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-6)) << integrator_name(integrator);
     }
 }
@@ -53,10 +53,10 @@ TEST(Glass, ASlabHeadOnReflectsWhatItDoesNotTransmit) {
 TEST(Glass, TheShallowestTreesSeeTheFirstTermsOfTheSeries) {
     Slab scene("Ni 1.5\nillum 7");
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
-    scene.options.integrator = Integrator::WHITTED;
+    scene.options.transport.integrator = Integrator::WHITTED;
     for (const auto& [depth, expected] :
          {std::pair{2, 0.0}, {3, 0.96 * 0.96}, {4, 0.96 * 0.96}, {5, 0.92307456}}) {
-        scene.options.max_depth = depth;
+        scene.options.transport.max_depth = depth;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), expected, 2e-6)) << depth;
     }
 }
@@ -65,7 +65,7 @@ TEST(Glass, EveryCrossingTints) {
     Slab scene("Ni 1.5\nillum 7\nTf 0.8 0.5 1");
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
     for (const Integrator integrator : TREE_AND_PATH) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
         EXPECT_TRUE(agrees(film_estimate(film, 0), 0.64 * 0.9230769)) << integrator_name(integrator);
         EXPECT_TRUE(agrees(film_estimate(film, 1), 0.25 * 0.9230769)) << integrator_name(integrator);
@@ -80,7 +80,7 @@ TEST(Glass, AnObliqueRayLeavesASlabShiftedByItsThickness) {
     const double sine = std::sqrt(0.5), inside = std::asin(sine / 1.5);
     Slab scene("Ni 1.5\nillum 7", std::tan(inside) + 1.5);
     scene.look_at_point({-3 * sine, 0, 0.5 + 3 * sine}, {0, 0, 0.5});
-    scene.options.integrator = Integrator::WHITTED;
+    scene.options.transport.integrator = Integrator::WHITTED;
     const Film film = scene.render().film;
     const double f = fresnel_reflectance(sine, 1 / 1.5), once = (1 - f) * (1 - f);
     EXPECT_TRUE(agrees(film_estimate(film, 0, {0, 0, 7, 16}), once * f * f / (1 - f * f), 1e-3, 1e-3));
@@ -94,7 +94,7 @@ TEST(Glass, ACeilingOfWaterReflectsTotallyBeyondTheCriticalAngle) {
         for (const Integrator integrator : TREE_AND_PATH) {
             GlassSea scene;
             scene.look_at_point({-std::sin(angle), -std::cos(angle), 0}, {0, 0, 0});
-            scene.options.integrator = integrator;
+            scene.options.transport.integrator = integrator;
             const Film film = scene.render().film;
             SCOPED_TRACE(std::to_string(degrees) + " degrees, " + integrator_name(integrator));
             EXPECT_TRUE(agrees(film_estimate(film, 0), (1 - f) * 2.25, 3e-3, 1e-4));

@@ -3,8 +3,8 @@
 // by a signal.
 #include "render/hit_layers.h"
 
-#include "app/signals.h"
 #include "bvh/bvh.h"
+#include "console/signals.h"
 #include "effects/effects.h"
 #include "render/kernels.h"
 #include "render/render_params.h"
@@ -30,21 +30,21 @@ protected:
         test_.build.use("leaf").textured_quad({{-1, 0.5, 0}, {1, 0.5, 0}, {1, 2, 0.3}, {-1, 2, 0.3}});
         test_.look({0, 1.5, 3}, {0, 0.6, 0}, 45);
         Options& options = test_.options;
-        options.size = {27, 21}; // tiles at the edges are not whole
-        options.replicates = 4;
-        options.outputs = {"a.exr"};
+        options.film.size = {27, 21}; // tiles at the edges are not whole
+        options.sampling.replicates = 4;
+        options.output.files = {"a.exr"};
         if (const char* folder = std::getenv("CLRT_TEST_KERNELS"))
-            options.kernels_folder = folder;
+            options.device.kernels_folder = folder;
         const Scene scene = test_.load();
         const Effects effects = find_effects(scene, options);
-        const BvhLayout layout = choose_layout(options.bvh, test_device().info);
+        const BvhLayout layout = choose_layout(options.bvh.layout, test_device().info);
         programs_ = build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
         buffers_ = upload_scene(test_device(), scene,
                                 build_bvh(scene.positions, scene.triangles, layout, BvhQuality::FAST));
         params_ = make_render_params(scene, options, film_scale(scene));
-        film_.width = options.size.x;
-        film_.height = options.size.y;
-        film_.replicates = options.replicates;
+        film_.width = options.film.size.x;
+        film_.height = options.film.size.y;
+        film_.replicates = options.sampling.replicates;
     }
 
     /// Goes through films of these ranges, one after the other.

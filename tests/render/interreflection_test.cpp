@@ -71,7 +71,7 @@ TEST(Interreflection, EveryNumberOfBouncesAgreesWithRadiosity) {
     const glm::dvec3 seen(-0.4, 0, 0.3);
     scene.look_at_point({-0.6, 0.8, 0.7}, seen);
     for (const int bounces : {1, 2, 3, 4, 6}) {
-        scene.options.max_depth = bounces + 1;
+        scene.options.transport.max_depth = bounces + 1;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), floor_radiance(seen, bounces), 2e-3, 2e-4))
             << bounces;
     }
@@ -86,7 +86,7 @@ TEST(Interreflection, ABallAroundAPointLightIsEvenlyBright) {
         scene.build.icosphere({0, 0, 0}, radius, 3, Facing::INWARD);
         scene.options.light.points.push_back({{0, 0, 0}, glm::dvec3(radius * radius)});
         scene.look({0, 0, 0}, {0, 0, -radius}, 60);
-        scene.options.spp = 256;
+        scene.options.sampling.spp = 256;
         const Estimate estimate = film_estimate(scene.render().film);
         EXPECT_TRUE(agrees(estimate, 1 / PI, 2e-3, 0.02)) << radius;
         reference = reference == 0 ? estimate.mean : reference;

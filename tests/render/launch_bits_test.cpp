@@ -33,9 +33,9 @@ void make_scene(TestScene& scene) {
     scene.build.use("rough").icosphere({0.6, 0.5, 0.2}, 0.4, 1);
     scene.build.use("lamp").polygon({{-0.4, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.4, 2, 0.4}});
     scene.options.light.points.push_back({{-1, 2, 1}, {2, 2, 4}});
-    scene.options.filter = Filter::GAUSSIAN;
-    scene.options.size = {44, 29}; // tiles at the edges are not whole
-    scene.options.replicates = 4;
+    scene.options.film.filter = Filter::GAUSSIAN;
+    scene.options.film.size = {44, 29}; // tiles at the edges are not whole
+    scene.options.sampling.replicates = 4;
     scene.look({0, 1.5, 3}, {0, 0.4, 0}, 45);
 }
 
@@ -45,10 +45,10 @@ public:
     explicit LaunchedScene(Integrator integrator) {
         make_scene(test_);
         Options& options = test_.options;
-        options.integrator = integrator;
+        options.transport.integrator = integrator;
         const Scene scene = test_.load();
         const Effects effects = find_effects(scene, options);
-        const BvhLayout layout = choose_layout(options.bvh, test_device().info);
+        const BvhLayout layout = choose_layout(options.bvh.layout, test_device().info);
         programs_ = build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
         const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout, BvhQuality::FAST);
         buffers_ = upload_scene(test_device(), scene, bvh);
@@ -61,8 +61,8 @@ public:
     std::vector<std::int64_t> sums(const std::vector<Launch>& launches) const {
         FilmBuffers film(test_device(), params_, 0);
         Launcher launcher(test_device(), programs_.picture,
-                          std::string("render_") + integrator_name(test_.options.integrator), params_,
-                          buffers_);
+                          std::string("render_") + integrator_name(test_.options.transport.integrator),
+                          params_, buffers_);
         film.bind(launcher.kernel());
         for (const Launch& launch : launches)
             launcher.run(launch.first, launch.count, launch.tile, launch.end);

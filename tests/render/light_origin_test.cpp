@@ -105,19 +105,19 @@ public:
             build.polygon({{-0.4, 0, 0.4}, {0.4, 0, 0.4}, {0.4, 0, -0.4}, {-0.4, 0, -0.4}});
         build.material("ball", material).use("ball");
         add_ball(*this, segments);
-        options.max_depth = 2;
-        options.spp = 4096;
+        options.transport.max_depth = 2;
+        options.sampling.spp = 4096;
         look({2.5, 3, 4}, {0.4, 0, 0.2}, 20);
     }
     /// The picture's mean by the path tracer, with the kernels of a folder or its own.
     Estimate by_paths(const std::string& kernels = "") {
-        options.integrator = Integrator::PATH;
-        options.kernels_folder = kernels;
+        options.transport.integrator = Integrator::PATH;
+        options.device.kernels_folder = kernels;
         return film_estimate(render().film);
     }
     Estimate by(Integrator integrator) {
-        options.integrator = integrator;
-        options.kernels_folder.clear();
+        options.transport.integrator = integrator;
+        options.device.kernels_folder.clear();
         return film_estimate(render().film);
     }
 };
@@ -173,7 +173,7 @@ TEST(LightOrigin, BothTechniquesLightARoughGlassBallAlikeOnBothSides) {
 TEST(LightOrigin, PathsThroughRoughGlassFindTheLampsThatLightSamplingKnows) {
     for (const int segments : {4, 8}) {
         BallAndLamps scene("Ni 1.5\nillum 7\nPr 0.8", segments, Lamps::BOTH);
-        scene.options.max_depth = 4;
+        scene.options.transport.max_depth = 4;
         EXPECT_TRUE(agree(scene.by_paths(one_technique().bsdf()), scene.by_paths(), GLASS_SHARPNESS))
             << segments;
     }

@@ -20,10 +20,10 @@ public:
         build.textured_quad({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
         look_at_point({0, 0, 1}, {0, 0, 0});
         options.light.environment = glm::dvec3(1);
-        options.spp = 64;
+        options.sampling.spp = 64;
     }
     glm::dvec3 seen(MtlReading reading) {
-        options.mtl = reading;
+        options.scene.mtl = reading;
         const Film film = render().film;
         return {film_estimate(film, 0).mean, film_estimate(film, 1).mean, film_estimate(film, 2).mean};
     }
@@ -54,7 +54,7 @@ TEST(MtlDialects, BlendersMetalReflectsItsBaseColour) {
 
 TEST(MtlDialects, BlendersVeilCoversAndDoesNotRefract) {
     Square veil("Ns 1000\nKa 1 1 1\nKd 0.8 0.4 0.2\nKs 0.5 0.5 0.5\nNi 1.5\nd 0.5\nillum 6", BLENDER_HEADER);
-    veil.options.spp = 4096;
+    veil.options.sampling.spp = 4096;
     expect_colour(veil.seen(MtlReading::AUTO), {0.9, 0.7, 0.6}, 0.01, "half metal, half sky");
 }
 
@@ -68,8 +68,8 @@ TEST(MtlDialects, BlendersGlassRefractsAndTints) {
     scene.build.use("glass").box({-60, -60, -0.5}, {60, 60, 0.5});
     scene.build.use("lamp").polygon({{-50, -50, -2}, {50, -50, -2}, {50, 50, -2}, {-50, 50, -2}});
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
-    scene.options.max_depth = 30;
-    scene.options.spp = 256;
+    scene.options.transport.max_depth = 30;
+    scene.options.sampling.spp = 256;
     // A slab of index 1.5 lets through T^2 / (1 - R^2 Kd^2) with R = 0.04 and T = 0.96, times Kd.
     const Film film = scene.render().film;
     for (int c = 0; c < 3; ++c) {

@@ -59,7 +59,7 @@ std::vector<Place> path_places() {
          {{"path->throughput.y"}},
          Reached::IF_CONTINUED},
         {file,
-         "path->ray = ray_make(surface_origin(&surface, next.reflects), next.wi);",
+         "path->ray = surface_ray(&surface, next.reflects, next.wi);",
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
         {file,
@@ -131,12 +131,13 @@ public:
         build.use("floor").textured_quad({{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}});
         build.use("lamp").polygon({{-1, 3, -1}, {1, 3, -1}, {1, 3, 1}, {-1, 3, 1}});
         look_at_point({1, 1, 0}, {0, 0, 0});
-        options.max_depth = 2;
-        options.spp = 8;
-        options.replicates = 8;
+        options.transport.max_depth = 2;
+        options.sampling.spp = 8;
+        options.sampling.replicates = 8;
     }
     std::uint64_t samples() const {
-        return std::uint64_t(options.size.x) * std::uint64_t(options.size.y) * *options.spp;
+        return std::uint64_t(options.film.size.x) * std::uint64_t(options.film.size.y) *
+               *options.sampling.spp;
     }
 };
 
@@ -154,7 +155,7 @@ std::uint64_t samples_at(Reached place, const FloorUnderALamp& scene, const Rend
                          const RenderCounts& good) {
     if (place == Reached::IF_LIT && good.shadow == 0)
         return 0;
-    const bool is_path = scene.options.integrator == Integrator::PATH;
+    const bool is_path = scene.options.transport.integrator == Integrator::PATH;
     if (place == Reached::IF_CONTINUED && (is_path || good.secondary == 0))
         return counts.secondary;
     return scene.samples();
@@ -164,14 +165,14 @@ void expect_all_counted(Integrator integrator, const std::vector<Place>& places)
     const PatchedKernels kernels = spoiled_kernels(places);
     for (const auto& [name, keys] : FLOORS) {
         FloorUnderALamp scene(keys);
-        scene.options.integrator = integrator;
-        scene.options.kernels_folder = kernels.path();
+        scene.options.transport.integrator = integrator;
+        scene.options.device.kernels_folder = kernels.path();
         const RenderCounts good = scene.render().counts;
         EXPECT_EQ(good.nan, 0u) << name;
         std::uint32_t seed = 0;
         for (const Place& place : places)
             for (const Value& value : place.values) {
-                scene.options.seed = ++seed;
+                scene.options.sampling.seed = ++seed;
                 if (std::find(value.floors.begin(), value.floors.end(), name) == value.floors.end())
                     continue;
                 const RenderCounts counts = scene.render().counts;
@@ -186,8 +187,8 @@ void expect_all_counted(Integrator integrator, const std::vector<Place>& places)
 /// Expects that a render with these kernels counts every sample as NaN.
 void expect_counted(const PatchedKernels& kernels, FloorUnderALamp& scene, Integrator integrator,
                     const std::string& what = "") {
-    scene.options.integrator = integrator;
-    scene.options.kernels_folder = kernels.path();
+    scene.options.transport.integrator = integrator;
+    scene.options.device.kernels_folder = kernels.path();
     EXPECT_EQ(scene.render().counts.nan, scene.samples()) << what;
 }
 

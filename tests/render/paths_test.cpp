@@ -17,12 +17,13 @@ namespace clrt {
 namespace {
 
 std::uint64_t samples(const TestScene& scene) {
-    return std::uint64_t(scene.options.size.x) * std::uint64_t(scene.options.size.y) * *scene.options.spp;
+    return std::uint64_t(scene.options.film.size.x) * std::uint64_t(scene.options.film.size.y) *
+           *scene.options.sampling.spp;
 }
 
 /// Renders the paths of an expression.
 Render render_paths(TestScene& scene, const std::string& paths) {
-    scene.options.paths = paths;
+    scene.options.transport.paths = paths;
     return scene.render();
 }
 
@@ -54,8 +55,8 @@ public:
         options.light.environment_file = folder.file("sky.exr");
         options.light.suns.push_back({{1, 2, 1}, {1, 1, 0.5}, 20});
         options.light.points.push_back({{-1, 1.5, 1}, {1, 1, 2}});
-        options.max_depth = 8;
-        options.spp = 2048;
+        options.transport.max_depth = 8;
+        options.sampling.spp = 2048;
         look({0, 1.2, 3}, {0, 0.6, 0}, 60);
     }
 };
@@ -70,9 +71,9 @@ public:
         build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
         build.use("red").box({-0.5, 0.01, -0.5}, {0.1, 0.8, 0.2});
         look({0.2, 1, 0.9}, {0, 0.7, -1}, 100);
-        options.spp = 64;
-        options.replicates = 8;
-        options.all_effects = false;
+        options.sampling.spp = 64;
+        options.sampling.replicates = 8;
+        options.effects.all = false;
     }
 };
 
@@ -82,8 +83,8 @@ public:
     SlabUnderSky() {
         build.material("glass", "Ni 1.5\nillum 7").use("glass").box({-60, -60, -0.5}, {60, 60, 0.5});
         options.light.environment = glm::dvec3(1);
-        options.spp = 64;
-        options.all_effects = false;
+        options.sampling.spp = 64;
+        options.effects.all = false;
         look_at_point({0, 0, 5}, {0, 0, 0});
     }
 };
@@ -94,7 +95,7 @@ public:
     explicit FloorUnderSky(const std::string& keys) {
         build.material("m", keys).use("m").floor(50);
         options.light.environment = glm::dvec3(1);
-        options.all_effects = false;
+        options.effects.all = false;
         look_at_point({1, 1, 0}, {0, 0, 0});
     }
 };
@@ -125,7 +126,7 @@ void expect_partition(TestScene& scene, const std::string& whole, const std::vec
     std::vector<Film> films;
     for (const std::string& part : parts)
         films.push_back(render_paths(scene, part).film);
-    const int half = scene.options.size.x / 2;
+    const int half = scene.options.film.size.x / 2;
     for (const Crop& window : {Crop{0, 0, half, half}, Crop{half, 0, 2 * half, half},
                                Crop{0, half, half, 2 * half}, Crop{half, half, 2 * half, 2 * half}})
         for (int channel = 0; channel < 3; ++channel) {
@@ -166,16 +167,16 @@ TEST(Paths, TheTableOfTheSkyDoesNotChangeTheMean) {
             AllLetters scene;
             scene.options.light.suns.clear();
             scene.options.light.points.clear();
-            scene.options.spp = 1024;
-            scene.options.paths = paths;
-            scene.options.max_depth = depth;
+            scene.options.sampling.spp = 1024;
+            scene.options.transport.paths = paths;
+            scene.options.transport.max_depth = depth;
             Scene bright = scene.load();
-            scene.options.integrator = Integrator::WHITTED;
+            scene.options.transport.integrator = Integrator::WHITTED;
             Scene whole = scene.load();
-            scene.options.integrator = Integrator::PATH;
+            scene.options.transport.integrator = Integrator::PATH;
             ASSERT_NE(scene_hash(bright), scene_hash(whole));
             const Film a = render_loaded(std::move(bright), scene.options).film;
-            scene.options.seed = 1;
+            scene.options.sampling.seed = 1;
             const Film b = render_loaded(std::move(whole), scene.options).film;
             for (int channel = 0; channel < 3; ++channel) {
                 const Estimate x = film_estimate(a, channel), y = film_estimate(b, channel);
@@ -220,7 +221,7 @@ TEST(Paths, ReflectionAndRefractionOfGlassAreToldApart) {
     EXPECT_TRUE(agrees(estimate_paths(scene, "LTTE"), t * t, 1e-6));
     EXPECT_TRUE(agrees(estimate_paths(scene, "LTRTE"), t * r * t, 1e-6));
     EXPECT_TRUE(agrees(estimate_paths(scene, "LTRRTE"), t * r * r * t, 1e-5));
-    scene.options.spp = 1024;
+    scene.options.sampling.spp = 1024;
     EXPECT_TRUE(agrees(estimate_paths(scene, "LT*E"), t * t));
     EXPECT_TRUE(agrees(estimate_paths(scene, "L(RE|TTE)"), r + t * t));
     EXPECT_EQ(estimate_paths(scene, "LTE").mean, 0) << "one refraction ends inside";
@@ -240,7 +241,7 @@ TEST(Paths, TotalReflectionIsReflection) {
 TEST(Paths, LobesOfOneMaterialHaveTheirOwnAlbedo) {
     constexpr double TABLE_ERROR = 1e-3; // of the loss, scattering/albedo.h
     FloorUnderSky scene("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 6\nillum 2");
-    scene.options.max_depth = 8;
+    scene.options.transport.max_depth = 8;
     const double alpha = std::sqrt(2.0 / 8);
     // Light that the facets reflect more than once is glossy too (Kulla and Conty 2017), by the mean loss of
     // this alpha.
@@ -287,12 +288,12 @@ TEST(Paths, WhatCannotBeAcceptedCostsNoRay) {
 
 TEST(Paths, MaximumDepthEndsWhatCannotArriveInTime) {
     Room room;
-    room.options.max_depth = 3;
+    room.options.transport.max_depth = 3;
     EXPECT_EQ(render_paths(room, "LDD+E").film.sums, render_paths(room, "LDDE").film.sums);
     const Film in_time = render_paths(room, "LDDE").film;
-    room.options.max_depth = 64;
+    room.options.transport.max_depth = 64;
     EXPECT_EQ(render_paths(room, "LDDE").film.sums, in_time.sums) << "two surfaces need three segments";
-    room.options.max_depth = 3;
+    room.options.transport.max_depth = 3;
     const Render lamp = render_paths(room, "LDDDE|LE");
     EXPECT_EQ(lamp.counts.secondary + lamp.counts.shadow, 0u) << "three surfaces need four segments";
     EXPECT_GT(film_estimate(lamp.film).mean, 0);
@@ -300,10 +301,10 @@ TEST(Paths, MaximumDepthEndsWhatCannotArriveInTime) {
 
 TEST(Paths, LayersLeaveThePictureAlone) {
     AllLetters scene;
-    scene.options.spp = 64;
-    scene.options.replicates = 8;
+    scene.options.sampling.spp = 64;
+    scene.options.sampling.replicates = 8;
     const Render alone = scene.render();
-    scene.options.path_layers = {
+    scene.options.output.path_layers = {
         {"direct", "LDE"}, {"glossy", "L.*G.*E"}, {"matte_first", "L.*D.G.*E"}, {"all", "L.*E"}};
     const Render layered = scene.render();
     EXPECT_EQ(alone.film.sums, layered.film.sums);
@@ -324,10 +325,10 @@ TEST(Paths, ALayerHasTheBitsOfItsOwnRender) {
     Room room;
     const std::vector<std::string> expressions = {"LE", "LDE", "LDDE", "LDDD+E", "L(D|S)*E"};
     for (const std::string& expression : expressions)
-        room.options.path_layers.push_back({"layer", expression});
+        room.options.output.path_layers.push_back({"layer", expression});
     const Render layered = room.render();
     ASSERT_EQ(layered.path_layers.size(), expressions.size());
-    room.options.path_layers.clear();
+    room.options.output.path_layers.clear();
     for (size_t i = 0; i < expressions.size(); ++i) {
         const Film alone = render_paths(room, expressions[i]).film;
         EXPECT_EQ(count_differences(folded(alone), layered.path_layers[i].sums), 0u) << expressions[i];
@@ -350,11 +351,11 @@ TEST(Paths, LampsInViewSplitOffBitForBit) {
 
 TEST(Paths, LayersEqualTheirOwnRendersInTheMean) {
     AllLetters scene;
-    scene.options.path_layers = {{"a", "LDE"}, {"b", "L.*DG.*E"}, {"c", "LS*GE"}, {"d", "Ld.*E"}};
-    const std::vector<PathLayerOption> layers = scene.options.path_layers;
+    scene.options.output.path_layers = {{"a", "LDE"}, {"b", "L.*DG.*E"}, {"c", "LS*GE"}, {"d", "Ld.*E"}};
+    const std::vector<PathLayerOption> layers = scene.options.output.path_layers;
     const Render layered = scene.render();
-    scene.options.path_layers.clear();
-    scene.options.seed = 1;
+    scene.options.output.path_layers.clear();
+    scene.options.sampling.seed = 1;
     // In every channel: matte and glossy parts have other colours, which is what a class weighs beside its
     // chance.
     for (const PathLayerOption& layer : layers) {
@@ -370,7 +371,7 @@ TEST(Paths, LayersEqualTheirOwnRendersInTheMean) {
 
 TEST(Paths, ALayerIsAPartOfThePicture) {
     Room room;
-    room.options.path_layers = {{"rest", "LDD+E"}, {"direct", "LDE"}};
+    room.options.output.path_layers = {{"rest", "LDD+E"}, {"direct", "LDE"}};
     const Render render = render_paths(room, "LDE");
     EXPECT_EQ(film_estimate(render.path_layers[0]).mean, 0);
     EXPECT_EQ(count_differences(render.path_layers[1].sums, folded(render.film)), 0u);
@@ -379,13 +380,13 @@ TEST(Paths, ALayerIsAPartOfThePicture) {
 TEST(Paths, RayCastingIsItsLanguage) {
     // Matte and delta lobes; every kind of light.
     AllLetters scene(false);
-    scene.options.spp = 4096;
+    scene.options.sampling.spp = 4096;
     for (int channel = 0; channel < 3; channel += 2) {
-        scene.options.integrator = Integrator::PATH;
-        scene.options.max_depth = 2;
+        scene.options.transport.integrator = Integrator::PATH;
+        scene.options.transport.max_depth = 2;
         const Estimate path = estimate_paths(scene, "LD?E", channel);
-        scene.options.paths.clear();
-        scene.options.integrator = Integrator::RAYCAST;
+        scene.options.transport.paths.clear();
+        scene.options.transport.integrator = Integrator::RAYCAST;
         const Estimate cast = film_estimate(scene.render().film, channel);
         const double error = std::hypot(path.error, cast.error);
         EXPECT_LT(error, 5e-3 * path.mean);
@@ -395,15 +396,15 @@ TEST(Paths, RayCastingIsItsLanguage) {
 
 TEST(Paths, WhittedIsItsLanguage) {
     AllLetters scene(false);
-    scene.options.spp = 4096;
-    scene.options.min_contribution = 0;
+    scene.options.sampling.spp = 4096;
+    scene.options.transport.min_contribution = 0;
     for (const int depth : {3, 7}) {
-        scene.options.max_depth = depth;
-        scene.options.integrator = Integrator::PATH;
+        scene.options.transport.max_depth = depth;
+        scene.options.transport.integrator = Integrator::PATH;
         const Estimate path = estimate_paths(scene, "LD?S*E");
         const Estimate all = estimate_paths(scene, "");
-        scene.options.paths.clear();
-        scene.options.integrator = Integrator::WHITTED;
+        scene.options.transport.paths.clear();
+        scene.options.transport.integrator = Integrator::WHITTED;
         const Estimate tree = film_estimate(scene.render().film);
         const double error = std::hypot(path.error, tree.error);
         EXPECT_LT(error, 5e-3 * path.mean);

@@ -29,12 +29,12 @@ public:
         build.polygon({{-30, bottom, 0}, {right, bottom, 0}, {right, 30, 0}, {-30, 30, 0}});
         const double distance = 20;
         look({0, 0, distance}, {0, 0, 0}, 2 * std::atan(8 / distance) * 180 / 3.14159265358979323846);
-        options.integrator = Integrator::RAYCAST;
-        options.spp = 4096; // a line has the error that it may have, or half of it
+        options.transport.integrator = Integrator::RAYCAST;
+        options.sampling.spp = 4096; // a line has the error that it may have, or half of it
     }
     void filter(Filter kind, std::optional<double> radius = {}) {
-        options.filter = kind;
-        options.filter_radius = radius;
+        options.film.filter = kind;
+        options.film.filter_radius = radius;
     }
 };
 
@@ -101,8 +101,8 @@ TEST(PixelFilter, AGaussianIsCutAtItsRadius) {
 
 TEST(PixelFilter, PixelZeroIsAtTheTopLeft) {
     TestScene scene;
-    scene.options.integrator = Integrator::RAYCAST;
-    scene.options.spp = 64;
+    scene.options.transport.integrator = Integrator::RAYCAST;
+    scene.options.sampling.spp = 64;
     scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1").use("lamp");
     scene.build.polygon({{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}}); // left of and above the centre
     scene.look({0, 0, 3}, {0, 0, 0}, 30);
@@ -117,8 +117,8 @@ TEST(PixelFilter, PixelZeroIsAtTheTopLeft) {
 TEST(PixelFilter, TheAngleOfViewIsVertical) {
     // A lamp that fills the height of a 2:1 picture exactly fills half of its width.
     TestScene scene;
-    scene.options.integrator = Integrator::RAYCAST;
-    scene.options.size = {32, 16};
+    scene.options.transport.integrator = Integrator::RAYCAST;
+    scene.options.film.size = {32, 16};
     scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1").use("lamp");
     scene.build.polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
     scene.look({0, 0, 1}, {0, 0, 0}, 90);
@@ -130,8 +130,8 @@ TEST(PixelFilter, TheAngleOfViewIsVertical) {
 
 TEST(PixelFilter, TheUpVectorNeedNotBeOrthogonal) {
     TestScene scene;
-    scene.options.integrator = Integrator::RAYCAST;
-    scene.options.spp = 64;
+    scene.options.transport.integrator = Integrator::RAYCAST;
+    scene.options.sampling.spp = 64;
     scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1").use("lamp");
     scene.build.polygon({{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}});
     scene.look({0, 0, 3}, {0, 0, 0}, 30);

@@ -16,15 +16,16 @@ namespace {
 
 /// Samples of a picture: its rays are these many times the rays of one.
 std::uint64_t samples(const TestScene& scene) {
-    return std::uint64_t(scene.options.size.x) * std::uint64_t(scene.options.size.y) * *scene.options.spp;
+    return std::uint64_t(scene.options.film.size.x) * std::uint64_t(scene.options.film.size.y) *
+           *scene.options.sampling.spp;
 }
 
 class TreeScene : public TestScene {
 public:
     TreeScene() {
-        options.integrator = Integrator::WHITTED;
-        options.spp = 64;
-        options.min_contribution = 0;
+        options.transport.integrator = Integrator::WHITTED;
+        options.sampling.spp = 64;
+        options.transport.min_contribution = 0;
     }
 };
 
@@ -55,12 +56,12 @@ public:
 TEST(RayTree, MirrorsReflectUntilTheDepthLimit) {
     FacingMirrors scene("Ks 0.9 0.9 0.9\nKe 0.1 0.1 0.1");
     for (const int depth : {1, 2, 10, 64}) {
-        scene.options.max_depth = depth;
+        scene.options.transport.max_depth = depth;
         const Render render = scene.render();
         EXPECT_EQ(render.counts.secondary, (depth - 1) * samples(scene));
         EXPECT_TRUE(agrees(film_estimate(render.film), 1 - std::pow(0.9, depth), 1e-5)) << depth;
     }
-    scene.options.max_depth.reset();
+    scene.options.transport.max_depth.reset();
     EXPECT_EQ(scene.render().counts.secondary, 9 * samples(scene)) << "the default depth is 10";
 }
 
@@ -70,9 +71,9 @@ TEST(RayTree, EveryRayOfADeepTreeHasRandomNumbersOfItsOwn) {
     FacingMirrors scene("Ks 1 1 1\nKe 0.01 0.01 0.01");
     scene.build.material("screen", "Kd 0 0 0\nd 0.02").use("screen");
     scene.build.polygon({{-9, -9, 0.25}, {9, -9, 0.25}, {9, 9, 0.25}, {-9, 9, 0.25}});
-    scene.options.spp = 256;
+    scene.options.sampling.spp = 256;
     for (const int depth : {28, 64}) {
-        scene.options.max_depth = depth;
+        scene.options.transport.max_depth = depth;
         const double expected = 0.01 * 0.98 * (1 - std::pow(0.98, depth)) / (1 - 0.98);
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), expected, 4e-3)) << depth;
     }
@@ -80,16 +81,16 @@ TEST(RayTree, EveryRayOfADeepTreeHasRandomNumbersOfItsOwn) {
 
 TEST(RayTree, LongPathsBetweenMirrorsLoseNoLight) {
     FacingMirrors scene("Ks 0.999 0.999 0.999\nKe 0.001 0.001 0.001");
-    scene.options.integrator = Integrator::PATH;
-    scene.options.roulette_depth = 65535;
-    scene.options.max_depth = 1000;
+    scene.options.transport.integrator = Integrator::PATH;
+    scene.options.transport.roulette_depth = 65535;
+    scene.options.transport.max_depth = 1000;
     EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1 - std::pow(0.999, 1000), 1e-5, 1e-4));
 }
 
 TEST(RayTree, SmallContributionsAreNotFollowed) {
     FacingMirrors scene("Ks 0.5 0.5 0.25\nKe 1 1 1");
     for (const auto& [smallest, rays] : {std::pair{0.1, 3u}, {0.5, 1u}, {0.51, 0u}, {0.002, 8u}}) {
-        scene.options.min_contribution = smallest;
+        scene.options.transport.min_contribution = smallest;
         const Render render = scene.render();
         EXPECT_EQ(render.counts.secondary, rays * samples(scene)) << smallest;
         EXPECT_TRUE(agrees(film_estimate(render.film), 2 - std::pow(0.5, rays), 1e-5)) << smallest;
@@ -102,7 +103,7 @@ TEST(RayTree, GlassBranchesAtEverySurface) {
     scene.options.light.environment = glm::dvec3(1);
     scene.look_at_point({0, 0, 5}, {0, 0, 0});
     for (const int depth : {2, 3, 7}) {
-        scene.options.max_depth = depth;
+        scene.options.transport.max_depth = depth;
         const Render render = scene.render();
         // Of the two rays at each level one leaves the slab for good.
         EXPECT_EQ(render.counts.secondary, 2 * (depth - 1) * samples(scene)) << depth;
@@ -126,11 +127,11 @@ TEST(RayTree, EveryLightGetsOneShadowRay) {
     scene.options.light.suns.push_back({{0, 1, 0}, glm::dvec3(1), 0});
     scene.options.light.environment = glm::dvec3(1);
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_EQ(scene.render().counts.shadow, 5 * samples(scene)) << integrator_name(integrator);
     }
-    scene.options.integrator = Integrator::PATH;
-    scene.options.max_depth = 2;
+    scene.options.transport.integrator = Integrator::PATH;
+    scene.options.transport.max_depth = 2;
     EXPECT_LE(scene.render().counts.shadow, samples(scene)) << "a path's vertex connects to one light";
 }
 
@@ -141,9 +142,9 @@ TEST(RayTree, RayCastingNeverTracesASecondaryRay) {
     scene.build.use("mirror").floor(9).use("glass").icosphere({0, 1, 0}, 0.8, 1);
     scene.options.light.points.push_back({{-1, 4, 0}, glm::dvec3(4)});
     scene.look({0, 3, 5}, {0, 0, 0}, 60);
-    scene.options.max_depth = 10;
+    scene.options.transport.max_depth = 10;
     EXPECT_GT(scene.render().counts.secondary, 0u);
-    scene.options.integrator = Integrator::RAYCAST;
+    scene.options.transport.integrator = Integrator::RAYCAST;
     const Render render = scene.render();
     EXPECT_EQ(render.counts.secondary, 0u);
     EXPECT_GT(render.counts.shadow, 0u);
@@ -155,7 +156,7 @@ TEST(RayTree, WithoutMirrorsAndGlassItIsRayCasting) {
     scene.build.icosphere({-0.4, 0.5, 0}, 0.3, 1);
     scene.look({3, 4, 5}, {0, 0, 0}, 20);
     const Film tree = scene.render().film;
-    scene.options.integrator = Integrator::RAYCAST;
+    scene.options.transport.integrator = Integrator::RAYCAST;
     EXPECT_EQ(tree.sums, scene.render().film.sums);
 }
 
@@ -166,10 +167,10 @@ TEST(RayTree, InAMirrorItEqualsPathsOfThreeSegments) {
     scene.build.use("mirror").floor(9).use("matte").polygon(
         {{-2, 0.1, -2}, {2, 0.1, -2}, {2, 3, -2}, {-2, 3, -2}});
     scene.options.light.points.push_back({{1, 2, 0}, glm::dvec3(4)});
-    scene.options.max_depth = 3;
+    scene.options.transport.max_depth = 3;
     scene.look({0, 1, 2}, {0, 0, 0}, 20);
     const Film tree = scene.render().film;
-    scene.options.integrator = Integrator::PATH;
+    scene.options.transport.integrator = Integrator::PATH;
     const Film path = scene.render().film;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
@@ -182,7 +183,7 @@ TEST(RayTree, TheHighlightIsPhongs) {
     // Straight in the mirror direction: Ks (Ns + 2) / (2 pi).
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
         LitFloor scene("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 20\nillum 2");
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const double straight = (0.3 / PI + 0.5 * 22 / (2 * PI)) * scene.irradiance();
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), straight, 1e-3, 1e-4))
             << integrator_name(integrator);
@@ -203,16 +204,16 @@ TEST(RayTree, AReflectionThatIsFollowedHasNoHighlight) {
     const Render tree = scene.render();
     EXPECT_EQ(film_estimate(tree.film).mean, 0);
     EXPECT_EQ(tree.counts.secondary, samples(scene));
-    scene.options.integrator = Integrator::RAYCAST;
+    scene.options.transport.integrator = Integrator::RAYCAST;
     EXPECT_TRUE(
         agrees(film_estimate(scene.render().film), 0.5 * 22 / (2 * PI) * scene.irradiance(), 1e-3, 1e-4));
 }
 
 TEST(RayTree, DepthOneSeesOnlyLamps) {
     LitFloor scene("Kd 0.5 0.5 0.5\nKe 0.25 0.25 0.25");
-    scene.options.max_depth = 1;
+    scene.options.transport.max_depth = 1;
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::PATH}) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         const Render render = scene.render();
         EXPECT_TRUE(agrees(film_estimate(render.film), 0.25, 1e-6)) << integrator_name(integrator);
         EXPECT_EQ(render.counts.shadow + render.counts.secondary, 0u) << integrator_name(integrator);

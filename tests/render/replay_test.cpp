@@ -2,6 +2,7 @@
 // A replayed sample has the bits of the rendered one; a planted fault is found where it was planted, and so
 // is a decision that is made differently in double precision.
 #include "bvh/bvh.h"
+#include "console/progress.h"
 #include "film/film_buffers.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
@@ -9,8 +10,6 @@
 #include "replay/flips.h"
 #include "support/effect_masks.h"
 #include "support/kernel_probe.h"
-
-#include "app/progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,15 +40,15 @@ struct Stage {
 
     Stage(Scene loaded, Options given)
         : scene(std::move(loaded)), options(std::move(given)), effects(find_effects(scene, options)),
-          layout(choose_layout(options.bvh, device.info)),
+          layout(choose_layout(options.bvh.layout, device.info)),
           buffers(upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout))) {
-        if (options.kernels_folder.empty())
-            options.kernels_folder = tested_kernels_folder();
+        if (options.device.kernels_folder.empty())
+            options.device.kernels_folder = tested_kernels_folder();
     }
 
     std::vector<SampleAddress> all_pixels(u32 sample) const {
         std::vector<SampleAddress> addresses;
-        for (u32 pixel = 0; pixel < u32(options.size.x * options.size.y); ++pixel)
+        for (u32 pixel = 0; pixel < u32(options.film.size.x * options.film.size.y); ++pixel)
             addresses.push_back({pixel, sample});
         return addresses;
     }
@@ -78,12 +77,12 @@ size_t count_differences(const Render& render, const std::vector<SampleTrace>& t
 /// A small room that every kind of path runs through.
 Stage every_effect(Integrator integrator) {
     SceneOfEffects small(EVERY_EFFECT);
-    small.options.integrator = integrator;
-    small.options.size = {24, 20};
-    small.options.replicates = 4;
-    small.options.spp = 1;
+    small.options.transport.integrator = integrator;
+    small.options.film.size = {24, 20};
+    small.options.sampling.replicates = 4;
+    small.options.sampling.spp = 1;
     if (integrator != Integrator::PATH)
-        small.options.paths.clear();
+        small.options.transport.paths.clear();
     return Stage(small.load(), small.options);
 }
 
@@ -112,7 +111,7 @@ void make_white_room(TestScene& room) {
     room.build.material("white", "Kd 0.7 0.7 0.7\nKe 0.1 0.1 0.1").use("white");
     room.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     room.look({0, 0, 0.9}, {0, 0, -1}, 60);
-    room.options.all_effects = false;
+    room.options.effects.all = false;
 }
 
 /// A change to integrators/path.h that spoils one sample, and what it is to be reported as.
@@ -162,10 +161,10 @@ TEST(Replay, ASampleAddsToTheFilmWhatTheRenderAdds) {
                 (!test_device().info.fp64 || integrator == Integrator::WHITTED))
                 continue;
             Stage stage = every_effect(integrator);
-            stage.options.precision = precision;
+            stage.options.device.precision = precision;
             Replay replay = stage.replay(precision);
             for (const u32 sample : {0u, 7u}) {
-                stage.options.first_sample = sample;
+                stage.options.sampling.first_sample = sample;
                 const std::vector<SampleTrace> traces = replay.run(stage.all_pixels(sample));
                 EXPECT_EQ(count_differences(stage.render(), traces), 0u)
                     << integrator_name(integrator) << ' ' << sample;
@@ -177,9 +176,9 @@ TEST(Replay, SimplerScenesHaveTheBitsOfTheirOwnPrograms) {
     const std::vector<u32> sets = single_effects();
     for (size_t i = 0; i < sets.size(); i += 4) {
         SceneOfEffects small(sets[i]);
-        small.options.all_effects = false;
-        small.options.spp = 1;
-        small.options.first_sample = 3;
+        small.options.effects.all = false;
+        small.options.sampling.spp = 1;
+        small.options.sampling.first_sample = 3;
         const Stage stage(small.load(), small.options);
         Replay replay = stage.replay(Precision::SINGLE);
         EXPECT_EQ(count_differences(stage.render(), replay.run(stage.all_pixels(3))), 0u)
@@ -205,11 +204,11 @@ TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
         film.bind(launcher.kernel());
         launcher.run(5, 1, 0, params.tile_count);
         RenderProgress sums;
-        sums.film.width = stage.options.size.x;
-        sums.film.height = stage.options.size.y;
+        sums.film.width = stage.options.film.size.x;
+        sums.film.height = stage.options.film.size.y;
         film.read_sums(sums);
 
-        const size_t plane = size_t(3 * stage.options.size.x * stage.options.size.y);
+        const size_t plane = size_t(3 * stage.options.film.size.x * stage.options.film.size.y);
         size_t lit = 0, different = 0;
         for (const SampleTrace& trace : stage.replay(Precision::SINGLE).run(stage.all_pixels(5))) {
             const auto radiance =
@@ -235,9 +234,9 @@ TEST(Replay, LongPathsAreRecordedWhole) {
     scene.build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3").use("mirror");
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     scene.look({0.1, 0.2, 0.3}, {0, 0, -1}, 60);
-    scene.options.size = {2, 1};
-    scene.options.max_depth = 3000;
-    scene.options.roulette_depth = 4000;
+    scene.options.film.size = {2, 1};
+    scene.options.transport.max_depth = 3000;
+    scene.options.transport.roulette_depth = 4000;
     const Stage stage(scene.load(), scene.options);
     Replay replay = stage.replay(Precision::SINGLE);
     const std::vector<SampleTrace> traces = replay.run({{1, 0}, {0, 9}});
@@ -263,9 +262,9 @@ TEST(Replay, PlantedFaultsAreFoundWhereTheyArePlanted) {
         kernels.replace("integrators/path.h", fault.from, fault.to);
         TestScene room;
         make_white_room(room);
-        room.options.replicates = 4;
-        room.options.spp = 8;
-        room.options.kernels_folder = kernels.path();
+        room.options.sampling.replicates = 4;
+        room.options.sampling.spp = 8;
+        room.options.device.kernels_folder = kernels.path();
         const Stage stage(room.load(), room.options);
         const Render render = stage.render();
         const RenderCounts& counts = render.counts;
@@ -302,13 +301,13 @@ TEST(Replay, ADecisionThatDoubleMakesDifferentlyIsFound) {
                     "!survives;\n#endif\n");
     TestScene room;
     make_white_room(room);
-    room.options.spp = 4;
-    room.options.roulette_depth = 2;
-    room.options.kernels_folder = tested_kernels_folder();
+    room.options.sampling.spp = 4;
+    room.options.transport.roulette_depth = 2;
+    room.options.device.kernels_folder = tested_kernels_folder();
     const FlipStatistics clean = find_flips(test_device(), room.load(), room.options);
     EXPECT_EQ(clean.samples, 16u * 16u * 4u);
     EXPECT_LE(clean.flips.size(), 1u) << "1e-5 of the samples of a matte room flip (flips_test)";
-    room.options.kernels_folder = kernels.path();
+    room.options.device.kernels_folder = kernels.path();
     const FlipStatistics flips = find_flips(test_device(), room.load(), room.options);
     const std::uint64_t planted = flips.counts()[{"roulette", 2u}];
     // A third of 1024 keys that a hash deals out, within three standard errors.

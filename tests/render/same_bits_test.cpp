@@ -60,7 +60,7 @@ void make_maps(TestScene& scene) {
     scene.build.use("rough").icosphere({0.6, 0.5, -0.4}, 0.4, 1);
     scene.build.use("frosted").icosphere({-0.6, 0.5, -0.4}, 0.4, 1);
     scene.options.light.environment_file = scene.folder.file("sky.exr");
-    scene.options.filter = Filter::GAUSSIAN;
+    scene.options.film.filter = Filter::GAUSSIAN;
     scene.look({0, 1.2, 3}, {0, 0.5, 0}, 40);
 }
 
@@ -72,9 +72,9 @@ const std::pair<const char*, Maker> SCENES[] = {
 struct SmallScene : TestScene {
     explicit SmallScene(Maker make) {
         make(*this);
-        options.size = {48, 32};
-        options.spp = 16;
-        options.replicates = 8;
+        options.film.size = {48, 32};
+        options.sampling.spp = 16;
+        options.sampling.replicates = 8;
     }
     void add_line(const std::string& text) { build.raw(text); }
 };
@@ -94,9 +94,9 @@ TEST(SameBits, AbsentEffectsChangeNothing) {
     for (const auto& [name, make] : SCENES)
         for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}) {
             SmallScene scene(make);
-            scene.options.integrator = integrator;
+            scene.options.transport.integrator = integrator;
             const Render all = scene.render();
-            scene.options.all_effects = false;
+            scene.options.effects.all = false;
             const Effects effects = find_effects(scene.load(), scene.options);
             EXPECT_NE(effects.mask, u32(EFFECT_ALL)) << name;
             const Render needed = scene.render();
@@ -120,11 +120,11 @@ TEST(SameBits, AMapOfRoughnessDoesNotMakeSmoothGlassOrAMirrorRough) {
         scene.build.use("mirror").textured_quad(
             {{-1, 0.1, -1.2}, {1, 0.1, -1.2}, {1, 2, -1.4}, {-1, 2, -1.4}});
         scene.options.light.suns.push_back({{1, 2, 1}, {3, 3, 2}, 3});
-        scene.options.integrator = integrator;
-        scene.options.spp = 64;
+        scene.options.transport.integrator = integrator;
+        scene.options.sampling.spp = 64;
         scene.look({0, 2, 3}, {0, 0.4, 0}, 45);
         const Film full = scene.render().film;
-        scene.options.all_effects = false;
+        scene.options.effects.all = false;
         EXPECT_EQ(count_differences(scene.render().film, full), 0u) << integrator_name(integrator);
     }
 }
@@ -133,9 +133,9 @@ TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
     u32 present = 0, absent = 0;
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
-        scene.options.all_effects = false;
+        scene.options.effects.all = false;
         if (make == make_room)
-            scene.options.paths = "LDE";
+            scene.options.transport.paths = "LDE";
         const u32 mask = find_effects(scene.load(), scene.options).mask;
         present |= mask;
         absent |= ~mask;
@@ -149,7 +149,7 @@ TEST(SameBits, AWindowHoldsWhatTheWholePictureHoldsThere) {
         SmallScene scene(make);
         const Film whole = scene.render().film;
         const Crop window{13, 5, 40, 30}; // no side on a tile's edge
-        scene.options.crop = window;
+        scene.options.film.crop = window;
         const Film part = scene.render().film;
         ASSERT_EQ(part.width, 27);
         ASSERT_EQ(part.height, 25);
@@ -168,8 +168,8 @@ TEST(SameBits, AWindowHoldsWhatTheWholePictureHoldsThere) {
 
 TEST(SameBits, SamplesGoRoundTheReplicates) {
     SmallScene scene(make_room);
-    scene.options.spp = 3;
-    scene.options.first_sample = 6; // samples 6, 7 and 8 belong to replicates 6, 7 and 0
+    scene.options.sampling.spp = 3;
+    scene.options.sampling.first_sample = 6; // samples 6, 7 and 8 belong to replicates 6, 7 and 0
     const Film film = scene.render().film;
     const size_t plane = film.sums.size() / 8;
     for (int r = 0; r < 8; ++r) {
@@ -184,12 +184,12 @@ TEST(SameBits, SamplesGoRoundTheReplicates) {
 TEST(SameBits, AllTreesFindTheSameHits) {
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
-        scene.options.bvh = BvhChoice::BVH8;
+        scene.options.bvh.layout = BvhChoice::BVH8;
         const Render wide = scene.render();
         for (const BvhChoice choice : {BvhChoice::BVH8, BvhChoice::BVH2, BvhChoice::CWBVH})
             for (const QualityChoice quality : {QualityChoice::FAST, QualityChoice::HIGH}) {
-                scene.options.bvh = choice;
-                scene.options.bvh_quality = quality;
+                scene.options.bvh.layout = choice;
+                scene.options.bvh.quality = quality;
                 const Render other = scene.render();
                 EXPECT_EQ(count_differences(wide.film, other.film), 0u)
                     << name << ", " << int(choice) << ", " << int(quality);
@@ -203,22 +203,22 @@ TEST(SameBits, TheSameRunTwiceGivesTheSameFilmAndAnotherSeedAnother) {
     SmallScene scene(make_optics);
     const Film first = scene.render().film;
     EXPECT_EQ(count_differences(first, scene.render().film), 0u);
-    scene.options.seed = 1;
+    scene.options.sampling.seed = 1;
     EXPECT_GT(count_differences(first, scene.render().film), first.sums.size() / 4);
 }
 
 TEST(SameBits, DoublePrecisionFollowsTheSamePaths) {
     if (!test_device().info.fp64) {
         SmallScene scene(make_room);
-        scene.options.precision = Precision::DOUBLE;
+        scene.options.device.precision = Precision::DOUBLE;
         EXPECT_THROW(scene.render(), std::exception);
         return;
     }
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
-        scene.options.spp = 64;
+        scene.options.sampling.spp = 64;
         const Film single = scene.render().film;
-        scene.options.precision = Precision::DOUBLE;
+        scene.options.device.precision = Precision::DOUBLE;
         const std::vector<float> a = film_mean(single), b = film_mean(scene.render().film);
         // A rounding may send a path another way, so single pixels may differ; half of them must not.
         std::vector<double> differences;

@@ -19,8 +19,8 @@ Film floor_below_a_lamp(SamplerChoice sampler, std::uint32_t spp) {
     scene.build.material("matte", "Kd 0.5 0.5 0.5").material("lamp", "Kd 0 0 0\nKe 3 3 3");
     scene.build.use("matte").floor(20).use("lamp").polygon(LAMP);
     scene.look_at_point({3, 0.8, 0.4}, {0, 0, 0});
-    scene.options.sampler = sampler;
-    scene.options.spp = spp;
+    scene.options.sampling.sampler = sampler;
+    scene.options.sampling.spp = spp;
     return scene.render().film;
 }
 

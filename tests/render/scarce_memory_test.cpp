@@ -45,12 +45,12 @@ TEST(ScarceMemory, CostsLayersAndNeverThePicture) {
     TestScene test;
     test.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(4);
     test.look({0, 1.5, 3}, {0, 0, 0}, 45);
-    test.options.integrator = Integrator::RAYCAST;
-    test.options.size = {64, 512};
-    test.options.spp = 8;
-    test.options.replicates = 8;
+    test.options.transport.integrator = Integrator::RAYCAST;
+    test.options.film.size = {64, 512};
+    test.options.sampling.spp = 8;
+    test.options.sampling.replicates = 8;
     const std::string file = test.folder.file("a.exr");
-    test.options.outputs = {file};
+    test.options.output.files = {file};
     const Scene scene = test.load();
     const Options& options = test.options;
     const Effects effects = find_effects(scene, options);

@@ -27,8 +27,8 @@ public:
                 "vt 1 0\nvt 0 0\nvt 0 1\nvt 1 1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1/1 2/2 3/3 4/4");
         else
             build.textured_quad({{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}});
-        options.spp = 64;
-        options.max_depth = 2;
+        options.sampling.spp = 64;
+        options.transport.max_depth = 2;
         look_at_point({0.2, 3, 0.1}, {0, 0, 0});
     }
     /// Radiance for a sun in this direction.
@@ -59,7 +59,7 @@ TEST(ShadingNormal, RedTiltsAlongUAndGreenAlongV) {
     for (const bool mirrored : {false, true})
         for (const Integrator integrator : INTEGRATORS) {
             SunlitFloor red("norm red.exr", mirrored), green("norm green.exr", mirrored);
-            red.options.integrator = green.options.integrator = integrator;
+            red.options.transport.integrator = green.options.transport.integrator = integrator;
             red.texture("red.exr", 1, 1, 3, normal_texel({s, 0, c}));
             green.texture("green.exr", 1, 1, 3, normal_texel({0, s, c}));
             const double side = mirrored ? -1 : 1;
@@ -102,8 +102,8 @@ TEST(ShadingNormal, CornerNormalsAreInterpolated) {
         scene.build.raw("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvn 0.5 0.8660254 0\nvn -0.5 0.8660254 0\n"
                         "f 1//1 2//2 3//2 4//1");
         scene.options.light.suns = {{sun, glm::dvec3(PI), 0}};
-        scene.options.spp = 64;
-        scene.options.max_depth = 2;
+        scene.options.sampling.spp = 64;
+        scene.options.transport.max_depth = 2;
         scene.look_at_point({x, 3, 0.1}, {x, 0, 0});
         return film_estimate(scene.render().film).mean;
     };
@@ -125,7 +125,7 @@ TEST(ShadingNormal, GivenNormalsDecideWhichSideShines) {
                         "\nf -4//-1 -3//-1 -2//-1 -1//-1");
         scene.look_at_point({3, 0.8, 0.4}, {0, 0, 0});
         for (const Integrator integrator : INTEGRATORS) {
-            scene.options.integrator = integrator;
+            scene.options.transport.integrator = integrator;
             EXPECT_EQ(film_estimate(scene.render().film).mean > 0, lit)
                 << normal << integrator_name(integrator);
         }

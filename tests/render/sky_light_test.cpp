@@ -81,7 +81,7 @@ public:
     /// Expects KD irradiance / pi of every integrator.
     void expect_irradiance(double irradiance, double sharpness) {
         for (const Integrator integrator : INTEGRATORS) {
-            options.integrator = integrator;
+            options.transport.integrator = integrator;
             SCOPED_TRACE(integrator_name(integrator));
             EXPECT_TRUE(agrees(film_estimate(render().film), 0.5 * irradiance / PI, sharpness, 2e-5));
         }
@@ -107,7 +107,7 @@ TEST(SkyLight, AConvexMatteBodyUnderAConstantSkyShowsItsReflectance) {
         scene.build.material("matte", "Kd 0.6 0.3 0").use("matte").icosphere({0, 0, 0}, 1, 3);
         scene.options.light.environment = glm::dvec3(2);
         scene.options.light.environment_scale = 0.5;
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         scene.look({0, 0, 5}, {0, 0, 0}, 12);
         const Film film = scene.render().film;
         EXPECT_TRUE(agrees(film_estimate(film, 0), 0.6, 1e-6)) << integrator_name(integrator);
@@ -128,7 +128,7 @@ TEST(SkyLight, EveryTexelIsSeenInItsDirection) {
     for (const double turn : {0.0, 90.0, -37.0}) {
         SlopeUnderMap scene(map);
         scene.options.light.environment_rotation_degrees = turn;
-        scene.options.spp = 64;
+        scene.options.sampling.spp = 64;
         for (int y = 0; y < 4; ++y)
             for (int x = 0; x < 8; x += 3) {
                 const glm::dvec3 eye(0, 30, 0); // above the slope, which hides nothing that it looks at
@@ -206,9 +206,9 @@ TEST(SkyLight, TheDimHalfOfAMapLightsAFloorWhateverEndsThePaths) {
             for (const int roulette : {1, 4}) {
                 SCOPED_TRACE(
                     fmt::format("--paths '{}' --max-depth {} --roulette-depth {}", paths, depth, roulette));
-                scene.options.paths = paths;
-                scene.options.max_depth = depth;
-                scene.options.roulette_depth = roulette;
+                scene.options.transport.paths = paths;
+                scene.options.transport.max_depth = depth;
+                scene.options.transport.roulette_depth = roulette;
                 EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.5 * irradiance / PI, 1.5e-3, 2e-5));
             }
 }
@@ -220,7 +220,7 @@ TEST(SkyLight, AMirrorShowsTheMapAsItIs) {
     const glm::dvec3 towards = glm::normalize(GreyMap::direction(2.5 / 8, 1.5 / 4)), at(0, 40, 0);
     scene.look_at_point(at + glm::dvec3(-towards.x, towards.y, -towards.z), at);
     for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED}) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), map.lookup(2.5 / 8, 1.5 / 4), 1e-3, 1e-3));
     }
 }

@@ -26,8 +26,8 @@ public:
                        "Kd " + std::to_string(kd) + " " + std::to_string(kd) + " " + std::to_string(kd));
         build.use("ball").icosphere({3, 5, 2}, 2, 4, Facing::OUTWARD, Shading::SMOOTH);
         options.light.studio = true;
-        options.size = {32, 24};
-        options.spp = 256;
+        options.film.size = {32, 24};
+        options.sampling.spp = 256;
     }
 };
 
@@ -37,7 +37,7 @@ TEST(StudioPicture, HasNoHorizon) {
     // The ground's far end and the backdrop above it, for each integrator.
     for (const Integrator integrator : INTEGRATORS) {
         BallInStudio scene(0.8);
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         scene.look({-9, 5, 26}, {3, 4.2, 2}, 40);
         const Scene loaded = scene.load();
         const Render render = render_loaded(loaded, scene.options);
@@ -87,9 +87,9 @@ TEST(StudioPicture, AFloorThatLiesOnTheGroundIsSeenWhole) {
         scene.options.camera.eye = 0.4 * unit + 3.0 * u; // grazing
         scene.options.camera.at = glm::dvec3(0);
         scene.options.camera.fov_degrees = 10;
-        scene.options.integrator = Integrator::RAYCAST;
-        scene.options.spp = 64;
-        scene.options.replicates = 8;
+        scene.options.transport.integrator = Integrator::RAYCAST;
+        scene.options.sampling.spp = 64;
+        scene.options.sampling.replicates = 8;
         const Render render = scene.render();
         EXPECT_EQ(film_estimate(render.film, 0, {3, 7, 13, 9}).mean, 0);
     }
@@ -99,8 +99,8 @@ TEST(StudioPicture, AClosedRoomIsNotBlack) {
     TestScene scene;
     scene.options.light.studio = true;
     scene.build.material("wall", "Kd 0.6 0.6 0.6").use("wall").box({0, 0, 0}, {6, 3, 5}, Facing::INWARD);
-    scene.options.spp = 64;
-    scene.options.replicates = 8;
+    scene.options.sampling.spp = 64;
+    scene.options.sampling.replicates = 8;
     const double mean = film_estimate(scene.render().film, 1).mean;
     EXPECT_GT(mean, 0.1);
     EXPECT_LT(mean, 0.8);

@@ -43,8 +43,8 @@ public:
             for (int x = 0; x < 64; ++x)
                 rising.push_back((float(x) + 0.5f) / 64);
         texture("rising.exr", 64, 4, 1, rising);
-        options.spp = 64;
-        options.max_depth = 2;
+        options.sampling.spp = 64;
+        options.transport.max_depth = 2;
     }
     /// A quad with texture coordinates whose vn is written with this many digits, or which has none.
     void wall(const dvec3& centre, const dvec3& u, const dvec3& v, int digits) {
@@ -100,7 +100,7 @@ TEST(SurfaceSides, AFlatWallWithRoundedNormalsIsDarkWhenLitFromBehind) {
             for (const Integrator integrator : INTEGRATORS)
                 for (const int digits : {2, 3, 4, 9}) {
                     LitWall behind(material, map, digits, false);
-                    behind.options.integrator = integrator;
+                    behind.options.transport.integrator = integrator;
                     EXPECT_EQ(count_lit(behind.render().film), 0)
                         << map << ", " << material << ", " << digits << ", " << integrator_name(integrator);
                 }
@@ -111,7 +111,7 @@ TEST(SurfaceSides, TheSameWallIsLitFromItsFront) {
         for (const Integrator integrator : INTEGRATORS)
             for (const int digits : {2, 4}) {
                 LitWall before(MATERIALS[0], map, digits, true);
-                before.options.integrator = integrator;
+                before.options.transport.integrator = integrator;
                 EXPECT_GT(film_estimate(before.render().film).mean, 0.5)
                     << map << integrator_name(integrator);
             }
@@ -121,8 +121,8 @@ TEST(SurfaceSides, TellingMatteFromGlossyPathsLetsNothingThrough) {
     // In the last two the wall reflects a light to the eye by one lobe alone and has both.
     for (const std::string paths : {"LDE", "LGE", "L(G|DD)E", "L(D|GG)E"}) {
         LitWall behind(MATERIALS[1], MAPS[0], 9, false);
-        behind.options.paths = paths;
-        behind.options.max_depth = 4;
+        behind.options.transport.paths = paths;
+        behind.options.transport.max_depth = 4;
         EXPECT_EQ(count_lit(behind.render().film), 0) << paths;
     }
 }
@@ -139,9 +139,9 @@ TEST(SurfaceSides, AClosedRoomWithMappedWallsKeepsTheLightOut) {
                         room.wall(side * axes[k], -side * axes[(k + 1) % 3], axes[(k + 2) % 3], digits);
                 for (const double x : {-3.0, 3.0})
                     room.light_from(x * ALONG_U + 2.0 * ALONG_V - NORMAL);
-                room.options.integrator = integrator;
-                room.options.max_depth = 6;
-                room.options.size = {32, 32};
+                room.options.transport.integrator = integrator;
+                room.options.transport.max_depth = 6;
+                room.options.film.size = {32, 32};
                 room.look(0.8 * ALONG_U, -ALONG_U + 0.2 * NORMAL, 100);
                 EXPECT_EQ(count_lit(room.render().film), 0)
                     << material << ", " << digits << ", " << integrator_name(integrator);
@@ -161,9 +161,9 @@ TEST(SurfaceSides, ASmoothMappedBallKeepsItsLightInside) {
             }
             scene.light_from({0.3, 0.2, 0.1});
             scene.options.light.suns.clear();
-            scene.options.integrator = integrator;
-            scene.options.size = {32, 32};
-            scene.options.max_depth = 6;
+            scene.options.transport.integrator = integrator;
+            scene.options.film.size = {32, 32};
+            scene.options.transport.max_depth = 6;
             scene.look({0.3, 0.2, 5}, {0, 0, 0}, 30);
             EXPECT_EQ(count_lit(scene.render().film), 0) << material << ", " << integrator_name(integrator);
         }
@@ -181,10 +181,10 @@ TEST(SurfaceSides, MappedGlassLosesAndGainsNothingByItsPlanesOwnNormals) {
                     for (const double side : {-1.0, 1.0})
                         scene.wall(side * axes[k], side * axes[(k + 1) % 3], axes[(k + 2) % 3], digits);
                 scene.options.light.environment = dvec3(1);
-                scene.options.integrator = integrator;
-                scene.options.max_depth = 64;
-                scene.options.min_contribution = 0;
-                scene.options.spp = 256;
+                scene.options.transport.integrator = integrator;
+                scene.options.transport.max_depth = 64;
+                scene.options.transport.min_contribution = 0;
+                scene.options.sampling.spp = 256;
                 scene.look({3, 4, 5}, {0, 0, 0}, 10);
                 found[digits != NO_VN] = film_estimate(scene.render().film);
             }
@@ -207,8 +207,8 @@ TEST(SurfaceSides, ABoxSeenAtItsOutlineKeepsItsLightInside) {
                 scene.build.material("wall", MATERIALS[0]).use("wall").box({-1, -1, -1}, {1, 1, 1});
                 scene.light_from({0.3, 0.2, 0.1});
                 scene.options.light.suns.clear();
-                scene.options.integrator = integrator;
-                scene.options.max_depth = 4;
+                scene.options.transport.integrator = integrator;
+                scene.options.transport.max_depth = 4;
                 scene.look(eye, {1, 1, along}, 1e-5);
                 EXPECT_EQ(count_lit(scene.render().film), 0) << integrator_name(integrator) << ", " << along;
             }

@@ -20,7 +20,7 @@ class TexturedQuad : public TestScene {
 public:
     explicit TexturedQuad(const std::string& keys) {
         build.material("m", keys).use("m").textured_quad({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
-        options.spp = 64;
+        options.sampling.spp = 64;
     }
     /// The picture's radiance at texture coordinates.
     glm::dvec3 at(double u, double v) {
@@ -46,7 +46,7 @@ TEST(TexturedPicture, TheFirstRowOfAPictureLiesOnTop) {
     TexturedQuad scene("Kd 0 0 0\nmap_Ke four.png");
     scene.texture8("four.png", 2, 2, 3, FOUR_COLOURS);
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         expect_colour(scene.at(0.25, 0.75), {1, 0, 0}, "top left");
         expect_colour(scene.at(0.75, 0.75), {0, 1, 0}, "top right");
         expect_colour(scene.at(0.25, 0.25), {0, 0, 1}, "bottom left");
@@ -99,7 +99,7 @@ TEST(TexturedPicture, ColoursAreEncodedAndDataIsNot) {
 
     TexturedQuad coverage("Kd 0 0 0\nKe 1 1 1\nmap_d half.png");
     coverage.texture8("half.png", 1, 1, 1, {188});
-    coverage.options.spp = 4096;
+    coverage.options.sampling.spp = 4096;
     EXPECT_NEAR(coverage.at(0.5, 0.5).x, 188 / 255.0, 3e-3) << "data";
 }
 
@@ -113,7 +113,7 @@ TEST(TexturedPicture, MapsOfReflectionScaleItsColourAndRoughness) {
     TexturedQuad rough("Kd 0 0 0\nKs 0.5 0.5 0.5\nPr 0.8\nmap_Pr half.exr\nillum 3");
     rough.texture("half.exr", 1, 1, 1, {0.5f});
     rough.options.light.environment = glm::dvec3(1);
-    rough.options.spp = 1024;
+    rough.options.sampling.spp = 1024;
     const RoughSurface surface{0.16, 0.16, 0.3, 0};
     rough.look_at_point({std::sqrt(1 - 0.09), 0, 0.3}, {0, 0, 0});
     // Beside one facet's reflection that of more (Kulla and Conty 2017), by the mean loss; 1e-3: its table.
@@ -133,7 +133,7 @@ TEST(TexturedPicture, MapsOfReflectionScaleItsColourAndRoughness) {
     TexturedQuad metal("Kd 0.6 0.6 0.6\nPm 1\nmap_Pm half.exr\nPr 0.4");
     metal.texture("half.exr", 1, 1, 1, {0.5f});
     metal.options.light.environment = glm::dvec3(1);
-    metal.options.spp = 1024;
+    metal.options.sampling.spp = 1024;
     metal.look_at_point({std::sqrt(1 - 0.09), 0, 0.3}, {0, 0, 0});
     const auto schlick = [](double cosine) { return 0.32 + 0.68 * std::pow(1 - cosine, 5); };
     const double above = rough_reflection_albedo(surface, schlick) + more(0.32 + 0.68 / 21);
@@ -157,7 +157,7 @@ TEST(TexturedPicture, ALampWithAMapGivesTheLightOfItsTexels) {
     }
     scene.look_at_point({3, 0.8, 0.4}, {0.8, 0, 0});
     for (const Integrator integrator : INTEGRATORS) {
-        scene.options.integrator = integrator;
+        scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.5 * irradiance / PI, 3e-3, 1e-4))
             << integrator_name(integrator);
     }

@@ -22,9 +22,9 @@ struct Coloured : TestScene {
             text += fmt::format("v {} {}\n", corners[k], colours[k]);
         build.raw(text + usemtl + "f 1 2 3");
         options.light.environment = glm::dvec3(1);
-        options.integrator = Integrator::RAYCAST;
-        options.spp = 16;
-        options.replicates = 1;
+        options.transport.integrator = Integrator::RAYCAST;
+        options.sampling.spp = 16;
+        options.sampling.replicates = 1;
         look_at_point(at + glm::dvec3(0, 0, 3), at);
     }
 };
@@ -85,8 +85,8 @@ TEST(VertexColour, WhiteVerticesAreTheBitsOfNoColours) {
             Coloured plain(none, {0, 0, 0}, "usemtl grey\n"), coloured(white, {0, 0, 0}, "usemtl grey\n");
             for (Coloured* scene : {&plain, &coloured}) {
                 scene->build.material("grey", "Kd 0.6 0.5 0.4\nPm 1\nPr 0.4");
-                scene->options.integrator = integrator;
-                scene->options.all_effects = all;
+                scene->options.transport.integrator = integrator;
+                scene->options.effects.all = all;
                 scene->look({0, 0.4, 3}, {0, 0, 0}, 50);
             }
             EXPECT_TRUE(plain.render().film.sums == coloured.render().film.sums);
@@ -98,8 +98,8 @@ TEST(VertexColour, WhiteVerticesAreTheBitsOfNoColours) {
 TEST(VertexColour, WithoutTexturesTheColoursAreTakenOut) {
     const std::string corners[3] = {"1 0 0", "1 0 0", "1 0 0"};
     Coloured scene(corners, {0, 0, 0});
-    scene.options.all_effects = false;
-    scene.options.effects_off = EFFECT_TEXTURES;
+    scene.options.effects.all = false;
+    scene.options.effects.off = EFFECT_TEXTURES;
     expect_near(colour_of(scene), glm::dvec3(1), ROUNDING);
 }
 

@@ -2,7 +2,7 @@
 // How many samples of the shipped scenes take another path in single precision than in double, and at which
 // decision: few, and none because of a side or a lobe where the scene is plain.
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "effects/take_out.h"
 #include "replay/flips.h"
 #include "replay/quantities.h"
@@ -48,10 +48,10 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     const std::string path = (fs::path(CLRT_SCENES_FOLDER) / name / (name + ".obj")).string();
     const char* const command[] = {"clrt", path.c_str()};
     Options options = parse_command_line(2, command).options;
-    options.integrator = integrator;
-    options.max_depth.reset();
-    options.size = {64, 64};
-    options.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
+    options.transport.integrator = integrator;
+    options.transport.max_depth.reset();
+    options.film.size = {64, 64};
+    options.sampling.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
     Progress silent(Toggle::OFF, true);
     return find_flips(test_device(), load_scene(options, silent), options);
 }

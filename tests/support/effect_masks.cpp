@@ -98,16 +98,16 @@ std::string describe_effects(u32 effects) {
 }
 
 SceneOfEffects::SceneOfEffects(u32 effects) : effects_(effects) {
-    options.size = {16, 16};
-    options.spp = 16;
-    options.replicates = 8;
-    options.all_effects = false;
+    options.film.size = {16, 16};
+    options.sampling.spp = 16;
+    options.sampling.replicates = 8;
+    options.effects.all = false;
     if (!has(EFFECT_INTERREFLECTION))
-        options.max_depth = 2;
+        options.transport.max_depth = 2;
     if (has(EFFECT_FILTER))
-        options.filter = Filter::GAUSSIAN;
+        options.film.filter = Filter::GAUSSIAN;
     if (has(EFFECT_PATH_FILTER))
-        options.paths = "L(D|S)?E";
+        options.transport.paths = "L(D|S)?E";
     add_materials();
     add_bodies();
     add_lights();

@@ -2,8 +2,8 @@
 // What a film says about a number, and whether it agrees with a closed form.
 #pragma once
 
-#include "app/options.h"
 #include "film/film.h"
+#include "options/options.h"
 
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>

@@ -21,8 +21,8 @@ Effects take_out_unwanted(Scene& scene, Options& options) {
 
 Options with_kernels(Options options) {
     const char* folder = std::getenv("CLRT_TEST_KERNELS");
-    if (options.kernels_folder.empty() && folder)
-        options.kernels_folder = folder;
+    if (options.device.kernels_folder.empty() && folder)
+        options.device.kernels_folder = folder;
     return options;
 }
 
@@ -49,8 +49,8 @@ PreparedRender::PreparedRender(Scene scene, Options options, const Device& devic
     : device_(device), scene_(std::move(scene)), options_(with_kernels(std::move(options))),
       effects_(take_out_unwanted(scene_, options_)),
       programs_(build_render_programs(device, options_, effects_.mask,
-                                      choose_layout(options_.bvh, device.info), effects_.paths)),
-      bvh_(build_bvh(scene_.positions, scene_.triangles, choose_layout(options_.bvh, device.info),
+                                      choose_layout(options_.bvh.layout, device.info), effects_.paths)),
+      bvh_(build_bvh(scene_.positions, scene_.triangles, choose_layout(options_.bvh.layout, device.info),
                      choose_bvh_quality(options_, scene_.triangles.size()).quality)),
       buffers_(upload_scene(device, scene_, bvh_)) {}
 

@@ -30,7 +30,7 @@ private:
 
 class PreparedRender {
 public:
-    /// Takes the kernels of options.kernels_folder, else those under test. The device must outlive it.
+    /// Takes the kernels of options.device.kernels_folder, else those under test. The device must outlive it.
     PreparedRender(Scene scene, Options options, const Device& device = test_device());
 
     Render run() const;

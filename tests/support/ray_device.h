@@ -3,9 +3,9 @@
 // layout.
 #pragma once
 
-#include "app/options.h"
 #include "bvh/bvh.h"
 #include "kernels/shared/render_types.h"
+#include "options/options.h"
 #include "render/scene_buffers.h"
 #include "scene/scene.h"
 #include "support/kernel_probe.h"

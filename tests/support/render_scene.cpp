@@ -2,8 +2,8 @@
 // Scene text -> files in a scratch folder -> film.
 #include "support/render_scene.h"
 
-#include "app/progress.h"
 #include "bvh/bvh.h"
+#include "console/progress.h"
 #include "effects/take_out.h"
 #include "render/bvh_quality.h"
 #include "render/kernels.h"
@@ -37,8 +37,8 @@ void write_texture(const std::string& path, int width, int height, int channels,
 
 RenderPrograms build_programs(Options options, const Effects& effects, BvhLayout layout) {
     const char* folder = std::getenv("CLRT_TEST_KERNELS");
-    if (options.kernels_folder.empty() && folder)
-        options.kernels_folder = folder;
+    if (options.device.kernels_folder.empty() && folder)
+        options.device.kernels_folder = folder;
     return build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
 }
 
@@ -47,8 +47,13 @@ const RenderPrograms& programs_for(const Options& options, const Effects& effect
                            std::string>;
     // Never freed: at exit some drivers are gone before our statics.
     static auto* const programs = new std::map<Key, RenderPrograms>;
-    const Key key{options.integrator,          options.precision,     options.sampler, effects.mask, layout,
-                  path_defines(effects.paths), options.kernels_folder};
+    const Key key{options.transport.integrator,
+                  options.device.precision,
+                  options.sampling.sampler,
+                  effects.mask,
+                  layout,
+                  path_defines(effects.paths),
+                  options.device.kernels_folder};
     const auto found = programs->find(key);
     if (found != programs->end())
         return found->second;
@@ -61,7 +66,7 @@ Render render_by(Scene& scene, Options& options, const Programs& programs) {
     const Device& device = test_device();
     const Effects effects = find_effects(scene, options);
     take_out_effects(effects.left_out, scene, options);
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout,
                               choose_bvh_quality(options, scene.triangles.size()).quality);
     const SceneBuffers buffers = upload_scene(device, scene, bvh);
@@ -72,10 +77,10 @@ Render render_by(Scene& scene, Options& options, const Programs& programs) {
 } // namespace
 
 TestScene::TestScene() {
-    options.size = {16, 16};
-    options.spp = 1024;
-    options.replicates = 64;
-    options.all_effects = true;
+    options.film.size = {16, 16};
+    options.sampling.spp = 1024;
+    options.sampling.replicates = 64;
+    options.effects.all = true;
     options.light.studio = false;
 }
 
@@ -105,7 +110,7 @@ void TestScene::texture8(const std::string& name, int width, int height, int cha
 Scene TestScene::load() const {
     folder.write("scene.mtl", build.mtl());
     Options with_path = options;
-    with_path.scene_path = folder.write("scene.obj", build.obj("scene.mtl", scale));
+    with_path.scene.path = folder.write("scene.obj", build.obj("scene.mtl", scale));
     Progress progress(Toggle::OFF, true);
     return load_scene(with_path, progress);
 }

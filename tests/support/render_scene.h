@@ -2,8 +2,8 @@
 // Renders small scenes in process on the test device.
 #pragma once
 
-#include "app/options.h"
 #include "effects/effects.h"
+#include "options/options.h"
 #include "render/render.h"
 #include "scene/scene.h"
 #include "support/scene_builder.h"

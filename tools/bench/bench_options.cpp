@@ -222,14 +222,14 @@ Options scene_options(const BenchOptions& bench, const std::string& scene) {
         options = parse_command_line(int(arguments.size()), arguments.data()).options;
     }
     options.light.studio = false; // its ground is not of the scene
-    options.device = bench.clrt.device;
-    options.bvh = bench.clrt.bvh;
-    options.bvh_quality = bench.clrt.bvh_quality;
-    options.threads = bench.clrt.threads;
-    options.kernels_folder = bench.clrt.kernels_folder;
-    options.precision = Precision::SINGLE;
-    options.crop.reset();
-    options.size = size_for_rays(bench.rays, double(options.size.x) / double(options.size.y));
+    options.device.name = bench.clrt.device.name;
+    options.bvh.layout = bench.clrt.bvh.layout;
+    options.bvh.quality = bench.clrt.bvh.quality;
+    options.device.threads = bench.clrt.device.threads;
+    options.device.kernels_folder = bench.clrt.device.kernels_folder;
+    options.device.precision = Precision::SINGLE;
+    options.film.crop.reset();
+    options.film.size = size_for_rays(bench.rays, double(options.film.size.x) / double(options.film.size.y));
     return options;
 }
 

@@ -2,7 +2,7 @@
 // The command line of clrt-bench.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 
 #include <cstdint>
 #include <optional>

@@ -20,7 +20,7 @@ constexpr u32 GRID_COLUMNS = 2048;
 /// The fast tree, as clrt builds it for most renders, unless the options want the other.
 Bvh build_tree(const Scene& scene, const Options& options, BvhLayout layout, Cost& cost) {
     const BvhQuality quality =
-        options.bvh_quality == QualityChoice::HIGH ? BvhQuality::HIGH : BvhQuality::FAST;
+        options.bvh.quality == QualityChoice::HIGH ? BvhQuality::HIGH : BvhQuality::FAST;
     Bvh bvh;
     cost = measure([&] { bvh = build_bvh(scene.positions, scene.triangles, layout, quality); });
     return bvh;
@@ -34,8 +34,8 @@ Program build(const Device& device, const KernelFiles& files, const Options& opt
     request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", find_effects(scene, options).mask),
                        fmt::format("BVH_LAYOUT={}", int(layout))};
     request.defines.insert(request.defines.end(), defines.begin(), defines.end());
-    request.dump_folder = options.dump_folder;
-    request.cache = {options.cache, options.cache_folder};
+    request.dump_folder = options.device.dump_folder;
+    request.cache = {options.device.cache, options.device.cache_folder};
     return build_program(device, request);
 }
 
@@ -75,7 +75,7 @@ const char* ray_kind_name(RayKind kind) {
 
 ClrtSide::ClrtSide(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene)
     : device_(device), files_(files), options_(options), scene_(scene),
-      bvh_(build_tree(scene, options, choose_layout(options.bvh, device.info), build_cost_)),
+      bvh_(build_tree(scene, options, choose_layout(options.bvh.layout, device.info), build_cost_)),
       buffers_(upload_scene(device, scene, bvh_)),
       params_(make_render_params(scene, options, film_scale(scene))),
       trace_(build(device, files, options, scene, bvh_.layout, "trace")),

@@ -3,7 +3,6 @@
 // functions.
 #pragma once
 
-#include "app/options.h"
 #include "bench/bench_kernels.h"
 #include "bench/bench_rays.h"
 #include "bench/measure.h"
@@ -11,6 +10,7 @@
 #include "device/device.h"
 #include "device/program.h"
 #include "kernels/shared/render_types.h"
+#include "options/options.h"
 #include "render/scene_buffers.h"
 #include "scene/scene.h"
 

@@ -23,9 +23,9 @@ namespace {
 
 /// The device that the options name, open.
 Device open_bench_device(const BenchOptions& bench) {
-    set_driver_environment(bench.clrt);
+    set_driver_environment(bench.clrt.device);
     std::string notice;
-    const DeviceInfo info = choose_device(list_platforms(), bench.clrt.device, notice);
+    const DeviceInfo info = choose_device(list_platforms(), bench.clrt.device.name, notice);
     if (!notice.empty())
         spdlog::info("{}", notice);
     return open_device(info);
@@ -53,8 +53,8 @@ int run_watertight_check(const BenchOptions& bench) {
     WatertightRequest request;
     if (bench.aimed_rays > 0)
         request.rays = bench.aimed_rays;
-    request.layout = choose_layout(bench.clrt.bvh, device.info);
-    request.files = all_kernel_files(bench.clrt.kernels_folder);
+    request.layout = choose_layout(bench.clrt.bvh.layout, device.info);
+    request.files = all_kernel_files(bench.clrt.device.kernels_folder);
     std::vector<WatertightCase> cases;
     const Cost cost = measure([&] {
         cases = run_watertight(device, request, [&](double share) {
@@ -105,9 +105,9 @@ int run(int argc, const char* const* argv) {
     }
     start_log(0);
     std::unique_ptr<tbb::global_control> limit;
-    if (bench.clrt.threads > 0)
+    if (bench.clrt.device.threads > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      size_t(bench.clrt.threads));
+                                                      size_t(bench.clrt.device.threads));
     return run_mode(bench);
 }
 

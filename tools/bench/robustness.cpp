@@ -114,12 +114,12 @@ Robustness compare_robustness(const Device& device, const BenchOptions& bench, c
     result.variants = make_variants();
     const Options options = scene_options(bench, path);
     const Scene scene = path.empty() ? make_rough_scene() : load_scene(options, progress);
-    const BvhLayout layout = choose_layout(options.bvh, device.info);
+    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     result.scene = path.empty() ? "a rough torus in a ball" : path;
     result.layout = layout_name(layout);
     result.triangles = scene.triangles.size();
 
-    const KernelFiles files = all_kernel_files(bench.clrt.kernels_folder);
+    const KernelFiles files = all_kernel_files(bench.clrt.device.kernels_folder);
     time_variants(device, bench, files, scene, options, progress, result.variants);
     for (size_t i = 0; i < result.variants.size(); ++i) {
         Variant& variant = result.variants[i];

@@ -3,10 +3,10 @@
 // ones, on one device, by the same traversal.
 #pragma once
 
-#include "app/progress.h"
 #include "bench/bench_options.h"
 #include "bench/bench_rays.h"
 #include "bench/measure.h"
+#include "console/progress.h"
 #include "device/device.h"
 
 #include <cstdint>

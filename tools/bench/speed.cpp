@@ -101,9 +101,9 @@ SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const 
     const Options options = scene_options(bench, path);
     const Scene scene = load_scene(options, progress);
     progress.update({"trees and rays"});
-    ClrtSide clrt(device, all_kernel_files(bench.clrt.kernels_folder), options, scene);
-    const EmbreeSide embree(scene, /*robust=*/false, bench.clrt.threads),
-        robust(scene, /*robust=*/true, bench.clrt.threads);
+    ClrtSide clrt(device, all_kernel_files(bench.clrt.device.kernels_folder), options, scene);
+    const EmbreeSide embree(scene, /*robust=*/false, bench.clrt.device.threads),
+        robust(scene, /*robust=*/true, bench.clrt.device.threads);
     const std::vector<RaySet> sets = make_ray_sets(clrt, bench.rays);
 
     // Round 0 warms up: the driver finishes compiling, pages are touched.

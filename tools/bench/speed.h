@@ -2,12 +2,12 @@
 // The same rays through the same triangles, by clrt and by Embree in turns.
 #pragma once
 
-#include "app/progress.h"
 #include "bench/arbitrate.h"
 #include "bench/bench_options.h"
 #include "bench/bench_rays.h"
 #include "bench/clrt_side.h"
 #include "bench/measure.h"
+#include "console/progress.h"
 #include "device/device.h"
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // clrt-stability: the catalogue of hard cases on a device.
 #include "app/log.h"
-#include "app/progress.h"
 #include "app/run_program.h"
+#include "console/progress.h"
 #include "exit_code.h"
 #include "output/image.h"
 #include "stability/report.h"

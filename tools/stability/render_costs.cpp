@@ -46,12 +46,12 @@ void measure(const Device& device, const RenderVariant& variant, const PreparedR
     Device as_told = device;
     as_told.info.correctly_rounded_division &= variant.rounds_correctly;
     Options options = subject.options;
-    options.precision = variant.precision;
+    options.device.precision = variant.precision;
     std::unique_ptr<PatchedKernels> patched;
     if (variant.contracts) {
         patched = std::make_unique<PatchedKernels>(std::vector<KernelPatch>{
             {"numerics/real.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"}});
-        options.kernels_folder = patched->path();
+        options.device.kernels_folder = patched->path();
     }
     const PreparedRender other(scene, options, as_told);
     Film films[2];
@@ -94,8 +94,8 @@ void measure_scene(const Device& device, const char* name, int rounds,
     std::unique_ptr<PreparedRender> own;
     const RenderCost prepared = attempt("clrt's own", [&](RenderCost&) {
         subject = std::make_unique<ShippedScene>(name);
-        subject->options.size = SIZE;
-        subject->options.spp = SPP;
+        subject->options.film.size = SIZE;
+        subject->options.sampling.spp = SPP;
         scene = subject->load();
         own = std::make_unique<PreparedRender>(scene, subject->options, device);
     });

@@ -2,7 +2,7 @@
 #include "stability/shipped_scenes.h"
 
 #include "app/command_line.h"
-#include "app/progress.h"
+#include "console/progress.h"
 #include "error.h"
 #include "scene/load_scene.h"
 
@@ -40,7 +40,7 @@ ShippedScene::ShippedScene(const std::string& name) {
     const std::string path = (scenes_folder() / name / (name + ".obj")).string();
     const char* const arguments[] = {"clrt", path.c_str()};
     options = parse_command_line(2, arguments).options;
-    options.cache = Toggle::OFF; // a case is of what is compiled now
+    options.device.cache = Toggle::OFF; // a case is of what is compiled now
 }
 
 Scene ShippedScene::load() const {

@@ -2,7 +2,7 @@
 // The scenes that clrt ships.
 #pragma once
 
-#include "app/options.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 #include <string>

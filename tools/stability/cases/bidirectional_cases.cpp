@@ -26,7 +26,7 @@ struct LitSquare : TestScene {
         else
             build.polygon({{-0.5, 0, -0.5}, {-0.5, 1, -0.5}, {-0.5, 1, 0.5}, {-0.5, 0, 0.5}});
         look({0, 0.5, 0}, {0, 0, 0}, 90);
-        options.all_effects = false;
+        options.effects.all = false;
     }
 };
 
@@ -61,16 +61,17 @@ void corners(CaseRun& run) {
                 return std::string(arrangement.opposite ? "opposite" : "at a right angle");
             };
             Options options = subject.options;
-            options.precision = precision_of(build);
-            options.kernels_folder = build == Build::NAIVE ? light_sampling.path() : "";
-            options.spp = std::uint32_t(run.count(1024, 16384, 262144));
+            options.device.precision = precision_of(build);
+            options.device.kernels_folder = build == Build::NAIVE ? light_sampling.path() : "";
+            options.sampling.spp = std::uint32_t(run.count(1024, 16384, 262144));
             const Estimate mean = film_estimate(PreparedRender(scene, options).run().film);
             const double miss =
                 std::abs(mean.mean - arrangement.form_factor) - RENDER_ROUNDING * arrangement.form_factor;
             z[build].see(std::max(miss, 0.0) / mean.error, describe);
             noise[build].see(mean.error / arrangement.form_factor, describe);
-            options.spp = std::uint32_t(options.replicates); // every sample has sums of its own
-            options.size = {128, 128};
+            options.sampling.spp =
+                std::uint32_t(options.sampling.replicates); // every sample has sums of its own
+            options.film.size = {128, 128};
             contribution[build].see(largest_sample(PreparedRender(scene, options).run().film), describe);
         }
     }

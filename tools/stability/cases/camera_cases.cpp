@@ -57,8 +57,8 @@ void extreme_angles(CaseRun& run) {
         Scene scene;
         scene.camera = {{1, 2, 3}, {1.3, 1.5, 2.2}, {0.1, 1, 0.2}, fov};
         Options options;
-        options.size = {side, side};
-        options.filter_radius = 0; // the box filter of this radius is the pixel's centre
+        options.film.size = {side, side};
+        options.film.filter_radius = 0; // the box filter of this radius is the pixel's centre
         const RenderParams params = make_render_params(scene, options, FilmScale());
         const glm::dvec3 look = glm::normalize(scene.camera.at - scene.camera.eye);
         const glm::dvec3 right = glm::normalize(glm::cross(look, scene.camera.up)),
@@ -93,15 +93,15 @@ void look_along_up(CaseRun& run) {
             const glm::dvec3 n = glm::normalize(up),
                              aside = glm::normalize(glm::cross(n, glm::dvec3(0.4, 0.3, 0.9)));
             Options options;
-            options.size = {64, 64};
+            options.film.size = {64, 64};
             options.camera.eye = glm::dvec3(1, 2, 3);
             options.camera.at = glm::dvec3(1, 2, 3) + n + aside * sine;
             options.camera.up = up;
             options.camera.fov_degrees = 90;
             NoticeList notices;
             Scene scene;
-            scene.camera =
-                fit_camera(options.camera, options.size, scene, {glm::dvec3(-1), glm::dvec3(1)}, notices);
+            scene.camera = fit_camera(options.camera, options.film.size, scene,
+                                      {glm::dvec3(-1), glm::dvec3(1)}, notices);
             const RenderParams params = make_render_params(scene, options, FilmScale());
             const glm::dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0,
                              z = to_dvec3(params.look);

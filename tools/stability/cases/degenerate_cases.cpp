@@ -29,9 +29,9 @@ TestScene& make_room_scene(TestScene& scene) {
     scene.build.use("lamp").polygon({{-0.4, 1.9, -0.4}, {0.4, 1.9, -0.4}, {0.4, 1.9, 0.4}, {-0.4, 1.9, 0.4}});
     scene.build.use("red").box({-0.5, 0.01, -0.5}, {0.1, 0.8, 0.2});
     scene.look({0.2, 1, 0.9}, {0, 0.7, -1}, 80);
-    scene.options.size = {32, 24};
-    scene.options.spp = 8;
-    scene.options.replicates = 8;
+    scene.options.film.size = {32, 24};
+    scene.options.sampling.spp = 8;
+    scene.options.sampling.replicates = 8;
     return scene;
 }
 
@@ -110,9 +110,9 @@ void garbage(CaseRun& run) {
         TestScene scene;
         scene.build.raw(garbage_obj(random, k % 2));
         scene.options.light.environment = glm::dvec3(1);
-        scene.options.size = {8, 8};
-        scene.options.spp = 4;
-        scene.options.replicates = 4;
+        scene.options.film.size = {8, 8};
+        scene.options.sampling.spp = 4;
+        scene.options.sampling.replicates = 4;
         const auto describe = [&] { return fmt::format("scene {}", k); };
         try {
             const Render render = scene.render();
@@ -242,7 +242,7 @@ void nothing(CaseRun& run) {
     TestScene scene;
     scene.build.raw("v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3");
     scene.options.light.environment = glm::dvec3(0.25, 0.5, 0.75);
-    scene.options.spp = 64;
+    scene.options.sampling.spp = 64;
     const std::vector<float> picture = film_mean(scene.render().film);
     Figure& background = run.figure("difference from the background", 0);
     for (size_t i = 0; i < picture.size(); ++i)
@@ -260,9 +260,9 @@ TestScene& make_quad_with_normal(TestScene& scene, const std::string& normal) {
     scene.options.light.environment = glm::dvec3(0.4);
     scene.options.light.suns.push_back({{0.2, 1, 0.1}, {1, 1, 1}, 0});
     scene.look({0.3, 2, 2}, {0, 0.2, 0}, 40);
-    scene.options.size = {24, 24};
-    scene.options.spp = 8;
-    scene.options.replicates = 8;
+    scene.options.film.size = {24, 24};
+    scene.options.sampling.spp = 8;
+    scene.options.sampling.replicates = 8;
     return scene;
 }
 

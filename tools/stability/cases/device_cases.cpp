@@ -47,10 +47,10 @@ std::optional<Device> another_device(const Device& device) {
 /// A small scene of all effects; every sample has sums of its own.
 struct EverySample : SceneOfEffects {
     EverySample() : SceneOfEffects(EVERY_EFFECT & ~u32(EFFECT_PATH_FILTER)) {
-        options.all_effects = true;
-        options.size = {24, 24};
-        options.spp = 64;
-        options.replicates = 64;
+        options.effects.all = true;
+        options.film.size = {24, 24};
+        options.sampling.spp = 64;
+        options.sampling.replicates = 64;
     }
 };
 
@@ -94,7 +94,7 @@ void devices_agree(CaseRun& run) {
         if (build == Build::NAIVE)
             continue;
         Options options = subject.options;
-        options.precision = precision_of(build);
+        options.device.precision = precision_of(build);
         const Film whole = render_loaded(scene, options).film;
         const Film other = PreparedRender(scene, options, part).run().film;
         for (size_t i = 0; i < whole.sums.size(); ++i)

@@ -23,9 +23,9 @@ const Integrator TREE_AND_PATH[] = {Integrator::WHITTED, Integrator::PATH};
 struct SkyScene : TestScene {
     explicit SkyScene(int max_depth) {
         options.light.environment = dvec3(1);
-        options.max_depth = max_depth;
-        options.roulette_depth = NO_ROULETTE;
-        options.min_contribution = 0;
+        options.transport.max_depth = max_depth;
+        options.transport.roulette_depth = NO_ROULETTE;
+        options.transport.min_contribution = 0;
     }
 };
 
@@ -42,7 +42,7 @@ struct GradientScene : SkyScene {
         options.light.environment_file = folder.file("gradient.exr");
         // Both scenes have one frame: the corners of their boxes are these.
         build.material("air", "Ni 1\nillum 7").material("black", "Kd 0 0 0").use("black");
-        options.mtl = MtlReading::PLAIN; // air is glass that bends nothing
+        options.scene.mtl = MtlReading::PLAIN; // air is glass that bends nothing
         build.box({6, 6, 6}, {6.1, 6.1, 6.1}).box({-6.1, -6.1, -6.1}, {-6, -6, -6});
         if (with_ball)
             build.use("air").icosphere({0, 0, 0}, 1, 2);
@@ -138,9 +138,9 @@ void glass_slab(CaseRun& run) {
     scene.build.material("glass", "Ni 1.5\nillum 7").material("lamp", "Kd 0 0 0\nKe 1 1 1");
     scene.build.use("glass").box({-60, -60, -0.5}, {60, 60, 0.5});
     scene.build.use("lamp").polygon({{-50, -50, -2}, {50, -50, -2}, {50, 50, -2}, {-50, 50, -2}});
-    scene.options.max_depth = 30;
-    scene.options.roulette_depth = NO_ROULETTE;
-    scene.options.min_contribution = 0;
+    scene.options.transport.max_depth = 30;
+    scene.options.transport.roulette_depth = NO_ROULETTE;
+    scene.options.transport.min_contribution = 0;
     const PathProbe probe(run.device, scene);
     const double expected = (1 - 0.04) / (1 + 0.04);
     const std::vector<TestRay> rays = {probe.ray({0.3, 0.2, 5}, {0.3, 0.2, 0})};

@@ -31,7 +31,7 @@ Environment map_of(const EnvironmentImage& image) {
 PathProbe floor_under(const Device& device, const Environment& sky) {
     TestScene scene;
     scene.build.material("floor", "Kd 0.5 0.5 0.5").use("floor").floor(1);
-    scene.options.max_depth = 2;
+    scene.options.transport.max_depth = 2;
     scene.options.light.environment = dvec3(0);
     Scene loaded = scene.load();
     loaded.environment = sky;

@@ -121,17 +121,17 @@ void compare_films(Worst& worst, const Film& whole, const Film& parts, const std
 Film render_in_parts(const Scene& scene, Options options, const std::vector<Crop>& windows,
                      const std::vector<u32>& range_lengths) {
     Film whole;
-    whole.width = options.size.x;
-    whole.height = options.size.y;
-    whole.replicates = options.replicates;
-    whole.sums.resize(size_t(options.replicates) * film_plane(whole));
-    u32 first = options.first_sample;
+    whole.width = options.film.size.x;
+    whole.height = options.film.size.y;
+    whole.replicates = options.sampling.replicates;
+    whole.sums.resize(size_t(options.sampling.replicates) * film_plane(whole));
+    u32 first = options.sampling.first_sample;
     for (const u32 length : range_lengths) {
-        options.first_sample = first;
-        options.spp = length;
+        options.sampling.first_sample = first;
+        options.sampling.spp = length;
         first += length;
         for (const Crop& window : windows) {
-            options.crop = window;
+            options.film.crop = window;
             const Film part = render_loaded(scene, options).film;
             const size_t row = size_t(part.width) * 3;
             for (size_t i = 0; i < part.sums.size(); ++i) {
@@ -149,16 +149,16 @@ Film render_in_parts(const Scene& scene, Options options, const std::vector<Crop
 void partition(CaseRun& run) {
     Figure& differing = run.figure("sums that differ", 0);
     SceneOfEffects subject(EVERY_EFFECT);
-    subject.options.size = {37, 29};
-    subject.options.spp = run.count(24, 240, 2400);
-    subject.options.replicates = 8;
-    const u32 spp = u32(*subject.options.spp);
+    subject.options.film.size = {37, 29};
+    subject.options.sampling.spp = run.count(24, 240, 2400);
+    subject.options.sampling.replicates = 8;
+    const u32 spp = u32(*subject.options.sampling.spp);
     const Scene scene = subject.load();
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)
             continue;
         Options options = subject.options;
-        options.precision = precision_of(build);
+        options.device.precision = precision_of(build);
         const Film whole = render_loaded(scene, options).film;
         const Crop all{0, 0, 37, 29};
         compare_films(differing[build], whole,
@@ -217,15 +217,15 @@ void last_samples(CaseRun& run) {
     count_repeated_numbers(repeated, run);
     SceneOfEffects subject(EVERY_EFFECT);
     Options options = subject.options;
-    options.size = {16, 8};
-    options.replicates = 8;
-    options.first_sample = UINT32_MAX - 40;
-    options.spp = 40;
+    options.film.size = {16, 8};
+    options.sampling.replicates = 8;
+    options.sampling.first_sample = UINT32_MAX - 40;
+    options.sampling.spp = 40;
     const Scene scene = subject.load();
     const Film whole = render_loaded(scene, options).film;
     compare_films(differing[Build::SINGLE], whole,
                   render_in_parts(scene, options, {{0, 0, 16, 8}}, {7, 1, 32}), "ranges");
-    options.spp = 1000;
+    options.sampling.spp = 1000;
     const Render refused = render_loaded(scene, options);
     const std::uint64_t end = refused.film.ranges.back().end;
     beyond[Build::SINGLE].see(end > UINT32_MAX ? double(end - UINT32_MAX) : 0,

@@ -22,8 +22,8 @@ constexpr int NO_ROULETTE = 65535;
 struct Furnace : TestScene {
     Furnace(double reflectance, double glow, int max_depth) {
         build.material("wall", fmt::format("Kd {0} {0} {0}\nKe {1} {1} {1}", reflectance, glow)).use("wall");
-        options.max_depth = max_depth;
-        options.roulette_depth = NO_ROULETTE;
+        options.transport.max_depth = max_depth;
+        options.transport.roulette_depth = NO_ROULETTE;
     }
 };
 
@@ -115,8 +115,8 @@ void facing_mirrors(CaseRun& run) {
     scene.build.polygon({{0, -1, 0}, {LENGTH, -1, 0}, {LENGTH, 1, 0}, {0, 1, 0}});
     scene.build.polygon({{0, 1, 1}, {LENGTH, 1, 1}, {LENGTH, -1, 1}, {0, -1, 1}});
     scene.options.light.environment = dvec3(1);
-    scene.options.max_depth = 1100;
-    scene.options.roulette_depth = NO_ROULETTE;
+    scene.options.transport.max_depth = 1100;
+    scene.options.transport.roulette_depth = NO_ROULETTE;
     const PathProbe probe(run.device, scene);
     // From the gap's middle: hits half a step in from the mirrors' ends, a thousand of them.
     const std::vector<TestRay> rays = {probe.ray({0, 0, 0.5}, {STEP / 2, 0, 1}),
@@ -134,7 +134,7 @@ void roulette(CaseRun& run) {
     Figure& largest = run.figure("largest sample over the mean", 25);
     Furnace scene(0.99, 0.01, 20000);
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
-    scene.options.roulette_depth = 1;
+    scene.options.transport.roulette_depth = 1;
     PathProbe probe(run.device, scene);
     probe.params.choose_emitter = 0;
     const std::vector<TestRay> rays = rays_from_inside(probe, 16, 4);
@@ -153,8 +153,8 @@ void roulette(CaseRun& run) {
 double lit(const CaseRun& run, Build build, double size, bool is_ball) {
     TestScene scene;
     scene.build.material("wall", "Kd 0.5 0.5 0.5").use("wall");
-    scene.options.roulette_depth = NO_ROULETTE;
-    scene.options.max_depth = is_ball ? 32 : 2;
+    scene.options.transport.roulette_depth = NO_ROULETTE;
+    scene.options.transport.max_depth = is_ball ? 32 : 2;
     if (is_ball)
         scene.build.icosphere({0, 0, 0}, size, 3, Facing::INWARD);
     else

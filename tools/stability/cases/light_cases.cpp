@@ -27,7 +27,7 @@ const ProbedExpression MIS = {
 struct FloorScene : TestScene {
     FloorScene() {
         build.material("floor", "Kd 0.5 0.5 0.5").use("floor").floor(1);
-        options.max_depth = 2;
+        options.transport.max_depth = 2;
     }
 };
 
@@ -102,7 +102,7 @@ void in_the_lamps_plane(CaseRun& run) {
         const dvec3 z = is_tilted ? glm::normalize(glm::cross(x, dvec3(0.2, 0.9, -0.3))) : dvec3(0, 0, 1),
                     up = glm::cross(z, x);
         TestScene scene;
-        scene.options.max_depth = 2;
+        scene.options.transport.max_depth = 2;
         scene.build.material("floor", "Kd 0.5 0.5 0.5").material("lamp", "Kd 0 0 0\nKe 0 1 0");
         scene.build.use("floor").polygon({z, x + z, x - z, -z}).use("lamp").polygon({dvec3(0), -z, -x});
         const PathProbe probe(run.device, scene);
@@ -201,7 +201,7 @@ void light_in_a_box(CaseRun& run) {
         .use("lamp")
         .icosphere({0, 0, 0}, 0.5, 1);
     scene.options.light.points.push_back({{0.7, 0.7, 0.7}, dvec3(1e6)});
-    scene.options.max_depth = 8;
+    scene.options.transport.max_depth = 8;
     const PathProbe probe(run.device, scene);
     Random random(2);
     std::vector<TestRay> rays;

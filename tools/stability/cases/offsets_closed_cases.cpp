@@ -139,11 +139,11 @@ BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, cons
         .use("m")
         .icosphere({0, 0, 0}, 1, subdivisions, Facing::OUTWARD, Shading::SMOOTH);
     scene.options.light.suns = {{sun, glm::dvec3(PI), 0}};
-    scene.options.size = {64, 64};
-    scene.options.spp = 64;
-    scene.options.max_depth = 2;
-    scene.options.integrator = integrator;
-    scene.options.kernels_folder = kernels;
+    scene.options.film.size = {64, 64};
+    scene.options.sampling.spp = 64;
+    scene.options.transport.max_depth = 2;
+    scene.options.transport.integrator = integrator;
+    scene.options.device.kernels_folder = kernels;
     scene.look({0, 0, distance}, {0, 0, 0}, 2 * half_angle);
     const std::vector<float> picture = film_mean(scene.render().film);
     BallUnderTheSun result;

@@ -55,9 +55,9 @@ struct FurnaceBox : TestScene {
             .use("white")
             .box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
         look({0, 0, 0}, {0, 0, -1}, 60);
-        options.all_effects = false;
-        options.spp = 8;
-        options.replicates = 8;
+        options.effects.all = false;
+        options.sampling.spp = 8;
+        options.sampling.replicates = 8;
     }
 };
 
@@ -75,9 +75,9 @@ void planted_faults(CaseRun& run) {
         if (build == Build::NAIVE)
             continue;
         Options options = subject.options;
-        options.precision = precision_of(build);
+        options.device.precision = precision_of(build);
         const Film clean = render_loaded(scene, options).film;
-        options.kernels_folder = planting.path();
+        options.device.kernels_folder = planting.path();
         const Render bad = PreparedRender(scene, options).run();
         const RenderCounts& counts = bad.counts;
         const std::pair<std::uint64_t, std::uint64_t> kinds[] = {
@@ -117,20 +117,20 @@ void no_hiding(CaseRun& run) {
     const std::uint32_t spp = std::uint32_t(run.count(16, 256, 65536));
     for (const std::string& name : shipped_scenes()) {
         ShippedScene subject(name);
-        subject.options.size = {64, 48};
-        subject.options.spp = spp;
-        subject.options.all_effects = true; // one program serves all
+        subject.options.film.size = {64, 48};
+        subject.options.sampling.spp = spp;
+        subject.options.effects.all = true; // one program serves all
         const Scene scene = subject.load();
         for (const Build build : run.builds())
             if (build != Build::NAIVE) {
-                subject.options.precision = precision_of(build);
+                subject.options.device.precision = precision_of(build);
                 see_counts(shipped[build], render_loaded(scene, subject.options), name);
             }
     }
     for (const u32 effects : all_effect_sets()) {
         SceneOfEffects subject(effects & ~u32(EFFECT_PATH_FILTER));
-        subject.options.all_effects = true;
-        subject.options.spp = spp;
+        subject.options.effects.all = true;
+        subject.options.sampling.spp = spp;
         see_counts(made[Build::SINGLE], subject.render(), describe_effects(effects));
     }
 }

@@ -32,10 +32,10 @@ Render render_scaled(double scale, Precision precision, std::uint32_t spp) {
     scene.options.light.environment = glm::dvec3(0.3, 0.4, 0.5);
     scene.options.light.suns.push_back({{1, 2, 1}, {0.5, 0.5, 0.4}, 3});
     scene.look(glm::dvec3(0.2, 1, 3) * scale, glm::dvec3(0, 0.5, 0) * scale, 45);
-    scene.options.size = {32, 24};
-    scene.options.spp = spp;
-    scene.options.replicates = 8;
-    scene.options.precision = precision;
+    scene.options.film.size = {32, 24};
+    scene.options.sampling.spp = spp;
+    scene.options.sampling.replicates = 8;
+    scene.options.device.precision = precision;
     scene.scale = scale;
     return scene.render();
 }

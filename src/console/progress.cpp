@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one progress line on stderr.
+#include "console/progress.h"
+
+#include "console/terminal.h"
+#include "seconds.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+namespace clrt {
+
+namespace {
+
+using std::chrono::duration;
+
+/// Seconds between two prints: readable on a terminal, few lines in a log file.
+constexpr double TERMINAL_INTERVAL = 0.2, PLAIN_INTERVAL = 5;
+/// A phase that took longer leaves a line behind when it ends, seconds.
+constexpr double WORTH_A_LINE = 1;
+/// Columns of a terminal that does not tell.
+constexpr size_t DEFAULT_COLUMNS = 80;
+
+/// "7.3 s", "4 m 05 s", "2 h 07 m".
+std::string duration_text(double seconds) {
+    if (seconds < 59.95)
+        return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    if (whole < 3600)
+        return fmt::format("{} m {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} m", whole / 3600, whole / 60 % 60);
+}
+
+} // namespace
+
+std::string progress_line(const ProgressState& state, double seconds) {
+    std::string line = fmt::format("{:<7} ", state.phase);
+    if (state.fraction >= 0)
+        line += fmt::format("{:3}%  ", static_cast<int>(std::floor(100 * std::fmin(state.fraction, 1))));
+    if (state.spp > 0)
+        line += fmt::format("{} spp  ", state.spp);
+    line += duration_text(seconds);
+    if (state.fraction > 0 && state.fraction < 1)
+        line += "  ETA " + duration_text(seconds * (1 / state.fraction - 1));
+    if (state.rays_per_second >= 0)
+        line += fmt::format("  {:.1f} Mrays/s", state.rays_per_second * 1e-6);
+    if (state.error >= 0)
+        line += fmt::format("  error {}{:.1f} %", state.error_is_measured ? "" : "about ", 100 * state.error);
+    return line;
+}
+
+Progress::Progress(Toggle show, bool quiet, std::function<Clock::time_point()> now)
+    : now_(std::move(now)), terminal_(isatty(STDERR_FILENO) != 0), enabled_(show != Toggle::OFF && !quiet) {}
+
+Progress::~Progress() {
+    finish();
+}
+
+void Progress::update(const ProgressState& state) {
+    if (!enabled_)
+        return;
+    const Clock::time_point now = now_();
+    if (state.phase != last_.phase) {
+        finish();
+        phase_start_ = last_print_ = now;
+    }
+    const bool first = last_.phase.empty();
+    last_ = state;
+    shown_ = false;
+    const double interval = terminal_ ? TERMINAL_INTERVAL : PLAIN_INTERVAL;
+    if ((first && terminal_) || seconds_between(last_print_, now) >= interval)
+        print(now);
+}
+
+void Progress::finish() {
+    if (last_.phase.empty())
+        return;
+    const Clock::time_point now = now_();
+    const bool worth_a_line = seconds_between(phase_start_, now) > WORTH_A_LINE;
+    if (worth_a_line && !shown_)
+        print(now);
+    if (open_)
+        std::fputs(worth_a_line ? "\n" : "\r\033[K", stderr);
+    open_ = false;
+    last_ = {};
+}
+
+void Progress::print(Clock::time_point now) {
+    std::string line = progress_line(last_, seconds_between(phase_start_, now));
+    if (terminal_) {
+        // The last column stays free: a full line would wrap, and a wrapped line cannot be rewritten.
+        line.resize(std::min(line.size(), terminal_columns(STDERR_FILENO, DEFAULT_COLUMNS) - 1));
+        std::fprintf(stderr, "\r%s\033[K", line.c_str());
+    } else {
+        std::fprintf(stderr, "%s\n", line.c_str());
+    }
+    std::fflush(stderr);
+    open_ = terminal_;
+    shown_ = true;
+    last_print_ = now;
+}
+
+} // namespace clrt

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one progress line on stderr: rewritten in place on a terminal, plain lines now and then otherwise.
+#pragma once
+
+#include "options/toggle.h"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace clrt {
+
+/// What the line shows; values that are not known yet are negative.
+struct ProgressState {
+    std::string phase;     ///< "load", "bvh", "compile", "render"
+    double fraction = -1;  ///< 0..1, percentages are rounded down
+    std::uint64_t spp = 0; ///< samples a pixel so far
+    double rays_per_second = -1;
+    double error = -1;              ///< relative
+    bool error_is_measured = false; ///< at these samples; otherwise it is extrapolated
+};
+
+/// The line for a state that its phase has reached after `seconds`, without a line end: phase, percentage,
+/// samples a pixel, seconds, estimated seconds to go, rays a second, error; what is not known is left out.
+std::string progress_line(const ProgressState& state, double seconds);
+
+/// Not for several threads at once. Log lines come between two lines only: call finish() before logging.
+class Progress {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// AUTO shows it when stderr is a terminal, and as plain lines every few seconds when it is not; -q
+    /// switches it off. `now` tells the time.
+    Progress(Toggle show, bool quiet, std::function<Clock::time_point()> now = Clock::now);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Shows a state; cheap enough to call often, prints at most a few times a second. Adds seconds and ETA.
+    void update(const ProgressState& state);
+    /// Ends the phase and its line, so that other output starts on a fresh one: the line of a phase that took
+    /// more than a second stays, others vanish. The next update starts a phase.
+    void finish();
+
+private:
+    void print(Clock::time_point now);
+
+    std::function<Clock::time_point()> now_;
+    bool terminal_ = false, enabled_ = false;
+    bool shown_ = false; ///< the last state has been printed
+    bool open_ = false;  ///< the cursor is on a line of ours, on a terminal
+    ProgressState last_; ///< empty phase: none yet
+    Clock::time_point phase_start_, last_print_;
+};
+
+} // namespace clrt

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The device, and how programs for it are made and compute.
+#pragma once
+
+#include "options/toggle.h"
+#include <string>
+
+namespace clrt {
+
+enum class Precision { SINGLE, DOUBLE, FAST };
+
+struct DeviceOptions {
+    std::string name; ///< as given to --device; empty: CLRT_DEVICE, else the first GPU, else the CPU
+    int threads = 0;  ///< of a CPU; 0: all
+    Precision precision = Precision::SINGLE;
+    std::string kernels_folder; ///< replaces the embedded kernels
+    std::string dump_folder;    ///< writes exactly what was compiled
+    Toggle cache = Toggle::AUTO;
+    std::string cache_folder; ///< default: the user's cache folder
+};
+
+} // namespace clrt

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that are written, and how a picture is shown.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+enum class Tonemap { NONE, REINHARD, ACES, FILMIC, AGX };
+
+/// An EXR layer with the light of some paths.
+struct PathLayerOption {
+    std::string name;
+    std::string expression; ///< path notation (paths/path_expression.h)
+};
+
+struct OutputOptions {
+    std::vector<std::string> files; ///< default STEM.png in the current folder; may hold {seed} and others
+    double exposure_ev = 0;         ///< stops, PNG and other 8-bit files only
+    bool auto_exposure = false;     ///< exposure_ev is added to what the picture asks for
+    Tonemap tonemap = Tonemap::NONE;
+    std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
+    std::vector<PathLayerOption> path_layers;     ///< further EXR layers, made from the picture's light
+    std::string stats_path;                       ///< JSON; empty: none
+    std::optional<double> save_every_seconds;     ///< between two pictures so far
+};
+
+} // namespace clrt

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/report.h"
+
+#include "paths/path_report.h"
+#include "run/report_facts.h"
+#include "scene/ground.h"
+#include "scene/normalise.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace clrt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The command line as one could type it again.
+std::string command_text(const Options& options) {
+    std::string text;
+    for (const std::string& word : options.run.command) {
+        const bool plain = word.find_first_of(" \t'\"\\$&|;<>()*?") == std::string::npos && !word.empty();
+        text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+    }
+    return text;
+}
+
+/// What ended the render; whether --error is reached, null without it.
+Json stop_json(const Report& report) {
+    Json json{{"rule", stop_rule_name(report.render.stop)},
+              {"error_target", nullptr},
+              {"error_reached", nullptr},
+              {"overrun_seconds", report.render.overrun_seconds},
+              {"dropped_seconds", report.render.dropped_seconds}};
+    if (report.options.sampling.error) {
+        json["error_target"] = *report.options.sampling.error;
+        json["error_reached"] = error_reached(report);
+    }
+    return json;
+}
+
+/// Whether the picture has the same bits on every device that keeps the rules. Nothing is known of a device
+/// that was not asked, nor of --precision double, whose rules are not asked.
+std::optional<bool> has_same_bits(const Report& report) {
+    if (report.options.device.precision == Precision::FAST)
+        return false;
+    if (report.options.device.precision == Precision::DOUBLE || !report.facts)
+        return std::nullopt;
+    return promises_bits(*report.facts);
+}
+
+Json device_json(const Report& report) {
+    const std::optional<bool> same_bits = has_same_bits(report);
+    return {{"platform", report.device.platform},
+            {"name", report.device.name},
+            {"driver", report.device.driver},
+            {"same_bits", same_bits ? Json(*same_bits) : Json(nullptr)},
+            {"facts", report.facts ? facts_json(*report.facts) : Json(nullptr)}};
+}
+
+/// The same as metadata.
+void add_facts(const Report& report, Metadata& metadata) {
+    const std::optional<bool> same_bits = has_same_bits(report);
+    metadata.emplace_back("device.same_bits", !same_bits ? "unknown" : *same_bits ? "yes" : "no");
+    if (report.facts)
+        metadata.emplace_back("device.facts", describe_facts(*report.facts));
+}
+
+/// Null where all tiles have the same number of samples.
+Json adaptive_json(const Film& film) {
+    if (!is_adaptive(film))
+        return nullptr;
+    const TileSpread spread = tile_spread(film);
+    return {{"tile_size", ADAPTIVE_TILE_SIZE},
+            {"mean_spp", spread.mean},
+            {"fewest_spp", spread.fewest},
+            {"most_spp", spread.most}};
+}
+
+Json effects_json(const Effects& effects) {
+    Json list = Json::array();
+    for (const Effect& effect : effects.list)
+        list.push_back({{"name", effect.name},
+                        {"present", effect.present},
+                        {"compiled", ((effects.mask | ~u32(EFFECT_ALL)) & effect.bit) != 0},
+                        {"left_out", (effects.left_out & effect.bit) != 0},
+                        {"witness", effect.witness}});
+    return list;
+}
+
+/// Expressions as metadata, where there are any.
+void add_paths(const PathPlan& paths, Metadata& metadata) {
+    if (!paths.expression.empty())
+        metadata.emplace_back("paths", paths.expression);
+    for (const PathLayerOption& layer : paths.layers)
+        metadata.emplace_back("paths." + layer.name, layer.expression);
+}
+
+} // namespace
+
+bool error_reached(const Report& report) {
+    const std::optional<FilmError>& error = report.error.error;
+    return report.options.sampling.error && error && error->relative_rmse <= *report.options.sampling.error;
+}
+
+std::uint64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::uint64_t(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+std::string report_json(const Report& report) {
+    const Render& render = report.render;
+    const RenderCounts& counts = render.counts;
+    Json json;
+    json["version"] = CLRT_VERSION;
+    json["command"] = command_text(report.options);
+    json["integrator"] = integrator_name(report.options.transport.integrator);
+    json["width"] = render.film.width;
+    json["height"] = render.film.height;
+    json["spp"] = film_samples(render.film);
+    json["passes"] = render.passes;
+    json["resumed_at_spp"] = report.options.film_file.resume_path.empty()
+                                 ? Json(nullptr)
+                                 : Json(film_samples(render.film) - render.passes);
+    json["first_sample"] = report.options.sampling.first_sample;
+    json["adaptive"] = adaptive_json(render.film);
+    json["sampler"] = sampler_name(report.options.sampling.sampler);
+    json["seed"] = report.options.sampling.seed;
+    json["replicates"] = render.film.replicates;
+    json["triangles"] = file_triangles(report.scene);
+    json["seconds"] = {{"load", report.load_seconds},
+                       {"bvh", report.bvh.seconds},
+                       {"compile", report.compile_seconds},
+                       {"first_launch", render.first_launch_seconds},
+                       {"render", render.run_seconds},
+                       {"checks", render.check_seconds},
+                       {"longest_launch", render.longest_launch_seconds},
+                       {"total", report.total_seconds}};
+    json["rays"] = {{"primary", counts.primary}, {"shadow", counts.shadow}, {"secondary", counts.secondary}};
+    json["rays_per_second"] = rays_per_second(render);
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    json["error"] = error_report_json(report.error);
+    json["cut"] = cut_json(report.error.cut);
+    json["blind_spots"] = blind_spots_json(report.error.blind_spots);
+    json["stop"] = stop_json(report);
+    json["nonfinite"] = {{"nan", counts.nan},
+                         {"infinite", counts.infinite},
+                         {"negative", counts.negative},
+                         {"overflow", counts.overflow},
+                         {"replayed", replayed_samples(report.causes)},
+                         {"by_cause", causes_json(report.causes, report.scene, report.options)}};
+    json["bad_samples"] = Json::array();
+    for (const auto& [pixel, sample] : counts.bad_samples)
+        json["bad_samples"].push_back({{"x", pixel % u32(report.options.film.size.x)},
+                                       {"y", pixel / u32(report.options.film.size.x)},
+                                       {"sample", sample}});
+    json["exposure_ev"] = report.exposure_ev;
+    json["device"] = device_json(report);
+    json["bvh"] = {{"layout", layout_name(report.bvh.layout)},
+                   {"quality", quality_name(report.bvh.quality)},
+                   {"reason", report.bvh_reason},
+                   {"depth", report.bvh.depth},
+                   {"references", report.bvh.reference_count},
+                   {"sah_cost", report.bvh.sah_cost},
+                   {"bytes", 4 * (report.bvh.nodes.size() + report.bvh.leaves.size())}};
+    json["load"] = {{"obj_bytes", report.scene.statistics.obj_bytes},
+                    {"obj_seconds", report.scene.statistics.obj_seconds},
+                    {"texture_seconds", report.scene.statistics.texture_seconds}};
+    json["paths"] = paths_json(report.effects.paths);
+    json["effects"] = effects_json(report.effects);
+    json["empty_picture"] = report.empty_picture ? Json(*report.empty_picture) : Json(nullptr);
+    json["notices"] = report.scene.notices;
+    return json.dump(2) + "\n";
+}
+
+Metadata report_metadata(const Report& report) {
+    const Render& render = report.render;
+    const auto seconds = [](double value) { return fmt::format("{:.3f}", value); };
+    Metadata metadata{{"version", CLRT_VERSION},
+                      {"command", command_text(report.options)},
+                      {"integrator", integrator_name(report.options.transport.integrator)},
+                      {"device", report.device.platform + ": " + report.device.name},
+                      {"driver", report.device.driver},
+                      {"sampler", sampler_name(report.options.sampling.sampler)},
+                      {"seed", std::to_string(report.options.sampling.seed)},
+                      {"replicates", std::to_string(render.film.replicates)},
+                      {"first_sample", std::to_string(report.options.sampling.first_sample)},
+                      {"spp", std::to_string(film_samples(render.film))},
+                      {"stop", render.stop_text},
+                      {"seconds.load", seconds(report.load_seconds)},
+                      {"seconds.bvh", seconds(report.bvh.seconds)},
+                      {"seconds.compile", seconds(report.compile_seconds)},
+                      {"seconds.first_launch", seconds(render.first_launch_seconds)},
+                      {"seconds.render", seconds(render.run_seconds)},
+                      {"effects", fmt::format("{}", fmt::join(names_of_effects(report.effects, true), ", "))},
+                      {"effects_mask", fmt::format("{:#x}", report.effects.mask)},
+                      {"nan", std::to_string(render.counts.nan)},
+                      {"infinite", std::to_string(render.counts.infinite)},
+                      {"negative", std::to_string(render.counts.negative)},
+                      {"overflow", std::to_string(render.counts.overflow)}};
+    if (const glm::dvec3 origin = position_origin(report.scene.normalisation); origin != glm::dvec3(0))
+        metadata.emplace_back("P.origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z));
+    metadata.emplace_back("exposure_ev", fmt::format("{:g}", report.exposure_ev));
+    add_facts(report, metadata);
+    if (is_adaptive(render.film)) {
+        const TileSpread spread = tile_spread(render.film);
+        metadata.emplace_back("adaptive", fmt::format("{} to {} spp", spread.fewest, spread.most));
+    }
+    add_paths(report.effects.paths, metadata);
+    add_error_metadata(report.error, metadata);
+    return metadata;
+}
+
+} // namespace clrt

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report in words: first what everybody asks, and whatever is wrong; the rest with -v. Scripts read the
+// JSON.
+#include "output/file_name.h"
+#include "paths/path_report.h"
+#include "render/error_text.h"
+#include "run/report.h"
+#include "run/report_facts.h"
+
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+constexpr double BYTES_OF_A_MEGABYTE = 1e6;
+
+/// Files, pixels, samples and what ended the render.
+std::string picture_line(const Report& report) {
+    const Film& film = report.render.film;
+    std::string samples = fmt::format("{} spp", film_samples(film));
+    if (is_adaptive(film)) {
+        const TileSpread spread = tile_spread(film);
+        samples += fmt::format(" on average, {} to {} by tiles of {} x {}", spread.fewest, spread.most,
+                               ADAPTIVE_TILE_SIZE, ADAPTIVE_TILE_SIZE);
+    }
+    std::vector<std::string> files;
+    for (const std::string& name : report.options.output.files)
+        files.push_back(expand_file_name(
+            name, {report.options.sampling.seed, film_samples(film), report.options.camera.frame}));
+    return fmt::format("picture  {}, {} x {}, {}; {}\n", fmt::join(files, ", "), film.width, film.height,
+                       samples, report.render.stop_text);
+}
+
+std::string time_line(const Report& report) {
+    return fmt::format("time     {:.1f} s, {:.1f} s of it rendering, on {}\n", report.total_seconds,
+                       report.render.run_seconds, report.device.name);
+}
+
+/// What the integrator never simulates, whatever the scene.
+const char* omissions_of(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::RAYCAST:
+        return "all light but the direct one";
+    case Integrator::WHITTED:
+        return "all indirect light but that of mirrors and smooth glass";
+    case Integrator::PATH:
+        break;
+    }
+    return nullptr;
+}
+
+/// What the picture lacks although the scene calls for it.
+std::string left_out_lines(const Report& report) {
+    std::string text;
+    std::vector<std::string> effects;
+    for (const Effect& effect : report.effects.list)
+        if (report.effects.left_out & effect.bit)
+            effects.push_back(effect.name);
+    if (!effects.empty())
+        text += fmt::format("left out {}, by --effects\n", fmt::join(effects, ", "));
+    if (const char* const omissions = omissions_of(report.options.transport.integrator))
+        text += fmt::format("left out {}, by --integrator {}\n", omissions,
+                            integrator_name(report.options.transport.integrator));
+    if (report.effects.paths.is_asked)
+        text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
+    if (!text.empty())
+        return text;
+    return is_complete(report.error) ? "left out nothing that the scene calls for\n"
+                                     : "left out nothing but what the lines above name\n";
+}
+
+/// Samples that were not fit to be added, and why.
+std::string bad_lines(const Report& report) {
+    const RenderCounts& counts = report.render.counts;
+    if (counts.bad() == 0)
+        return "";
+    return fmt::format("bad      {} samples count as black: NaN {}, infinite {}, negative {}, overflow {}\n",
+                       counts.bad(), counts.nan, counts.infinite, counts.negative, counts.overflow) +
+           format_causes(report.causes, counts.bad(), report.scene, report.options);
+}
+
+std::string missed_line(const Report& report) {
+    if (!report.options.sampling.error || error_reached(report))
+        return "";
+    return fmt::format("missed   --error {:g} % is not reached\n", 100 * *report.options.sampling.error);
+}
+
+/// How the work was done.
+std::string work_lines(const Report& report) {
+    const Render& render = report.render;
+    const double samples = double(render.counts.primary);
+    std::string text =
+        fmt::format("by       {}, seed {}, {} sampler, {} replicates\n",
+                    integrator_name(report.options.transport.integrator), report.options.sampling.seed,
+                    sampler_name(report.options.sampling.sampler), render.film.replicates);
+    text += fmt::format("stages   load {:.2f} s, bvh {:.2f} s, compile {:.2f} + {:.2f} s, render {:.2f} s\n",
+                        report.load_seconds, report.bvh.seconds, report.compile_seconds,
+                        render.first_launch_seconds, render.run_seconds);
+    text +=
+        fmt::format("rays     {:.2f} a sample, {:.2f} Mrays/s, {:.2f} Msamples/s\n",
+                    samples > 0 ? double(render.counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,
+                    render.seconds > 0 ? samples / render.seconds * 1e-6 : 0);
+    if (!report.bvh.nodes.empty())
+        text += fmt::format("tree     {} {} ({}), SAH cost {:.1f}\n", layout_name(report.bvh.layout),
+                            quality_name(report.bvh.quality), report.bvh_reason, report.bvh.sah_cost);
+    return text;
+}
+
+std::string proof_lines(const Report& report) {
+    const RenderCounts& counts = report.render.counts;
+    return fmt::format("checked  NaN {}, infinite {}, negative {}, overflow {}\n", counts.nan,
+                       counts.infinite, counts.negative, counts.overflow) +
+           fmt::format("absent   {}\n", fmt::join(names_of_effects(report.effects, false), ", "));
+}
+
+} // namespace
+
+std::string format_report(const Report& report) {
+    std::string text =
+        picture_line(report) + time_line(report) + format_error_report(report.error) + missed_line(report) +
+        fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
+        left_out_lines(report) + bad_lines(report);
+    if (report.options.run.verbosity > 0)
+        text += work_lines(report) + format_error_details(report.error) + proof_lines(report);
+    return text;
+}
+
+} // namespace clrt
