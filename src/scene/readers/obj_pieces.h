@@ -2,7 +2,7 @@
 // OBJ text -> pieces that were parsed in parallel, and what joins them in file order.
 #pragma once
 
-#include "app/progress.h"
+#include "console/progress.h"
 #include "scene/readers/obj_chunk.h"
 #include "scene/readers/obj_reader.h"
 
