@@ -44,10 +44,14 @@ set(CLRT_KERNEL_FILES
   numerics/vector.h
   numerics/warp.h
   path/automaton.h
+  path/connect.h
+  path/cut.h
   path/filter.h
   path/layers.h
   path/mis.h
   path/nan.h
+  path/vertex.h
+  path/walk.h
   scattering/albedo.h
   scattering/albedo_dielectric_table.h
   scattering/albedo_reflection_table.h
@@ -75,5 +79,4 @@ set(CLRT_KERNEL_FILES
   shared/types.h
   trace/replay.h
   trace/trace.h
-  trace/vertex.h
 )

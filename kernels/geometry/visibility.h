@@ -82,17 +82,16 @@ static inline Surface visible_surface(const Scene* scene, const RenderParams* pa
             break;
         surface = surface_at(scene, hit, ray);
     }
+    TRACE_CHOICE(scene, TRACE_FRONT, surface.front ? 1u : 0u);
+    TRACE_VECTOR(scene, TRACE_POSITION, surface.position);
+    TRACE_VECTOR(scene, TRACE_NORMAL_G, surface.normal_g);
+    TRACE_NUMBER(scene, TRACE_OFFSET, surface.offset);
     return surface;
 }
 
-/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass; a NaN for a ray that is not
-   finite. */
-static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+/* What cut-outs let pass of the light to the ray's end. */
+static inline real visible_share_of_cut_outs(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
-    if (!vector_is_finite(ray->origin) || !vector_is_finite(ray->direction))
-        return REAL_NAN;
-    if (!HAS(EFFECT_CUT_OUT))
-        return scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
     real share = REAL(1.0);
     Hit after = hit_none(REAL(0.0));
     while (share > REAL(0.0)) {
@@ -102,6 +101,22 @@ static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* 
         share *= REAL(1.0) - visibility_coverage(scene, &hit);
         after = hit;
     }
+    return share;
+}
+
+/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass; a NaN for a ray that is not
+   finite. */
+static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+{
+    real share = REAL_NAN;
+    if (vector_is_finite(ray->origin) && vector_is_finite(ray->direction)) {
+        if (HAS(EFFECT_CUT_OUT))
+            share = visible_share_of_cut_outs(scene, params, ray);
+        else
+            share = scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
+    }
+    TRACE_CHOICE(scene, TRACE_VISIBLE, share > REAL(0.0) ? 1u : 0u);
+    TRACE_NUMBER(scene, TRACE_SHARE, share);
     return share;
 }
 

@@ -5,11 +5,8 @@
 #define CLRT_INTEGRATORS_DIRECT_H
 
 #include "film/film.h"
-#include "geometry/visibility.h"
-#include "lights/lights.h"
 #include "numerics/real_functions.h"
-#include "path/nan.h"
-#include "trace/vertex.h"
+#include "path/vertex.h"
 
 /* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. */
 static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight)
@@ -34,7 +31,7 @@ static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* p
                                        const Bsdf* bsdf, bool highlight, const LightSample* light, PixelRays* rays)
 {
     real3 nothing = (real3)(REAL(0.0));
-    TRACE_LIGHT(scene, light);
+    light_record(scene, light);
     if (nan_carry(scene, nan_of_vector(light->wi), &nothing) || light->pdf_w == REAL(0.0))
         return nothing;
     const real3 value = direct_eval(bsdf, light->wi, highlight);
@@ -46,7 +43,6 @@ static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* p
     const Ray shadow = light_shadow_ray(surface, light);
     ++rays->shadow;
     const real share = visible_share(scene, params, &shadow);
-    TRACE_VISIBILITY(scene, share);
     TRACE_VECTOR(scene, TRACE_CONNECTION, contribution * (share / light->pdf_w));
     return contribution * (share / light->pdf_w);
 }

@@ -6,7 +6,6 @@
 #define CLRT_INTEGRATORS_WHITTED_H
 
 #include "direct.h"
-#include "path/nan.h"
 #include "pixel.h"
 
 /* The deepest tree; every level leaves at most one ray waiting. The command line refuses more. */
@@ -56,8 +55,8 @@ static inline uint whitted_push(const RenderParams* params, WhittedRay child, Wh
 }
 
 /* Spawns the reflected and the refracted ray; gives the new stack size. */
-static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* parent, const Surface* surface,
-                                 const Bsdf* bsdf, real3 wo_world, WhittedRay* stack, uint top)
+static inline uint whitted_spawn_children(const RenderParams* params, const WhittedRay* parent, const Surface* surface,
+                                          const Bsdf* bsdf, real3 wo_world, WhittedRay* stack, uint top)
 {
     const bool dielectric = HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC);
     const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
@@ -82,6 +81,72 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack, top);
 }
 
+/* The same for a surface that is lit; the rays that wait then are part of the record. */
+static inline uint whitted_spawn(const Scene* scene, const RenderParams* params, const WhittedRay* parent,
+                                 const Surface* surface, const Bsdf* bsdf, WhittedRay* stack, uint top)
+{
+    const uint waiting = whitted_spawn_children(params, parent, surface, bsdf, -parent->ray.direction, stack, top);
+    TRACE_CHOICE(scene, TRACE_WAITING, waiting);
+    return waiting;
+}
+
+/* Finds where a ray of the tree ends. */
+static inline Hit whitted_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                              const WhittedRay* current, real3* radiance)
+{
+    const Hit hit = vertex_hit(scene, params, sampler, current->segment, current->node, &current->ray);
+    TRACE_VECTOR(scene, TRACE_THROUGHPUT, current->weight);
+    nan_carry(scene, nan_of_vector(current->weight), radiance);
+    return hit;
+}
+
+/* Adds the light from outside the scene. */
+static inline void whitted_escape(const Scene* scene, const RenderParams* params, const WhittedRay* current,
+                                  const Hit* hit, real3* radiance, PixelRays* rays)
+{
+    rays->missed += current->segment == 1u ? 1u : 0u;
+    if (nan_carry(scene, nan_of_miss(hit), radiance))
+        return;
+    const real3 sky = vertex_sky(scene, params, current->segment, &current->ray, REAL(0.0), KINDS_ALL);
+    vertex_add(scene, current->weight * sky, radiance);
+}
+
+/* Counts a ray that max_depth ends: its surface would have been lit, at least. */
+static inline void whitted_cut(const Scene* scene, const WhittedRay* current, const Surface* surface, PixelRays* rays)
+{
+    if (scene->materials[surface->material].lobes == 0u)
+        return;
+    film_count_cut(current->weight, rays);
+    TRACE_CHOICE(scene, TRACE_CUT, 1u);
+}
+
+/* Handles the end of a ray: adds the light there, and puts the rays that reflection and refraction send on upon the stack; gives
+   its new size. */
+static inline uint whitted_vertex(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                  const WhittedRay* current, WhittedRay* stack, uint top, real3* radiance,
+                                  PixelRays* rays)
+{
+    Hit hit = whitted_hit(scene, params, sampler, current, radiance);
+    if (hit.triangle == NO_INDEX) {
+        whitted_escape(scene, params, current, &hit, radiance, rays);
+        return top;
+    }
+    const real3 wo = -current->ray.direction;
+    const Surface surface = visible_surface(scene, params, &current->ray, &hit);
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+        vertex_add(scene, current->weight * material_emitted(scene, &surface), radiance);
+    if (current->segment >= params->max_depth) {
+        whitted_cut(scene, current, &surface, rays);
+        return top;
+    }
+    const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
+    nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), radiance);
+    const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
+    const real3 direct = direct_light(scene, params, sampler, current->node, &surface, &bsdf, highlight, rays);
+    vertex_add(scene, current->weight * direct, radiance);
+    return whitted_spawn(scene, params, current, &surface, &bsdf, stack, top);
+}
+
 static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
                                           Ray ray, PixelRays* rays)
 {
@@ -94,53 +159,8 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
     stack[0].node = 1u;
     while (top != 0u) {
         const WhittedRay current = stack[--top];
-        const real3 wo = -current.ray.direction;
-        if (current.segment > 1u)
-            ++rays->secondary;
-
-        /* Find the surface, or the light outside the scene. */
-        Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
-        TRACE_HIT(scene, current.segment, current.node, &current.ray, &hit);
-        TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
-        nan_carry(scene, nan_of_vector(current.weight), &radiance);
-        if (hit.triangle == NO_INDEX) {
-            rays->missed += current.segment == 1u ? 1u : 0u;
-            if (nan_carry(scene, nan_of_miss(&hit), &radiance))
-                continue;
-            const real3 sky =
-                lights_outside(scene, params, current.segment, current.ray.direction, REAL(0.0), KINDS_ALL);
-            radiance += current.weight * sky;
-            TRACE_VECTOR(scene, TRACE_SKY, sky);
-            TRACE_VECTOR(scene, TRACE_ADDED, current.weight * sky);
-            continue;
-        }
-        const Surface surface = visible_surface(scene, params, &current.ray, &hit);
-        TRACE_SURFACE(scene, &surface);
-        if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
-            const real3 emitted = material_emitted(scene, &surface);
-            radiance += current.weight * emitted;
-            TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
-            TRACE_VECTOR(scene, TRACE_ADDED, current.weight * emitted);
-        }
-        if (current.segment >= params->max_depth) {
-            /* It would have been lit, at least. */
-            if (scene->materials[surface.material].lobes != 0u) {
-                film_count_cut(current.weight, rays);
-                TRACE_CHOICE(scene, TRACE_CUT, 1u);
-            }
-            continue;
-        }
-
-        /* Light it, then follow reflection and refraction. */
-        const Bsdf bsdf = material_bsdf(scene, &surface, wo, TRANSPORT_RADIANCE);
-        TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
-        nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
-        const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
-        const real3 direct = direct_light(scene, params, sampler, current.node, &surface, &bsdf, highlight, rays);
-        radiance += current.weight * direct;
-        TRACE_VECTOR(scene, TRACE_ADDED, current.weight * direct);
-        top = whitted_spawn(params, &current, &surface, &bsdf, wo, stack, top);
-        TRACE_CHOICE(scene, TRACE_WAITING, top);
+        rays->secondary += current.segment > 1u ? 1u : 0u;
+        top = whitted_vertex(scene, params, sampler, &current, stack, top, &radiance, rays);
     }
     return radiance;
 }

@@ -80,7 +80,7 @@ static inline void bsdf_dielectric_add(const Bsdf* bsdf, real3 wi, BsdfValue* su
 /* Samples light of more than one facet, to both sides. */
 static inline real3 bsdf_dielectric_sample_multiple(const Bsdf* bsdf, bool reflects, real2 u, BsdfSample* sample)
 {
-    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : TRACE_LOBE_REFRACTION);
+    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : LOBE_DIELECTRIC | TRACE_LOBE_REFRACTS);
     real3 wi = bsdf_energy_multiple_sample(u);
     wi.z = reflects ? wi.z : -wi.z;
     sample->eta = reflects ? REAL(1.0) : bsdf->eta;
@@ -110,7 +110,7 @@ static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, 
     const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
     const real choose = bsdf_dielectric_choose(bsdf, f);
     const bool reflects = u_way < choose;
-    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : TRACE_LOBE_REFRACTION);
+    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : LOBE_DIELECTRIC | TRACE_LOBE_REFRACTS);
     const real3 wi = reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
     /* A microfacet may send light through the macroscopic surface the wrong way, and the horizon sees none: such paths
        end. */

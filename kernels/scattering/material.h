@@ -144,8 +144,10 @@ static inline void material_parameters(const Scene* scene, global const Material
 static inline real3 material_emitted(const Scene* scene, const Surface* surface)
 {
     global const Material* material = scene->materials + surface->material;
-    return material_emits(material, surface->front) ? material_emission(scene, material, surface->uv)
-                                                    : (real3)(REAL(0.0));
+    const real3 emitted = material_emits(material, surface->front) ? material_emission(scene, material, surface->uv)
+                                                                   : (real3)(REAL(0.0));
+    TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
+    return emitted;
 }
 
 /* Builds the BSDF of a surface point as wo sees it, for radiance or importance (TRANSPORT_*). */

@@ -25,13 +25,13 @@ std::string triangle_text(std::uint64_t index, const Scene& scene) {
 
 /// The name of a lobe; of one that reflects and refracts, with the way that was taken.
 std::string lobe_text(std::uint64_t recorded) {
-    const bool is_refraction = recorded == TRACE_LOBE_REFRACTION;
-    const std::uint64_t lobe = is_refraction ? LOBE_DIELECTRIC : recorded;
+    const bool refracts = (recorded & TRACE_LOBE_REFRACTS) != 0;
+    const std::uint64_t lobe = recorded & ~std::uint64_t(TRACE_LOBE_REFRACTS);
     for (const LobeSpec& row : LOBE_SPECS) {
         if (lobe != row.bit)
             continue;
         if (row.delta_letters & LETTER_BIT(LETTER_REFRACTION))
-            return fmt::format("{}, {}", row.name, is_refraction ? "refracted" : "reflected");
+            return fmt::format("{}, {}", row.name, refracts ? "refracted" : "reflected");
         return row.name;
     }
     return lobe == 0 ? "none" : fmt::format("lobe {}", lobe); // one without a name of its own
