@@ -3,9 +3,9 @@
 #ifndef CLRT_PATH_VERTEX_H
 #define CLRT_PATH_VERTEX_H
 
-#include "geometry/visibility.h"
 #include "lights/lights.h"
 #include "nan.h"
+#include "visibility.h"
 
 /* Finds where a ray ends. `segment`: of its path, from 1; `node`: its number in a tree of rays, 0 on a path. The random
    numbers of cut-outs are addressed by the node, on a path by the segment. */

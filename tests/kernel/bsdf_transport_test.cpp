@@ -5,6 +5,7 @@
 #include "scene/lobes.h"
 #include "support/bsdf_probe.h"
 #include "support/reference.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 constexpr size_t COUNT = 50000;
 
 BsdfProbe& probe() {
-    static BsdfProbe instance;
+    static BsdfProbe instance(test_device());
     return instance;
 }
 

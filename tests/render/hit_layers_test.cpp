@@ -12,7 +12,6 @@
 #include "support/render_scene.h"
 
 #include <csignal>
-#include <cstdlib>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -33,8 +32,7 @@ protected:
         options.film.size = {27, 21}; // tiles at the edges are not whole
         options.sampling.replicates = 4;
         options.output.files = {"a.exr"};
-        if (const char* folder = std::getenv("CLRT_TEST_KERNELS"))
-            options.device.kernels_folder = folder;
+        options.device.kernels_folder = test_kernels_folder();
         const Scene scene = test_.load();
         const Effects effects = find_effects(scene, options);
         const BvhLayout layout = choose_layout(options.bvh.layout, test_device().info);

@@ -10,6 +10,7 @@
 #include "replay/flips.h"
 #include "support/effect_masks.h"
 #include "support/kernel_probe.h"
+#include "support/render_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,6 @@ namespace clrt {
 namespace {
 
 constexpr Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
-
-/// A folder of kernels to take instead of those inside the test; empty: none.
-std::string tested_kernels_folder() {
-    const char* const folder = std::getenv("CLRT_TEST_KERNELS");
-    return folder ? folder : "";
-}
 
 /// A loaded scene on the device.
 struct Stage {
@@ -43,7 +38,7 @@ struct Stage {
           layout(choose_layout(options.bvh.layout, device.info)),
           buffers(upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout))) {
         if (options.device.kernels_folder.empty())
-            options.device.kernels_folder = tested_kernels_folder();
+            options.device.kernels_folder = test_kernels_folder();
     }
 
     std::vector<SampleAddress> all_pixels(u32 sample) const {
@@ -90,7 +85,7 @@ Stage every_effect(Integrator integrator) {
 class PlantedKernels {
 public:
     PlantedKernels() {
-        const std::string from = tested_kernels_folder();
+        const std::string from = test_kernels_folder();
         std::filesystem::copy(from.empty() ? CLRT_KERNELS_FOLDER : from, path(),
                               std::filesystem::copy_options::recursive);
     }
@@ -309,7 +304,7 @@ TEST(Replay, ADecisionThatDoubleMakesDifferentlyIsFound) {
     make_white_room(room);
     room.options.sampling.spp = 4;
     room.options.transport.roulette_depth = 2;
-    room.options.device.kernels_folder = tested_kernels_folder();
+    room.options.device.kernels_folder = test_kernels_folder();
     const FlipStatistics clean = find_flips(test_device(), room.load(), room.options);
     EXPECT_EQ(clean.samples, 16u * 16u * 4u);
     EXPECT_LE(clean.flips.size(), 1u) << "1e-5 of the samples of a matte room flip (flips_test)";

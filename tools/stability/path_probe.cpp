@@ -4,10 +4,9 @@
 #include "film/film.h"
 #include "kernels/shared/effects.h"
 #include "render/render_params.h"
+#include "stability/probe_set.h"
 
 #include <fmt/format.h>
-#include <map>
-#include <memory>
 
 namespace clrt {
 
@@ -41,24 +40,19 @@ PROBE_PATHS(probe_whitted, whitted_radiance)
 
 } // namespace
 
-KernelProbe& path_probe(const Device& device, Build build) {
-    // Never freed: at exit some drivers are gone before our statics.
-    static auto* const probes = new std::map<Build, std::unique_ptr<KernelProbe>>;
-    std::unique_ptr<KernelProbe>& made = (*probes)[build];
-    if (!made) {
+KernelProbe& path_probe(const ProbeDevice& device, Build build) {
+    return device.once<KernelProbe>(std::string("paths: ") + build_name(build), [&] {
         ProbeOptions options;
-        options.precision = build == Build::DOUBLE ? Precision::DOUBLE : Precision::SINGLE;
+        options.precision = precision_of(build);
         options.defines = {fmt::format("CLRT_EFFECTS={:#x}u", EFFECT_ALL & ~EFFECT_PATH_FILTER),
                            "SAMPLES_AT_ONCE=1"};
-        made = std::make_unique<KernelProbe>(
-            device, std::vector<std::string>{"integrators/path.h", "integrators/whitted.h"}, options,
-            kernels_under_test());
-        made->add_text(TEXT);
-    }
-    return *made;
+        KernelProbe made(device, {"integrators/path.h", "integrators/whitted.h"}, options);
+        made.add_text(TEXT);
+        return made;
+    });
 }
 
-PathProbe::PathProbe(const Device& device, Scene scene, const Options& options)
+PathProbe::PathProbe(const ProbeDevice& device, Scene scene, const Options& options)
     : device_(device), scene_(std::move(scene)) {
     params = make_render_params(scene_, options, film_scale(scene_));
     buffers_ = upload_scene(device, scene_, build_bvh(scene_.positions, scene_.triangles, BvhLayout::BVH8));
