@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Path tracing (Kajiya 1986) with next-event estimation and multiple importance sampling (Veach 1997): simulates
-// L(D|G|S)*E. One path a sample; a segment is one ray, so a path of max_depth segments scatters max_depth - 1 times.
-// The paths of a few samples advance together: all trace a segment, all handle their vertex, all test their shadow ray.
+// Path tracing (Kajiya 1986) with next-event estimation and multiple importance sampling (Veach 1997):
+// simulates L(D|G|S)*E. One path a sample; a segment is one ray, so a path of max_depth segments scatters
+// max_depth - 1 times. The paths of a few samples advance together: all trace a segment, all handle their
+// vertex, all test their shadow ray.
 #ifndef CLRT_INTEGRATORS_PATH_H
 #define CLRT_INTEGRATORS_PATH_H
 
@@ -22,8 +23,10 @@ static inline void path_escape(const Scene* scene, const RenderParams* params, u
     vertex_add(scene, path->throughput * sky, &sample->radiance);
     if (PATH_LAYERS == 0)
         return;
-    path_add_layers(path, KIND_SKY, lights_outside(scene, params, segment, direction, pdf_w, KIND_SKY), &sample->layers);
-    path_add_layers(path, KIND_SUN, lights_outside(scene, params, segment, direction, pdf_w, KIND_SUN), &sample->layers);
+    path_add_layers(path, KIND_SKY, lights_outside(scene, params, segment, direction, pdf_w, KIND_SKY),
+                    &sample->layers);
+    path_add_layers(path, KIND_SUN, lights_outside(scene, params, segment, direction, pdf_w, KIND_SUN),
+                    &sample->layers);
 }
 
 /* Adds what the surface emits. */
@@ -37,10 +40,10 @@ static inline void path_add_emission(const Scene* scene, const RenderParams* par
     path_add_layers(path, KIND_AREA, emitted, &sample->layers);
 }
 
-/* Handles the vertex at the end of a segment: adds its emission, chooses the next direction, connects to a light, and goes on
-   or ends the path. */
-static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* params, uint segment, Path* path,
-                                      CameraSample* sample, PixelRays* rays)
+/* Handles the vertex at the end of a segment: adds its emission, chooses the next direction, connects to a
+   light, and goes on or ends the path. */
+static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* params, uint segment,
+                                      Path* path, CameraSample* sample, PixelRays* rays)
 {
     const real3 wo = -path->ray.direction;
     const Sampler* sampler = &sample->sampler;
@@ -101,8 +104,8 @@ static inline uint path_advance(const Scene* scene, const RenderParams* params, 
     return alive;
 }
 
-static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples, uint count,
-                                        PixelRays* rays)
+static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples,
+                                        uint count, PixelRays* rays)
 {
     Path paths[SAMPLES_AT_ONCE];
     for (uint k = 0; k < count; ++k)

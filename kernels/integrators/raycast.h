@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray casting (Appel 1968): the first hit, lit locally with shadows. Simulates L(D|G)?E and traces no secondary ray.
+// Ray casting (Appel 1968): the first hit, lit locally with shadows. Simulates L(D|G)?E and traces no
+// secondary ray.
 #ifndef CLRT_INTEGRATORS_RAYCAST_H
 #define CLRT_INTEGRATORS_RAYCAST_H
 
 #include "direct.h"
 #include "pixel.h"
 
-static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                          Ray ray, PixelRays* rays)
+static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams* params,
+                                          const Sampler* sampler, Ray ray, PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
     Hit hit = vertex_hit(scene, params, sampler, 1u, 0u, &ray);
@@ -29,8 +30,8 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     return radiance;
 }
 
-static inline void raycast_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples, uint count,
-                                    PixelRays* rays)
+static inline void raycast_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples,
+                                    uint count, PixelRays* rays)
 {
     for (uint k = 0; k < count; ++k)
         samples[k].radiance = raycast_sample(scene, params, &samples[k].sampler, samples[k].ray, rays);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The automaton of --paths and of layers of paths (src/paths): a path carries a state, every scattering event is a letter
-// that leads to the next one. The host gives the tables as literals (layout: shared/path_types.h); without them there is one
-// state that accepts every path.
+// The automaton of --paths and of layers of paths (src/paths): a path carries a state, every scattering event
+// is a letter that leads to the next one. The host gives the tables as literals (layout:
+// shared/path_types.h); without them there is one state that accepts every path.
 #ifndef CLRT_PATH_AUTOMATON_H
 #define CLRT_PATH_AUTOMATON_H
 
@@ -73,8 +73,12 @@ static inline AutomatonStep automaton_cut_step(const AutomatonStep* step, uint s
 /* True if light of this kind (KIND_*) ends an accepted path. */
 static inline bool automaton_accepts(uint state, uint kind) { return (AUTOMATON_STATES[state] & kind) != 0u; }
 
-/* True if a ray that leaves in this state can find anything: false after the last surface before a point light. */
-static inline bool automaton_continues(uint state) { return (AUTOMATON_STATES[state] & STATE_CONTINUES) != 0u; }
+/* True if a ray that leaves in this state can find anything: false after the last surface before a point
+   light. */
+static inline bool automaton_continues(uint state)
+{
+    return (AUTOMATON_STATES[state] & STATE_CONTINUES) != 0u;
+}
 
 /* Letters (bits LETTER_BIT) that do not end the path. */
 static inline uint automaton_open(const AutomatonStep* step)

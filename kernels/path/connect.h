@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Next-event estimation: a vertex is connected to a point on a light, and emission that the path meets by itself is weighted
-// against that (multiple importance sampling, Veach 1997).
+// Next-event estimation: a vertex is connected to a point on a light, and emission that the path meets by
+// itself is weighted against that (multiple importance sampling, Veach 1997).
 #ifndef CLRT_PATH_CONNECT_H
 #define CLRT_PATH_CONNECT_H
 
 #include "walk.h"
 
-/* Emission of the surface that was hit, weighted against the light sampling at the vertex before that could have found it. */
-static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface, const Path* path,
-                                  real3 wo)
+/* Emission of the surface that was hit, weighted against the light sampling at the vertex before that could
+   have found it. */
+static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                  const Path* path, real3 wo)
 {
     const real3 emitted = material_emitted(scene, surface);
     const real pdf_w = path->pdf_w;
     if (pdf_w == REAL(0.0))
         return emitted;
     const real t = path->hit.t;
-    const real point_pdf_w = HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
-                                 ? emitter_crossed_pdf_w(scene, surface, path->from, t, wo)
-                                 : emitter_hit_pdf_w(scene, surface, path->from, t, wo);
+    const real point_pdf_w =
+        HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
+            ? emitter_crossed_pdf_w(scene, surface, path->from, t, wo)
+            : emitter_hit_pdf_w(scene, surface, path->from, t, wo);
     const real light_pdf_w = (real)params->choose_emitter * point_pdf_w;
     TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, mis_weight(pdf_w, light_pdf_w));
     return emitted * mis_weight(pdf_w, light_pdf_w);
 }
 
-/* The same connection for the layers, class by class of the event; `factor` is all that arrives over the BSDF's value. */
+/* The same connection for the layers, class by class of the event; `factor` is all that arrives over the
+   BSDF's value. */
 static inline void path_connect_layers(const Bsdf* bsdf, const AutomatonStep* step, const LightSample* light,
                                        real3 factor, Path* path)
 {
@@ -44,8 +47,8 @@ static inline void path_connect_layers(const Bsdf* bsdf, const AutomatonStep* st
 #endif
 }
 
-/* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling. Nothing where delta
-   lobes or the automaton keep a light from being found so. */
+/* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling.
+   Nothing where delta lobes or the automaton keep a light from being found so. */
 static inline void path_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
                                 const Bsdf* bsdf, const AutomatonStep* step, Path* path)
 {

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the automaton makes of a BSDF. A lobe whose letter leads nowhere is taken away, and with it its share of the density;
-// what is left is sampled and weighted like any other BSDF.
+// What the automaton makes of a BSDF. A lobe whose letter leads nowhere is taken away, and with it its share
+// of the density; what is left is sampled and weighted like any other BSDF.
 //
-// One direction can be scattered by the matte and by the glossy lobe. Where the automaton treats them alike, the event has no
-// class and nothing changes. Where it does not, write f = f_D + f_G for the BSDF times cosine and p for the density of the
-// mixture. Light sampling adds f_c L w_light / p_light for each class c that accepts the light: both parts, no choice. The
-// sampled direction goes on as one class, chosen with probability P_c = |f_c| / (|f_D| + |f_G|) and divided by it: its
-// throughput is f_c / (p P_c), whose mean over the choice is f_c / p for either class. The density of the direction is p
-// whatever the class, so the weights of light sampling and BSDF sampling, which only know p and p_light, sum to 1 for each
-// class, and the sum over the classes is the whole integral.
+// One direction can be scattered by the matte and by the glossy lobe. Where the automaton treats them alike,
+// the event has no class and nothing changes. Where it does not, write f = f_D + f_G for the BSDF times
+// cosine and p for the density of the mixture. Light sampling adds f_c L w_light / p_light for each class c
+// that accepts the light: both parts, no choice. The sampled direction goes on as one class, chosen with
+// probability P_c = |f_c| / (|f_D| + |f_G|) and divided by it: its throughput is f_c / (p P_c), whose mean
+// over the choice is f_c / p for either class. The density of the direction is p whatever the class, so the
+// weights of light sampling and BSDF sampling, which only know p and p_light, sum to 1 for each class, and
+// the sum over the classes is the whole integral.
 #ifndef CLRT_PATH_FILTER_H
 #define CLRT_PATH_FILTER_H
 
 #include "automaton.h"
 #include "scattering/bsdf.h"
 
-/* The lobes that write D or G where they have a density; of all others the letter is that of a delta function. */
+/* The lobes that write D or G where they have a density; of all others the letter is that of a delta
+   function. */
 #define FILTER_LETTERS (LETTER_BIT(LETTER_MATTE) | LETTER_BIT(LETTER_GLOSSY))
 
 /* Takes away the lobes that lead to a dead state, and the ways of a smooth dielectric that do. */
@@ -33,8 +35,8 @@ static inline void filter_lobes(const AutomatonStep* step, Bsdf* bsdf)
     bsdf_choose_lobes(bsdf);
 }
 
-/* Samples no lobe behind which a ray finds nothing; false if there is no other. Only lights that light sampling alone can
-   find end a path there, so the density of BSDF sampling weighs against nothing. */
+/* Samples no lobe behind which a ray finds nothing; false if there is no other. Only lights that light
+   sampling alone can find end a path there, so the density of BSDF sampling weighs against nothing. */
 static inline bool filter_continues(const AutomatonStep* step, Bsdf* bsdf)
 {
     const uint lobes = bsdf_lobes_of(bsdf, automaton_continuing(step));
@@ -46,7 +48,8 @@ static inline bool filter_continues(const AutomatonStep* step, Bsdf* bsdf)
 /* Lobes that write a letter of their own for the same direction. */
 static inline bool filter_is_ambiguous(const AutomatonStep* step, const Bsdf* bsdf)
 {
-    return bsdf_smooth_letters(bsdf) == FILTER_LETTERS && step->next[LETTER_MATTE] != step->next[LETTER_GLOSSY];
+    return bsdf_smooth_letters(bsdf) == FILTER_LETTERS &&
+           step->next[LETTER_MATTE] != step->next[LETTER_GLOSSY];
 }
 
 /* The part of the BSDF times cosine whose lobes write a letter where they have a density. */
@@ -56,9 +59,10 @@ static inline real3 filter_part(const Bsdf* bsdf, uint letter, real3 wi_world)
     return bsdf_eval_lobes(bsdf, lobes, frame_to_local(&bsdf->frame, wi_world)).value;
 }
 
-/* What is left of the BSDF's whole value towards a light when only some classes accept it. Where the whole is nothing, because
-   the light is on the other side, so are its parts. */
-static inline real3 filter_value(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world, uint kind, real3 whole)
+/* What is left of the BSDF's whole value towards a light when only some classes accept it. Where the whole is
+   nothing, because the light is on the other side, so are its parts. */
+static inline real3 filter_value(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world, uint kind,
+                                 real3 whole)
 {
     const uint accepting = bsdf_smooth_letters(bsdf) & automaton_accepting(step, kind);
     if (accepting == 0u)
@@ -80,10 +84,10 @@ static inline real filter_share_component(real part, real rest, real chance)
     return part == REAL(0.0) ? REAL(0.0) : part / ((part + rest) * chance);
 }
 
-/* Chooses the class of a sampled direction that both lobes scatter: its letter. Gives its share of the value over the
-   probability of the choice. A class whose ray finds nothing is not chosen. */
-static CLRT_NOINLINE uint filter_choose_letter(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world, real u,
-                                               real3* share)
+/* Chooses the class of a sampled direction that both lobes scatter: its letter. Gives its share of the value
+   over the probability of the choice. A class whose ray finds nothing is not chosen. */
+static CLRT_NOINLINE uint filter_choose_letter(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world,
+                                               real u, real3* share)
 {
     const real3 matte = filter_part(bsdf, LETTER_MATTE, wi_world);
     const real3 glossy = filter_part(bsdf, LETTER_GLOSSY, wi_world);
@@ -97,7 +101,8 @@ static CLRT_NOINLINE uint filter_choose_letter(const AutomatonStep* step, const 
     const real3 part = is_matte ? matte : glossy;
     const real3 rest = is_matte ? glossy : matte;
     const real taken = is_matte ? chance : REAL(1.0) - chance;
-    *share = vector_make(filter_share_component(part.x, rest.x, taken), filter_share_component(part.y, rest.y, taken),
+    *share = vector_make(filter_share_component(part.x, rest.x, taken),
+                         filter_share_component(part.y, rest.y, taken),
                          filter_share_component(part.z, rest.z, taken));
     return is_matte ? LETTER_MATTE : LETTER_GLOSSY;
 }

@@ -10,8 +10,8 @@
 /* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
 #define PATH_SMALLEST_SURVIVAL REAL(0.05)
 
-/* The random numbers of one vertex. They are drawn before the ray is traced: they do not wait for the hit, so a processor
-   that works ahead hides their long chain of multiplications. */
+/* The random numbers of one vertex. They are drawn before the ray is traced: they do not wait for the hit, so
+   a processor that works ahead hides their long chain of multiplications. */
 typedef struct {
     uint2 light;
     uint alias;
@@ -31,18 +31,18 @@ static inline PathNumbers path_numbers(const Sampler* sampler, uint segment)
 
 /* A path on its way. */
 typedef struct {
-    Ray ray;               /* the segment to trace */
-    Hit hit;               /* where it ended */
-    PathNumbers numbers;   /* of the vertex there */
-    real3 from;            /* whence the surface that it left looked at lights; unused for camera rays */
+    Ray ray;                 /* the segment to trace */
+    Hit hit;                 /* where it ended */
+    PathNumbers numbers;     /* of the vertex there */
+    real3 from;              /* whence the surface that it left looked at lights; unused for camera rays */
     bool has_crossed_curved; /* it did not start there but at the plane below */
-    real3 throughput;      /* of the path so far: product of BSDF times cosine over pdf */
-    real eta_squared;      /* product of the squared index ratios crossed */
-    real pdf_w;            /* of the ray's direction; 0 for camera rays and delta lobes */
-    Ray shadow;            /* from the vertex to a light, */
-    real3 connection;      /* and what arrives if nothing is in between */
-    real3 watched;         /* sum of directions and normals, for NaNs among them */
-    uint state;            /* of the automaton, behind all vertices so far */
+    real3 throughput;        /* of the path so far: product of BSDF times cosine over pdf */
+    real eta_squared;        /* product of the squared index ratios crossed */
+    real pdf_w;              /* of the ray's direction; 0 for camera rays and delta lobes */
+    Ray shadow;              /* from the vertex to a light, */
+    real3 connection;        /* and what arrives if nothing is in between */
+    real3 watched;           /* sum of directions and normals, for NaNs among them */
+    uint state;              /* of the automaton, behind all vertices so far */
     LayerPath layers;
     bool is_alive, is_connected;
 } Path;
@@ -75,9 +75,9 @@ static inline void path_add_layers(const Path* path, uint kind, real3 radiance, 
 #endif
 }
 
-/* Samples the next direction. `continues`: whether a ray in any direction can find light (filter_continues). */
-static inline BsdfSample path_sample(const Scene* scene, const Surface* surface, const Bsdf* bsdf, bool continues,
-                                     Path* path)
+/* Samples the next direction. `continues`: whether a ray by any lobe can find light (filter_continues). */
+static inline BsdfSample path_sample(const Scene* scene, const Surface* surface, const Bsdf* bsdf,
+                                     bool continues, Path* path)
 {
     const BsdfSample next = bsdf_sample(bsdf, path->numbers.lobe, path->numbers.direction);
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
@@ -114,10 +114,10 @@ static inline bool path_follow(const Scene* scene, const Sampler* sampler, uint 
     return true;
 }
 
-/* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios crossed so far
-   are taken out: light inside glass is not lost, only compressed. */
-static inline bool path_survives(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint segment,
-                                 Path* path)
+/* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios
+   crossed so far are taken out: light inside glass is not lost, only compressed. */
+static inline bool path_survives(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                 uint segment, Path* path)
 {
     if (segment < params->roulette_depth)
         return true;
@@ -132,10 +132,11 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
     return true;
 }
 
-/* Leaves a vertex in a sampled direction, unless nothing can be found there or Russian roulette ends the path. */
-static inline void path_leave(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint segment,
-                              const Surface* surface, const Bsdf* bsdf, const AutomatonStep* step, const BsdfSample* next,
-                              Path* path)
+/* Leaves a vertex in a sampled direction, unless nothing can be found there or Russian roulette ends the
+   path. */
+static inline void path_leave(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                              uint segment, const Surface* surface, const Bsdf* bsdf,
+                              const AutomatonStep* step, const BsdfSample* next, Path* path)
 {
     path->throughput *= next->weight;
     if (HAS(EFFECT_PATH_FILTER) && !path_follow(scene, sampler, segment, bsdf, step, next, path))

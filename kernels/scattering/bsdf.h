@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The BSDF of a material: the sum of its lobes, which are rows of one table (shared/lobes.h). Lobes are chosen by their weight;
-// where lobes overlap, the density is that of the mixture. Nothing passes where the shading normal and the surface disagree
-// about the side.
+// The BSDF of a material: the sum of its lobes, which are rows of one table (shared/lobes.h). Lobes are
+// chosen by their weight; where lobes overlap, the density is that of the mixture. Nothing passes where the
+// shading normal and the surface disagree about the side.
 #ifndef CLRT_SCATTERING_BSDF_H
 #define CLRT_SCATTERING_BSDF_H
 
@@ -21,8 +21,8 @@
 static inline uint bsdf_smooth_letters(const Bsdf* bsdf)
 {
     uint found = 0u;
-#define ADD_LETTERS(NAME, name, effect, letters, delta_letters, absent)                                       \
-    if (BSDF_HAS(bsdf->lobes, NAME, effect) && !bsdf_##name##_is_delta(bsdf))                                 \
+#define ADD_LETTERS(NAME, name, effect, letters, delta_letters, absent)                                      \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect) && !bsdf_##name##_is_delta(bsdf))                                \
         found |= letters;
     LOBE_TABLE(ADD_LETTERS)
 #undef ADD_LETTERS
@@ -36,8 +36,9 @@ static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf) { return bsdf_smooth_l
 static inline uint bsdf_lobes_of(const Bsdf* bsdf, uint wanted)
 {
     uint found = 0u;
-#define ADD_LOBE(NAME, name, effect, letters, delta_letters, absent)                                          \
-    if (BSDF_HAS(bsdf->lobes, NAME, effect) && (wanted & (bsdf_##name##_is_delta(bsdf) ? delta_letters : letters))) \
+#define ADD_LOBE(NAME, name, effect, letters, delta_letters, absent)                                         \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect) &&                                                               \
+        (wanted & (bsdf_##name##_is_delta(bsdf) ? delta_letters : letters)))                                 \
         found |= LOBE_##NAME;
     LOBE_TABLE(ADD_LOBE)
 #undef ADD_LOBE
@@ -48,8 +49,8 @@ static inline uint bsdf_lobes_of(const Bsdf* bsdf, uint wanted)
 static inline real3 bsdf_albedo(const Bsdf* bsdf)
 {
     real3 albedo = (real3)(REAL(0.0));
-#define ADD_ALBEDO(NAME, name, effect, letters, delta_letters, absent)                                        \
-    if (BSDF_HAS(bsdf->lobes, NAME, effect))                                                                  \
+#define ADD_ALBEDO(NAME, name, effect, letters, delta_letters, absent)                                       \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect))                                                                 \
         albedo += bsdf_##name##_albedo(bsdf);
     LOBE_TABLE(ADD_ALBEDO)
 #undef ADD_ALBEDO
@@ -62,7 +63,8 @@ static inline bool bsdf_reflects(const Bsdf* bsdf, real3 wi_world)
     return surface_side(bsdf->normal_g, bsdf->normal_s, bsdf->is_curved, wi_world);
 }
 
-/* True if a world direction is on the side of the surface that its local form is on in the frame, which a map may tilt. */
+/* True if a world direction is on the side of the surface that its local form is on in the frame, which a map
+   may tilt. */
 static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
 {
     return bsdf_reflects(bsdf, wi_world) == (wi.z > REAL(0.0));
@@ -72,17 +74,17 @@ static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
 static inline BsdfValue bsdf_eval_lobes(const Bsdf* bsdf, uint lobes, real3 wi)
 {
     BsdfValue sum = bsdf_value_none();
-#define ADD_VALUE(NAME, name, effect, letters, delta_letters, absent)                                         \
-    if (BSDF_HAS(lobes, NAME, effect))                                                                        \
+#define ADD_VALUE(NAME, name, effect, letters, delta_letters, absent)                                        \
+    if (BSDF_HAS(lobes, NAME, effect))                                                                       \
         bsdf_##name##_add(bsdf, wi, &sum);
     LOBE_TABLE(ADD_VALUE)
 #undef ADD_VALUE
     return sum;
 }
 
-/* What a shading normal that is not the surface's makes of importance (Veach 1997, sec. 5.3): cosines to the light's side are
-   those of n_s in radiance, so they must be in importance, whose beams spread by those of n_g. Not bounded. This is its one
-   place; wi is local. */
+/* What a shading normal that is not the surface's makes of importance (Veach 1997, sec. 5.3): cosines to the
+   light's side are those of n_s in radiance, so they must be in importance, whose beams spread by those of
+   n_g. Not bounded. This is its one place; wi is local. */
 static inline real bsdf_shading_factor(const Bsdf* bsdf, real3 wi_world, real3 wi)
 {
     const real3 wo_world = frame_to_world(&bsdf->frame, bsdf->wo);
@@ -103,15 +105,15 @@ static inline BsdfValue bsdf_eval(const Bsdf* bsdf, real3 wi_world)
     return sum;
 }
 
-/* Sets `choose` to the sizes of what the lobes reflect towards wo, and gives their sum with that of the light of more than one
-   facet. */
+/* Sets `choose` to the sizes of what the lobes reflect towards wo, and gives their sum with that of the light
+   of more than one facet. */
 static inline real bsdf_sizes(Bsdf* bsdf, real multiple)
 {
     real sum = multiple;
-#define SET_SIZE(NAME, name, effect, letters, delta_letters, absent)                                          \
-    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                                \
-        bsdf->choose[LOBE_ROW_##NAME] = bsdf_##name##_size(bsdf);                                             \
-        sum += bsdf->choose[LOBE_ROW_##NAME];                                                                 \
+#define SET_SIZE(NAME, name, effect, letters, delta_letters, absent)                                         \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                               \
+        bsdf->choose[LOBE_ROW_##NAME] = bsdf_##name##_size(bsdf);                                            \
+        sum += bsdf->choose[LOBE_ROW_##NAME];                                                                \
     }
     LOBE_TABLE(SET_SIZE)
 #undef SET_SIZE
@@ -122,7 +124,8 @@ static inline real bsdf_sizes(Bsdf* bsdf, real multiple)
     return REAL(1.0);
 }
 
-/* Sets the lobes' probabilities by how much each reflects towards wo. The last one gets what the others leave. */
+/* Sets the lobes' probabilities by how much each reflects towards wo. The last one gets what the others
+   leave. */
 static inline void bsdf_choose_lobes(Bsdf* bsdf)
 {
     const real multiple = (bsdf->lobes & LOBES_ROUGH) ? bsdf->multiple_size : REAL(0.0);
@@ -132,36 +135,36 @@ static inline void bsdf_choose_lobes(Bsdf* bsdf)
     const real sum = is_alone ? REAL(1.0) : bsdf_sizes(bsdf, multiple);
     bsdf->choose_multiple = multiple / sum;
     real left = REAL(1.0);
-#define SET_SHARE(NAME, name, effect, letters, delta_letters, absent)                                         \
-    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                                \
-        bsdf->choose[LOBE_ROW_##NAME] =                                                                       \
-            BSDF_IS_LAST(bsdf->lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / sum;                     \
-        left -= bsdf->choose[LOBE_ROW_##NAME];                                                                \
+#define SET_SHARE(NAME, name, effect, letters, delta_letters, absent)                                        \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                               \
+        bsdf->choose[LOBE_ROW_##NAME] =                                                                      \
+            BSDF_IS_LAST(bsdf->lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / sum;                    \
+        left -= bsdf->choose[LOBE_ROW_##NAME];                                                               \
     }
     LOBE_TABLE(SET_SHARE)
 #undef SET_SHARE
 }
 
-/* Leaves the sampling of directions to some of the lobes, which share it as before among each other. The value stays that of
-   all. */
+/* Leaves the sampling of directions to some of the lobes, which share it as before among each other. The
+   value stays that of all. */
 static inline void bsdf_choose_among(Bsdf* bsdf, uint lobes)
 {
     real whole = REAL(1.0);
-#define TAKE_SHARE(NAME, name, effect, letters, delta_letters, absent)                                        \
-    if (BSDF_HAS(bsdf->lobes & ~lobes, NAME, effect)) {                                                       \
-        whole -= bsdf->choose[LOBE_ROW_##NAME];                                                               \
-        bsdf->choose[LOBE_ROW_##NAME] = REAL(0.0);                                                            \
+#define TAKE_SHARE(NAME, name, effect, letters, delta_letters, absent)                                       \
+    if (BSDF_HAS(bsdf->lobes & ~lobes, NAME, effect)) {                                                      \
+        whole -= bsdf->choose[LOBE_ROW_##NAME];                                                              \
+        bsdf->choose[LOBE_ROW_##NAME] = REAL(0.0);                                                           \
     }
     LOBE_TABLE(TAKE_SHARE)
 #undef TAKE_SHARE
     bsdf->choose_multiple =
         (lobes & LOBES_ROUGH) && whole > REAL(0.0) ? bsdf->choose_multiple / whole : REAL(0.0);
     real left = REAL(1.0);
-#define GROW_SHARE(NAME, name, effect, letters, delta_letters, absent)                                        \
-    if (BSDF_HAS(bsdf->lobes & lobes, NAME, effect)) {                                                        \
-        bsdf->choose[LOBE_ROW_##NAME] =                                                                       \
-            BSDF_IS_LAST(lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / whole;                         \
-        left -= bsdf->choose[LOBE_ROW_##NAME];                                                                \
+#define GROW_SHARE(NAME, name, effect, letters, delta_letters, absent)                                       \
+    if (BSDF_HAS(bsdf->lobes & lobes, NAME, effect)) {                                                       \
+        bsdf->choose[LOBE_ROW_##NAME] =                                                                      \
+            BSDF_IS_LAST(lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / whole;                        \
+        left -= bsdf->choose[LOBE_ROW_##NAME];                                                               \
     }
     LOBE_TABLE(GROW_SHARE)
 #undef GROW_SHARE
@@ -171,11 +174,11 @@ static inline void bsdf_choose_among(Bsdf* bsdf, uint lobes)
 static inline uint bsdf_choose(const Bsdf* bsdf, BsdfChoice* choice)
 {
     choice->before = REAL(0.0);
-#define CHOOSE(NAME, name, effect, letters, delta_letters, absent)                                            \
-    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                                \
-        if (BSDF_IS_LAST(bsdf->lobes, NAME) || choice->u < choice->before + bsdf->choose[LOBE_ROW_##NAME])    \
-            return LOBE_##NAME;                                                                               \
-        choice->before += bsdf->choose[LOBE_ROW_##NAME];                                                      \
+#define CHOOSE(NAME, name, effect, letters, delta_letters, absent)                                           \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                               \
+        if (BSDF_IS_LAST(bsdf->lobes, NAME) || choice->u < choice->before + bsdf->choose[LOBE_ROW_##NAME])   \
+            return LOBE_##NAME;                                                                              \
+        choice->before += bsdf->choose[LOBE_ROW_##NAME];                                                     \
     }
     LOBE_TABLE(CHOOSE)
 #undef CHOOSE
@@ -195,8 +198,8 @@ static CLRT_NOINLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2
     choice.u = u_lobe;
     const uint lobe = bsdf_choose(bsdf, &choice);
     real3 wi = (real3)(REAL(0.0));
-#define SAMPLE(NAME, name, effect, letters, delta_letters, absent)                                            \
-    if (BSDF_HAS(lobe, NAME, effect))                                                                         \
+#define SAMPLE(NAME, name, effect, letters, delta_letters, absent)                                           \
+    if (BSDF_HAS(lobe, NAME, effect))                                                                        \
         wi = bsdf_##name##_sample(bsdf, choice, u, &sample);
     LOBE_TABLE(SAMPLE)
 #undef SAMPLE

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflection and refraction at the boundary of two dielectrics, smooth or with GGX microfacets (Walter et al. 2007): by one facet,
-// and by more (bsdf_energy.h). Local directions, z is the normal.
+// Reflection and refraction at the boundary of two dielectrics, smooth or with GGX microfacets (Walter et al.
+// 2007): by one facet, and by more (bsdf_energy.h). Local directions, z is the normal.
 #ifndef CLRT_SCATTERING_BSDF_DIELECTRIC_H
 #define CLRT_SCATTERING_BSDF_DIELECTRIC_H
 
 #include "bsdf_energy.h"
 #include "microfacet.h"
 
-/* True if light is only reflected as by a mirror and refracted straight: no roughness, or nothing to refract at. */
+/* True if light is only reflected as by a mirror and refracted straight: no roughness, or nothing to refract
+   at. */
 static inline bool bsdf_dielectric_is_delta(const Bsdf* bsdf)
 {
     return !HAS(EFFECT_ROUGH_REFRACTION) || bsdf->alpha_x == REAL(0.0) || bsdf->eta == REAL(1.0);
@@ -18,8 +19,8 @@ static inline real bsdf_dielectric_size(const Bsdf* bsdf) { return REAL(1.0) - b
 
 static inline real3 bsdf_dielectric_albedo(const Bsdf* bsdf) { return (real3)(REAL(1.0)); }
 
-/* The half vector of wo and wi on the normal's side, and the squared length of the sum that it is made from; both zero
-   where there is none. */
+/* The half vector of wo and wi on the normal's side, and the squared length of the sum that it is made from;
+   both zero where there is none. */
 static inline real3 bsdf_dielectric_half(const Bsdf* bsdf, real3 wi, real* length_squared)
 {
     const real3 sum = wi.z > REAL(0.0) ? bsdf->wo + wi : bsdf->eta * bsdf->wo + wi;
@@ -54,7 +55,8 @@ static inline BsdfValue bsdf_dielectric_eval_single(const Bsdf* bsdf, real3 wi)
         result.pdf_w = REAL(0.25) * f * d_over_cos * g1;
         return result;
     }
-    /* Walter et al., eq. 17: density of wi per density of h. Its denominator eta cos_oh + cos_ih is the length of the sum. */
+    /* Walter et al., eq. 17: density of wi per density of h. Its denominator eta cos_oh + cos_ih is the
+       length of the sum. */
     const real spread = (REAL(1.0) - f) * d_over_cos * cos_oh * fabs(cos_ih) / length_squared;
     /* Eq. 21 times cos_i; the index on wi's side cancels. */
     result.value = bsdf->transmission * bsdf_cross(bsdf, spread * g2);
@@ -78,7 +80,8 @@ static inline void bsdf_dielectric_add(const Bsdf* bsdf, real3 wi, BsdfValue* su
 }
 
 /* Samples light of more than one facet, to both sides. */
-static inline real3 bsdf_dielectric_sample_multiple(const Bsdf* bsdf, bool reflects, real2 u, BsdfSample* sample)
+static inline real3 bsdf_dielectric_sample_multiple(const Bsdf* bsdf, bool reflects, real2 u,
+                                                    BsdfSample* sample)
 {
     TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : LOBE_DIELECTRIC | TRACE_LOBE_REFRACTS);
     real3 wi = bsdf_energy_multiple_sample(u);
@@ -111,9 +114,10 @@ static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, 
     const real choose = bsdf_dielectric_choose(bsdf, f);
     const bool reflects = u_way < choose;
     TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : LOBE_DIELECTRIC | TRACE_LOBE_REFRACTS);
-    const real3 wi = reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
-    /* A microfacet may send light through the macroscopic surface the wrong way, and the horizon sees none: such paths
-       end. */
+    const real3 wi =
+        reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
+    /* A microfacet may send light through the macroscopic surface the wrong way, and the horizon sees none:
+       such paths end. */
     sample->is_weighted = true;
     if ((wi.z > REAL(0.0)) != reflects || !(wo.z > MICROFACET_SMALLEST_COS))
         return wi;
@@ -125,8 +129,8 @@ static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, 
     if (HAS(EFFECT_PATH_FILTER) && choose != f)
         sample->weight *= reflects ? f : REAL(1.0) - f;
     if (!smooth) {
-        sample->weight *=
-            microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) / microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);
+        sample->weight *= microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) /
+                          microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);
         sample->pdf_w = bsdf_dielectric_eval_single(bsdf, wi).pdf_w;
     } else
         sample->weight /= bsdf->choose[LOBE_ROW_DIELECTRIC];

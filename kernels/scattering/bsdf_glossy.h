@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rough reflection by GGX microfacets: by one facet, sampled by visible normals, and by more (bsdf_energy.h). Local directions,
-// z is the normal.
+// Rough reflection by GGX microfacets: by one facet, sampled by visible normals, and by more (bsdf_energy.h).
+// Local directions, z is the normal.
 #ifndef CLRT_SCATTERING_BSDF_GLOSSY_H
 #define CLRT_SCATTERING_BSDF_GLOSSY_H
 
@@ -17,7 +17,7 @@ static inline real bsdf_glossy_size(const Bsdf* bsdf)
 
 static inline real3 bsdf_glossy_albedo(const Bsdf* bsdf) { return bsdf->specular; }
 
-/* One facet: BSDF times cos_i (Walter et al. 2007, eq. 20) and the density of sampling wi by visible normals. */
+/* One facet: BSDF times cos_i (Walter et al. 2007, eq. 20) and its density. */
 static inline BsdfValue bsdf_glossy_eval_single(const Bsdf* bsdf, real3 wi)
 {
     BsdfValue result;

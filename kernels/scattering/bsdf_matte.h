@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lambert's lobe: radiance reflected alike in all directions, but for what a reflection above it takes. Local directions, z is
-// the normal.
+// Lambert's lobe: radiance reflected alike in all directions, but for what a reflection above it takes. Local
+// directions, z is the normal.
 #ifndef CLRT_SCATTERING_BSDF_MATTE_H
 #define CLRT_SCATTERING_BSDF_MATTE_H
 

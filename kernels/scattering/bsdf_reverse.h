@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Densities of the reverse direction, which methods that build paths from both ends weigh with: that of sampling wo where light
-// is looked at from wi. What a BSDF says of directions depends on whence it is seen (the lobes' probabilities, the index ratio,
-// the side), so it is set once more for wi; that serves every lobe, and any mixture.
+// Densities of the reverse direction, which methods that build paths from both ends weigh with: that of
+// sampling wo where light is looked at from wi. What a BSDF says of directions depends on whence it is seen
+// (the lobes' probabilities, the index ratio, the side), so it is set once more for wi; that serves every
+// lobe, and any mixture.
 #ifndef CLRT_SCATTERING_BSDF_REVERSE_H
 #define CLRT_SCATTERING_BSDF_REVERSE_H
 
 #include "bsdf.h"
 
-/* The same point of the surface as seen from a local direction. The lobes must be those of the material: a path filter's BSDF
-   (path/filter.h) no longer knows what lay above the matte lobe. */
+/* The same point of the surface as seen from a local direction. The lobes must be those of the material: a
+   path filter's BSDF (path/filter.h) no longer knows what lay above the matte lobe. */
 static CLRT_NOINLINE Bsdf bsdf_reversed(const Bsdf* bsdf, real3 wi)
 {
     Bsdf reversed = *bsdf;
