@@ -12,7 +12,6 @@
 #include "film/tile.h"
 #include "geometry/scene.h"
 #include "path/layers.h"
-#include "trace/vertex.h"
 
 /* Samples of a pixel that are simulated side by side. Their arithmetic does not depend on each other, so a processor that works
    ahead fills the waits of one with the others: four give a seventh more samples a second than one on a CPU. The host sets 1
