@@ -17,8 +17,6 @@ namespace {
 
 constexpr double RADIANS = 3.14159265358979323846 / 180;
 
-}
-
 /// Shares next-event estimation evenly between the kinds of light that it can find. A constant sky is left to
 /// BSDF sampling, which follows its only feature, the cosine.
 void set_lights(const Scene& scene, RenderParams& params) {
