@@ -3,7 +3,6 @@
 
 #include "device/kernel_source.h"
 #include "film/whole_numbers.h"
-#include "render/kernels.h"
 
 #include <array>
 #include <fmt/format.h>
