@@ -42,8 +42,6 @@ KERNELS = (
 # Arrows up that are still there, from folder to folder. One that is gone must leave this list, and none may join it.
 UPWARD = [
     ("src/film", "src/render"),
-    ("kernels/trace", "kernels/scattering"),
-    ("kernels/trace", "kernels/lights"),
 ]
 
 SUFFIXES = (".h", ".cpp", ".cl")

@@ -26,13 +26,13 @@ constexpr double RESOLVED_PITCH = 2.4e-7;    // radians between pixels whose ray
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made(test_device(), {"geometry/scene.h", "camera/camera.h"});
+        SceneProbe made(test_device(), {"geometry/scene.h", "camera/camera.h", "film/tile.h"});
         made.add("filter", "first = (vec4)(camera_filter_sample(params, (real2)(a.x, a.y)), 0.0f, 0.0f);");
         made.add("tent", "first.x = camera_tent(a.x);");
         // a: pixel x, y, sample
         made.add("ray",
                  "const uint x = as_uint(a.x), y = as_uint(a.y);"
-                 "const Sampler s = sampler_make(params->seed, y * params->width + x, 0u, as_uint(a.z));"
+                 "const Sampler s = sampler_make(params->seed, tile_pixel_number(params, x, y), 0u, as_uint(a.z));"
                  "const Ray ray = camera_ray(params, &s, x, y);"
                  "first = probe_vec4(ray.direction, ray.t_max); second = probe_vec4(ray.origin, REAL(0.0));"
                  "const real2 u = sampler_pair(&s, 0u, SAMPLE_FILM);"

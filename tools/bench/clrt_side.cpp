@@ -5,6 +5,7 @@
 #include "effects/effects.h"
 #include "film/film.h"
 #include "render/kernels.h"
+#include "render/launcher.h"
 #include "render/render_params.h"
 
 #include <algorithm>
@@ -13,9 +14,6 @@
 namespace clrt {
 
 namespace {
-
-/// Work-groups a row of the launch grid, as in the renderer.
-constexpr u32 GRID_COLUMNS = 2048;
 
 /// The fast tree, as clrt builds it for most renders, unless the options want the other.
 Bvh build_tree(const Scene& scene, const Options& options, BvhLayout layout, Cost& cost) {
@@ -85,7 +83,7 @@ ClrtSide::ClrtSide(const Device& device, const KernelFiles& files, const Options
 
 Kernel ClrtSide::make_kernel(const Program& program, const std::string& name) const {
     Kernel kernel(program, name);
-    if (kernel.has("bvh_nodes"))
+    if (takes_scene(kernel))
         bind_scene(buffers_, kernel);
     kernel.set("params", params_);
     return kernel;
@@ -98,15 +96,8 @@ const Program& ClrtSide::ray_maker() {
 }
 
 void ClrtSide::launch(Kernel& kernel, u32 count) {
-    const u32 groups = std::max((count + RAYS_PER_BLOCK - 1) / RAYS_PER_BLOCK, 1u);
-    const u32 columns = std::min(groups, GRID_COLUMNS);
-    const u32 rows = (groups + columns - 1) / columns;
-    check_opencl("running the kernel " + kernel.name(), [&] {
-        device_.queue.enqueueNDRangeKernel(kernel.handle(), cl::NullRange,
-                                           cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
-                                           cl::NDRange(TILE_SIZE, TILE_SIZE));
-        device_.queue.finish();
-    });
+    run_groups(device_, kernel, (count + RAYS_PER_BLOCK - 1) / RAYS_PER_BLOCK,
+               "running the kernel " + kernel.name());
 }
 
 std::vector<BenchRay> ClrtSide::primary_rays(u32 sample) {
