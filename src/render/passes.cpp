@@ -35,8 +35,7 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
     : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
       progress_(progress), hooks_(hooks), result_(result),
       film_buffers_(device, params, programs.paths.layers.size()),
-      launcher_(device, programs.picture,
-                std::string("render_") + integrator_name(options.transport.integrator), params, buffers),
+      launcher_(device, programs.picture, integrator_kernel(options.transport.integrator), params, buffers),
       rules_(options.sampling, film_limit(result.film, options)),
       picture_reminder_(options.output.save_every_seconds),
       film_reminder_(options.film_file.checkpoint_path.empty()

@@ -147,7 +147,7 @@ int run_render(Options options) {
     for (const BlindSpot& spot : effects.paths.blind_spots)
         spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
                      "with a diameter",
-                     integrator_name(options.transport.integrator), spot.paths, spot.cause);
+                     name_of(options.transport.integrator), spot.paths, spot.cause);
     Job job{start, device, std::move(scene), std::move(effects), load_seconds};
     if (options.camera.frames)
         return render_turn(job, options, progress);

@@ -65,8 +65,8 @@ Simulation simulate(const Device& device, const Scene& scene, const Effects& eff
     });
     Simulation done;
     const BvhQualityChoice quality = choose_bvh_quality(options, scene.triangles.size());
-    spdlog::debug("tree: {} ({})", quality_name(quality.quality), quality.reason);
-    const bool compare = quality.quality == BvhQuality::HIGH && options.bvh.quality == QualityChoice::AUTO;
+    spdlog::debug("tree: {} ({})", name_of(quality.quality), quality.reason);
+    const bool compare = quality.quality == BvhQuality::HIGH && !options.bvh.quality;
     done.bvh = compare ? build_better_bvh(scene.positions, scene.triangles, layout)
                        : build_bvh(scene.positions, scene.triangles, layout, quality.quality);
     done.bvh_reason = quality.reason;

@@ -61,7 +61,7 @@ void expect_same_bits(u32 effects) {
         EXPECT_EQ(needed, expected) << describe_effects(needed) << "\ninstead of "
                                     << describe_effects(expected);
         expect_same_bits(scene, small.options,
-                         std::string(integrator_name(integrator)) + ", " + describe_effects(effects));
+                         std::string(name_of(integrator)) + ", " + describe_effects(effects));
     }
 }
 
@@ -114,7 +114,7 @@ TEST(EffectMasks, EveryShippedSceneHasTheBitsOfTheFullProgram) {
                 options.transport.max_depth = std::min(options.transport.max_depth.value_or(10), 10);
             Progress progress(Toggle::OFF, true);
             expect_same_bits(load_scene(options, progress), options,
-                             path.string() + ", " + integrator_name(integrator));
+                             path.string() + ", " + name_of(integrator));
         }
 }
 
@@ -160,7 +160,7 @@ TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
     for (int round = 0; round < 2; ++round)
         for (const u32 effects : sets) {
             SceneOfEffects small(effects);
-            const Film plain = small.render().film;
+            const Film plain = small.render(test_device()).film;
             small.options.device.cache = Toggle::ON;
             small.options.device.cache_folder = fs::path(cache.file("any")).parent_path().string();
             bool from_cache = false;

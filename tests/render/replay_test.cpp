@@ -162,7 +162,7 @@ TEST(Replay, ASampleAddsToTheFilmWhatTheRenderAdds) {
                 stage.options.sampling.first_sample = sample;
                 const std::vector<SampleTrace> traces = replay.run(stage.all_pixels(sample));
                 EXPECT_EQ(count_differences(stage.render(), traces), 0u)
-                    << integrator_name(integrator) << ' ' << sample;
+                    << name_of(integrator) << ' ' << sample;
             }
         }
 }
@@ -194,8 +194,8 @@ TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
         const RenderPrograms programs = build_render_programs(stage.device, stage.options, stage.effects.mask,
                                                               stage.layout, stage.effects.paths);
         const FilmBuffers film(stage.device, params, programs.paths.layers.size());
-        Launcher launcher(stage.device, programs.picture,
-                          std::string("render_") + integrator_name(integrator), params, stage.buffers);
+        Launcher launcher(stage.device, programs.picture, integrator_kernel(integrator), params,
+                          stage.buffers);
         film.bind(launcher.kernel());
         launcher.run(5, 1, 0, params.tile_count);
         RenderProgress sums;
@@ -219,7 +219,7 @@ TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
                     value > 0x1p-20 ? sum * QUANTUM != value : std::abs(sum * QUANTUM - value) > QUANTUM;
             }
         }
-        EXPECT_EQ(different, 0u) << integrator_name(integrator);
+        EXPECT_EQ(different, 0u) << name_of(integrator);
         EXPECT_GT(lit, plane / 4);
     }
 }

@@ -7,6 +7,7 @@
 #include "replay/flips.h"
 #include "replay/quantities.h"
 #include "scene/load_scene.h"
+#include "scene/sky_table.h"
 #include "support/kernel_probe.h"
 #include "support/test_device.h"
 
@@ -53,7 +54,9 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     options.film.size = {64, 64};
     options.sampling.spp = tests_are_long() ? 256 : 16;
     Progress silent(Toggle::OFF, true);
-    return find_flips(test_device(), load_scene(options, silent), options);
+    Scene scene = load_scene(options, silent);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
+    return find_flips(test_device(), scene, options);
 }
 
 } // namespace

@@ -17,8 +17,7 @@ namespace {
 
 /// The fast tree, as clrt builds it for most renders, unless the options want the other.
 Bvh build_tree(const Scene& scene, const Options& options, BvhLayout layout, Cost& cost) {
-    const BvhQuality quality =
-        options.bvh.quality == QualityChoice::HIGH ? BvhQuality::HIGH : BvhQuality::FAST;
+    const BvhQuality quality = options.bvh.quality.value_or(BvhQuality::FAST);
     Bvh bvh;
     cost = measure([&] { bvh = build_bvh(scene.positions, scene.triangles, layout, quality); });
     return bvh;

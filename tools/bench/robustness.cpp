@@ -8,6 +8,7 @@
 #include "bench/watertight.h"
 #include "render/kernels.h"
 #include "scene/load_scene.h"
+#include "scene/sky_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -113,10 +114,11 @@ Robustness compare_robustness(const Device& device, const BenchOptions& bench, c
     Robustness result;
     result.variants = make_variants();
     const Options options = scene_options(bench, path);
-    const Scene scene = path.empty() ? make_rough_scene() : load_scene(options, progress);
+    Scene scene = path.empty() ? make_rough_scene() : load_scene(options, progress);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
     const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     result.scene = path.empty() ? "a rough torus in a ball" : path;
-    result.layout = layout_name(layout);
+    result.layout = name_of(layout);
     result.triangles = scene.triangles.size();
 
     const KernelFiles files = all_kernel_files(bench.clrt.device.kernels_folder);

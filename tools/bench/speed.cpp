@@ -4,6 +4,7 @@
 #include "bench/embree_side.h"
 #include "bench/ray_sets.h"
 #include "scene/load_scene.h"
+#include "scene/sky_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -99,7 +100,8 @@ bool is_wrong(const SceneSpeed& scene) {
 SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const std::string& path,
                          Progress& progress) {
     const Options options = scene_options(bench, path);
-    const Scene scene = load_scene(options, progress);
+    Scene scene = load_scene(options, progress);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
     progress.update({"trees and rays"});
     ClrtSide clrt(device, all_kernel_files(bench.clrt.device.kernels_folder), options, scene);
     const EmbreeSide embree(scene, /*robust=*/false, bench.clrt.device.threads),
@@ -124,7 +126,7 @@ SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const 
     SceneSpeed result;
     result.path = path;
     result.triangles = clrt.bvh().triangle_count;
-    result.layout = fmt::format("{} {}", layout_name(clrt.bvh().layout), quality_name(clrt.bvh().quality));
+    result.layout = fmt::format("{} {}", name_of(clrt.bvh().layout), name_of(clrt.bvh().quality));
     result.sah_cost = clrt.bvh().sah_cost;
     result.clrt = {clrt.build_cost(), 4 * (clrt.bvh().nodes.size() + clrt.bvh().leaves.size())};
     result.embree = {embree.build_cost(), embree.bytes()};

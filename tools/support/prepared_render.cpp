@@ -3,6 +3,7 @@
 
 #include "effects/take_out.h"
 #include "render/bvh_quality.h"
+#include "scene/sky_table.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -12,6 +13,7 @@ namespace clrt {
 namespace {
 
 Effects take_out_unwanted(Scene& scene, Options& options) {
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
     Effects effects = find_effects(scene, options);
     take_out_effects(effects.left_out, scene, options);
     return effects;

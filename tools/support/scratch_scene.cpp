@@ -9,6 +9,7 @@
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
 #include "scene/load_scene.h"
+#include "scene/sky_table.h"
 
 #include <fmt/format.h>
 #include <OpenImageIO/imageio.h>
@@ -47,6 +48,7 @@ const RenderPrograms& programs_for(const ProbeDevice& device, const Options& opt
 template <typename Programs>
 Render render_by(const ProbeDevice& device, Scene& scene, Options& options, const Programs& programs) {
     options = with_kernels_of(device, options);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
     const Effects effects = find_effects(scene, options);
     take_out_effects(effects.left_out, scene, options);
     const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
@@ -95,7 +97,9 @@ Scene ScratchScene::load() const {
     Options with_path = options;
     with_path.scene.path = folder.write("scene.obj", build.obj("scene.mtl", scale));
     Progress progress(Toggle::OFF, true);
-    return load_scene(with_path, progress);
+    Scene scene = load_scene(with_path, progress);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
+    return scene;
 }
 
 Render ScratchScene::render(const ProbeDevice& device) const {
