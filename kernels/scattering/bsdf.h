@@ -124,21 +124,28 @@ static inline real bsdf_sizes(Bsdf* bsdf, real multiple)
     return REAL(1.0);
 }
 
+/* Lobes that this build knows. */
+#define BSDF_BIT(NAME, name, effect, letters, delta_letters, absent) | (HAS(effect) ? LOBE_##NAME : 0u)
+enum { BSDF_LOBES = 0u LOBE_TABLE(BSDF_BIT) };
+#undef BSDF_BIT
+
 /* Sets the lobes' probabilities by how much each reflects towards wo. The last one gets what the others
    leave. */
 static inline void bsdf_choose_lobes(Bsdf* bsdf)
 {
-    const real multiple = (bsdf->lobes & LOBES_ROUGH) ? bsdf->multiple_size : REAL(0.0);
-    const bool is_alone = (bsdf->lobes & (bsdf->lobes - 1u)) == 0u && multiple == REAL(0.0);
+    /* Where a build knows one lobe alone, the compiler sees it. */
+    const uint lobes = bsdf->lobes & BSDF_LOBES;
+    const real multiple = (lobes & LOBES_ROUGH) ? bsdf->multiple_size : REAL(0.0);
+    const bool is_alone = (lobes & (lobes - 1u)) == 0u && multiple == REAL(0.0);
     for (uint row = 0u; row < LOBE_COUNT; ++row)
         bsdf->choose[row] = REAL(0.0);
     const real sum = is_alone ? REAL(1.0) : bsdf_sizes(bsdf, multiple);
     bsdf->choose_multiple = multiple / sum;
     real left = REAL(1.0);
 #define SET_SHARE(NAME, name, effect, letters, delta_letters, absent)                                        \
-    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                               \
+    if (BSDF_HAS(lobes, NAME, effect)) {                                                               \
         bsdf->choose[LOBE_ROW_##NAME] =                                                                      \
-            BSDF_IS_LAST(bsdf->lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / sum;                    \
+            BSDF_IS_LAST(lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / sum;                    \
         left -= bsdf->choose[LOBE_ROW_##NAME];                                                               \
     }
     LOBE_TABLE(SET_SHARE)
