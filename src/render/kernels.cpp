@@ -103,7 +103,6 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
         return build_program(device, request);
     };
     RenderPrograms programs;
-    programs.paths = paths;
     programs.picture = build(integrator_name(options.transport.integrator), path_defines(paths));
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});

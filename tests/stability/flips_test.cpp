@@ -53,7 +53,7 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     options.film.size = {64, 64};
     options.sampling.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
     Progress silent(Toggle::OFF, true);
-    return find_flips(test_device(), load_scene(options, silent), options);
+    return find_flips(prepare_scene(test_device(), plan_scene(load_scene(options, silent), options)));
 }
 
 } // namespace

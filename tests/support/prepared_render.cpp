@@ -1,32 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/prepared_render.h"
 
-#include "effects/take_out.h"
-#include "render/bvh_quality.h"
-#include "support/ray_device.h"
-
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 namespace clrt {
-
-namespace {
-
-Effects take_out_unwanted(Scene& scene, Options& options) {
-    Effects effects = find_effects(scene, options);
-    take_out_effects(effects.left_out, scene, options);
-    return effects;
-}
-
-Options with_kernels(Options options) {
-    const char* folder = std::getenv("CLRT_TEST_KERNELS");
-    if (options.device.kernels_folder.empty() && folder)
-        options.device.kernels_folder = folder;
-    return options;
-}
-
-} // namespace
 
 PatchedKernels::PatchedKernels(const std::vector<KernelPatch>& patches) {
     KernelFiles files = kernels_under_test();
@@ -43,20 +21,6 @@ PatchedKernels::PatchedKernels(const std::vector<KernelPatch>& patches) {
         std::filesystem::create_directories(std::filesystem::path(folder_.file(name)).parent_path());
         folder_.write(name, text);
     }
-}
-
-PreparedRender::PreparedRender(Scene scene, Options options, const Device& device)
-    : device_(device), scene_(std::move(scene)), options_(with_kernels(std::move(options))),
-      effects_(take_out_unwanted(scene_, options_)),
-      programs_(build_render_programs(device, options_, effects_.mask,
-                                      choose_layout(options_.bvh.layout, device.info), effects_.paths)),
-      bvh_(build_bvh(scene_.positions, scene_.triangles, choose_layout(options_.bvh.layout, device.info),
-                     choose_bvh_quality(options_, scene_.triangles.size()).quality)),
-      buffers_(upload_scene(device, scene_, bvh_)) {}
-
-Render PreparedRender::run() const {
-    Progress progress(Toggle::OFF, true);
-    return render(device_, programs_, buffers_, scene_, options_, progress);
 }
 
 } // namespace clrt

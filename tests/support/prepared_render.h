@@ -7,6 +7,7 @@
 #include "support/render_scene.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clrt {
@@ -31,20 +32,13 @@ private:
 class PreparedRender {
 public:
     /// Takes the kernels of options.device.kernels_folder, else those under test. The device must outlive it.
-    PreparedRender(Scene scene, Options options, const Device& device = test_device());
+    PreparedRender(Scene scene, Options options, const Device& device = test_device())
+        : prepared_(prepare_for_test(std::move(scene), std::move(options), device)) {}
 
-    Render run() const;
-    /// Seconds that compiling took.
-    double build_seconds() const { return programs_.seconds; }
+    Render run() const { return render_silently(prepared_); }
 
 private:
-    const Device& device_;
-    Scene scene_;
-    Options options_;
-    Effects effects_;
-    RenderPrograms programs_;
-    Bvh bvh_;
-    SceneBuffers buffers_;
+    PreparedScene prepared_;
 };
 
 } // namespace clrt

@@ -2,12 +2,7 @@
 // Scene text -> files in a scratch folder -> film.
 #include "support/render_scene.h"
 
-#include "bvh/bvh.h"
 #include "console/progress.h"
-#include "effects/take_out.h"
-#include "render/bvh_quality.h"
-#include "render/kernels.h"
-#include "render/scene_buffers.h"
 #include "scene/load_scene.h"
 #include "support/kernel_probe.h"
 
@@ -16,6 +11,7 @@
 #include <OpenImageIO/imageio.h>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace clrt {
 
@@ -35,43 +31,20 @@ void write_texture(const std::string& path, int width, int height, int channels,
         throw std::runtime_error("cannot write the texture " + path);
 }
 
-RenderPrograms build_programs(Options options, const Effects& effects, BvhLayout layout) {
-    const char* folder = std::getenv("CLRT_TEST_KERNELS");
-    if (options.device.kernels_folder.empty() && folder)
-        options.device.kernels_folder = folder;
-    return build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
-}
-
-const RenderPrograms& programs_for(const Options& options, const Effects& effects, BvhLayout layout) {
+/// Programs of the test device, compiled once a process.
+std::shared_ptr<const RenderPrograms> programs_for(const PlannedScene& planned) {
     using Key = std::tuple<Integrator, Precision, SamplerChoice, u32, BvhLayout, std::vector<std::string>,
-                           std::string>;
+                           std::string, bool>;
     // Never freed: at exit some drivers are gone before our statics.
-    static auto* const programs = new std::map<Key, RenderPrograms>;
-    const Key key{options.transport.integrator,
-                  options.device.precision,
-                  options.sampling.sampler,
-                  effects.mask,
-                  layout,
-                  path_defines(effects.paths),
-                  options.device.kernels_folder};
-    const auto found = programs->find(key);
-    if (found != programs->end())
-        return found->second;
-    return programs->emplace(key, build_programs(options, effects, layout)).first->second;
-}
-
-/// Takes out what the options leave out and renders; `programs(effects, layout)` gives the programs.
-template <typename Programs>
-Render render_by(Scene& scene, Options& options, const Programs& programs) {
-    const Device& device = test_device();
-    const Effects effects = find_effects(scene, options);
-    take_out_effects(effects.left_out, scene, options);
-    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout,
-                              choose_bvh_quality(options, scene.triangles.size()).quality);
-    const SceneBuffers buffers = upload_scene(device, scene, bvh);
-    Progress progress(Toggle::OFF, true);
-    return render(device, programs(effects, layout), buffers, scene, options, progress);
+    static auto* const programs = new std::map<Key, std::shared_ptr<const RenderPrograms>>;
+    const Options& options = planned.options;
+    std::shared_ptr<const RenderPrograms>& made = (*programs)[{
+        options.transport.integrator, options.device.precision, options.sampling.sampler,
+        planned.effects.mask, choose_layout(options.bvh.layout, test_device().info),
+        path_defines(planned.effects.paths), options.device.kernels_folder, wants_layers(options)}];
+    if (!made)
+        made = plan_programs(test_device(), planned);
+    return made;
 }
 
 } // namespace
@@ -119,18 +92,31 @@ Render TestScene::render() const {
     return render_loaded(load(), options);
 }
 
+std::shared_ptr<PlannedScene> plan_for_test(Scene scene, Options options) {
+    const char* folder = std::getenv("CLRT_TEST_KERNELS");
+    if (options.device.kernels_folder.empty() && folder)
+        options.device.kernels_folder = folder;
+    return plan_scene(std::move(scene), std::move(options));
+}
+
+PreparedScene prepare_for_test(Scene scene, Options options, const Device& device) {
+    return prepare_render(device, plan_for_test(std::move(scene), std::move(options)));
+}
+
+Render render_silently(const PreparedScene& prepared) {
+    Progress silent(Toggle::OFF, true);
+    return render(prepared, silent);
+}
+
 Render render_loaded(Scene scene, Options options) {
-    return render_by(scene, options, [&](const Effects& effects, BvhLayout layout) -> const RenderPrograms& {
-        return programs_for(options, effects, layout);
-    });
+    const auto planned = plan_for_test(std::move(scene), std::move(options));
+    return render_silently(prepare_render(test_device(), planned, {nullptr, programs_for(*planned)}));
 }
 
 Render render_afresh(Scene scene, Options options, bool* from_cache) {
-    return render_by(scene, options, [&](const Effects& effects, BvhLayout layout) {
-        RenderPrograms programs = build_programs(options, effects, layout);
-        *from_cache = programs.picture.from_cache;
-        return programs;
-    });
+    const PreparedScene prepared = prepare_for_test(std::move(scene), std::move(options), test_device());
+    *from_cache = prepared.programs->picture.from_cache;
+    return render_silently(prepared);
 }
 
 } // namespace clrt

@@ -2,14 +2,15 @@
 // Renders small scenes in process on the test device.
 #pragma once
 
-#include "effects/effects.h"
 #include "options/options.h"
+#include "render/prepared_scene.h"
 #include "render/render.h"
 #include "scene/scene.h"
 #include "support/scene_builder.h"
 #include "support/scratch_folder.h"
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,18 @@ public:
     double scale = 1; ///< of positions in the OBJ file
 };
 
-/// Renders a loaded scene as the options' effects want it. Programs are compiled once a process for each
-/// integrator, mask, layout, precision and sampler. The variable CLRT_TEST_KERNELS names a folder of kernels
-/// to take instead of those inside the test.
+/// The plan of a scene with the kernels of options.device.kernels_folder, else with those of the folder that
+/// the variable CLRT_TEST_KERNELS names, else with those inside the test.
+std::shared_ptr<PlannedScene> plan_for_test(Scene scene, Options options);
+
+/// A planned scene with programs of its own. The device must outlive it.
+PreparedScene prepare_for_test(Scene scene, Options options, const Device& device);
+
+/// Renders without a progress line.
+Render render_silently(const PreparedScene& prepared);
+
+/// Renders a loaded scene on the test device as the options' effects want it. Programs are compiled once a
+/// process for each integrator, mask, layout, precision, sampler and automaton.
 Render render_loaded(Scene scene, Options options);
 
 /// The same by a program that is built for this call, with the options' program cache; says whether it came
