@@ -4,6 +4,8 @@
 set(CLRT_KERNEL_FILES
   camera/camera.h
   film/film.h
+  film/splat.h
+  film/sum.h
   film/tile.h
   geometry/box.h
   geometry/leaf_triangle.h
@@ -19,6 +21,7 @@ set(CLRT_KERNEL_FILES
   geometry/visibility.h
   integrators/aov.cl
   integrators/direct.h
+  integrators/entry_point.h
   integrators/path.cl
   integrators/path.h
   integrators/pixel.h

@@ -22,6 +22,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace clrt {
 
@@ -58,10 +59,10 @@ int run_ledger(const Options& options) {
 int run_replay(const Options& options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
-    const PreparedScene prepared =
-        prepare_scene(device, plan_scene(load_for_run(options, progress), options));
+    Scene scene = load_for_run(options, progress);
     if (options.run.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
+    const PreparedScene prepared = prepare_scene(device, plan_scene(std::move(scene), options));
     const PixelReplay replay = replay_pixel(prepared);
     print_report(options, replay.text);
     write_statistics(options, replay.json);
@@ -75,7 +76,7 @@ int run(int argc, const char* const* argv) {
         return EXIT_DONE;
     }
     const Options& options = command.options;
-    set_driver_environment(options);
+    set_driver_environment(options.device);
     start_log(options.run.verbosity);
     if (options.run.list_devices) {
         const std::vector<PlatformInfo> platforms = list_platforms();

@@ -132,7 +132,7 @@ void merge(const MergeOptions& options, const Options& look) {
 
     check_replaced_films(options, sum);
     const Picture picture = film_picture(sum);
-    const double exposure_ev = chosen_exposure_ev(look, picture.layers[0].values);
+    const double exposure_ev = chosen_exposure_ev(look.output, picture.layers[0].values);
     if (look.output.auto_exposure)
         spdlog::info("{}", exposure_notice(exposure_ev));
     warn_of_lost_alpha(picture, options.outputs);

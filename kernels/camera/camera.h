@@ -45,7 +45,8 @@ static inline Ray camera_ray(const RenderParams* params, const Sampler* sampler,
     const real film_y = (real)(2 * (int)y + 1 - (int)params->height) * REAL(0.5) + offset.y;
     const real3 direction = fma((real3)(film_x), vector_from(params->film_dx),
                                 fma((real3)(film_y), vector_from(params->film_dy), vector_from(params->look)));
-    return ray_make(vector_from(params->eye), vector_normalize(direction));
+    const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_number(sampler, 0u, SAMPLE_TIME) : REAL(0.0);
+    return ray_make(vector_from(params->eye), vector_normalize(direction), time);
 }
 
 #endif

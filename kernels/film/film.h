@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film: 64-bit fixed-point sums of radiance, three a pixel and replicate, and the counters. Adding integers is exact and
-// order-free, so passes, launch sizes and merged runs give the same bits.
+// The film: 64-bit fixed-point sums of radiance, three a pixel and replicate, and the counters. Adding
+// integers is exact and order-free, so passes, launch sizes, splats (splat.h) and merged runs give the same
+// bits.
 #ifndef CLRT_FILM_FILM_H
 #define CLRT_FILM_FILM_H
 
+#include "film/sum.h"
 #include "numerics/sampler.h"
 #include "numerics/vector.h"
 #include "shared/render_types.h"
@@ -72,24 +74,38 @@ static inline long film_round(real quanta, uint word)
     return convert_long(whole) + (sampler_unit(word) < quanta - whole ? 1 : 0);
 }
 
-/* The three sums of a pixel (by its slot, tile.h) in a replicate. Replicates are folded where not all are kept apart. */
-static inline global long* film_sums(const RenderParams* params, global long* film, uint slot, uint replicate)
+/* The three sums of a slot (tile.h) in a plane of the film: planes are the replicates that are kept apart,
+   and behind them the layers of paths (path/layers.h). The only place in the kernels that knows how the film
+   lies in memory. */
+static inline global long* film_plane_sums(const RenderParams* params, global long* film, uint slot,
+                                           uint plane)
 {
     const ulong slots = (ulong)params->tile_count * TILE_PIXELS;
-    const uint kept = replicate < params->film_replicates ? replicate : replicate % params->film_replicates;
-    return film + 3u * (kept * slots + slot);
+    return film + 3u * (plane * slots + slot);
 }
 
-/* Adds the radiance of a good sample. Sums stay at their largest value instead of wrapping: for contributions that are not
-   negative this is as free of order as adding. False where a sum is full. */
-static inline bool film_add(const RenderParams* params, global long* sums, const Sampler* sampler, real3 radiance)
+/* Those of a slot in a replicate. Replicates are folded where not all are kept apart. */
+static inline global long* film_sums(const RenderParams* params, global long* film, uint slot, uint replicate)
+{
+    const uint kept = replicate < params->film_replicates ? replicate : replicate % params->film_replicates;
+    return film_plane_sums(params, film, slot, kept);
+}
+
+/* Adds a good radiance, rounded by a random word. False where a sum is full. */
+static inline bool film_add_rounded(const RenderParams* params, global long* sums, uint word, real3 radiance)
 {
     const real3 quanta = radiance * (real)params->inverse_quantum;
-    const uint word = sampler_word(sampler, 0u, SAMPLE_ROUNDING);
-    sums[0] = add_sat(sums[0], film_round(quanta.x, word));
-    sums[1] = add_sat(sums[1], film_round(quanta.y, word * 0x9e3779b9u));
-    sums[2] = add_sat(sums[2], film_round(quanta.z, word * 0x85ebca6bu));
-    return max(sums[0], max(sums[1], sums[2])) != LONG_MAX;
+    const bool red = sum_add(sums, film_round(quanta.x, word));
+    const bool green = sum_add(sums + 1, film_round(quanta.y, word * 0x9e3779b9u));
+    const bool blue = sum_add(sums + 2, film_round(quanta.z, word * 0x85ebca6bu));
+    return red && green && blue;
+}
+
+/* Adds the radiance that a sample has gathered, where it is good. False where a sum is full. */
+static inline bool film_add(const RenderParams* params, global long* sums, const Sampler* sampler,
+                            real3 radiance)
+{
+    return film_add_rounded(params, sums, sampler_word(sampler, 0u, SAMPLE_ROUNDING), radiance);
 }
 
 #endif

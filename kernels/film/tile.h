@@ -4,12 +4,28 @@
 #ifndef CLRT_FILM_TILE_H
 #define CLRT_FILM_TILE_H
 
+#include "numerics/real.h"
 #include "shared/render_types.h"
 
 typedef struct {
     uint x, y; /* within the window */
     uint slot; /* place among the film's sums: tile by tile, rows within a tile */
 } TilePixel;
+
+/* The slot of the pixel that a film position lies in, which is in pixels right of and below the picture's
+   centre (render_types.h). False outside the window, and for what is no number. */
+static inline bool tile_slot_at(const RenderParams* params, real2 position, uint* slot)
+{
+    const real x = floor(position.x + REAL(0.5) * (real)params->width) - (real)params->crop_x;
+    const real y = floor(position.y + REAL(0.5) * (real)params->height) - (real)params->crop_y;
+    if (!(x >= REAL(0.0) && x < (real)params->crop_width && y >= REAL(0.0) && y < (real)params->crop_height))
+        return false;
+    const uint column = (uint)x;
+    const uint row = (uint)y;
+    const uint tile = row / TILE_SIZE * params->tiles_x + column / TILE_SIZE;
+    *slot = tile * TILE_PIXELS + row % TILE_SIZE * TILE_SIZE + column % TILE_SIZE;
+    return true;
+}
 
 /* Samples that a launch takes of a pixel. */
 typedef struct {

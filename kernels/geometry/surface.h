@@ -22,6 +22,9 @@ typedef struct {
     bool is_curved;   /* the corner normals describe a surface that bulges over the plane to wo's side */
     bool is_near_edge; /* the point was drawn in from an edge */
     bool front;       /* wo is on the front side (winding, or vn where given) */
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    real time;        /* of the ray that has hit it */
+#endif
 } Surface;
 
 /* Corner positions. */
@@ -160,10 +163,11 @@ static inline bool surface_winding_is_reversed(const Scene* scene, global const 
     return vector_dot(sum, normal) < REAL(0.0);
 }
 
-/* Reconstructs the surface at a hit; wo points back along the ray. The position comes from the barycentric weights, not
-   from the distance, so its error depends on the triangle's size and place alone. */
-static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real3 wo)
+/* Reconstructs the surface where a ray has hit it; wo points back along the ray. The position comes from the barycentric
+   weights, not from the distance, so its error depends on the triangle's size and place alone. */
+static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, const Ray* ray)
 {
+    const real3 wo = -ray->direction;
     global const Triangle* triangle = scene->triangles + hit->triangle;
     real3 p[3];
     surface_corners(scene, triangle, &p[0], &p[1], &p[2]);
@@ -196,6 +200,9 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, real
     surface.triangle = hit->triangle;
     surface.emitter = triangle->emitter;
     surface.material = triangle->material;
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    surface.time = ray->time;
+#endif
     surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
     if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))
         surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
@@ -241,6 +248,22 @@ static inline real3 surface_origin(const Surface* surface, bool reflects)
 {
     const real3 step = surface->normal_g * surface->offset;
     return reflects ? surface_lifted(surface) + step : surface->position - step;
+}
+
+/* The time of the ray that has hit the surface (ray_time). */
+static inline real surface_time(const Surface* surface)
+{
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    return surface->time;
+#else
+    return REAL(0.0);
+#endif
+}
+
+/* The ray that goes on from the surface to either side, at the same time. */
+static inline Ray surface_ray(const Surface* surface, bool reflects, real3 direction)
+{
+    return ray_make(surface_origin(surface, reflects), direction, surface_time(surface));
 }
 
 #endif

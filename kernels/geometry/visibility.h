@@ -56,7 +56,7 @@ static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderPara
 {
     /* Half of the ray: a wall that it grazes is far before the point, and its start may lie on a wall, too. */
     const real reach = REAL(0.5) * hit->t;
-    Ray shifted = ray_make(point - ray->direction * reach, ray->direction);
+    Ray shifted = ray_make(point - ray->direction * reach, ray->direction, ray_time(ray));
     shifted.t_max = reach;
     const Hit after = hit_none(REAL(0.0));
     const Hit nearer = scene_closest_hit(scene, params, &shifted, &after);
@@ -76,11 +76,11 @@ static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderPara
 /* The surface at a hit of a ray. */
 static inline Surface visible_surface(const Scene* scene, const RenderParams* params, const Ray* ray, Hit* hit)
 {
-    Surface surface = surface_at(scene, hit, -ray->direction);
+    Surface surface = surface_at(scene, hit, ray);
     for (int i = 1; i < VISIBLE_CORNER_WALLS && surface.is_near_edge; ++i) {
         if (!visible_is_hidden(scene, params, surface.position + surface.normal_g * surface.offset, ray, hit))
             break;
-        surface = surface_at(scene, hit, -ray->direction);
+        surface = surface_at(scene, hit, ray);
     }
     return surface;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry point of the path tracer.
-#include "pixel.h"
 #include "path.h"
 
-RENDER_KERNEL(render_path, path_radiance)
+#define INTEGRATOR_KERNEL render_path
+#define INTEGRATOR_RADIANCE path_radiance
+#include "entry_point.h"

@@ -303,7 +303,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     path->pdf_w = next.pdf_w;
     path->eta_squared *= next.eta * next.eta;
     path->is_alive = path_survives(scene, params, &sample->sampler, segment, path);
-    path->ray = ray_make(surface_origin(&surface, next.reflects), next.wi);
+    path->ray = surface_ray(&surface, next.reflects, next.wi);
     path->from = surface_lifted(&surface);
     path->has_crossed_curved = surface.is_curved && !next.reflects;
     rays->secondary += path->is_alive ? 1u : 0u;

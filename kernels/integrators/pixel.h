@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over a pixel's samples that all integrators share. An integrator defines
+// What all integrators share of a pixel: its samples, aimed by the camera and added to the film. An
+// integrator is a function
 //   void NAME(const Scene*, const RenderParams*, CameraSample* samples, uint count, PixelRays*)
-// which fills in the radiance of each sample, and instantiates RENDER_KERNEL(render_x, NAME).
+// which fills in the radiance of each sample; entry_point.h makes a kernel of it.
 #ifndef CLRT_INTEGRATORS_PIXEL_H
 #define CLRT_INTEGRATORS_PIXEL_H
 
 #include "camera/camera.h"
 #include "film/film.h"
+#include "film/splat.h"
 #include "film/tile.h"
 #include "geometry/scene.h"
 #include "path/layers.h"
@@ -25,18 +27,51 @@ typedef struct {
     LayerSums layers;
     Ray ray;
     real3 radiance;
+#if FILM_SPLATS
+    global long* film; /* for pixel_splat; 0 in a replay, which only looks at splats */
+    uint replicate;
+    uint splat_fault; /* under which counter the last bad splat belongs, or COUNT_WORDS */
+#endif
 } CameraSample;
 
-/* Aims `count` samples of the pixel (x, y) from the counter on. */
-static CLRT_NOINLINE void pixel_aim(const RenderParams* params, uint x, uint y, SampleCounter counter, CameraSample* samples,
-                                    uint count)
+/* Aims `count` samples of the pixel (x, y) from the counter on; `film` takes their splats. */
+static CLRT_NOINLINE void pixel_aim(const RenderParams* params, global long* film, uint x, uint y,
+                                    SampleCounter counter, CameraSample* samples, uint count)
 {
     for (uint k = 0; k < count; ++k, sample_counter_next(params, &counter)) {
         samples[k].sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
         samples[k].ray = camera_ray(params, &samples[k].sampler, x, y);
         samples[k].radiance = (real3)(REAL(0.0));
         layers_begin(&samples[k].layers);
+#if FILM_SPLATS
+        samples[k].film = film;
+        samples[k].replicate = counter.replicate;
+        samples[k].splat_fault = COUNT_WORDS;
+#endif
     }
+}
+
+#if FILM_SPLATS
+/* Adds a sample's splat number `number` (film/splat.h) to the film. A bad one is left out, and its sample
+   is counted as bad. */
+static inline void pixel_splat(const RenderParams* params, CameraSample* sample, uint number, real2 position,
+                               real3 radiance)
+{
+    const uint fault =
+        film_splat(params, sample->film, sample->replicate, &sample->sampler, number, position, radiance);
+    if (fault != COUNT_WORDS)
+        sample->splat_fault = fault;
+}
+#endif
+
+/* The fault of a sample whose gathered radiance has this one: that of a splat where the radiance is good. */
+static inline uint pixel_fault(const CameraSample* sample, uint fault)
+{
+#if FILM_SPLATS
+    if (fault == COUNT_WORDS)
+        return sample->splat_fault;
+#endif
+    return fault;
 }
 
 /* Adds finished samples to the pixel's sums and moves the counter past them. */
@@ -53,50 +88,12 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u || !fits)
                 fault = COUNT_OVERFLOW;
         }
+        fault = pixel_fault(&samples[k], fault);
         if (fault != COUNT_WORDS) {
             film_report_fault(counters, fault, pixel, counter->sample);
             ++pixel_rays[tile_index(place.slot, PIXEL_RAYS_WORDS) + PIXEL_BAD_SAMPLES];
         }
     }
 }
-
-#ifdef CLRT_TRACE
-#include "trace/replay.h"
-#define RENDER_KERNEL(KERNEL, RADIANCE) TRACE_KERNEL(RADIANCE)
-#else
-
-/* Defines the loop over samples and the entry point. The entry point is thin and the loop is out of line, because some
-   compilers compile an entry point's body several times. */
-#define RENDER_KERNEL(KERNEL, RADIANCE)                                                                       \
-    static CLRT_NOINLINE void KERNEL##_pixel(const Scene* scene, const RenderParams* params, TilePixel place, \
-                                             global long* film, global uint* pixel_rays,                      \
-                                             global volatile uint* counters)                                  \
-    {                                                                                                         \
-        PixelRays rays = {0u, 0u, 0u, 0ul, 0u};                                                               \
-        const SampleRange range = tile_samples(params, pixel_rays, place.slot);                               \
-        SampleCounter counter = sample_counter_make(params, range.first);                                     \
-        CameraSample samples[SAMPLES_AT_ONCE];                                                                \
-        for (uint i = 0; i < range.count; i += SAMPLES_AT_ONCE) {                                             \
-            const uint count = min((uint)SAMPLES_AT_ONCE, range.count - i);                                   \
-            CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));                            \
-            pixel_aim(params, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);   \
-            RADIANCE(scene, params, samples, count, &rays);                                                   \
-            pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);                   \
-        }                                                                                                     \
-        film_add_counts(&rays, range.count, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));           \
-    }                                                                                                         \
-                                                                                                              \
-    CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void KERNEL(                        \
-        const RenderParams params, SCENE_PARAMS, global long* restrict film,                                  \
-        global uint* restrict pixel_rays, global volatile uint* counters)                                     \
-    {                                                                                                         \
-        TilePixel place;                                                                                      \
-        if (!tile_pixel(&params, &place))                                                                     \
-            return;                                                                                           \
-        const Scene scene = SCENE_MAKE;                                                                       \
-        KERNEL##_pixel(&scene, &params, place, film, pixel_rays, counters);                                   \
-    }
-
-#endif
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry point of the ray caster.
-#include "pixel.h"
 #include "raycast.h"
 
-RENDER_KERNEL(render_raycast, raycast_radiance)
+#define INTEGRATOR_KERNEL render_raycast
+#define INTEGRATOR_RADIANCE raycast_radiance
+#include "entry_point.h"

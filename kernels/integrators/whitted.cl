@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry point of the recursive ray tracer.
-#include "pixel.h"
 #include "whitted.h"
 
-RENDER_KERNEL(render_whitted, whitted_radiance)
+#define INTEGRATOR_KERNEL render_whitted
+#define INTEGRATOR_RADIANCE whitted_radiance
+#include "entry_point.h"

@@ -39,7 +39,7 @@ static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* 
                                        uint which)
 {
     WhittedRay child;
-    child.ray = ray_make(surface_origin(surface, which == 0u), wi);
+    child.ray = surface_ray(surface, which == 0u, wi);
     child.weight = weight;
     child.segment = parent->segment + 1u;
     child.node = whitted_node(parent->node, which);

@@ -77,10 +77,10 @@ static inline void light_choose_side(const Scene* scene, const Surface* surface,
    vector moves its end, and stops a few roundings short. */
 static inline Ray light_shadow_ray(const Surface* surface, const LightSample* sample)
 {
-    const real3 origin = surface_origin(surface, sample->reflects);
+    Ray ray = surface_ray(surface, sample->reflects, sample->wi);
     if (sample->is_distant)
-        return ray_make(origin, sample->wi);
-    Ray ray = ray_make(origin, sample->target - origin);
+        return ray;
+    ray.direction = sample->target - ray.origin;
     ray.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
     return ray;
 }

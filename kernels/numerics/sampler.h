@@ -14,7 +14,8 @@
 #define CLRT_SAMPLER SAMPLER_SOBOL
 #endif
 
-/* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number. */
+/* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number, and what is new
+   takes a number that no other has had. */
 #define SAMPLE_FILM 0u
 #define SAMPLE_DIRECTION 1u   /* direction within a lobe */
 #define SAMPLE_LOBE 2u        /* which lobe */
@@ -25,6 +26,8 @@
 #define SAMPLE_ROUNDING 7u    /* of the film's fixed point */
 #define SAMPLE_COVERAGE 8u    /* cut-outs; hashed on with their number along the ray */
 #define SAMPLE_CLASS 9u       /* matte or glossy, where a path filter must know and both are possible */
+#define SAMPLE_LENS 10u       /* point of the lens; camera rays are bounce 0 */
+#define SAMPLE_TIME 11u       /* within the shutter's opening */
 #define SAMPLER_PURPOSES 16u
 
 typedef struct {

@@ -53,11 +53,10 @@ static inline void layers_add(uint state, uint kind, real3 radiance, LayerSums* 
 #endif
 }
 
-/* The three sums of a pixel in a layer. */
+/* The three sums of a slot in a layer. */
 static inline global long* layers_film_sums(const RenderParams* params, global long* film, uint slot, uint layer)
 {
-    const ulong slots = (ulong)params->tile_count * TILE_PIXELS;
-    return film + 3u * ((params->film_replicates + layer) * slots + slot);
+    return film_plane_sums(params, film, slot, params->film_replicates + layer);
 }
 
 /* Adds a sample to the film; the number of layers whose value is bad and left out. */

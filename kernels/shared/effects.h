@@ -22,6 +22,10 @@
 #define EFFECT_PATH_FILTER 0x4000u     /* --paths, layers of paths (path/automaton.h) */
 #define EFFECT_ALL 0x7fffu
 
+/* Rays and surfaces carry the time within the shutter's opening. No scene moves yet, so no program is built with it but
+   those of the tests. */
+#define EFFECT_MOTION_BLUR 0x8000u
+
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS
 #define CLRT_EFFECTS EFFECT_ALL

@@ -10,7 +10,7 @@
 
 namespace clrt {
 
-struct Options;
+struct DeviceOptions;
 class DriverCacheFolder;
 
 /// What clrt asks a device about itself; nothing is guessed from names.
@@ -22,7 +22,7 @@ struct DeviceInfo {
     unsigned compute_units = 0;
     size_t memory_bytes = 0, largest_buffer_bytes = 0;
     bool fp64 = false;
-    bool int64_atomics = false;              ///< cl_khr_int64_base_atomics
+    bool int64_atomics = false;              ///< cl_khr_int64_base_atomics: of splats
     bool correctly_rounded_division = false; ///< CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
     std::vector<std::string> extensions;
     std::shared_ptr<const DriverCacheFolder> cache_folder; ///< that had to be made for its driver, or null
@@ -38,7 +38,7 @@ struct PlatformInfo {
 
 /// Sets the environment variables by which drivers take --threads and --cache off. Drivers read them once, so
 /// call it before anything else of OpenCL.
-void set_driver_environment(const Options& options);
+void set_driver_environment(const DeviceOptions& options);
 
 /// True if the device's driver keeps compiled programs on disk by itself, so that a cache of ours only costs.
 bool driver_caches_programs(const DeviceInfo& device);

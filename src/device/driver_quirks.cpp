@@ -2,7 +2,7 @@
 // All that clrt knows about particular drivers on the host's side, each with its reason.
 #include "device/device.h"
 
-#include "options/options.h"
+#include "options/device_options.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -52,12 +52,12 @@ bool may_lack_cache_folder(const PlatformInfo& platform) {
     return platform.devices.empty() && platform.icd_suffix == "POCL";
 }
 
-void set_driver_environment(const Options& options) {
+void set_driver_environment(const DeviceOptions& options) {
     constexpr int REPLACE = 1;
-    if (options.device.threads > 0)
+    if (options.threads > 0)
         for (const char* variable : THREAD_VARIABLES)
-            setenv(variable, std::to_string(options.device.threads).c_str(), REPLACE);
-    if (options.device.cache == Toggle::OFF)
+            setenv(variable, std::to_string(options.threads).c_str(), REPLACE);
+    if (options.cache == Toggle::OFF)
         for (const CacheVariable& variable : CACHE_VARIABLES)
             setenv(variable.name, variable.off, REPLACE);
 }

@@ -4,6 +4,7 @@
 #include "device/opencl_error.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <tbb/parallel_for.h>
 
@@ -20,6 +21,12 @@ size_t film_slots(const RenderParams& params) {
 /// its start.
 constexpr size_t PIECE_BYTES = size_t(4) << 20;
 
+/// What the bits of a sum on the device say: one that splats have filled has its sign set
+/// (kernels/film/sum.h).
+std::int64_t number_of_sum(std::int64_t bits) {
+    return bits < 0 ? INT64_MAX : bits;
+}
+
 template <class T>
 std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t first, size_t count) {
     std::vector<T> values(count);
@@ -30,6 +37,12 @@ std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_
 }
 
 } // namespace
+
+std::vector<std::string> film_defines(const DeviceInfo& device, bool splats) {
+    if (!splats)
+        return {};
+    return {"FILM_SPLATS=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.int64_atomics))};
+}
 
 int fitting_replicates(const Device& device, const RenderParams& params, size_t layers) {
     const size_t plane = film_slots(params) * 3 * sizeof(std::int64_t);
@@ -54,9 +67,13 @@ FilmBuffers::FilmBuffers(const Device& device, const RenderParams& params, size_
       counters_(create_buffer(device, "counters", (COUNT_WORDS + 2 * REPLAY_CAPACITY) * sizeof(u32))) {}
 
 void FilmBuffers::bind(Kernel& kernel) const {
-    kernel.set("film", film_);
+    bind_sums(kernel);
     kernel.set("pixel_rays", pixel_rays_);
     kernel.set("counters", counters_);
+}
+
+void FilmBuffers::bind_sums(Kernel& kernel) const {
+    kernel.set("film", film_);
 }
 
 void FilmBuffers::bind_ranges(Kernel& kernel) const {
@@ -113,7 +130,7 @@ void FilmBuffers::read_plane(size_t plane, std::int64_t* sums) const {
         const auto piece =
             read_buffer<std::int64_t>(device_, film_, 3 * first_slot(plane, band), 3 * slot_count(band));
         for_each_pixel(band, [&](size_t on_device, size_t in_film) {
-            std::copy_n(&piece[on_device], 3, sums + in_film);
+            std::transform(&piece[on_device], &piece[on_device] + 3, sums + in_film, number_of_sum);
         });
     }
 }

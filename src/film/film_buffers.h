@@ -9,6 +9,10 @@
 
 namespace clrt {
 
+/// What the programs of an integrator are built with that adds to any pixel; of one that only gathers
+/// (`splats` false), nothing (kernels/film/sum.h).
+std::vector<std::string> film_defines(const DeviceInfo& device, bool splats);
+
 /// Halves the number of replicates kept apart until their sums and those of `layers` layers of paths fit the
 /// device.
 int fitting_replicates(const Device& device, const RenderParams& params, size_t layers);
@@ -21,13 +25,15 @@ public:
     FilmBuffers(const Device& device, const RenderParams& params, size_t layers);
     /// Binds the outputs of a render kernel.
     void bind(Kernel& kernel) const;
+    /// Binds the sums only.
+    void bind_sums(Kernel& kernel) const;
     /// Binds the samples of adaptive tiles only.
     void bind_ranges(Kernel& kernel) const;
     /// The samples of each adaptive tile that the next launches take: those in `to` but not in `from`.
     void write_tile_ranges(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to);
     /// Starts from the sums of an earlier run.
     void write_sums(const RenderProgress& render);
-    /// Reads the sums, from the device's tiles into the rows of film and layers.
+    /// Reads the sums, from the device's tiles into the rows of film and layers. Full ones are INT64_MAX.
     void read_sums(RenderProgress& render) const;
     /// Marks the pixels in which a camera ray has hit the scene since the start, where the film knows that of
     /// its earlier samples.

@@ -60,9 +60,8 @@ double auto_exposure_ev(const std::vector<float>& rgb) {
     return rounded(std::log2(key) - mean);
 }
 
-double chosen_exposure_ev(const Options& options, const std::vector<float>& rgb) {
-    return options.output.auto_exposure ? rounded(auto_exposure_ev(rgb) + options.output.exposure_ev)
-                                        : options.output.exposure_ev;
+double chosen_exposure_ev(const OutputOptions& options, const std::vector<float>& rgb) {
+    return options.auto_exposure ? rounded(auto_exposure_ev(rgb) + options.exposure_ev) : options.exposure_ev;
 }
 
 std::string exposure_notice(double exposure_ev) {

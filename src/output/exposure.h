@@ -2,7 +2,7 @@
 // How bright a picture is to be shown.
 #pragma once
 
-#include "options/options.h"
+#include "options/output_options.h"
 
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ namespace clrt {
 double auto_exposure_ev(const std::vector<float>& rgb);
 
 /// The stops that the options ask for, for this picture; with auto exposure, a whole number of hundredths.
-double chosen_exposure_ev(const Options& options, const std::vector<float>& rgb);
+double chosen_exposure_ev(const OutputOptions& options, const std::vector<float>& rgb);
 
 /// What is said about stops that were chosen: the flag that gives the same picture.
 std::string exposure_notice(double exposure_ev);

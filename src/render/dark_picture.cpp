@@ -164,7 +164,7 @@ std::optional<std::string> explain_empty_picture(const Scene& scene, const Optio
         return std::nullopt;
     const std::vector<float> mean = film_mean(render.film);
     const Lightness lightness =
-        measure_lightness(mean, DARKEST_GREY * std::exp2(-chosen_exposure_ev(options, mean)));
+        measure_lightness(mean, DARKEST_GREY * std::exp2(-chosen_exposure_ev(options.output, mean)));
     const bool is_dark = lightness.lit_share < LIT_SHARE;
     const bool met_nothing = render.counts.secondary + render.counts.shadow == 0;
     if (!is_dark && !met_nothing)

@@ -2,6 +2,7 @@
 #include "render/kernels.h"
 
 #include "device/kernel_source.h"
+#include "film/film_buffers.h"
 #include "output/image.h"
 
 #include <algorithm>
@@ -29,6 +30,10 @@ int samples_at_once(const DeviceInfo& device) {
 KernelFiles kernel_files(const Options& options) {
     return options.device.kernels_folder.empty() ? embedded_kernel_files()
                                                  : read_kernel_files(options.device.kernels_folder);
+}
+
+void append(std::vector<std::string>& defines, const std::vector<std::string>& more) {
+    defines.insert(defines.end(), more.begin(), more.end());
 }
 
 /// What every program of integrators/NAME.cl is built with.
@@ -59,6 +64,16 @@ const char* integrator_name(Integrator integrator) {
         break;
     }
     return "path";
+}
+
+bool integrator_splats(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::PATH:
+    case Integrator::WHITTED:
+    case Integrator::RAYCAST:
+        break;
+    }
+    return false;
 }
 
 const char* sampler_name(SamplerChoice sampler) {
@@ -99,11 +114,13 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
         ProgramRequest request =
             make_request(files, name, options, effects, layout, samples_at_once(device.info));
-        request.defines.insert(request.defines.end(), defines.begin(), defines.end());
+        append(request.defines, defines);
         return build_program(device, request);
     };
     RenderPrograms programs;
-    programs.picture = build(integrator_name(options.transport.integrator), path_defines(paths));
+    std::vector<std::string> of_picture = path_defines(paths);
+    append(of_picture, film_defines(device.info, integrator_splats(options.transport.integrator)));
+    programs.picture = build(integrator_name(options.transport.integrator), of_picture);
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -117,8 +134,8 @@ Program build_replay_program(const Device& device, const Options& options, Preci
     request.name += REPLAY_ENDING;
     request.precision = precision;
     request.defines.emplace_back("CLRT_TRACE=1");
-    const std::vector<std::string> automaton = path_defines(paths);
-    request.defines.insert(request.defines.end(), automaton.begin(), automaton.end());
+    append(request.defines, path_defines(paths));
+    append(request.defines, film_defines(device.info, integrator_splats(options.transport.integrator)));
     return build_program(device, request);
 }
 

@@ -21,6 +21,10 @@ struct RenderPrograms {
 /// Name of an integrator as on the command line; its kernel is "render_" + name in integrators/NAME.cl.
 const char* integrator_name(Integrator integrator);
 
+/// Whether an integrator's work-items add to the pixels of others: splats are added by atomics, which those
+/// that only gather do without.
+bool integrator_splats(Integrator integrator);
+
 /// The name of a sampler, as in --sampler.
 const char* sampler_name(SamplerChoice sampler);
 

@@ -37,7 +37,7 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
       launcher_(prepared.device, prepared.programs->picture,
                 std::string("render_") + integrator_name(options_.transport.integrator), params,
                 prepared.buffers),
-      rules_(options_, film_limit(result.film, options_)),
+      rules_(options_.sampling, film_limit(result.film, options_)),
       picture_reminder_(options_.output.save_every_seconds),
       film_reminder_(options_.film_file.checkpoint_path.empty()
                          ? std::nullopt

@@ -119,7 +119,7 @@ void add_hit_layers(const Render& render, const Scene& scene, const Options& opt
 } // namespace
 
 Picture make_plain_picture(const Render& render, const Options& options) {
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Picture picture;
     picture.width = render.film.width;
     picture.height = render.film.height;
@@ -146,7 +146,7 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     if (wants(options, "samples"))
         picture.layers.push_back({"", {"samples"}, film_pixel_samples(render.film), false});
     if (options.output.aovs ? wants(options, "badSamples") : !render.counts.bad_pixels.empty())
-        picture.layers.push_back(bad_samples_layer(render, render_window(options), options.film.size.x));
+        picture.layers.push_back(bad_samples_layer(render, render_window(options.film), options.film.size.x));
     return picture;
 }
 

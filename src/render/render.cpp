@@ -64,7 +64,7 @@ Render render(const PreparedScene& prepared, Progress& progress, const RenderHoo
 
 Render render_nothing(const PlannedScene& planned) {
     const Options& options = planned.options;
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     Render result;
     Film& film = result.film;
     film.scale = film_scale(planned.scene);

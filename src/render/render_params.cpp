@@ -63,7 +63,7 @@ u32 tile_stride(u32 tiles) {
 }
 
 void set_window(const Options& options, RenderParams& params) {
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     params.width = u32(options.film.size.x);
     params.height = u32(options.film.size.y);
     params.crop_x = u32(window.x0);
@@ -94,8 +94,8 @@ void set_filter(const Options& options, RenderParams& params) {
 
 } // namespace
 
-Crop render_window(const Options& options) {
-    return options.film.crop.value_or(Crop{0, 0, options.film.size.x, options.film.size.y});
+Crop render_window(const FilmOptions& film) {
+    return film.crop.value_or(Crop{0, 0, film.size.x, film.size.y});
 }
 
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {

@@ -11,7 +11,7 @@
 namespace clrt {
 
 /// The window of pixels that the options ask for: the crop, or the whole picture.
-Crop render_window(const Options& options);
+Crop render_window(const FilmOptions& film);
 
 /// Everything but the samples and tiles of a single launch, which are 0.
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale);

@@ -23,12 +23,12 @@ constexpr double STEEPEST_SLOPE = -1;
 constexpr double WORTH_SAYING = 0.05;
 
 /// Samples after which the options end the render, whatever the film holds.
-std::uint64_t samples_of_options(const Options& options) {
-    if (options.sampling.spp)
-        return *options.sampling.spp;
-    if (options.sampling.error)
+std::uint64_t samples_of_options(const SamplingOptions& options) {
+    if (options.spp)
+        return *options.spp;
+    if (options.error)
         return DEFAULT_SPP_WITH_ERROR;
-    return options.sampling.time_seconds ? UINT64_MAX : DEFAULT_SPP;
+    return options.time_seconds ? UINT64_MAX : DEFAULT_SPP;
 }
 
 } // namespace
@@ -49,20 +49,19 @@ const char* stop_rule_name(StopRule rule) {
     return "signal";
 }
 
-StopRules::StopRules(const Options& options, std::uint64_t film_limit)
+StopRules::StopRules(const SamplingOptions& options, std::uint64_t film_limit)
     : options_(options), film_limit_(film_limit),
       last_samples_(std::min(samples_of_options(options), film_limit)) {}
 
 std::optional<StopRule> StopRules::ended(const RenderState& state) const {
     if (state.samples == 0)
         return std::nullopt;
-    if (state.samples >= FEWEST_OF_A_REPLICATE * std::uint64_t(options_.sampling.replicates) &&
-        reached(state.error))
+    if (state.samples >= FEWEST_OF_A_REPLICATE * std::uint64_t(options_.replicates) && reached(state.error))
         return StopRule::ERROR;
     if (state.samples >= last_samples_)
         return last_samples_ == samples_of_options(options_) ? StopRule::SPP : StopRule::FILM_FULL;
-    if (options_.sampling.time_seconds &&
-        *options_.sampling.time_seconds - state.seconds < WORTH_BEGINNING * state.pass_seconds)
+    if (options_.time_seconds &&
+        *options_.time_seconds - state.seconds < WORTH_BEGINNING * state.pass_seconds)
         return StopRule::TIME;
     if (state.signal)
         return StopRule::SIGNAL;
@@ -70,44 +69,43 @@ std::optional<StopRule> StopRules::ended(const RenderState& state) const {
 }
 
 std::uint64_t StopRules::next_check(std::uint64_t samples) const {
-    return options_.sampling.error ? next_good_count(samples, options_.sampling.replicates)
-                                   : next_doubling(samples, options_.sampling.replicates);
+    return options_.error ? next_good_count(samples, options_.replicates)
+                          : next_doubling(samples, options_.replicates);
 }
 
 bool StopRules::is_check(std::uint64_t samples, const std::optional<SquaredError>& last) const {
-    if (is_doubling(samples, options_.sampling.replicates))
+    if (is_doubling(samples, options_.replicates))
         return true;
-    if (!options_.sampling.error || !is_good_count(samples, options_.sampling.replicates))
+    if (!options_.error || !is_good_count(samples, options_.replicates))
         return false;
     const std::optional<FilmError> error = last ? relative_error(*last) : std::nullopt;
     return !error ||
            error->relative_rmse * std::pow(double(samples) / double(last->samples), STEEPEST_SLOPE) <=
-               *options_.sampling.error;
+               *options_.error;
 }
 
 bool StopRules::reached(const std::optional<FilmError>& error) const {
-    return options_.sampling.error && error && error->relative_rmse <= *options_.sampling.error;
+    return options_.error && error && error->relative_rmse <= *options_.error;
 }
 
 double StopRules::fraction(double samples, double seconds, const std::optional<SquaredError>& check) const {
     double fraction = samples / double(last_samples_);
-    if (options_.sampling.time_seconds)
-        fraction = std::max(fraction, seconds / *options_.sampling.time_seconds);
+    if (options_.time_seconds)
+        fraction = std::max(fraction, seconds / *options_.time_seconds);
     // Independent samples would reach the target after this many, at the next good count.
     const std::optional<FilmError> error = check ? relative_error(*check) : std::nullopt;
-    if (options_.sampling.error && *options_.sampling.error > 0 && error) {
-        const double needed =
-            double(check->samples) * std::pow(error->relative_rmse / *options_.sampling.error, 2);
+    if (options_.error && *options_.error > 0 && error) {
+        const double needed = double(check->samples) * std::pow(error->relative_rmse / *options_.error, 2);
         const double most =
             std::min(std::max(std::ceil(needed), double(check->samples) + 1), double(last_samples_));
-        fraction = std::max(fraction, samples / double(next_good_count(std::uint64_t(most) - 1,
-                                                                       options_.sampling.replicates)));
+        fraction = std::max(fraction,
+                            samples / double(next_good_count(std::uint64_t(most) - 1, options_.replicates)));
     }
     return std::min(fraction, 1.0);
 }
 
 std::string StopRules::describe_time(const StopMoment& moment) const {
-    const double time = *options_.sampling.time_seconds, late = moment.seconds - time;
+    const double time = *options_.time_seconds, late = moment.seconds - time;
     if (moment.dropped_seconds == 0 && moment.pass_seconds > 0 && -late > WORTH_SAYING * time)
         return fmt::format("another pass takes {:.1f} s, more than --time {:g} s leaves", moment.pass_seconds,
                            time);
@@ -127,15 +125,14 @@ std::string StopRules::describe(StopRule rule, const StopMoment& moment) const {
     case StopRule::SPP:
         if (moment.samples > last_samples_) // only a resumed film has more
             return fmt::format("the film has {} spp already, more than {} {}: nothing was left to render",
-                               moment.samples, options_.sampling.spp ? "--spp" : "the default of",
-                               last_samples_);
-        if (options_.sampling.spp)
-            return fmt::format("--spp {} is complete", *options_.sampling.spp);
+                               moment.samples, options_.spp ? "--spp" : "the default of", last_samples_);
+        if (options_.spp)
+            return fmt::format("--spp {} is complete", *options_.spp);
         return fmt::format("the default of {} spp is complete", last_samples_);
     case StopRule::TIME:
         return describe_time(moment);
     case StopRule::ERROR:
-        return fmt::format("--error {:g} % is reached", 100 * *options_.sampling.error);
+        return fmt::format("--error {:g} % is reached", 100 * *options_.error);
     case StopRule::FILM_FULL:
         return fmt::format("the film is full with {} samples a pixel; more --replicates hold more",
                            film_limit_);

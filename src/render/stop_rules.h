@@ -3,7 +3,7 @@
 #pragma once
 
 #include "film/film_error.h"
-#include "options/options.h"
+#include "options/sampling_options.h"
 
 #include <cstdint>
 #include <optional>
@@ -39,7 +39,7 @@ struct StopMoment {
 class StopRules {
 public:
     /// `film_limit`: samples a pixel that the film can hold.
-    StopRules(const Options& options, std::uint64_t film_limit);
+    StopRules(const SamplingOptions& options, std::uint64_t film_limit);
 
     /// The rule that ends the render now; none: go on. At least one pass is always completed.
     std::optional<StopRule> ended(const RenderState& state) const;
@@ -64,7 +64,7 @@ public:
 private:
     std::string describe_time(const StopMoment& moment) const;
 
-    const Options& options_;
+    const SamplingOptions& options_;
     std::uint64_t film_limit_, last_samples_;
 };
 

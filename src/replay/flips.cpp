@@ -14,7 +14,7 @@ namespace {
 constexpr u32 LAST_BOUNCE_COLUMN = 6;
 
 std::vector<SampleAddress> all_samples(const Options& options) {
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     std::vector<SampleAddress> addresses;
     for (int y = window.y0; y < window.y1; ++y)
         for (int x = window.x0; x < window.x1; ++x)

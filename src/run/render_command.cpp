@@ -60,7 +60,7 @@ struct Job {
 /// The report of a render, to which writing the pictures adds the exposure.
 Report make_report(const Job& job, const Simulation& done, const SceneTree& tree) {
     const auto& [scene, options, effects] = *job.planned;
-    const Crop window = render_window(options);
+    const Crop window = render_window(options.film);
     const BiasSources bias = bias_sources(scene, effects.paths, done.render);
     return {options,
             scene,

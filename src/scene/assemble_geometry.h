@@ -4,7 +4,7 @@
 
 #include "scene/normalise.h"
 #include "scene/notices.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/obj_reader.h"
 #include "scene/scene.h"
 
 namespace clrt {

@@ -5,7 +5,7 @@
 #include "options/options.h"
 #include "scene/normalise.h"
 #include "scene/notices.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/obj_reader.h"
 #include "scene/scene.h"
 
 #include <string>

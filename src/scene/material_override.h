@@ -3,8 +3,8 @@
 #pragma once
 
 #include "options/options.h"
-#include "scene/mtl_reader.h"
 #include "scene/notices.h"
+#include "scene/readers/mtl_reader.h"
 
 namespace clrt {
 

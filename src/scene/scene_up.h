@@ -4,7 +4,7 @@
 #pragma once
 
 #include "scene/normalise.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/obj_reader.h"
 
 #include <array>
 #include <string>

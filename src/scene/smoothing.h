@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/notices.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/obj_reader.h"
 
 #include <string>
 

@@ -2,9 +2,9 @@
 // Image files -> texel words and Texture records; every file is read once for each way of storing it.
 #pragma once
 
-#include "scene/mtl_reader.h"
 #include "scene/notices.h"
 #include "scene/read_image.h"
+#include "scene/readers/mtl_reader.h"
 
 #include <glm/vec3.hpp>
 #include <map>

@@ -4,9 +4,9 @@
 // where it is not given.
 #pragma once
 
-#include "scene/mtl_reader.h"
 #include "scene/notices.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/mtl_reader.h"
+#include "scene/readers/obj_reader.h"
 #include "scene/scene.h"
 
 #include <string>

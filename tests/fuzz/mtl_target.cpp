@@ -2,7 +2,7 @@
 // The MTL reader and the repairs: any bytes give materials inside their ranges or a SceneError.
 #include "error.h"
 #include "fuzz_target.h"
-#include "scene/mtl_repair.h"
+#include "scene/readers/mtl_repair.h"
 
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 // into chunks.
 #include "error.h"
 #include "fuzz_target.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/obj_reader.h"
 
 #include <cstring>
 

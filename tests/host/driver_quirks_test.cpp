@@ -50,10 +50,10 @@ protected:
 } // namespace
 
 TEST_F(DriverQuirks, ThreadsAreSetForEveryCpuDriver) {
-    Options options;
+    DeviceOptions options;
     set_driver_environment(options);
     expect_threads("unset");
-    options.device.threads = 3;
+    options.threads = 3;
     set_driver_environment(options);
     expect_threads("3");
     expect_caches(false);
@@ -62,22 +62,22 @@ TEST_F(DriverQuirks, ThreadsAreSetForEveryCpuDriver) {
 TEST_F(DriverQuirks, ThreadsAskedForReplaceThoseOfTheEnvironment) {
     for (const char* name : THREADS)
         setenv(name, "7", 1);
-    Options options;
+    DeviceOptions options;
     set_driver_environment(options);
     expect_threads("7");
-    options.device.threads = 2;
+    options.threads = 2;
     set_driver_environment(options);
     expect_threads("2");
 }
 
 TEST_F(DriverQuirks, CacheOffTurnsEveryDriversCacheOff) {
-    Options options;
+    DeviceOptions options;
     for (const Toggle kept : {Toggle::AUTO, Toggle::ON}) {
-        options.device.cache = kept;
+        options.cache = kept;
         set_driver_environment(options);
         expect_caches(false);
     }
-    options.device.cache = Toggle::OFF;
+    options.cache = Toggle::OFF;
     set_driver_environment(options);
     expect_caches(true);
     expect_threads("unset");
@@ -93,8 +93,8 @@ TEST_F(DriverQuirks, OnlyPoclAndNvidiaCacheByThemselves) {
 }
 
 TEST_F(DriverQuirks, ThePlatformListIsMadeWithTheThreadsAskedFor) {
-    Options options;
-    options.device.threads = 1;
+    DeviceOptions options;
+    options.threads = 1;
     set_driver_environment(options);
     for (const PlatformInfo& platform : list_platforms())
         for (const DeviceInfo& device : platform.devices)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of other formats are named, and no OBJ is taken for one.
-#include "scene/foreign_format.h"
+#include "scene/readers/foreign_format.h"
 
 #include <gtest/gtest.h>
 

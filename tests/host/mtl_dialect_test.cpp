@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who wrote a material library, by its header.
-#include "scene/mtl_dialect.h"
+#include "scene/readers/mtl_dialect.h"
 
-#include "scene/mtl_reader.h"
+#include "scene/readers/mtl_reader.h"
 #include "support/blender_mtl.h"
 
 #include <gtest/gtest.h>

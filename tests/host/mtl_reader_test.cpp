@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Material libraries: keys, texture options, and which files a mtllib statement means.
-#include "scene/mtl_reader.h"
+#include "scene/readers/mtl_reader.h"
 
 #include "error.h"
-#include "scene/mtl_libraries.h"
+#include "scene/readers/mtl_libraries.h"
 #include "scene_support.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every repair of the table: what writers mean, before and after.
-#include "scene/mtl_repair.h"
+#include "scene/readers/mtl_repair.h"
 
 #include "scene/material_rules.h"
 #include "scene_support.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every statement, every kind of odd text and every error of the OBJ reader.
-#include "scene/obj_reader.h"
+#include "scene/readers/obj_reader.h"
 
 #include "error.h"
 

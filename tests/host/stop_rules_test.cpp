@@ -27,9 +27,9 @@ RenderState state(std::uint64_t samples, double seconds = 0, double pass_seconds
 } // namespace
 
 TEST(StopRules, SamplesEndTheRender) {
-    Options options;
+    SamplingOptions options;
     EXPECT_EQ(StopRules(options, FILM_LIMIT).last_samples(), 64u) << "without any rule";
-    options.sampling.spp = 100;
+    options.spp = 100;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_FALSE(rules.ended(state(99)));
     EXPECT_EQ(rules.ended(state(100)), StopRule::SPP);
@@ -37,19 +37,19 @@ TEST(StopRules, SamplesEndTheRender) {
 }
 
 TEST(StopRules, EveryRuleAloneHasAFiniteEnd) {
-    Options options;
-    options.sampling.error = 0.01;
+    SamplingOptions options;
+    options.error = 0.01;
     EXPECT_EQ(StopRules(options, FILM_LIMIT).last_samples(), 65536u);
-    options = Options();
-    options.sampling.time_seconds = 1e9;
+    options = SamplingOptions();
+    options.time_seconds = 1e9;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_EQ(rules.last_samples(), FILM_LIMIT);
     EXPECT_EQ(rules.ended(state(FILM_LIMIT)), StopRule::FILM_FULL);
 }
 
 TEST(StopRules, TimeEndsTheRenderBeforeAPassThatItLeavesNoRoomFor) {
-    Options options;
-    options.sampling.time_seconds = 2;
+    SamplingOptions options;
+    options.time_seconds = 2;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_FALSE(rules.ended(state(10, 1.7, 0.3)));
     EXPECT_FALSE(rules.ended(state(10, 1.75, 0.3))) << "passes differ";
@@ -59,8 +59,8 @@ TEST(StopRules, TimeEndsTheRenderBeforeAPassThatItLeavesNoRoomFor) {
 }
 
 TEST(StopRules, HowTimeEndedTheRenderIsSaid) {
-    Options options;
-    options.sampling.time_seconds = 10;
+    SamplingOptions options;
+    options.time_seconds = 10;
     const StopRules rules(options, FILM_LIMIT);
     const auto said = [&](const StopMoment& moment) { return rules.describe(StopRule::TIME, moment); };
     EXPECT_EQ(said({1, 10.1, 0.2, false, 0}), "--time 10 s is over");
@@ -72,22 +72,22 @@ TEST(StopRules, HowTimeEndedTheRenderIsSaid) {
 }
 
 TEST(StopRules, TheErrorEndsTheRenderWhereItIsMeasured) {
-    Options options;
-    options.sampling.error = 0.02;
+    SamplingOptions options;
+    options.error = 0.02;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_FALSE(rules.ended(state(64))) << "not measured";
     EXPECT_FALSE(rules.ended(state(64, 0, 0.1, 0.021)));
     EXPECT_EQ(rules.ended(state(64, 0, 0.1, 0.02)), StopRule::ERROR);
     EXPECT_FALSE(rules.ended(state(8, 0, 0.1, 0.001))) << "one sample in every replicate";
-    options.sampling.error.reset();
+    options.error.reset();
     EXPECT_FALSE(StopRules(options, FILM_LIMIT).ended(state(32, 0, 0.1, 0))) << "no target";
 }
 
 TEST(StopRules, TheFirstRuleThatHoldsIsNamed) {
-    Options options;
-    options.sampling.spp = 64;
-    options.sampling.time_seconds = 2;
-    options.sampling.error = 0.02;
+    SamplingOptions options;
+    options.spp = 64;
+    options.time_seconds = 2;
+    options.error = 0.02;
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_EQ(rules.ended(state(64, 3, 0.1, 0.01)), StopRule::ERROR);
     EXPECT_EQ(rules.ended(state(64, 3, 0.1, 0.03)), StopRule::SPP);
@@ -105,8 +105,8 @@ TEST(StopRules, TheFirstRuleThatHoldsIsNamed) {
 }
 
 TEST(StopRules, TheErrorIsMeasuredWhereSamplesAreEven) {
-    Options options;
-    options.sampling.replicates = 8;
+    SamplingOptions options;
+    options.replicates = 8;
     const auto checks = [&] {
         const StopRules rules(options, FILM_LIMIT);
         std::vector<std::uint64_t> list;
@@ -118,7 +118,7 @@ TEST(StopRules, TheErrorIsMeasuredWhereSamplesAreEven) {
         return list;
     };
     EXPECT_EQ(checks(), (std::vector<std::uint64_t>{8, 16, 32, 64, 128})) << "for the slope";
-    options.sampling.error = 0.02;
+    options.error = 0.02;
     EXPECT_EQ(checks(), (std::vector<std::uint64_t>{8, 16, 24, 32, 48, 64, 96, 128, 192}));
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_EQ(rules.next_check(17), 24u);
@@ -129,13 +129,13 @@ TEST(StopRules, TheErrorIsMeasuredWhereSamplesAreEven) {
 }
 
 TEST(StopRules, ProgressFollowsTheNearestLimit) {
-    Options options;
-    options.sampling.spp = 100;
-    options.sampling.time_seconds = 10;
+    SamplingOptions options;
+    options.spp = 100;
+    options.time_seconds = 10;
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(50, 2, std::nullopt), 0.5);
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(50, 8, std::nullopt), 0.8);
-    options = Options();
-    options.sampling.error = 0.01;
+    options = SamplingOptions();
+    options.error = 0.01;
     const SquaredError check{
         16, 0.0009, 1, {}}; // three times the target: nine times the samples, 192 is next
     EXPECT_DOUBLE_EQ(StopRules(options, FILM_LIMIT).fraction(48, 8, check), 0.25);
@@ -162,8 +162,8 @@ TEST(StopRules, EndingByTheErrorDoesNotMakeItLookSmaller) {
     std::mt19937 random(1);
     const int trials = 300;
     for (const double target : {0.0125, 0.0115, 0.0105}) { // the true error is 0.0125 at 64 samples
-        Options options;
-        options.sampling.error = target;
+        SamplingOptions options;
+        options.error = target;
         const StopRules rules(options, FILM_LIMIT);
         double ratio = 0;
         for (int trial = 0; trial < trials; ++trial) {

@@ -68,7 +68,8 @@ SceneProbe& probe() {
         made.add(
             "albedo",
             "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; hit.triangle = as_uint(a.z);"
-            "const Surface surface = surface_at(scene, &hit, vector_from(b));"
+            "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
+            "const Surface surface = surface_at(scene, &hit, &ray_there);"
             "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b));"
             "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)), REAL(0.0));");
         return made;

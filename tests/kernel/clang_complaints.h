@@ -4,10 +4,26 @@
 
 #include "support/run_command.h"
 
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
 namespace clrt {
+
+/// The programs of several integrators as one text: one run of the compiler checks them all. Each takes
+/// integrators/entry_point.h anew, whose function then has another name.
+inline std::string entry_points(const std::vector<std::string>& integrators) {
+    std::string text;
+    for (const std::string& name : integrators)
+        text += fmt::format("#undef CLRT_INTEGRATORS_ENTRY_POINT_H\n"
+                            "#undef INTEGRATOR_KERNEL\n"
+                            "#undef INTEGRATOR_RADIANCE\n"
+                            "#undef pixel_render\n"
+                            "#define pixel_render {0}_pixel_render\n"
+                            "#include \"integrators/{0}.cl\"\n",
+                            name);
+    return text;
+}
 
 /// All that clang writes about a file of OpenCL C, compiled with further options: nothing if it takes it
 /// without a warning. The file includes kernels by their path below kernels/.

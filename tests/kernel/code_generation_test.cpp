@@ -97,12 +97,17 @@ std::string include(const std::vector<std::string>& files) {
 } // namespace
 
 TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
-    const std::string text =
-        include({"integrators/path.cl", "integrators/whitted.cl", "integrators/raycast.cl",
-                 "integrators/aov.cl", "numerics/device_facts.cl"});
+    const std::string text = entry_points({"path", "whitted", "raycast"}) +
+                             include({"integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
         expect_clean_with_and_without_effects(
             layout_name(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout)), "-DSAMPLES_AT_ONCE=4"});
+}
+
+TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
+    for (const char* int64 : {"0", "1"})
+        expect_clean(fmt::format("splats, int64 {}", int64), include({"integrators/raycast.cl"}),
+                     {"-DFILM_SPLATS=1", fmt::format("-DFILM_INT64_ATOMICS={}", int64)});
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatRecord) {

@@ -13,12 +13,8 @@ namespace clrt {
 
 namespace {
 
-/// One file that includes all entry points: one run of the compiler checks them all.
 std::string all_entry_points() {
-    std::string text;
-    for (const char* name : {"path", "whitted", "raycast", "aov"})
-        text += fmt::format("#include \"integrators/{}.cl\"\n", name);
-    return text;
+    return entry_points({"path", "whitted", "raycast"}) + "#include \"integrators/aov.cl\"\n";
 }
 
 /// What clang says about the kernels built with a mask; empty if nothing.
@@ -27,13 +23,14 @@ std::string complaints(const std::string& file, const std::string& standard, u32
                                    fmt::format("-DCLRT_EFFECTS={:#x}u", mask)});
 }
 
-/// The sets of compiled effects, each once.
+/// The sets of compiled effects, each once, and all with rays in time, which no scene calls for.
 std::vector<u32> masks() {
     std::vector<u32> result;
     for (const u32 effects : all_effect_sets())
         result.push_back(effects & EFFECT_ALL);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
+    result.push_back(EFFECT_ALL | EFFECT_MOTION_BLUR);
     return result;
 }
 
@@ -47,6 +44,19 @@ TEST(EffectSyntax, EverySetOfEffectsCompilesInOpenCl12And30) {
     for (const u32 mask : all)
         for (const char* standard : {"CL1.2", "CL3.0"})
             EXPECT_EQ(complaints(file, standard, mask), "") << standard << ", " << describe_effects(mask);
+}
+
+TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
+    const ScratchFolder folder;
+    for (const char* int64 : {"0", "1"}) {
+        const std::string defines =
+            fmt::format("#define FILM_SPLATS 1\n#define FILM_INT64_ATOMICS {}\n", int64);
+        const std::string drawing = folder.write("all.cl", defines + entry_points({"path", "raycast"}));
+        EXPECT_EQ(complaints(drawing, "CL1.2", EFFECT_ALL), "") << int64;
+        const std::string recording = folder.write("replay.cl", "#define CLRT_TRACE 1\n" + defines +
+                                                                    "#include \"integrators/path.cl\"\n");
+        EXPECT_EQ(complaints(recording, "CL1.2", EFFECT_ALL), "") << int64;
+    }
 }
 
 TEST(EffectSyntax, RecordingProgramsCompileToo) {

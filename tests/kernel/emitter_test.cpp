@@ -29,7 +29,8 @@ SceneProbe& probe() {
         // a: barycentric weights 1 and 2, triangle; b: wo; c: the point that the ray left, distance
         made.add("hit_pdf", "Hit hit; hit.t = (real)c.w; hit.b1 = (real)a.x; hit.b2 = (real)a.y;"
                             "hit.triangle = as_uint(a.z);"
-                            "const Surface surface = surface_at(scene, &hit, vector_from(b));"
+                            "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
+                            "const Surface surface = surface_at(scene, &hit, &ray_there);"
                             "first.x = emitter_hit_pdf_w(scene, &surface, vector_from(c), hit.t, "
                             "vector_from(b));");
         made.add("pdf", "first.x = emitter_pdf_w((real)a.x, (real)a.y, (real)a.z);");

@@ -15,9 +15,11 @@ namespace {
 SceneProbe& probe() {
     static SceneProbe instance = [] {
         // a: barycentric weights 1 and 2, triangle; b: wo
-        const std::string surface = "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; "
-                                    "hit.triangle = as_uint(a.z);"
-                                    "const Surface surface = surface_at(scene, &hit, vector_from(b));";
+        const std::string surface =
+            "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; "
+            "hit.triangle = as_uint(a.z);"
+            "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
+            "const Surface surface = surface_at(scene, &hit, &ray_there);";
         const std::string bsdf =
             surface + "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b));";
         SceneProbe made({"scattering/material.h"});

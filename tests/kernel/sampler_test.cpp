@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
+#include <regex>
 
 using namespace clrt;
 
@@ -336,6 +339,20 @@ TEST(Sampler, NumbersOfTwoAddressesAreIndependent) {
                 EXPECT_GT(independence_p_value(a, b), SMALLEST_P) << first << " " << second;
             }
     }
+}
+
+TEST(Sampler, EveryPurposeHasAnAddressOfItsOwn) {
+    const std::string text = kernels_under_test().at("numerics/sampler.h");
+    const std::regex definition("#define SAMPLE_(\\w+) (\\d+)u");
+    std::map<u32, std::string> purposes;
+    for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
+        const u32 address = u32(std::stoul((*match)[2]));
+        EXPECT_LT(address, PURPOSES) << (*match)[1] << " would be the next bounce's";
+        const auto [other, is_new] = purposes.emplace(address, (*match)[1]);
+        EXPECT_TRUE(is_new) << (*match)[1] << " and " << other->second;
+    }
+    EXPECT_GE(purposes.size(), 12u);
+    EXPECT_NE(text.find(fmt::format("#define SAMPLER_PURPOSES {}u", PURPOSES)), std::string::npos);
 }
 
 TEST(Sampler, IndependentPairsAreWhiteNoise) {

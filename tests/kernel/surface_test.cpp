@@ -15,9 +15,11 @@ namespace {
 SceneProbe& probe() {
     static SceneProbe instance = [] {
         // a: barycentric weights 1 and 2, triangle; b: wo; c: direction that leaves
-        const std::string surface = "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; "
-                                    "hit.triangle = as_uint(a.z);"
-                                    "const Surface surface = surface_at(scene, &hit, vector_from(b));";
+        const std::string surface =
+            "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; "
+            "hit.triangle = as_uint(a.z);"
+            "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
+            "const Surface surface = surface_at(scene, &hit, &ray_there);";
         SceneProbe made({"geometry/surface.h", "geometry/triangle.h"});
         made.add("geometry", surface + "first = probe_vec4(surface.position, surface.offset);"
                                        "second = probe_vec4(surface.normal_g, surface.front ? 1.0f : 0.0f);"
@@ -31,7 +33,7 @@ SceneProbe& probe() {
                                      "vector_from(c))), 0.0f);");
         // Meets the same triangle again, by the arithmetic of the traversal: first.x is 1.
         made.add("leave", surface + R"(
-            const Ray ray = ray_make(surface_origin(&surface, surface_reflects(&surface, vector_from(c))), vector_from(c));
+            const Ray ray = surface_ray(&surface, surface_reflects(&surface, vector_from(c)), vector_from(c));
             const RayShear shear = ray_shear_make(&ray);
             real3 p[3];
             surface_corners(scene, scene->triangles + hit.triangle, &p[0], &p[1], &p[2]);

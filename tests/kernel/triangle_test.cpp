@@ -32,7 +32,7 @@ static void permute(const RayShear* shear, const real3* p, real* x, real* y, rea
 /* u, v, w and the distance times det. */
 static float4 edges(float4 origin, float4 direction, float4 p0, float4 p1, float4 p2)
 {
-    const Ray ray = ray_make(vector_from(origin), vector_from(direction));
+    const Ray ray = ray_make(vector_from(origin), vector_from(direction), REAL(0.0));
     const RayShear shear = ray_shear_make(&ray);
     const real3 p[3] = {vector_from(p0), vector_from(p1), vector_from(p2)};
     real x[3], y[3], z[3], u, v, w, det, t_det;
@@ -44,7 +44,7 @@ static float4 edges(float4 origin, float4 direction, float4 p0, float4 p1, float
 /* The same in one lane of eight; the others hold the triangle with corners exchanged. */
 static float4 edges_8(uint lane, float4 origin, float4 direction, float4 p0, float4 p1, float4 p2)
 {
-    const Ray ray = ray_make(vector_from(origin), vector_from(direction));
+    const Ray ray = ray_make(vector_from(origin), vector_from(direction), REAL(0.0));
     const RayShear shear = ray_shear_make(&ray);
     const real3 p[3] = {vector_from(p0), vector_from(p1), vector_from(p2)};
     real scalar[3][3];

@@ -59,7 +59,7 @@ std::vector<Place> path_places() {
          {{"path->throughput.y"}},
          Reached::IF_CONTINUED},
         {file,
-         "path->ray = ray_make(surface_origin(&surface, next.reflects), next.wi);",
+         "path->ray = surface_ray(&surface, next.reflects, next.wi);",
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
         {file,

@@ -30,7 +30,7 @@ typedef struct {
 
 static Ray load_ray(global const float4* rays, size_t i)
 {
-    Ray ray = ray_make(vector_from(rays[2 * i]), vector_from(rays[2 * i + 1]));
+    Ray ray = ray_make(vector_from(rays[2 * i]), vector_from(rays[2 * i + 1]), REAL(0.0));
     ray.t_max = rays[2 * i].w;
     return ray;
 }
@@ -74,7 +74,7 @@ static Hit closest_of_all(const Scene* scene, const RenderParams* params, const 
 static Surface load_surface(const Scene* scene, const Ray* ray, const TracedHit* traced)
 {
     const Hit hit = {traced->t, traced->b1, traced->b2, traced->triangle};
-    return surface_at(scene, &hit, -ray->direction);
+    return surface_at(scene, &hit, ray);
 }
 )";
 

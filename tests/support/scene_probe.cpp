@@ -10,8 +10,8 @@
 
 namespace clrt {
 
-SceneProbe::SceneProbe(std::vector<std::string> headers, const std::string& text)
-    : probe_(test_device(), std::move(headers), {}, kernels_under_test()) {
+SceneProbe::SceneProbe(std::vector<std::string> headers, const std::string& text, const ProbeOptions& options)
+    : probe_(test_device(), std::move(headers), options, kernels_under_test()) {
     probe_.add_text("vec4 probe_vec4(real3 v, real w) { return (vec4)(convert_float3(v), (float)w); }\n" +
                     text);
 }

@@ -16,7 +16,8 @@ namespace clrt {
 class SceneProbe {
 public:
     /// `headers` by their path below kernels/; `text` stands between them and the kernels.
-    explicit SceneProbe(std::vector<std::string> headers, const std::string& text = "");
+    explicit SceneProbe(std::vector<std::string> headers, const std::string& text = "",
+                        const ProbeOptions& options = {});
 
     /// Registers statements. They read `scene` and `params` (pointers), vec4 inputs a, b, c and the index i,
     /// and assign vec4 outputs first, second, third, which are 0 before.

@@ -23,7 +23,7 @@ namespace {
 
 /// The device that the options name, open.
 Device open_bench_device(const BenchOptions& bench) {
-    set_driver_environment(bench.clrt);
+    set_driver_environment(bench.clrt.device);
     std::string notice;
     const DeviceInfo info = choose_device(list_platforms(), bench.clrt.device.name, notice);
     if (!notice.empty())

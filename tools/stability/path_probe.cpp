@@ -24,7 +24,8 @@ const char* const TEXT = R"(
         const u32 pixel = i / samples;                                                                                \
         CameraSample sample;                                                                                          \
         sample.sampler = sampler_make(params.seed, pixel, 0u, i % samples);                                           \
-        sample.ray = ray_make(vector_from(rays[2u * pixel]), vector_normalize(vector_from(rays[2u * pixel + 1u])));   \
+        sample.ray = ray_make(vector_from(rays[2u * pixel]), vector_normalize(vector_from(rays[2u * pixel + 1u])), \
+                              REAL(0.0));                                                                               \
         sample.radiance = (real3)(REAL(0.0));                                                                         \
         layers_begin(&sample.layers);                                                                                 \
         PixelRays counted = {0u, 0u, 0u, 0ul, 0u};                                                                    \

@@ -20,7 +20,7 @@ namespace {
 const char* const TEXT = R"(
 static void probe_triangle(real3 origin, real3 direction, real3 p0, real3 p1, real3 p2, real* out)
 {
-    const Ray ray = ray_make(origin, direction);
+    const Ray ray = ray_make(origin, direction, REAL(0.0));
     const RayShear shear = ray_shear_make(&ray);
     const real3 p[3] = {p0, p1, p2};
     real x[3], y[3], z[3], u, v, w, det, t_det;

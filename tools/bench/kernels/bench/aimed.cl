@@ -57,7 +57,7 @@ static CLRT_NOINLINE Ray aimed_ray(const Scene* scene, uint triangle_count, glob
                                      aimed_coordinate(core.z, half_edge, target.z, state));
     const real3 way = target - origin;
     /* Lengths must be beyond the range in which a square underflows. */
-    return ray_make(origin, (aimed_word(state) & 0x100u) ? vector_normalize(way) : way);
+    return ray_make(origin, (aimed_word(state) & 0x100u) ? vector_normalize(way) : way, REAL(0.0));
 }
 
 /* Every work-item traces its rays; lost ones are counted, and the last one of the launch is kept. */

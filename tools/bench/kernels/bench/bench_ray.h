@@ -17,7 +17,7 @@ static inline uint bench_index(void)
 /* Two vectors a ray: origin and t_max, direction and 0. */
 static inline Ray bench_ray_load(global const float4* rays, uint index)
 {
-    Ray ray = ray_make(vector_from(rays[2 * index]), vector_from(rays[2 * index + 1]));
+    Ray ray = ray_make(vector_from(rays[2 * index]), vector_from(rays[2 * index + 1]), REAL(0.0));
     ray.t_max = rays[2 * index].w;
     return ray;
 }

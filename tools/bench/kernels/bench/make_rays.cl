@@ -26,7 +26,7 @@ CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void 
 /* A ray that is no ray: the host drops it. */
 static Ray make_nothing(void)
 {
-    Ray ray = ray_make((real3)(REAL(0.0)), (real3)(REAL(0.0)));
+    Ray ray = ray_make((real3)(REAL(0.0)), (real3)(REAL(0.0)), REAL(0.0));
     ray.t_max = REAL(0.0);
     return ray;
 }
@@ -41,7 +41,7 @@ static Ray make_sphere_ray(const RenderParams* params, const Surface* surface, r
     const real3 target = radius * vector_make(r * sc.y, r * sc.x, z);
     real3 wi = vector_normalize(target - surface->position);
     wi -= REAL(2.0) * fmin(vector_dot(wi, surface->normal_g), REAL(0.0)) * surface->normal_g;
-    return ray_make(surface_origin(surface, surface_reflects(surface, wi)), wi);
+    return surface_ray(surface, surface_reflects(surface, wi), wi);
 }
 
 /* Towards a light that the renderer samples; to the bounding sphere where it samples none (a constant sky). */
@@ -63,7 +63,7 @@ static Ray make_diffuse(const Surface* surface, const Sampler* sampler, uint bou
     const Frame frame = frame_make(surface->normal_g);
     const real3 wi =
         frame_to_world(&frame, warp_cosine_hemisphere(sampler_pair(sampler, bounce, SAMPLE_DIRECTION)));
-    return ray_make(surface_origin(surface, surface_reflects(surface, wi)), wi);
+    return surface_ray(surface, surface_reflects(surface, wi), wi);
 }
 
 /* About the shading normal, about the plane's where that would lead inside. */
@@ -73,7 +73,7 @@ static Ray make_mirror(const Surface* surface, real3 d)
     if (!surface_reflects(surface, wi))
         wi = d - REAL(2.0) * vector_dot(d, surface->normal_g) * surface->normal_g;
     wi = vector_normalize(wi);
-    return ray_make(surface_origin(surface, surface_reflects(surface, wi)), wi);
+    return surface_ray(surface, surface_reflects(surface, wi), wi);
 }
 
 /* The ray of a kind from where each ray hit; nothing where it did not. */
@@ -88,15 +88,15 @@ CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void 
     const Hit hit = bench_hit_load(hits, index);
     Ray ray = make_nothing();
     if (hit.triangle != NO_INDEX) {
-        const real3 d = vector_from(rays[2 * index + 1]);
-        const Surface surface = surface_at(&scene, &hit, -d);
+        const Ray before = bench_ray_load(rays, index);
+        const Surface surface = surface_at(&scene, &hit, &before);
         const Sampler sampler = sampler_make(params.seed, index, 0u, params.first_sample);
         if (kind == BENCH_SHADOW)
             ray = make_shadow(&scene, &params, &surface, &sampler, bounce);
         else if (kind == BENCH_DIFFUSE)
             ray = make_diffuse(&surface, &sampler, bounce);
         else
-            ray = make_mirror(&surface, d);
+            ray = make_mirror(&surface, before.direction);
     }
     bench_ray_store(made, index, &ray);
 }

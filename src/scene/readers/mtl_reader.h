@@ -3,8 +3,8 @@
 // meaning).
 #pragma once
 
-#include "scene/mtl_dialect.h"
 #include "scene/notices.h"
+#include "scene/readers/mtl_dialect.h"
 #include "scene/scene.h"
 
 #include <glm/vec2.hpp>

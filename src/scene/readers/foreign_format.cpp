@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/foreign_format.h"
+#include "scene/readers/foreign_format.h"
 
-#include "scene/text_encoding.h"
+#include "scene/readers/text_encoding.h"
 #include "scene/text_scanner.h"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 // The mtllib statements of an OBJ -> its materials by name.
 #pragma once
 
-#include "scene/mtl_reader.h"
-#include "scene/obj_reader.h"
+#include "scene/readers/mtl_reader.h"
+#include "scene/readers/obj_reader.h"
 
 #include <map>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/text_encoding.h"
+#include "scene/readers/text_encoding.h"
 
 #include <cstddef>
 #include <cstdint>

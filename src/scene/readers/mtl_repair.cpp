@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/mtl_repair.h"
+#include "scene/readers/mtl_repair.h"
 
 #include "scene/colour.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/mtl_reader.h"
+#include "scene/readers/mtl_reader.h"
 
 #include "error.h"
-#include "scene/mtl_texture.h"
-#include "scene/text_encoding.h"
+#include "scene/readers/mtl_texture.h"
+#include "scene/readers/text_encoding.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>

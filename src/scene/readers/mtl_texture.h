@@ -2,7 +2,7 @@
 // The value of a map_* statement: options and a file name that may hold spaces.
 #pragma once
 
-#include "scene/mtl_reader.h"
+#include "scene/readers/mtl_reader.h"
 
 #include <optional>
 #include <string_view>

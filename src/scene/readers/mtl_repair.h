@@ -3,8 +3,8 @@
 // repairs are one table; --mtl plain leaves it out.
 #pragma once
 
-#include "scene/mtl_reader.h"
 #include "scene/notices.h"
+#include "scene/readers/mtl_reader.h"
 #include "scene/texture_store.h"
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The statements of OBJ text, one function each; a function returns what is wrong, or nothing.
-#include "scene/obj_chunk.h"
+#include "scene/readers/obj_chunk.h"
 
 #include "scene/text_scanner.h"
 

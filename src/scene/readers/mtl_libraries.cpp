@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/mtl_libraries.h"
+#include "scene/readers/mtl_libraries.h"
 
 #include "scene/find_file.h"
 #include "scene/text_scanner.h"

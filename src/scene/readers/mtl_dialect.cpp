@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/mtl_dialect.h"
+#include "scene/readers/mtl_dialect.h"
 
 #include "scene/text_scanner.h"
 

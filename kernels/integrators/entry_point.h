@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop over a pixel's samples, and the entry point. An integrator's .cl file includes this last and defines
+// before
+//   INTEGRATOR_KERNEL    the entry point's name
+//   INTEGRATOR_RADIANCE  the integrator's function (pixel.h)
+// Builds with -DCLRT_TRACE have the entry point of trace/replay.h instead.
+#ifndef CLRT_INTEGRATORS_ENTRY_POINT_H
+#define CLRT_INTEGRATORS_ENTRY_POINT_H
+
+#include "pixel.h"
+
+#ifdef CLRT_TRACE
+#include "trace/replay.h"
+#else
+
+/* Takes a pixel's samples of this launch. Out of line, because some compilers compile an entry point's
+   body several times. */
+static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* params, TilePixel place,
+                                       global long* film, global uint* pixel_rays,
+                                       global volatile uint* counters)
+{
+    PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
+    const SampleRange range = tile_samples(params, pixel_rays, place.slot);
+    SampleCounter counter = sample_counter_make(params, range.first);
+    CameraSample samples[SAMPLES_AT_ONCE];
+    for (uint i = 0; i < range.count; i += SAMPLES_AT_ONCE) {
+        const uint count = min((uint)SAMPLES_AT_ONCE, range.count - i);
+        CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));
+        pixel_aim(params, film, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);
+        INTEGRATOR_RADIANCE(scene, params, samples, count, &rays);
+        pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);
+    }
+    film_add_counts(&rays, range.count, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));
+}
+
+CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void INTEGRATOR_KERNEL(
+    const RenderParams params, SCENE_PARAMS, global long* restrict film, global uint* restrict pixel_rays,
+    global volatile uint* counters)
+{
+    TilePixel place;
+    if (!tile_pixel(&params, &place))
+        return;
+    const Scene scene = SCENE_MAKE;
+    pixel_render(&scene, &params, place, film, pixel_rays, counters);
+}
+
+#endif
+
+#endif
