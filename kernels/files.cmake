@@ -18,7 +18,6 @@ set(CLRT_KERNEL_FILES
   geometry/traverse_bvh8.h
   geometry/traverse_cwbvh.h
   geometry/triangle.h
-  geometry/visibility.h
   integrators/aov.cl
   integrators/direct.h
   integrators/entry_point.h
@@ -27,6 +26,7 @@ set(CLRT_KERNEL_FILES
   integrators/pixel.h
   integrators/raycast.cl
   integrators/raycast.h
+  integrators/replay.h
   integrators/whitted.cl
   integrators/whitted.h
   lights/delta_light.h
@@ -38,6 +38,7 @@ set(CLRT_KERNEL_FILES
   numerics/device.h
   numerics/device_facts.cl
   numerics/frame.h
+  numerics/mis.h
   numerics/real.h
   numerics/real_functions.h
   numerics/sampler.h
@@ -46,8 +47,8 @@ set(CLRT_KERNEL_FILES
   path/automaton.h
   path/filter.h
   path/layers.h
-  path/mis.h
   path/nan.h
+  path/visibility.h
   scattering/albedo.h
   scattering/albedo_dielectric_table.h
   scattering/albedo_reflection_table.h
@@ -70,7 +71,6 @@ set(CLRT_KERNEL_FILES
   shared/scene_types.h
   shared/trace_types.h
   shared/types.h
-  trace/replay.h
   trace/trace.h
   trace/vertex.h
 )

@@ -13,6 +13,7 @@
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/error_text.h"
+#include "render/film_picture.h"
 #include "run/saving.h"
 
 #include <algorithm>

@@ -5,25 +5,27 @@
 
 #include "ray.h"
 
-/* Smallest |component| of a direction in slab tests: 1/d stays finite, and a ray within a face's plane is decided by
-   the pad. */
+/* Smallest |component| of a direction in slab tests: 1/d stays finite, and a ray within a face's plane is
+   decided by the pad. */
 #define BOX_SMALLEST_DIRECTION REAL(1e-18)
 
-/* Units of u by which planes move out, as a share of reach = max(|origin|, extent). What must be met is the triangle as
-   triangle.h sees it, with c = corner - origin sheared to x: off by at most u (2 |c_x| + 4 |c_z|) where divisions are
-   exact and u (2 |c_x| + 8 |c_z|) where they are within 2.5 units in the last place; |c| <= 2 reach makes that 20.
-   Rounding origin * reciprocal and adding the pad take 2 more, rounding their product with the exit factor and that of
-   the reciprocal 2 more, second-order terms less than one. The reciprocal's own error is a share of the distance. */
+/* Units of u by which planes move out, as a share of reach = max(|origin|, extent). What must be met is the
+   triangle as triangle.h sees it, with c = corner - origin sheared to x: off by at most u (2 |c_x| + 4 |c_z|)
+   where divisions are exact and u (2 |c_x| + 8 |c_z|) where they are within 2.5 units in the last place; |c|
+   <= 2 reach makes that 20. Rounding origin * reciprocal and adding the pad take 2 more, rounding their
+   product with the exit factor and that of the reciprocal 2 more, second-order terms less than one. The
+   reciprocal's own error is a share of the distance. */
 #define BOX_PAD_ROUNDINGS REAL(26.0)
 
-/* 1 + 2 gamma(7): entry and exit distances are each off by a share of up to 5 u for the reciprocal (2.5 units in the last
-   place) and u for the fma (as in Ize 2013); the product of the ray's end with this factor takes u more. */
+/* 1 + 2 gamma(7): entry and exit distances are each off by a share of up to 5 u for the reciprocal (2.5 units
+   in the last place) and u for the fma (as in Ize 2013); the product of the ray's end with this factor takes
+   u more. */
 #define BOX_EXIT_FACTOR (REAL(1.0) + REAL(14.0) * REAL_ROUNDING * REAL(1.0000005))
 
-/* Per-ray constants of a valid ray. A slab is entered at fma(near plane, reciprocal, entry_offset) and left at
-   fma(far plane, exit_reciprocal, exit_offset), which is later by the exit factor: multiplying here spares every box test
-   a multiplication that its result would wait for. A box is met within (0, t_max] if its largest entry distance is
-   not beyond its smallest exit distance and t_max times the exit factor. */
+/* Per-ray constants of a valid ray. A slab is entered at fma(near plane, reciprocal, entry_offset) and left
+   at fma(far plane, exit_reciprocal, exit_offset), which is later by the exit factor: multiplying here spares
+   every box test a multiplication that its result would wait for. A box is met within (0, t_max] if its
+   largest entry distance is not beyond its smallest exit distance and t_max times the exit factor. */
 typedef struct {
     real3 reciprocal, entry_offset;
     real3 exit_reciprocal, exit_offset;

@@ -26,7 +26,8 @@ static inline bool leaf_triangle_hit(global const uint* words, const RayShear* s
 }
 
 /* Keeps the hit of one leaf triangle if it comes after `after` and before the hit so far. */
-static inline void leaf_triangle_closest(global const uint* words, const RayShear* shear, const Hit* after, Hit* hit)
+static inline void leaf_triangle_closest(global const uint* words, const RayShear* shear, const Hit* after,
+                                         Hit* hit)
 {
     Hit found;
     if (!leaf_triangle_hit(words, shear, hit->t, &found) ||

@@ -12,7 +12,8 @@ typedef struct {
     real3 normal_s;   /* unit, for shading, on wo's side */
     real3 tangent;    /* direction of growing texture u; any length, 0 without texture coordinates */
     real3 bitangent;  /* direction of growing texture v */
-    real3 bulge;      /* from position to the curved surface that the corner normals describe, on wo's side; 0 where flat */
+    real3 bulge;      /* from position to the curved surface that the corner normals describe, on wo's side;
+                         0 where flat */
     float2 uv;
     real b1, b2;      /* barycentric weights of corners 1 and 2, */
     uint triangle;    /* of this triangle */
@@ -28,15 +29,17 @@ typedef struct {
 } Surface;
 
 /* Corner positions. */
-static inline void surface_corners(const Scene* scene, global const Triangle* triangle, real3* p0, real3* p1, real3* p2)
+static inline void surface_corners(const Scene* scene, global const Triangle* triangle, real3* p0, real3* p1,
+                                   real3* p2)
 {
     *p0 = vector_from(scene->positions[triangle->v0]);
     *p1 = vector_from(scene->positions[triangle->v1]);
     *p2 = vector_from(scene->positions[triangle->v2]);
 }
 
-/* Edges are multiplied by this power of two, 2^28, before their products: so the square of a normal neither underflows for
-   the smallest triangles that floats describe nor overflows for the largest (edges from 5e-17 to 4). */
+/* Edges are multiplied by this power of two, 2^28, before their products: so the square of a normal neither
+   underflows for the smallest triangles that floats describe nor overflows for the largest (edges from 5e-17
+   to 4). */
 #define SURFACE_EDGE_SCALE REAL(268435456.0)
 
 /* A triangle's normal by its edges, not of unit length: twice the area times SURFACE_EDGE_SCALE squared. */
@@ -51,16 +54,17 @@ static inline real surface_extent(real3 p0, real3 p1, real3 p2)
     return vector_max_component(fmax(p0, fmax(p1, p2)) - fmin(p0, fmin(p1, p2)));
 }
 
-/* How far a point on the triangle must move along the normal so that a ray leaving it cannot meet the triangle's own
-   plane again. With u = 2^-24, M the largest |coordinate| and E the largest extent of the triangle:
-   - the point p0 + (b1 e1 + b2 e2) is off the plane by its last rounding, u M per axis, and by rounding of edges, products
-     and sums, at most 4 u E per axis;
+/* How far a point on the triangle must move along the normal so that a ray leaving it cannot meet the
+   triangle's own plane again. With u = 2^-24, M the largest |coordinate| and E the largest extent of the
+   triangle:
+   - the point p0 + (b1 e1 + b2 e2) is off the plane by its last rounding, u M per axis, and by rounding of
+     edges, products and sums, at most 4 u E per axis;
    - moving it rounds once more: u M;
-   - the next ray's test sees corners sheared with an error of 6 u E on either axis across the ray where divisions are
-     exact, 10 u E where they are within 2.5 units in the last place (box.h), and along it the rounding of the depths,
-     u E, and of their weighted sum, 5 u E.
-   That is u (2 M + 14 E) on two axes and u (2 M + 10 E) on the third. Along the normal it is at most the length of this
-   vector, u (3.5 M + 22.2 E), so delta = u (4 M + 24 E) is enough. */
+   - the next ray's test sees corners sheared with an error of 6 u E on either axis across the ray where
+     divisions are exact, 10 u E where they are within 2.5 units in the last place (box.h), and along it the
+     rounding of the depths, u E, and of their weighted sum, 5 u E.
+   That is u (2 M + 14 E) on two axes and u (2 M + 10 E) on the third. Along the normal it is at most the
+   length of this vector, u (3.5 M + 22.2 E), so delta = u (4 M + 24 E) is enough. */
 static inline real surface_offset_bound(real3 p0, real3 p1, real3 p2)
 {
     const real3 lower = fmin(p0, fmin(p1, p2));
@@ -69,21 +73,23 @@ static inline real surface_offset_bound(real3 p0, real3 p1, real3 p2)
     return FLOAT_ROUNDING * fma(REAL(4.0), largest, REAL(24.0) * surface_extent(p0, p1, p2));
 }
 
-/* How far from a triangle's edges its points are kept, in offset bounds: more than the one by which they move along the
-   normal, for walls that meet at less than a right angle. */
+/* How far from a triangle's edges its points are kept, in offset bounds: more than the one by which they move
+   along the normal, for walls that meet at less than a right angle. */
 #define SURFACE_INSET REAL(2.0)
 
-/* True if a point may be nearer to an edge than `margin`. Its distance from the edge across corner i is b_i times twice the
-   area (`across` is the length of surface_cross) over the edge's length, which is at most sqrt(3) times the extent. */
+/* True if a point may be nearer to an edge than `margin`. Its distance from the edge across corner i is b_i
+   times twice the area (`across` is the length of surface_cross) over the edge's length, which is at most
+   sqrt(3) times the extent. */
 static inline bool surface_is_near_edge(const Hit* hit, real extent, real across, real margin)
 {
     const real nearest = min(REAL(1.0) - hit->b1 - hit->b2, min(hit->b1, hit->b2));
     return nearest * across < margin * extent * (REAL(1.7320509) * SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE);
 }
 
-/* Moves a point of the triangle's plane, relative to corner 0, to `margin` inside the edges that it is nearer to: by rounding
-   it may lie beyond an edge, and so behind a wall that meets the triangle there, where a ray that leaves it gets out. Moving
-   off one edge leads towards the next at acute corners, so all are visited six times. */
+/* Moves a point of the triangle's plane, relative to corner 0, to `margin` inside the edges that it is nearer
+   to: by rounding it may lie beyond an edge, and so behind a wall that meets the triangle there, where a ray
+   that leaves it gets out. Moving off one edge leads towards the next at acute corners, so all are visited
+   six times. */
 static CLRT_NOINLINE real3 surface_inset(real3 point, real3 e1, real3 e2, real3 normal, real margin)
 {
     const real3 corners[4] = {(real3)(REAL(0.0)), e1, e2, (real3)(REAL(0.0))};
@@ -96,8 +102,8 @@ static CLRT_NOINLINE real3 surface_inset(real3 point, real3 e1, real3 e2, real3 
 }
 
 /* Interpolates texture coordinates and their derivatives along the surface. */
-static inline void surface_uv(const Scene* scene, global const Triangle* triangle, real b1, real b2, real3 e1, real3 e2,
-                              Surface* surface)
+static inline void surface_uv(const Scene* scene, global const Triangle* triangle, real b1, real b2, real3 e1,
+                              real3 e2, Surface* surface)
 {
     if (triangle->t0 == NO_INDEX)
         return;
@@ -115,18 +121,19 @@ static inline void surface_uv(const Scene* scene, global const Triangle* triangl
     surface->bitangent = ((real)d1.x * e2 - (real)d2.x * e1) / det;
 }
 
-/* cos of 0.01: corner normals that are all within this angle of the plane's are those of a flat triangle. A vn of two
-   decimals, the fewest that exporters write, is off by up to half a hundredth on each axis, which tilts it by at most 0.0087.
-   Balls of more than 300 segments around, whose faces meet at less than 0.02, count as flat too: where their plane hides
-   a light that their shading normals see, it adds at most 0.01 of what it would head-on. */
+/* cos of 0.01: corner normals that are all within this angle of the plane's are those of a flat triangle. A
+   vn of two decimals, the fewest that exporters write, is off by up to half a hundredth on each axis, which
+   tilts it by at most 0.0087. Balls of more than 300 segments around, whose faces meet at less than 0.02,
+   count as flat too: where their plane hides a light that their shading normals see, it adds at most 0.01 of
+   what it would head-on. */
 #define SURFACE_FLAT_COS REAL(0.99995)
 
-/* Interpolated shading normal, and the displacement to the curved surface: the point is projected on the tangent planes
-   of the corners, and the projections are interpolated (Hanika 2021, Ray Tracing Gems II, ch. 4). Without it
-   coarse meshes shade themselves near the terminator. A displacement that leads below the plane or the shading normal's
-   horizon, as corner normals that contradict each other give, is none. */
-static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, const real3* p, real b1, real b2,
-                                  Surface* surface)
+/* Interpolated shading normal, and the displacement to the curved surface: the point is projected on the
+   tangent planes of the corners, and the projections are interpolated (Hanika 2021, Ray Tracing Gems II, ch.
+   4). Without it coarse meshes shade themselves near the terminator. A displacement that leads below the
+   plane or the shading normal's horizon, as corner normals that contradict each other give, is none. */
+static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, const real3* p,
+                                  real b1, real b2, Surface* surface)
 {
     if (!HAS(EFFECT_SMOOTH_NORMALS) || triangle->n0 == NO_INDEX)
         return;
@@ -149,12 +156,14 @@ static inline void surface_smooth(const Scene* scene, global const Triangle* tri
                        b1 * fmin(vector_dot(surface->position - p[1], n1) * side, REAL(0.0)) * n1 +
                        b2 * fmin(vector_dot(surface->position - p[2], n2) * side, REAL(0.0)) * n2;
     const real3 bulge = -lift * side;
-    surface->is_curved = vector_dot(bulge, surface->normal_g) > REAL(0.0) && vector_dot(bulge, surface->normal_s) > REAL(0.0);
+    surface->is_curved =
+        vector_dot(bulge, surface->normal_g) > REAL(0.0) && vector_dot(bulge, surface->normal_s) > REAL(0.0);
     surface->bulge = surface->is_curved ? bulge : (real3)(REAL(0.0));
 }
 
 /* True where the given normals say that the winding's normal points inward. */
-static inline bool surface_winding_is_reversed(const Scene* scene, global const Triangle* triangle, real3 normal)
+static inline bool surface_winding_is_reversed(const Scene* scene, global const Triangle* triangle,
+                                               real3 normal)
 {
     if (triangle->n0 == NO_INDEX)
         return false;
@@ -163,8 +172,8 @@ static inline bool surface_winding_is_reversed(const Scene* scene, global const 
     return vector_dot(sum, normal) < REAL(0.0);
 }
 
-/* Reconstructs the surface where a ray has hit it; wo points back along the ray. The position comes from the barycentric
-   weights, not from the distance, so its error depends on the triangle's size and place alone. */
+/* Reconstructs the surface where a ray has hit it; wo points back along the ray. The position comes from the
+   barycentric weights, not from the distance, so its error depends on the triangle's size and place alone. */
 static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, const Ray* ray)
 {
     const real3 wo = -ray->direction;
@@ -175,7 +184,8 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, cons
     const real3 e2 = p[2] - p[0];
     const real3 cross = surface_cross(e1, e2);
     const real across = vector_length(cross);
-    /* The edges of a needle may become parallel when they are rounded: then no direction is better than wo. */
+    /* The edges of a needle may become parallel when they are rounded: then no direction is better than
+       wo. */
     const real3 normal = across > REAL(0.0) ? cross / across : wo;
     const real side = vector_dot(normal, wo) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
 
@@ -210,7 +220,8 @@ static CLRT_NOINLINE Surface surface_at(const Scene* scene, const Hit* hit, cons
     return surface;
 }
 
-/* Interpolates colours of the vertices, three floats each from a texel word on. Equal ones stay what they are. */
+/* Interpolates colours of the vertices, three floats each from a texel word on. Equal ones stay what they
+   are. */
 static CLRT_NOINLINE real3 surface_vertex_color(const Scene* scene, const Surface* surface, uint first_word)
 {
     global const Triangle* triangle = scene->triangles + surface->triangle;
@@ -221,9 +232,9 @@ static CLRT_NOINLINE real3 surface_vertex_color(const Scene* scene, const Surfac
     return fmax(c0 + surface->b1 * (c1 - c0) + surface->b2 * (c2 - c0), (real3)(REAL(0.0)));
 }
 
-/* The one decision of sides: true if direction w is on wo's side of a surface, above its plane or, where corner normals
-   describe a curved surface that bulges over the plane, above the interpolated normal's horizon. Maps have no say: they
-   shade, but no ray gets through a wall by them. */
+/* The one decision of sides: true if direction w is on wo's side of a surface, above its plane or, where
+   corner normals describe a curved surface that bulges over the plane, above the interpolated normal's
+   horizon. Maps have no say: they shade, but no ray gets through a wall by them. */
 static inline bool surface_side(real3 normal_g, real3 normal_s, bool is_curved, real3 w)
 {
     if (HAS(EFFECT_SMOOTH_NORMALS) && is_curved && vector_dot(w, normal_s) > REAL(0.0))
@@ -236,14 +247,16 @@ static inline bool surface_reflects(const Surface* surface, real3 w)
     return surface_side(surface->normal_g, surface->normal_s, surface->is_curved, w);
 }
 
-/* The curved surface's point: where rays on wo's side start, but for the rounding's step, and whence lights are looked at. */
+/* The curved surface's point: where rays on wo's side start, but for the rounding's step, and whence lights
+   are looked at. */
 static inline real3 surface_lifted(const Surface* surface)
 {
-    return HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved ? surface->position + surface->bulge : surface->position;
+    return HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved ? surface->position + surface->bulge
+                                                            : surface->position;
 }
 
-/* Where a ray leaves the surface, by its side (surface_reflects): off the plane by the error bound, and, on wo's side, from
-   the curved surface. */
+/* Where a ray leaves the surface, by its side (surface_reflects): off the plane by the error bound, and, on
+   wo's side, from the curved surface. */
 static inline real3 surface_origin(const Surface* surface, bool reflects)
 {
     const real3 step = surface->normal_g * surface->offset;

@@ -24,9 +24,10 @@
 #endif
 
 /* The first hit after `after` (hit_none(0) for all) within the ray; triangle NO_INDEX where there is none. At
-   equal distance the lowest triangle index comes first. Rays that are not finite or have no direction miss, at a distance
-   that is a NaN. */
-static inline Hit scene_closest_hit(const Scene* scene, const RenderParams* params, const Ray* ray, const Hit* after)
+   equal distance the lowest triangle index comes first. Rays that are not finite or have no direction miss,
+   at a distance that is a NaN. */
+static inline Hit scene_closest_hit(const Scene* scene, const RenderParams* params, const Ray* ray,
+                                    const Hit* after)
 {
     if (!ray_is_valid(ray))
         return hit_none(REAL_NAN);

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversal of the binary tree with both children's boxes in one 64-byte node (Aila and Laine 2009): scalar code for
-// GPUs, right on every device.
+// Traversal of the binary tree with both children's boxes in one 64-byte node (Aila and Laine 2009): scalar
+// code for GPUs, right on every device.
 //
-// A GPU keeps a private array in memory that thousands of rays share, so the stack is short: it holds the latest
-// BVH2_STACK_SIZE of the children left behind and forgets older ones. What is left to visit is known all the same, from
-// one bit a level (the restart trail of Laine 2010, "Restart trail for stackless BVH traversal"): 0 where the nearer of
-// two children was taken and the other waits, 1 where nothing waits. When the stack has run dry, traversal goes down
-// from the root once more, and the bits lead it to the child that waits.
+// A GPU keeps a private array in memory that thousands of rays share, so the stack is short: it holds the
+// latest BVH2_STACK_SIZE of the children left behind and forgets older ones. What is left to visit is known
+// all the same, from one bit a level (the restart trail of Laine 2010, "Restart trail for stackless BVH
+// traversal"): 0 where the nearer of two children was taken and the other waits, 1 where nothing waits. When
+// the stack has run dry, traversal goes down from the root once more, and the bits lead it to the child that
+// waits.
 //
-// The way down is the same at every restart although hits shorten the ray: a box above a pending child holds all
-// triangles that were hit since it was entered, so it is met up to their distance. Only the pending child itself may
-// have fallen behind the hit; its bit, the lowest that is set, tells it from a child that never had a sibling.
+// The way down is the same at every restart although hits shorten the ray: a box above a pending child holds
+// all triangles that were hit since it was entered, so it is met up to their distance. Only the pending child
+// itself may have fallen behind the hit; its bit, the lowest that is set, tells it from a child that never
+// had a sibling.
 #ifndef CLRT_GEOMETRY_TRAVERSE_BVH2_H
 #define CLRT_GEOMETRY_TRAVERSE_BVH2_H
 
@@ -23,13 +25,14 @@
 #define BVH2_STACK_SIZE 8
 #endif
 
-/* A level of inner nodes is a bit, the root's the highest but one: carrying into the highest ends the traversal. Leaves lie
-   on level BVH_MAX_DEPTH at the latest, so BVH_MAX_DEPTH - 1 levels of inner nodes have a bit each. */
+/* A level of inner nodes is a bit, the root's the highest but one: carrying into the highest ends the
+   traversal. Leaves lie on level BVH_MAX_DEPTH at the latest, so BVH_MAX_DEPTH - 1 levels of inner nodes have
+   a bit each. */
 #define BVH2_END ((ulong)1 << (BVH_MAX_DEPTH - 1))
 #define BVH2_ROOT (BVH2_END >> 1)
 
-/* Children left behind, a ring: entry `top` modulo its size is the next to be written. Apart from Bvh2Walk, whose members
-   shall stay in registers. */
+/* Children left behind, a ring: entry `top` modulo its size is the next to be written. Apart from Bvh2Walk,
+   whose members shall stay in registers. */
 typedef struct {
     uint nodes[BVH2_STACK_SIZE];
     real entries[BVH2_STACK_SIZE];
@@ -50,8 +53,8 @@ static inline Bvh2Walk bvh2_walk_make(void)
     return walk;
 }
 
-/* Gives the inner child to go on with, or 0 where none is left below this node. An entry distance is negative where the
-   child is missed or a leaf. */
+/* Gives the inner child to go on with, or 0 where none is left below this node. An entry distance is negative
+   where the child is missed or a leaf. */
 static inline uint bvh2_walk_down(Bvh2Walk* walk, Bvh2Stack* stack, real entry_0, real entry_1, uint child_0,
                                   uint child_1)
 {
@@ -76,8 +79,8 @@ static inline uint bvh2_walk_down(Bvh2Walk* walk, Bvh2Stack* stack, real entry_0
     return nearer;
 }
 
-/* Goes to the child that waits on the deepest level, or to the root where it has been forgotten; false where none waits
-   before t_max. */
+/* Goes to the child that waits on the deepest level, or to the root where it has been forgotten; false where
+   none waits before t_max. */
 static inline bool bvh2_walk_up(Bvh2Walk* walk, const Bvh2Stack* stack, real t_max, uint* node)
 {
     for (;;) {
@@ -101,8 +104,8 @@ static inline bool bvh2_walk_up(Bvh2Walk* walk, const Bvh2Stack* stack, real t_m
     }
 }
 
-/* Entry distance of a box, or a negative number where it is missed within (0, t_max]; limit is t_max times the exit factor.
-   xy holds lower x, upper x, lower y, upper y. */
+/* Entry distance of a box, or a negative number where it is missed within (0, t_max]; limit is t_max times
+   the exit factor. xy holds lower x, upper x, lower y, upper y. */
 static inline real bvh2_enter(float4 xy, float2 z, const BoxRay* box, real limit)
 {
     const bool left = box->reciprocal.x < REAL(0.0);
@@ -120,10 +123,10 @@ static inline real bvh2_enter(float4 xy, float2 z, const BoxRay* box, real limit
     return entry <= leave ? entry : REAL(-1.0);
 }
 
-/* Finds the first hit after `after` and not beyond hit->t, or leaves hit unchanged; with `any`, true at the first triangle
-   that is met, whichever it is. `any` is a constant. */
-CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, const Ray* ray, const Hit* after,
-                               Hit* hit, bool any)
+/* Finds the first hit after `after` and not beyond hit->t, or leaves hit unchanged; with `any`, true at the
+   first triangle that is met, whichever it is. `any` is a constant. */
+CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, const Ray* ray,
+                               const Hit* after, Hit* hit, bool any)
 {
     const BoxRay box = box_ray_make(ray, params->scene_extent);
     const RayShear shear = ray_shear_make(ray);
@@ -145,7 +148,8 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
             entry[side] = REAL(-1.0);
             if (walk.level >= walk.resume)
                 continue;
-            global const uint* leaf = scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
+            global const uint* leaf =
+                scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (child & ~BVH_LEAF_BIT);
             const uint count = words[BVH2_COUNT_WORD + side];
             SCENE_COUNT_LEAF(scene, count);
             for (uint i = 0; i < count; ++i, leaf += LEAF_TRIANGLE_WORDS) {
@@ -156,7 +160,8 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
                     return true;
             }
         }
-        node = bvh2_walk_down(&walk, &stack, entry[0], entry[1], words[BVH2_CHILD_WORD], words[BVH2_CHILD_WORD + 1]);
+        node = bvh2_walk_down(&walk, &stack, entry[0], entry[1], words[BVH2_CHILD_WORD],
+                              words[BVH2_CHILD_WORD + 1]);
         if (node == 0u && !bvh2_walk_up(&walk, &stack, hit->t, &node))
             return false;
     }

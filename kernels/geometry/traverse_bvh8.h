@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversal of the eight-wide tree: one ray against eight boxes or eight triangles at a time with real8. For CPU devices;
-// PoCL turns the vectors into AVX or AVX-512.
+// Traversal of the eight-wide tree: one ray against eight boxes or eight triangles at a time with real8. For
+// CPU devices; PoCL turns the vectors into AVX or AVX-512.
 //
-// A step of the traversal is a chain of waits: child's index, node's planes, box test, mask, child's index. Two things
-// shorten it. Where a child is chosen by a branch for its lane, instead of an address computed from the mask, a
-// processor that predicts branches starts on the next node while the test of this one is on its way. And what
-// goes to the stack is prefetched.
+// A step of the traversal is a chain of waits: child's index, node's planes, box test, mask, child's index.
+// Two things shorten it. Where a child is chosen by a branch for its lane, instead of an address computed
+// from the mask, a processor that predicts branches starts on the next node while the test of this one is on
+// its way. And what goes to the stack is prefetched.
 #ifndef CLRT_GEOMETRY_TRAVERSE_BVH8_H
 #define CLRT_GEOMETRY_TRAVERSE_BVH8_H
 
@@ -44,7 +44,8 @@ static inline global const uint* bvh8_leaf(const Scene* scene, uint child)
     return scene->bvh_leaves + (size_t)BVH8_BLOCK_WORDS * (child & ~BVH_LEAF_BIT);
 }
 
-/* Starts to load what a child consists of: four cache lines of a node, of a block all but its triangle indices. */
+/* Starts to load what a child consists of: four cache lines of a node, of a block all but its triangle
+   indices. */
 static inline void bvh8_prefetch(const Scene* scene, uint child)
 {
     global const uint* words = child & BVH_LEAF_BIT ? bvh8_leaf(scene, child) : bvh8_node(scene, child);
@@ -54,16 +55,23 @@ static inline void bvh8_prefetch(const Scene* scene, uint child)
     CLRT_PREFETCH(words + 48);
 }
 
-/* Tests the node's eight boxes against (0, t_max], where limit is t_max times the exit factor; gives the lanes that are met
-   and all entry distances. */
-static inline uint bvh8_enter(global const uint* node, const BoxRay* box, uint8 planes, real limit, real8* entry)
+/* Tests the node's eight boxes against (0, t_max], where limit is t_max times the exit factor; gives the
+   lanes that are met and all entry distances. */
+static inline uint bvh8_enter(global const uint* node, const BoxRay* box, uint8 planes, real limit,
+                              real8* entry)
 {
-    const real8 near_x = fma(bvh8_load(node + planes.s0), (real8)(box->reciprocal.x), (real8)(box->entry_offset.x));
-    const real8 near_y = fma(bvh8_load(node + planes.s1), (real8)(box->reciprocal.y), (real8)(box->entry_offset.y));
-    const real8 near_z = fma(bvh8_load(node + planes.s2), (real8)(box->reciprocal.z), (real8)(box->entry_offset.z));
-    const real8 far_x = fma(bvh8_load(node + planes.s3), (real8)(box->exit_reciprocal.x), (real8)(box->exit_offset.x));
-    const real8 far_y = fma(bvh8_load(node + planes.s4), (real8)(box->exit_reciprocal.y), (real8)(box->exit_offset.y));
-    const real8 far_z = fma(bvh8_load(node + planes.s5), (real8)(box->exit_reciprocal.z), (real8)(box->exit_offset.z));
+    const real8 near_x =
+        fma(bvh8_load(node + planes.s0), (real8)(box->reciprocal.x), (real8)(box->entry_offset.x));
+    const real8 near_y =
+        fma(bvh8_load(node + planes.s1), (real8)(box->reciprocal.y), (real8)(box->entry_offset.y));
+    const real8 near_z =
+        fma(bvh8_load(node + planes.s2), (real8)(box->reciprocal.z), (real8)(box->entry_offset.z));
+    const real8 far_x =
+        fma(bvh8_load(node + planes.s3), (real8)(box->exit_reciprocal.x), (real8)(box->exit_offset.x));
+    const real8 far_y =
+        fma(bvh8_load(node + planes.s4), (real8)(box->exit_reciprocal.y), (real8)(box->exit_offset.y));
+    const real8 far_z =
+        fma(bvh8_load(node + planes.s5), (real8)(box->exit_reciprocal.z), (real8)(box->exit_offset.z));
     /* All operands are finite, so min and max are defined. */
     *entry = max(max(near_x, near_y), max(near_z, (real8)(REAL(0.0))));
     const real8 leave = min(min(far_x, far_y), min(far_z, (real8)(limit)));
@@ -104,7 +112,8 @@ static inline BlockHits bvh8_block(global const uint* block, const RayShear* she
     BlockHits hits;
     real8 u, t_det;
     triangle_edges_8(shear, x, y, z, &u, &hits.v, &hits.w, &hits.det, &t_det);
-    const mask8 inside = (min(u, min(hits.v, hits.w)) >= REAL(0.0)) | (max(u, max(hits.v, hits.w)) <= REAL(0.0));
+    const mask8 inside =
+        (min(u, min(hits.v, hits.w)) >= REAL(0.0)) | (max(u, max(hits.v, hits.w)) <= REAL(0.0));
     /* Dividing always is cheaper than a branch that half of the blocks take. */
     hits.t = t_det / hits.det;
     hits.lanes = bvh8_lanes(inside & (hits.det != REAL(0.0)) & (hits.t > REAL(0.0)) & (hits.t <= t_max));
@@ -112,7 +121,8 @@ static inline BlockHits bvh8_block(global const uint* block, const RayShear* she
 }
 
 /* Keeps the first of the block's hits that comes after `after`. */
-static inline void bvh8_block_closest(global const uint* block, const RayShear* shear, const Hit* after, Hit* hit)
+static inline void bvh8_block_closest(global const uint* block, const RayShear* shear, const Hit* after,
+                                      Hit* hit)
 {
     const BlockHits hits = bvh8_block(block, shear, hit->t);
     if (hits.lanes == 0u)
@@ -162,8 +172,8 @@ static inline int bvh8_push(const Scene* scene, uint child, real t, uint* stack,
 }
 
 /* Pushes the entered children so that the nearest is on top; gives the new stack size. */
-static inline int bvh8_push_sorted(const Scene* scene, global const uint* children, uint lanes, const real* entries,
-                                   uint* stack, real* stack_t, int top)
+static inline int bvh8_push_sorted(const Scene* scene, global const uint* children, uint lanes,
+                                   const real* entries, uint* stack, real* stack_t, int top)
 {
     const int bottom = top;
     for (; lanes != 0u; lanes &= lanes - 1u) {
@@ -240,8 +250,8 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
     }
 }
 
-/* True if anything is hit before t_max. Children are visited by ascending lane, the order that the builder chose for
-   this question. */
+/* True if anything is hit before t_max. Children are visited by ascending lane, the order that the builder
+   chose for this question. */
 static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
     const BoxRay box = box_ray_make(ray, params->scene_extent);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversal of the compressed eight-wide tree (Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs
-// through compressed wide BVHs"): 80 bytes a node, for GPUs, right on every device.
+// Traversal of the compressed eight-wide tree (Ylitie, Karras and Laine 2017, "Efficient incoherent ray
+// traversal on GPUs through compressed wide BVHs"): 80 bytes a node, for GPUs, right on every device.
 //
-// Children are visited by octant: slots hold them so that ascending slot XOR octant is roughly front to back, and the
-// met ones are bits of a word, the nearest uppermost. Such a word with the index of the first child is a group; one node
-// leaves at most one group behind, so the stack holds a group a level and no distances. A tree has at most
-// CWBVH_MAX_LEVELS levels of nodes, and the deepest has no children left to put off: 20 entries of eight bytes.
+// Children are visited by octant: slots hold them so that ascending slot XOR octant is roughly front to back,
+// and the met ones are bits of a word, the nearest uppermost. Such a word with the index of the first child
+// is a group; one node leaves at most one group behind, so the stack holds a group a level and no distances.
+// A tree has at most CWBVH_MAX_LEVELS levels of nodes, and the deepest has no children left to put off: 20
+// entries of eight bytes.
 //
-// Boxes are safe in three steps: the lattice's box encloses the child's exactly (layout_cwbvh.cpp); step times reciprocal is
-// exact, since steps are powers of two and too large to underflow; and the pad below covers the one more rounding
-// that a distance takes here.
+// Boxes are safe in three steps: the lattice's box encloses the child's exactly (layout_cwbvh.cpp); step
+// times reciprocal is exact, since steps are powers of two and too large to underflow; and the pad below
+// covers the one more rounding that a distance takes here.
 #ifndef CLRT_GEOMETRY_TRAVERSE_CWBVH_H
 #define CLRT_GEOMETRY_TRAVERSE_CWBVH_H
 
@@ -19,16 +20,17 @@
 
 #define CWBVH_STACK_SIZE (CWBVH_MAX_LEVELS - 1)
 
-/* A plane at origin + q step is met at fma(q, step r, fma(origin, r, entry_offset)), where box.h has fma(plane, r, entry_offset). The inner
-   fma rounds a sum of at most 2 reach |r| and a pad: 2 units and a little more, with the exit factor as without. */
+/* A plane at origin + q step is met at fma(q, step r, fma(origin, r, entry_offset)), where box.h has
+   fma(plane, r, entry_offset). The inner fma rounds a sum of at most 2 reach |r| and a pad: 2 units and a
+   little more, with the exit factor as without. */
 #define CWBVH_PAD_ROUNDINGS (BOX_PAD_ROUNDINGS + REAL(3.0))
 
 /* Bits of a group that stand for children; those of inner nodes lie above those of leaf triangles. */
 #define CWBVH_INNER_BITS 0xff000000u
 #define CWBVH_FIRST_INNER_BIT 24u
 
-/* What a ray meets in a node. x: index of the first child or leaf triangle. y: bits of those that are met; for nodes, with
-   the mask of inner slots in the lowest byte. */
+/* What a ray meets in a node. x: index of the first child or leaf triangle. y: bits of those that are met;
+   for nodes, with the mask of inner slots in the lowest byte. */
 typedef struct {
     uint2 nodes;
     uint2 triangles;
@@ -37,8 +39,8 @@ typedef struct {
 /* One byte a slot. */
 static inline real8 cwbvh_planes(uint2 bytes) { return convert_real8(as_uchar8(bytes)); }
 
-/* The bits that each slot's child has in a group: one or, for a leaf, up to three. `flip` is the complement of the ray's
-   octant. */
+/* The bits that each slot's child has in a group: one or, for a leaf, up to three. `flip` is the complement
+   of the ray's octant. */
 static inline uint8 cwbvh_child_bits(uint2 meta, uint flip)
 {
     /* All eight bytes at a time; only the place of an inner node, 24 + slot, has both upper bits of five. */
@@ -51,7 +53,8 @@ static inline uint8 cwbvh_child_bits(uint2 meta, uint flip)
 /* Tests the node's eight boxes against (0, t_max]. */
 static inline CwbvhGroups cwbvh_enter(global const uint4* node, const BoxRay* box, uint flip, real t_max)
 {
-    const uint4 head = node[0], links = node[1], lower_xy = node[2], lower_z_upper_x = node[3], upper_yz = node[4];
+    const uint4 head = node[0], links = node[1], lower_xy = node[2], lower_z_upper_x = node[3],
+                upper_yz = node[4];
     const uint4 exponents = convert_uint4(as_uchar4(head.w));
     const real3 r = box->reciprocal;
     const real3 origin = convert_real3(as_float3(head.xyz));
@@ -61,9 +64,11 @@ static inline CwbvhGroups cwbvh_enter(global const uint4* node, const BoxRay* bo
     const real3 entry = fma(origin, r, box->entry_offset);
     const real3 exit = fma(origin, box->exit_reciprocal, box->exit_offset);
     const bool left = (flip & 1u) == 0u, down = (flip & 2u) == 0u, back = (flip & 4u) == 0u;
-    const uint2 near_x = left ? lower_z_upper_x.zw : lower_xy.xy, far_x = left ? lower_xy.xy : lower_z_upper_x.zw;
+    const uint2 near_x = left ? lower_z_upper_x.zw : lower_xy.xy,
+                far_x = left ? lower_xy.xy : lower_z_upper_x.zw;
     const uint2 near_y = down ? upper_yz.xy : lower_xy.zw, far_y = down ? lower_xy.zw : upper_yz.xy;
-    const uint2 near_z = back ? upper_yz.zw : lower_z_upper_x.xy, far_z = back ? lower_z_upper_x.xy : upper_yz.zw;
+    const uint2 near_z = back ? upper_yz.zw : lower_z_upper_x.xy,
+                far_z = back ? lower_z_upper_x.xy : upper_yz.zw;
     const real8 enter_x = fma(cwbvh_planes(near_x), (real8)(step.x), (real8)(entry.x));
     const real8 enter_y = fma(cwbvh_planes(near_y), (real8)(step.y), (real8)(entry.y));
     const real8 enter_z = fma(cwbvh_planes(near_z), (real8)(step.z), (real8)(entry.z));
@@ -94,10 +99,10 @@ static inline uint cwbvh_take_nearest(uint2* group, uint flip)
     return group->x + popcount(group->y & ((1u << slot) - 1u));
 }
 
-/* Finds the first hit after `after` and not beyond hit->t, or leaves hit unchanged; with `any`, true at the first triangle
-   that is met, whichever it is. `any` is a constant. */
-CLRT_INLINE bool cwbvh_traverse(const Scene* scene, const RenderParams* params, const Ray* ray, const Hit* after,
-                                Hit* hit, bool any)
+/* Finds the first hit after `after` and not beyond hit->t, or leaves hit unchanged; with `any`, true at the
+   first triangle that is met, whichever it is. `any` is a constant. */
+CLRT_INLINE bool cwbvh_traverse(const Scene* scene, const RenderParams* params, const Ray* ray,
+                                const Hit* after, Hit* hit, bool any)
 {
     const BoxRay box = box_ray_make_padded(ray, params->scene_extent, CWBVH_PAD_ROUNDINGS);
     const RayShear shear = ray_shear_make(ray);
@@ -116,7 +121,8 @@ CLRT_INLINE bool cwbvh_traverse(const Scene* scene, const RenderParams* params, 
         const CwbvhGroups groups = cwbvh_enter(node, &box, flip, hit->t);
         for (uint rest = groups.triangles.y; rest != 0u; rest &= rest - 1u) {
             const uint place = 31u - clz(rest & -rest);
-            global const uint* leaf = scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (groups.triangles.x + place);
+            global const uint* leaf =
+                scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (groups.triangles.x + place);
             SCENE_COUNT_LEAF(scene, 1u);
             Hit found;
             if (!any)

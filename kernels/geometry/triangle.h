@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watertight ray-triangle test (Woop, Benthin and Wald 2013, JCGT 2(1)): corners are sheared so that the ray runs along
-// an axis, a corner shared by triangles rounds alike in all of them, and the sign of each edge function is exact
-// (differences of products after Kahan), so a ray cannot slip between two triangles. Ties count as inside.
+// Watertight ray-triangle test (Woop, Benthin and Wald 2013, JCGT 2(1)): corners are sheared so that the ray
+// runs along an axis, a corner shared by triangles rounds alike in all of them, and the sign of each edge
+// function is exact (differences of products after Kahan), so a ray cannot slip between two triangles. Ties
+// count as inside.
 #ifndef CLRT_GEOMETRY_TRIANGLE_H
 #define CLRT_GEOMETRY_TRIANGLE_H
 
@@ -34,33 +35,33 @@ static inline RayShear ray_shear_make(const Ray* ray)
     return shear;
 }
 
-/* The test's arithmetic for one triangle or eight: one text for both widths, so that every layout computes the same
-   bits. Corners in permuted axes; u, v, w are the edge functions (weights of corners 0, 1, 2 times det), t_det
-   is the distance times det. The ray meets the triangle's plane inside when u, v, w have no two different
-   signs and det is not 0. */
-#define TRIANGLE_DEFINE(NAME, REALN)                                                                          \
-    static inline void NAME(const RayShear* ray, const REALN* x, const REALN* y, const REALN* z, REALN* u,    \
-                            REALN* v, REALN* w, REALN* det, REALN* t_det)                                     \
-    {                                                                                                         \
-        /* Move the origin to the ray's, shear the ray onto the axis. */                                      \
-        const REALN az = z[0] - ray->oz;                                                                      \
-        const REALN bz = z[1] - ray->oz;                                                                      \
-        const REALN cz = z[2] - ray->oz;                                                                      \
-        const REALN ax = fma((REALN)(-ray->sx), az, x[0] - ray->ox);                                          \
-        const REALN ay = fma((REALN)(-ray->sy), az, y[0] - ray->oy);                                          \
-        const REALN bx = fma((REALN)(-ray->sx), bz, x[1] - ray->ox);                                          \
-        const REALN by = fma((REALN)(-ray->sy), bz, y[1] - ray->oy);                                          \
-        const REALN cx = fma((REALN)(-ray->sx), cz, x[2] - ray->ox);                                          \
-        const REALN cy = fma((REALN)(-ray->sy), cz, y[2] - ray->oy);                                          \
-        /* Edge functions with exact signs. */                                                                \
-        const REALN cybx = cy * bx;                                                                           \
-        const REALN aycx = ay * cx;                                                                           \
-        const REALN byax = by * ax;                                                                           \
-        *u = fma(cx, by, -cybx) + fma(-cy, bx, cybx);                                                         \
-        *v = fma(ax, cy, -aycx) + fma(-ay, cx, aycx);                                                         \
-        *w = fma(bx, ay, -byax) + fma(-by, ax, byax);                                                         \
-        *det = *u + *v + *w;                                                                                  \
-        *t_det = ray->sz * fma(*u, az, fma(*v, bz, *w * cz));                                                 \
+/* The test's arithmetic for one triangle or eight: one text for both widths, so that every layout computes
+   the same bits. Corners in permuted axes; u, v, w are the edge functions (weights of corners 0, 1, 2 times
+   det), t_det is the distance times det. The ray meets the triangle's plane inside when u, v, w have no two
+   different signs and det is not 0. */
+#define TRIANGLE_DEFINE(NAME, REALN)                                                                         \
+    static inline void NAME(const RayShear* ray, const REALN* x, const REALN* y, const REALN* z, REALN* u,   \
+                            REALN* v, REALN* w, REALN* det, REALN* t_det)                                    \
+    {                                                                                                        \
+        /* Move the origin to the ray's, shear the ray onto the axis. */                                     \
+        const REALN az = z[0] - ray->oz;                                                                     \
+        const REALN bz = z[1] - ray->oz;                                                                     \
+        const REALN cz = z[2] - ray->oz;                                                                     \
+        const REALN ax = fma((REALN)(-ray->sx), az, x[0] - ray->ox);                                         \
+        const REALN ay = fma((REALN)(-ray->sy), az, y[0] - ray->oy);                                         \
+        const REALN bx = fma((REALN)(-ray->sx), bz, x[1] - ray->ox);                                         \
+        const REALN by = fma((REALN)(-ray->sy), bz, y[1] - ray->oy);                                         \
+        const REALN cx = fma((REALN)(-ray->sx), cz, x[2] - ray->ox);                                         \
+        const REALN cy = fma((REALN)(-ray->sy), cz, y[2] - ray->oy);                                         \
+        /* Edge functions with exact signs. */                                                               \
+        const REALN cybx = cy * bx;                                                                          \
+        const REALN aycx = ay * cx;                                                                          \
+        const REALN byax = by * ax;                                                                          \
+        *u = fma(cx, by, -cybx) + fma(-cy, bx, cybx);                                                        \
+        *v = fma(ax, cy, -aycx) + fma(-ay, cx, aycx);                                                        \
+        *w = fma(bx, ay, -byax) + fma(-by, ax, byax);                                                        \
+        *det = *u + *v + *w;                                                                                 \
+        *t_det = ray->sz * fma(*u, az, fma(*v, bz, *w * cz));                                                \
     }
 
 TRIANGLE_DEFINE(triangle_edges, real)

@@ -2,7 +2,7 @@
 // Entry point for the layers of the primary hits: what the picture's samples see first, by the same camera rays.
 #include "camera/camera.h"
 #include "film/tile.h"
-#include "geometry/visibility.h"
+#include "path/visibility.h"
 #include "shared/aov_types.h"
 
 /* Sums over a pixel's samples of this launch. */

@@ -5,10 +5,10 @@
 #define CLRT_INTEGRATORS_DIRECT_H
 
 #include "film/film.h"
-#include "geometry/visibility.h"
 #include "lights/lights.h"
 #include "numerics/real_functions.h"
 #include "path/nan.h"
+#include "path/visibility.h"
 #include "trace/vertex.h"
 
 /* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. */

@@ -3,14 +3,14 @@
 // before
 //   INTEGRATOR_KERNEL    the entry point's name
 //   INTEGRATOR_RADIANCE  the integrator's function (pixel.h)
-// Builds with -DCLRT_TRACE have the entry point of trace/replay.h instead.
+// Builds with -DCLRT_TRACE have the entry point of replay.h instead.
 #ifndef CLRT_INTEGRATORS_ENTRY_POINT_H
 #define CLRT_INTEGRATORS_ENTRY_POINT_H
 
 #include "pixel.h"
 
 #ifdef CLRT_TRACE
-#include "trace/replay.h"
+#include "replay.h"
 #else
 
 /* Takes a pixel's samples of this launch. Out of line, because some compilers compile an entry point's

@@ -6,11 +6,11 @@
 #define CLRT_INTEGRATORS_PATH_H
 
 #include "film/film.h"
-#include "geometry/visibility.h"
 #include "lights/lights.h"
 #include "path/filter.h"
 #include "path/layers.h"
 #include "path/nan.h"
+#include "path/visibility.h"
 #include "trace/vertex.h"
 #include "pixel.h"
 

@@ -37,7 +37,8 @@ static CLRT_NOINLINE LightSample delta_light_sample(const Scene* scene, uint ind
 }
 
 /* Index of the light that a word and an alias word choose. */
-static inline uint delta_light_choose(const Scene* scene, const RenderParams* params, uint word, uint alias_word)
+static inline uint delta_light_choose(const Scene* scene, const RenderParams* params, uint word,
+                                      uint alias_word)
 {
     const uint slot = warp_index(word, params->light_count);
     return alias_word < scene->lights[slot].threshold ? slot : scene->lights[slot].alias;

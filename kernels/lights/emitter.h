@@ -20,10 +20,10 @@ static inline real emitter_pdf_of_angle(global const Emitter* emitter, real3 nor
     return (real)emitter->pdf_a * area / solid_angle;
 }
 
-/* Chooses a triangle by the alias table and a point on it. `word` gives the index and, by its rest, the point's first
-   coordinate; v is the second. */
-static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const RenderParams* params, real3 position,
-                                                uint word, uint alias_word, real v)
+/* Chooses a triangle by the alias table and a point on it. `word` gives the index and, by its rest, the
+   point's first coordinate; v is the second. */
+static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const RenderParams* params,
+                                                real3 position, uint word, uint alias_word, real v)
 {
     LightSample sample = light_sample_none();
     /* Choose. */
@@ -41,7 +41,8 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     real2 b = warp_triangle(u);
     real solid_angle = REAL(0.0);
     if (spherical_triangle_is_near(p0 - position, e1, e2, normal)) {
-        const SphericalTriangle seen = spherical_triangle_make(p0 - position, p1 - position, p2 - position, normal);
+        const SphericalTriangle seen =
+            spherical_triangle_make(p0 - position, p1 - position, p2 - position, normal);
         solid_angle = seen.solid_angle;
         if (solid_angle > REAL(0.0))
             b = spherical_triangle_sample(&seen, u);
@@ -63,9 +64,9 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     sample.is_distant = false;
     sample.is_delta = false;
     /* facing is cos_l times the lengths of way and normal. */
-    sample.pdf_w = solid_angle > REAL(0.0)
-                       ? emitter_pdf_of_angle(emitter, normal, solid_angle)
-                       : (real)emitter->pdf_a * distance * distance * (distance * vector_length(normal) / fabs(facing));
+    sample.pdf_w = solid_angle > REAL(0.0) ? emitter_pdf_of_angle(emitter, normal, solid_angle)
+                                           : (real)emitter->pdf_a * distance * distance *
+                                                 (distance * vector_length(normal) / fabs(facing));
     float2 uv = (float2)(0.0f);
     if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
         const float2 t0 = scene->uvs[triangle->t0];
@@ -78,8 +79,10 @@ static CLRT_NOINLINE LightSample emitter_sample(const Scene* scene, const Render
     return sample;
 }
 
-/* Density with which emitter_sample at `from` chooses the direction to a point of an emitter that was hit at distance t. */
-static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real3 from, real t, real3 wo)
+/* Density with which emitter_sample at `from` chooses the direction to a point of an emitter that was hit at
+   distance t. */
+static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real3 from, real t,
+                                            real3 wo)
 {
     global const Emitter* emitter = scene->emitters + surface->emitter;
     real3 p0, p1, p2;
@@ -94,9 +97,10 @@ static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* s
     return cos_l > REAL(0.0) ? emitter_pdf_w((real)emitter->pdf_a, t * t, cos_l) : REAL(0.0);
 }
 
-/* The same for a ray that crossed a curved surface and so did not start at `from`, where light is sampled, but at the plane
-   (light_from_plane). */
-static CLRT_NOINLINE real emitter_crossed_pdf_w(const Scene* scene, const Surface* surface, real3 from, real t, real3 wo)
+/* The same for a ray that crossed a curved surface and so did not start at `from`, where light is sampled,
+   but at the plane (light_from_plane). */
+static CLRT_NOINLINE real emitter_crossed_pdf_w(const Scene* scene, const Surface* surface, real3 from,
+                                                real t, real3 wo)
 {
     const real3 way = surface->position - from;
     const real distance = vector_length(way);

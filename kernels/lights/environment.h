@@ -23,8 +23,8 @@ static inline real3 environment_to_world(const RenderParams* params, real3 d)
     return vector_make(fma(c, d.x, s * d.z), d.y, fma(-s, d.x, c * d.z));
 }
 
-/* Map coordinates of a unit direction in the map's frame, in [0, 1]. The angle from +Y is taken from both its sine and its
-   cosine: next to the poles the cosine alone tells rows of a large map no longer apart. */
+/* Map coordinates of a unit direction in the map's frame, in [0, 1]. The angle from +Y is taken from both its
+   sine and its cosine: next to the poles the cosine alone tells rows of a large map no longer apart. */
 static inline real2 environment_uv(real3 d)
 {
     return (real2)(fma(real_atan2(d.z, d.x), REAL(0.5) * REAL_INVERSE_PI, REAL(0.5)),
@@ -79,17 +79,19 @@ static inline real3 environment_eval(const Scene* scene, const RenderParams* par
 }
 
 /* Chooses a texel by the alias table and a direction uniformly within it. */
-static inline LightSample environment_map_sample(const Scene* scene, const RenderParams* params, uint word, uint alias_word,
-                                                 real v)
+static inline LightSample environment_map_sample(const Scene* scene, const RenderParams* params, uint word,
+                                                 uint alias_word, real v)
 {
     const uint width = params->environment_width;
     const uint count = width * params->environment_height;
     const uint slot = warp_index(word, count);
     const real2 u = (real2)(warp_rest(word, count, alias_word), v);
-    const uint texel = alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
+    const uint texel =
+        alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
     const uint row = texel / width;
     const uint column = texel - row * width;
-    /* 1 - cos is uniform between the row's edges, measured from the nearer pole: so no digits are lost next to it. */
+    /* 1 - cos is uniform between the row's edges, measured from the nearer pole: so no digits are lost next
+       to it. */
     const bool upper = 2u * row < params->environment_height;
     const uint from_pole = upper ? row : params->environment_height - 1u - row;
     const real inner = environment_half_sin(params, (real)from_pole);
@@ -104,16 +106,17 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
     LightSample sample = light_sample_none();
     sample.wi = environment_to_world(params, d);
     sample.pdf_w = (real)scene->environment[texel].radiance.w / environment_texel_solid_angle(params, row);
-    sample.radiance = vector_from(params->environment) *
-                      environment_map_lookup(scene, params, (real2)(map_u, real_atan2(r, y) * REAL_INVERSE_PI));
+    sample.radiance =
+        vector_from(params->environment) *
+        environment_map_lookup(scene, params, (real2)(map_u, real_atan2(r, y) * REAL_INVERSE_PI));
     sample.is_delta = false;
     return sample;
 }
 
-/* One direction to the environment for a surface: the map's by its alias table, the constant's by the cosine around the
-   shading normal n. `word` and v as in emitter_sample. */
-static CLRT_NOINLINE LightSample environment_sample(const Scene* scene, const RenderParams* params, real3 n, uint word,
-                                                    uint alias_word, real v)
+/* One direction to the environment for a surface: the map's by its alias table, the constant's by the cosine
+   around the shading normal n. `word` and v as in emitter_sample. */
+static CLRT_NOINLINE LightSample environment_sample(const Scene* scene, const RenderParams* params, real3 n,
+                                                    uint word, uint alias_word, real v)
 {
     if (HAS(EFFECT_ENVIRONMENT_MAP) && params->environment_width != 0u)
         return environment_map_sample(scene, params, word, alias_word, v);

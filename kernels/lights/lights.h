@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// All lights together: one of them chosen for next-event estimation, and what a ray that leaves the scene sees.
+// All lights together: one of them chosen for next-event estimation, and what a ray that leaves the scene
+// sees.
 #ifndef CLRT_LIGHTS_LIGHTS_H
 #define CLRT_LIGHTS_LIGHTS_H
 
 #include "delta_light.h"
 #include "emitter.h"
 #include "environment.h"
+#include "numerics/mis.h"
 #include "numerics/sampler.h"
-#include "path/mis.h"
 
-/* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities, then a
-   light of that kind, then a point on it, as seen from the point where rays start that the surface reflects. The
-   probability of the choice is in pdf_w. One pair of words serves all: what is
-   left of the first after choosing the light, and of the second after choosing the kind, gives the point. */
-static inline LightSample lights_sample(const Scene* scene, const RenderParams* params, const Surface* surface, real3 n,
-                                        uint2 words, uint alias_word)
+/* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities,
+   then a light of that kind, then a point on it, as seen from the point where rays start that the surface
+   reflects. The probability of the choice is in pdf_w. One pair of words serves all: what is left of the
+   first after choosing the light, and of the second after choosing the kind, gives the point. */
+static inline LightSample lights_sample(const Scene* scene, const RenderParams* params,
+                                        const Surface* surface, real3 n, uint2 words, uint alias_word)
 {
     const real v = sampler_unit(words.y);
     const real emitter = (real)params->choose_emitter;
@@ -32,7 +33,8 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
         sample.kind = KIND_SKY;
     } else if (HAS(EFFECT_DELTA_LIGHT) && light > REAL(0.0)) {
         const uint index = delta_light_choose(scene, params, words.x, alias_word);
-        const real2 u = (real2)(warp_rest(words.x, params->light_count, alias_word), (v - emitter - sky) / light);
+        const real2 u =
+            (real2)(warp_rest(words.x, params->light_count, alias_word), (v - emitter - sky) / light);
         sample = delta_light_sample(scene, index, from, u);
         sample.pdf_w *= light * (real)scene->lights[index].probability;
         sample.kind = scene->lights[index].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
@@ -41,10 +43,11 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
     return sample;
 }
 
-/* Radiance from outside the scene along wi: the environment and the discs of suns, as far as `kinds` (KIND_*) names them.
-   pdf_w is the density with which the direction was sampled, 0 for camera rays and delta lobes; each part is weighted
-   against next-event estimation. */
-static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams* params, real3 wi, real pdf_w, uint kinds)
+/* Radiance from outside the scene along wi: the environment and the discs of suns, as far as `kinds` (KIND_*)
+   names them. pdf_w is the density with which the direction was sampled, 0 for camera rays and delta lobes;
+   each part is weighted against next-event estimation. */
+static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams* params, real3 wi, real pdf_w,
+                                         uint kinds)
 {
     real3 radiance = (real3)(REAL(0.0));
     if (HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY)) {
@@ -65,14 +68,15 @@ static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams*
     return radiance;
 }
 
-/* Radiance from outside the scene to the ray of a path's segment, as lights_escape gives it; but a camera ray sees the
-   background, where there is one, which counts as KIND_SKY. */
-static inline real3 lights_outside(const Scene* scene, const RenderParams* params, uint segment, real3 wi, real pdf_w,
-                                   uint kinds)
+/* Radiance from outside the scene to the ray of a path's segment, as lights_escape gives it; but a camera ray
+   sees the background, where there is one, which counts as KIND_SKY. */
+static inline real3 lights_outside(const Scene* scene, const RenderParams* params, uint segment, real3 wi,
+                                   real pdf_w, uint kinds)
 {
     if (segment > 1u || params->background.w == 0.0f)
         return lights_escape(scene, params, wi, pdf_w, kinds);
-    return HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY) ? vector_from(params->background) : (real3)(REAL(0.0));
+    return HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY) ? vector_from(params->background)
+                                                         : (real3)(REAL(0.0));
 }
 
 #endif

@@ -6,8 +6,9 @@
 #include "geometry/surface.h"
 #include "numerics/real_functions.h"
 
-/* Triangles that look smaller than SMALLEST are sampled by area, which is nearly as good there and cheaper. So are those that
-   fill all but 1e-2 of a half space: the point is in their plane but for roundings, which decide the angle. */
+/* Triangles that look smaller than SMALLEST are sampled by area, which is nearly as good there and cheaper.
+   So are those that fill all but 1e-2 of a half space: the point is in their plane but for roundings, which
+   decide the angle. */
 #define SPHERICAL_TRIANGLE_SMALLEST REAL(0.25)
 #define SPHERICAL_TRIANGLE_LARGEST REAL(6.27)
 
@@ -21,8 +22,9 @@ typedef struct {
     real solid_angle; /* 0 where points are to be chosen by area */
 } SphericalTriangle;
 
-/* Tells triangles that need a look at their solid angle from those that are far: farther than their longer edge and, as a
-   small triangle at its centroid would be, smaller than SMALLEST. p0 is relative to the point; `normal` as below. */
+/* Tells triangles that need a look at their solid angle from those that are far: farther than their longer
+   edge and, as a small triangle at its centroid would be, smaller than SMALLEST. p0 is relative to the point;
+   `normal` as below. */
 static inline bool spherical_triangle_is_near(real3 p0, real3 e1, real3 e2, real3 normal)
 {
     const real3 centroid = p0 + (e1 + e2) * REAL(0.33333333);
@@ -33,8 +35,8 @@ static inline bool spherical_triangle_is_near(real3 p0, real3 e1, real3 e2, real
            square < fmax(vector_dot(e1, e1), vector_dot(e2, e2));
 }
 
-/* `p0`, `p1`, `p2` are the corners relative to the point, `normal` is surface_cross of the edges. The solid angle is
-   2 atan2(volume, base + apex) (van Oosterom and Strackee 1983). */
+/* `p0`, `p1`, `p2` are the corners relative to the point, `normal` is surface_cross of the edges. The solid
+   angle is 2 atan2(volume, base + apex) (van Oosterom and Strackee 1983). */
 static CLRT_NOINLINE SphericalTriangle spherical_triangle_make(real3 p0, real3 p1, real3 p2, real3 normal)
 {
     SphericalTriangle seen;
@@ -67,10 +69,11 @@ static CLRT_NOINLINE SphericalTriangle spherical_triangle_make(real3 p0, real3 p
     return seen;
 }
 
-/* Barycentric weights of corners 1 and 2 of the point whose direction u stands for; uniform in solid angle. After Arvo
-   (1995): u.x cuts off a triangle a b d of that share of the angle, d on the arc from a to c; u.y is the share of 1 - cos
-   along the arc from b to d. Without its angles (after Peters 2021): the middle of a and d is x a + y c. All directions
-   come as sums of the corners' with weights >= 0, so no rounding leaves the triangle. */
+/* Barycentric weights of corners 1 and 2 of the point whose direction u stands for; uniform in solid angle.
+   After Arvo (1995): u.x cuts off a triangle a b d of that share of the angle, d on the arc from a to c; u.y
+   is the share of 1 - cos along the arc from b to d. Without its angles (after Peters 2021): the middle of a
+   and d is x a + y c. All directions come as sums of the corners' with weights >= 0, so no rounding leaves
+   the triangle. */
 static CLRT_NOINLINE real2 spherical_triangle_sample(const SphericalTriangle* seen, real2 u)
 {
     const real2 sc = real_sin_cos_turn(u.x * seen->solid_angle * (REAL(0.25) * REAL_INVERSE_PI));

@@ -3,27 +3,29 @@
 #ifndef CLRT_NUMERICS_DEVICE_H
 #define CLRT_NUMERICS_DEVICE_H
 
-/* Clang for x86: warns where a vector that is wider than the processor's registers (double8 without AVX-512, float8 and
-   double3 without AVX) crosses a function's border, for the calling convention depends on the instruction set. That
-   is a danger to code whose parts are compiled apart. A program and its driver's functions are compiled for one
-   instruction set and linked as a whole, and OpenCL C's own functions (fma, vload8) take such vectors too. */
+/* Clang for x86: warns where a vector that is wider than the processor's registers (double8 without AVX-512,
+   float8 and double3 without AVX) crosses a function's border, for the calling convention depends on the
+   instruction set. That is a danger to code whose parts are compiled apart. A program and its driver's
+   functions are compiled for one instruction set and linked as a whole, and OpenCL C's own functions (fma,
+   vload8) take such vectors too. */
 #if defined(__clang__) && defined(__has_warning)
 #if __has_warning("-Wpsabi")
 #pragma clang diagnostic ignored "-Wpsabi"
 #endif
 #endif
 
-/* PoCL compiles a kernel's body several times (kernel, work-group launchers), but a function once; other CPU and
-   NVIDIA compilers shorten their build alike. So every large function is kept out of line. */
+/* PoCL compiles a kernel's body several times (kernel, work-group launchers), but a function once; other CPU
+   and NVIDIA compilers shorten their build alike. So every large function is kept out of line. */
 #define CLRT_NOINLINE __attribute__((noinline))
 
-/* A body that two functions share, told apart by a constant argument: nothing of the choice is left in either. Clang for
-   NVIDIA's targets would call it instead. */
+/* A body that two functions share, told apart by a constant argument: nothing of the choice is left in
+   either. Clang for NVIDIA's targets would call it instead. */
 #define CLRT_INLINE static inline __attribute__((always_inline))
 
-/* Begins an entry point. Intel's CPU runtime runs several work-items in the lanes of vectors and takes apart the vectors
-   that the code is written in: small kernels around eight-wide traversal become three to six times slower, large ones
-   compile for 12 to 19 seconds before it gives up. The hint keeps the code as written. */
+/* Begins an entry point. Intel's CPU runtime runs several work-items in the lanes of vectors and takes apart
+   the vectors that the code is written in: small kernels around eight-wide traversal become three to six
+   times slower, large ones compile for 12 to 19 seconds before it gives up. The hint keeps the code as
+   written. */
 #ifdef cl_intel_vec_len_hint
 #define CLRT_KERNEL kernel __attribute__((intel_vec_len_hint(1)))
 #else
@@ -40,14 +42,14 @@
 #define CLRT_HAS_MOVMSKPS 1
 #endif
 
-/* x86 targets of PoCL: LLVM's own bit reversal is the fastest. Elsewhere it is written out, with ^ instead of |, because
-   Oclgrind 21.10 does not know the intrinsic that LLVM would make of it. */
+/* x86 targets of PoCL: LLVM's own bit reversal is the fastest. Elsewhere it is written out, with ^ instead of
+   |, because Oclgrind 21.10 does not know the intrinsic that LLVM would make of it. */
 #if __has_builtin(__builtin_bitreverse32) && defined(CLRT_HAS_MOVMSKPS)
 #define CLRT_REVERSE_BITS(x) __builtin_bitreverse32(x)
 #endif
 
-/* x86 targets of PoCL: tzcnt, one instruction. Elsewhere count from the other end: OpenCL C has clz since 1.0, ctz since
-   2.0, and Oclgrind 21.10 does not know the intrinsic behind the builtin. */
+/* x86 targets of PoCL: tzcnt, one instruction. Elsewhere count from the other end: OpenCL C has clz since
+   1.0, ctz since 2.0, and Oclgrind 21.10 does not know the intrinsic behind the builtin. */
 #if __has_builtin(__builtin_ctz) && defined(CLRT_HAS_MOVMSKPS)
 #define CLRT_LOWEST_BIT(x) ((uint)__builtin_ctz(x))
 #else

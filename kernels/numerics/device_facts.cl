@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entry point that shows how a device computes: results of the operations that all kernels consist of, for the host to
-// compare with its own. Where they are the same, so is the picture.
+// Entry point that shows how a device computes: results of the operations that all kernels consist of, for
+// the host to compare with its own. Where they are the same, so is the picture.
 #include "real_functions.h"
 #include "shared/fact_types.h"
 
-/* The rules that hold; the numbers come from outside, so that no compiler decides: NaN, infinity, 0, -0, 1, 2.75. */
+/* The rules that hold; the numbers come from outside, so that no compiler decides: NaN, infinity, 0, -0, 1,
+   2.75. */
 static inline uint facts_rules(global const float* numbers)
 {
-    const float not_a_number = numbers[0], infinite = numbers[1], zero = numbers[2], minus = numbers[3], one = numbers[4],
-                fraction = numbers[5];
+    const float not_a_number = numbers[0], infinite = numbers[1], zero = numbers[2], minus = numbers[3],
+                one = numbers[4], fraction = numbers[5];
     uint rules = 0u;
     const bool compares = not_a_number == not_a_number || not_a_number < one || not_a_number >= one;
     const bool prefers_numbers = fmin(not_a_number, one) == one && fmax(one, not_a_number) == one;
@@ -53,10 +54,10 @@ static inline void facts_one(float a, float b, float c, float square, float u, g
     result[FACT_COS_TURN * FACT_COUNT] = sc.y;
 }
 
-CLRT_KERNEL void device_facts(global const float* restrict a, global const float* restrict b, global const float* restrict c,
-                              global const float* restrict squares, global const float* restrict units,
-                              global const float* restrict numbers, global float* restrict results,
-                              global uint* restrict rules)
+CLRT_KERNEL void device_facts(global const float* restrict a, global const float* restrict b,
+                              global const float* restrict c, global const float* restrict squares,
+                              global const float* restrict units, global const float* restrict numbers,
+                              global float* restrict results, global uint* restrict rules)
 {
     const uint i = (uint)get_global_id(0);
     facts_eight(i, vload8(i, a), vload8(i, b), vload8(i, c), vload8(i, squares), results);

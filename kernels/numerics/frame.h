@@ -22,8 +22,8 @@ static inline Frame frame_make(real3 n)
     return frame;
 }
 
-/* A frame around n whose x axis is the part of t across n; frame_make(n) where t is zero or along n. By cross products: they
-   keep their digits where t is nearly along n, where t - (t . n) n would cancel. */
+/* A frame around n whose x axis is the part of t across n; frame_make(n) where t is zero or along n. By cross
+   products: they keep their digits where t is nearly along n, where t - (t . n) n would cancel. */
 static inline Frame frame_make_tangent(real3 n, real3 t)
 {
     const real3 beside = vector_cross(n, t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The number type of all kernels: float, or double for the oracle (--precision double). The only file that knows
-// about precision, with real_functions.h; native functions (--precision fast) appear nowhere else.
+// The number type of all kernels: float, or double for the oracle (--precision double). The only file that
+// knows about precision, with real_functions.h; native functions (--precision fast) appear nowhere else.
 #ifndef CLRT_NUMERICS_REAL_H
 #define CLRT_NUMERICS_REAL_H
 
@@ -48,7 +48,8 @@ typedef int8 mask8;
 #define REAL_PI REAL(3.14159265358979323846)
 #define REAL_INVERSE_PI REAL(0.31830988618379067154)
 
-/* Square root: correctly rounded, like division, where the device keeps its promises (device_facts.cl asks it). */
+/* Square root: correctly rounded, like division, where the device keeps its promises (device_facts.cl asks
+   it). */
 #ifdef REAL_IS_FAST
 #define real_sqrt(x) native_sqrt(x)
 /* The rest of them is in real_functions.h otherwise. */
@@ -71,7 +72,8 @@ static inline real real_unit(real x) { return x < REAL(0.0) ? REAL(0.0) : (x > R
 /* sqrt(max(x, 0)): for values that are non-negative but for rounding. */
 static inline real real_root(real x) { return real_sqrt(fmax(x, REAL(0.0))); }
 
-/* a b - c d with an error of at most 1.5 ulp and the exact sign (Kahan; Jeannerod, Louvet and Muller 2013). */
+/* a b - c d with an error of at most 1.5 ulp and the exact sign (Kahan; Jeannerod, Louvet and Muller
+   2013). */
 static inline real real_difference_of_products(real a, real b, real c, real d)
 {
     const real cd = c * d;

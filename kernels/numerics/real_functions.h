@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// exp, log, pow, atan2 and acos of real. OpenCL leaves the last bits of its built-in ones to the device; these consist of
-// correctly rounded operations and fma only, so every device that has those (device_facts.cl asks it) gives the same bits.
-// Largest errors over all of the stated range, in units in the last place, as measured by real_functions_test.cpp:
+// exp, log, pow, atan2 and acos of real. OpenCL leaves the last bits of its built-in ones to the device;
+// these consist of correctly rounded operations and fma only, so every device that has those (device_facts.cl
+// asks it) gives the same bits. Largest errors over all of the stated range, in units in the last place, as
+// measured by real_functions_test.cpp:
 //
 //                      range               float   double
 //     real_exp         all                 0.8     0.8
@@ -10,9 +11,9 @@
 //     real_atan2       all                 1.5     1.5
 //     real_acos        [-1, 1]             1.9     1.9
 //
-// Methods: reduction by powers of two after Cody and Waite (1980); atanh series for logarithms, and 1 - r^2 / 2 kept apart, as
-// in fdlibm (Sun Microsystems 1993); products in two parts by fma after Dekker (1971). tools/fit_functions.py derives the
-// polynomials. Special values are those of C11, Annex F.
+// Methods: reduction by powers of two after Cody and Waite (1980); atanh series for logarithms, and 1 - r^2 /
+// 2 kept apart, as in fdlibm (Sun Microsystems 1993); products in two parts by fma after Dekker (1971).
+// tools/fit_functions.py derives the polynomials. Special values are those of C11, Annex F.
 #ifndef CLRT_NUMERICS_REAL_FUNCTIONS_H
 #define CLRT_NUMERICS_REAL_FUNCTIONS_H
 
@@ -20,9 +21,9 @@
 
 #ifndef REAL_IS_FAST /* real.h has the native ones */
 
-/* The format: bits of the mantissa, bias of the exponent, the bits of sqrt(1/2), and a power of two that makes
-   subnormal numbers normal. LN2_HI has so many zeros at its end that its product with an exponent is exact, LN2_LO is what is missing. Names in _REST or
-   _LO: what a constant of that type lacks. */
+/* The format: bits of the mantissa, bias of the exponent, the bits of sqrt(1/2), and a power of two that
+   makes subnormal numbers normal. LN2_HI has so many zeros at its end that its product with an exponent is
+   exact, LN2_LO is what is missing. Names in _REST or _LO: what a constant of that type lacks. */
 #ifdef REAL_IS_DOUBLE
 typedef long real_bits;
 #define REAL_AS_BITS(x) as_long(x)
@@ -70,7 +71,10 @@ typedef int real_bits;
 #define REAL_INFINITY REAL_OF_BITS((real_bits)(2 * REAL_BIAS + 1) << REAL_MANTISSA_BITS)
 
 /* 2^n for exponents of normal numbers. */
-static inline real real_power_of_two(int n) { return REAL_OF_BITS((real_bits)(n + REAL_BIAS) << REAL_MANTISSA_BITS); }
+static inline real real_power_of_two(int n)
+{
+    return REAL_OF_BITS((real_bits)(n + REAL_BIAS) << REAL_MANTISSA_BITS);
+}
 
 /* x 2^n, rounded once, for x around 1: in two steps, since 2^n alone may be neither normal nor finite. */
 static inline real real_scale(real x, int n)
@@ -175,8 +179,8 @@ static inline real real_atanh_series(real z)
 #endif
 }
 
-/* log2 of a positive finite number as the sum of two parts, the second small: so exact that a power of any size keeps its
-   last bit. */
+/* log2 of a positive finite number as the sum of two parts, the second small: so exact that a power of any
+   size keeps its last bit. */
 static inline real2 real_log2_parts(real x)
 {
     real e;
@@ -195,7 +199,8 @@ static inline real2 real_log2_parts(real x)
     const real z_third = z * third;
     const real tail = z * z * real_atanh_series(z);
     const real t = z_third + tail;
-    const real t_rest = (z_third - t) + tail + (fma(z, third, -z_third) + fma(z, REAL_THIRD_LO, z_rest * third));
+    const real t_rest =
+        (z_third - t) + tail + (fma(z, third, -z_third) + fma(z, REAL_THIRD_LO, z_rest * third));
     /* atanh(s) = s + s t. */
     const real u = s * t;
     const real u_rest = fma(s, t, -u) + fma(s, t_rest, s_rest * t);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers by address: every number is a pure function of (seed, pixel, replicate, sample, bounce, purpose).
-// Pairs come from Owen-scrambled Sobol points (Owen 1995; hashed scrambling: Laine and Karras 2011; padding with
-// shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash. -DCLRT_SAMPLER=SAMPLER_INDEPENDENT takes pairs from
-// a hash too: white noise, to measure what the order of Sobol points is worth.
+// Random numbers by address: every number is a pure function of (seed, pixel, replicate, sample, bounce,
+// purpose). Pairs come from Owen-scrambled Sobol points (Owen 1995; hashed scrambling: Laine and Karras 2011;
+// padding with shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash.
+// -DCLRT_SAMPLER=SAMPLER_INDEPENDENT takes pairs from a hash too: white noise, to measure what the order of
+// Sobol points is worth.
 #ifndef CLRT_NUMERICS_SAMPLER_H
 #define CLRT_NUMERICS_SAMPLER_H
 
@@ -14,8 +15,8 @@
 #define CLRT_SAMPLER SAMPLER_SOBOL
 #endif
 
-/* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number, and what is new
-   takes a number that no other has had. */
+/* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number,
+   and what is new takes a number that no other has had. */
 #define SAMPLE_FILM 0u
 #define SAMPLE_DIRECTION 1u   /* direction within a lobe */
 #define SAMPLE_LOBE 2u        /* which lobe */
@@ -72,8 +73,8 @@ static inline uint sampler_scramble_reversed(uint x, uint seed)
     return x;
 }
 
-/* The second Sobol dimension of an index, bits reversed: Pascal's triangle modulo 2 times the index bits, which is a
-   Kronecker power of [1 1; 0 1] and so a butterfly. */
+/* The second Sobol dimension of an index, bits reversed: Pascal's triangle modulo 2 times the index bits,
+   which is a Kronecker power of [1 1; 0 1] and so a butterfly. */
 static inline uint sampler_pascal_reversed(uint index)
 {
     index ^= (index >> 1) & 0x55555555u;
@@ -87,8 +88,8 @@ static inline uint sampler_pascal_reversed(uint index)
 /* Maps a word to the odd multiples of 2^-24: exact, never 0, never 1, and 1 - u is exact. */
 static inline real sampler_unit(uint word) { return (real)((word >> 8) | 1u) * REAL(5.9604644775390625e-8); }
 
-/* The sampler of sample number `index` of a replicate. `pixel` counts in the whole picture. Distinct pixels of a
-   replicate never share a key. */
+/* The sampler of sample number `index` of a replicate. `pixel` counts in the whole picture. Distinct pixels
+   of a replicate never share a key. */
 static inline Sampler sampler_make(uint seed, uint pixel, uint replicate, uint index)
 {
     Sampler sampler;
@@ -112,8 +113,8 @@ static inline real sampler_number(const Sampler* sampler, uint bounce, uint purp
     return sampler_unit(sampler_word(sampler, bounce, purpose));
 }
 
-/* A pair of words that is independent of all others. The second mixes pixel and sample in once more: a function of the first
-   alone would put all pairs on one curve. */
+/* A pair of words that is independent of all others. The second mixes pixel and sample in once more: a
+   function of the first alone would put all pairs on one curve. */
 static inline uint2 sampler_independent_words(const Sampler* sampler, uint bounce, uint purpose)
 {
     const uint x = sampler_hash(sampler_word(sampler, bounce, purpose) ^ 0xa511e9b3u);

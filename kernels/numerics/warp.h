@@ -26,7 +26,10 @@ static inline real3 warp_cosine_hemisphere(real2 u)
     return vector_make(d.x, d.y, real_root(REAL(1.0) - fma(d.x, d.x, d.y * d.y)));
 }
 
-static inline real warp_cosine_hemisphere_pdf_w(real cos_theta) { return fmax(cos_theta, REAL(0.0)) * REAL_INVERSE_PI; }
+static inline real warp_cosine_hemisphere_pdf_w(real cos_theta)
+{
+    return fmax(cos_theta, REAL(0.0)) * REAL_INVERSE_PI;
+}
 
 /* Uniform direction of the upper hemisphere. */
 static inline real3 warp_hemisphere(real2 u)
@@ -47,7 +50,10 @@ static inline real3 warp_cone(real2 u, real one_minus_cos)
     return vector_make(sin_theta * sc.y, sin_theta * sc.x, REAL(1.0) - h);
 }
 
-static inline real warp_cone_pdf_w(real one_minus_cos) { return REAL(1.0) / (REAL(2.0) * REAL_PI * one_minus_cos); }
+static inline real warp_cone_pdf_w(real one_minus_cos)
+{
+    return REAL(1.0) / (REAL(2.0) * REAL_PI * one_minus_cos);
+}
 
 /* Barycentric weights of corners 1 and 2 of a uniform point of a triangle (Heitz 2019, low distortion). */
 static inline real2 warp_triangle(real2 u)
@@ -60,8 +66,8 @@ static inline real2 warp_triangle(real2 u)
 /* An index below count from a word, each with the probability of its share of 2^32. */
 static inline uint warp_index(uint word, uint count) { return mul_hi(word, count); }
 
-/* The number in (0, 1) that is left of a word after warp_index took its share; `fill` replaces the digits that a large count
-   has used up. */
+/* The number in (0, 1) that is left of a word after warp_index took its share; `fill` replaces the digits
+   that a large count has used up. */
 static inline real warp_rest(uint word, uint count, uint fill)
 {
     return sampler_unit(word * count + mul_hi(fill, count));

@@ -5,6 +5,7 @@
 
 #include "app/option_table.h"
 #include "exit_code.h"
+#include "scene/readers/reader_table.h"
 
 #include <sstream>
 #include <utility>
@@ -65,9 +66,10 @@ std::string help_text(size_t columns) {
     std::string page = "Usage: clrt [options] scene.obj\n\n";
     append_entry(
         page, "",
-        "Turns a Wavefront OBJ into a picture on any OpenCL device. What the scene does not say, camera and "
-        "light included, is chosen for it and named in the log. The scene - is read from the standard "
-        "input: it is called stdin, and what it names is looked for in the current folder.",
+        "Turns " + reader_names() +
+            " into a picture on any OpenCL device. What the scene does not say, camera and "
+            "light included, is chosen for it and named in the log. The scene - is read from the standard "
+            "input: it is called stdin, and what it names is looked for in the current folder.",
         0, columns);
     page += "\nExample:\n"
             "  clrt --device pocl --spp 256 -r 1280x720 -o hall.png -o hall.exr hall.obj\n";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "Light".
 #include "app/option_rows.h"
-#include "scene/colour.h"
+#include "colour.h"
 
 namespace clrt {
 

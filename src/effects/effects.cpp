@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects/effects.h"
 
+#include "colour.h"
 #include "paths/path_report.h"
-#include "scene/colour.h"
 #include "scene/material_override.h"
-#include "scene/material_rules.h"
+#include "scene/material_table.h"
 
 #include <algorithm>
 #include <cassert>

@@ -4,7 +4,7 @@
 #include "output/standard_streams.h"
 #include "paths/path_report.h"
 #include "scene/ground.h"
-#include "scene/material_rules.h"
+#include "scene/material_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,9 @@
 // --checkpoint and --resume: film files at work.
 #pragma once
 
+#include "device/device.h"
 #include "film/film_file.h"
+#include "options/options.h"
 
 namespace clrt {
 

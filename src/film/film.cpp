@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film.h"
 
+#include "colour.h"
 #include "kernels/shared/path_types.h"
 #include "scene/brightness.h"
-#include "scene/colour.h"
 #include "scene/vectors.h"
 
 #include <algorithm>

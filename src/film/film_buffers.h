@@ -4,8 +4,8 @@
 
 #include "device/device.h"
 #include "device/program.h"
+#include "film/render_progress.h"
 #include "kernels/shared/render_types.h"
-#include "render/render.h"
 
 namespace clrt {
 

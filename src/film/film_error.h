@@ -4,20 +4,11 @@
 // common.
 #pragma once
 
-#include "film/film.h"
+#include "film/error_pixels.h"
 
 #include <optional>
 
 namespace clrt {
-
-/// The pixels that an error is stated over.
-enum class ErrorPixels {
-    SCENE, ///< those that show the scene; all where that is not known, and where none does
-    ALL
-};
-
-/// Whether the error over the scene leaves pixels out: those that show nothing but what is behind it.
-bool has_backdrop(const Film& film);
 
 /// The squared error of a picture at one moment of its render, as its replicates tell it.
 struct SquaredError {
@@ -33,8 +24,11 @@ struct SquaredError {
 
 /// None when fewer than two replicates have samples. The same film gives the same bits. What is behind the
 /// scene has little noise, and is as bright and as much of the picture as its author likes: over all pixels
-/// the same rendering of the same objects has any error.
-std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels = ErrorPixels::SCENE);
+/// the same rendering of the same objects has any error. Only `degrees` depends on `block`, the side of the
+/// squares of pixels that are taken to be independent of each other (FilmError): 1 where every sample belongs
+/// to one pixel, and where paths splat to neighbours, several times as far as these are apart.
+std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels = ErrorPixels::SCENE,
+                                               int block = 1);
 
 /// Relative error of the picture: sqrt(mean over pixels and channels of the variance of the mean) / mean
 /// radiance, with a 95 % interval for the error that this very picture has, |picture - truth| instead of the
@@ -42,11 +36,16 @@ std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pix
 ///
 /// Let d_k be how far the mean of replicate k of n is off, in all channels of all pixels. The picture's
 /// squared error |sum d_k|^2 / n^2 differs from its estimate by the sum over pairs of replicates of d_k.d_l /
-/// (n(n-1)), whose variance is 2 / (n (n-1)) times the sum over the pixels, which are independent, of tr(C^2)
-/// with the covariance C of a replicate's channels: no fourth moment is in it, whatever the distribution,
-/// because bright samples that are rare are in the error as well as in its estimate. With nu degrees of
-/// freedom of the sum over the pixels (Satterthwaite 1946) this is the variance of Fisher's F with nu and
-/// (n-1) nu degrees, which is the distribution of the ratio where the d_k are normal.
+/// (n(n-1)), whose variance is 2 / (n (n-1)) times the sum over blocks of pixels, taken as independent, of
+/// tr(C^2) with the covariance C of a replicate's channels in a block: no fourth moment is in it, whatever
+/// the distribution, because bright samples that are rare are in the error as well as in its estimate. With
+/// nu degrees of freedom of the sum over the blocks (Satterthwaite 1946) this is the variance of Fisher's F
+/// with nu and (n-1) nu degrees, which is the distribution of the ratio where the d_k are normal.
+///
+/// The estimate itself assumes only that replicates are independent. The interval assumes besides that pixels
+/// are, which holds where each gathers its own samples. Splats of one path to pixels that are nearer than a
+/// block make it too narrow (where four pixels are always equal, half as wide as it should be: it holds 64 %
+/// of the errors); those that lie anywhere in the picture are few in any two pixels and do not.
 struct FilmError {
     double relative_rmse = 0;
     std::optional<double> low, high; ///< none under four replicates
@@ -57,40 +56,5 @@ std::optional<FilmError> relative_error(const SquaredError& error);
 
 /// None when fewer than two replicates have samples, or the picture is black.
 std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels = ErrorPixels::SCENE);
-
-/// How the error falls: d log(error) / d log(samples), -0.5 for independent samples.
-struct ErrorSlope {
-    double slope = 0;
-    double reach = 0; ///< half the length of its 95 % interval, by the jackknife over replicates
-    std::uint64_t first_samples = 0, last_samples = 0;
-};
-
-/// The line of least squares through a render's errors. None under four octaves of samples, five errors or
-/// four replicates, or where an error is 0.
-std::optional<ErrorSlope> error_slope(const std::vector<SquaredError>& history);
-
-/// The same through as few as two errors.
-std::optional<ErrorSlope> fit_error_slope(const std::vector<SquaredError>& history);
-
-/// Where the error sits, over the pixels that show the scene.
-struct ErrorSpread {
-    double worst_tile = 0; ///< sqrt(mean squared error of a tile's pixels) / mean radiance of all of them
-    int tile_x = 0, tile_y = 0; ///< top left pixel of that tile within the window
-    size_t tail_pixels = 0;     ///< the noisiest thousandth of the pixels
-    double tail_share = 0;      ///< their share of the sum of squared errors
-    double once_share = 0;      ///< share of the pixels in which one replicate alone saw something
-    double once_error = 0;      ///< relative standard error of the squared error, from what was seen once
-    /// Whether the error can be believed.
-    bool usable() const { return once_error <= LARGEST_ONCE_ERROR; }
-
-    /// Three standard errors then move the squared error by 1.2^2 - 1, and so the error itself by a fifth.
-    static constexpr double LARGEST_ONCE_ERROR = (1.2 * 1.2 - 1) / 3;
-};
-
-/// Side of the tiles that are compared, pixels.
-constexpr int ERROR_TILE_SIZE = 32;
-
-/// None when there is no error or it is 0.
-std::optional<ErrorSpread> film_error_spread(const Film& film);
 
 } // namespace clrt

@@ -2,7 +2,7 @@
 #include "film/film_file.h"
 
 #include "error.h"
-#include "film/whole_numbers.h"
+#include "film/film_header.h"
 #include "output/atomic_file.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace clrt {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = FilmHeader;
 
 constexpr char MAGIC[] = "CLRTFILM";
 constexpr size_t MAGIC_BYTES = 8, START_BYTES = 16, CHECKSUM_BYTES = 16;
@@ -60,166 +60,6 @@ public:
 private:
     std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
-
-/// More of them are left out of the header, which they would make too large.
-constexpr size_t MOST_BAD_PIXELS = size_t(1) << 20;
-
-/// More of them, too.
-constexpr size_t MOST_RUNS = size_t(1) << 20;
-
-using Runs = std::vector<std::uint64_t>;
-
-/// Lengths of the runs of pixels that do not show the scene, that do, that do not, ...
-Runs runs_of(const std::vector<std::uint8_t>& shown) {
-    Runs runs;
-    for (size_t first = 0, end = 0; first < shown.size() && runs.size() <= MOST_RUNS; first = end) {
-        const std::uint8_t kind = runs.size() % 2;
-        end = size_t(std::find(shown.begin() + std::ptrdiff_t(first), shown.end(), 1 - kind) - shown.begin());
-        runs.push_back(end - first);
-    }
-    return runs;
-}
-
-/// The other way round; none where they are not the runs of so many pixels.
-std::optional<std::vector<std::uint8_t>> shown_of(const Runs& runs, size_t pixels) {
-    std::vector<std::uint8_t> shown;
-    for (size_t i = 0; i < runs.size(); ++i) {
-        if (runs[i] > pixels - shown.size())
-            return std::nullopt;
-        shown.resize(shown.size() + runs[i], std::uint8_t(i % 2));
-    }
-    if (shown.size() != pixels)
-        return std::nullopt;
-    return shown;
-}
-
-Json counts_json(const RenderCounts& counts) {
-    Json json = {{"primary", counts.primary},       {"secondary", counts.secondary},
-                 {"shadow", counts.shadow},         {"cut_paths", counts.cut_paths},
-                 {"cut_weight", counts.cut_weight}, {"nan", counts.nan},
-                 {"infinite", counts.infinite},     {"negative", counts.negative},
-                 {"overflow", counts.overflow},     {"bad_samples", counts.bad_samples}};
-    if (!counts.bad_pixels.empty() && counts.bad_pixels.size() <= MOST_BAD_PIXELS)
-        json["bad_pixels"] = counts.bad_pixels; // pairs of pixel and count
-    return json;
-}
-
-RenderCounts read_counts(const Json& json) {
-    RenderCounts counts;
-    counts.primary = whole<decltype(counts.primary)>(json.at("primary"));
-    counts.secondary = whole<decltype(counts.secondary)>(json.at("secondary"));
-    counts.shadow = whole<decltype(counts.shadow)>(json.at("shadow"));
-    counts.cut_paths = whole<decltype(counts.cut_paths)>(json.at("cut_paths"));
-    counts.cut_weight = whole<decltype(counts.cut_weight)>(json.at("cut_weight"));
-    counts.nan = whole<decltype(counts.nan)>(json.at("nan"));
-    counts.infinite = whole<decltype(counts.infinite)>(json.at("infinite"));
-    counts.negative = whole<decltype(counts.negative)>(json.at("negative"));
-    counts.overflow = whole<decltype(counts.overflow)>(json.at("overflow"));
-    counts.bad_samples = whole<decltype(counts.bad_samples)>(json.at("bad_samples"));
-    if (json.contains("bad_pixels"))
-        counts.bad_pixels = whole<decltype(counts.bad_pixels)>(json.at("bad_pixels"));
-    return counts;
-}
-
-Json header_json(const FilmFile& film) {
-    const RenderProgress& render = film.render;
-    Json json;
-    json["identity"] = film.identity;
-    json["command"] = film.origin.command;
-    json["folder"] = film.origin.folder;
-    json["device"] = film.origin.device;
-    json["replicates"] = render.film.replicates;
-    json["ranges"] = Json::array();
-    for (const SampleRange& range : render.film.ranges)
-        json["ranges"].push_back({range.first, range.end});
-    if (is_adaptive(render.film))
-        json["round"] = {render.round.first, render.round.end, render.round.noise.size()};
-    json["counts"] = counts_json(render.counts);
-    const std::optional<double>& radiance = film.bias.cut_radiance;
-    json["cut_radiance"] = radiance ? Json(*radiance) : Json(nullptr);
-    json["blind_spots"] = blind_spots_json(film.bias.blind_spots);
-    if (const Runs runs = runs_of(render.film.shown); !runs.empty() && runs.size() <= MOST_RUNS)
-        json["shown"] = runs;
-    json["history"] = Json::array();
-    for (const SquaredError& error : render.history)
-        json["history"].push_back({{"samples", error.samples},
-                                   {"mean_squared", error.mean_squared},
-                                   {"mean_radiance", error.mean_radiance},
-                                   {"without", error.without}});
-    json["seconds"] = render.seconds;
-    return json;
-}
-
-std::vector<SampleRange> read_ranges(const Json& json) {
-    std::vector<SampleRange> ranges;
-    for (const Json& range : json.at("ranges"))
-        ranges.push_back({whole<std::uint64_t>(range.at(0)), whole<std::uint64_t>(range.at(1))});
-    return ranges;
-}
-
-FilmContent read_content(const Json& json) {
-    return {json.at("identity"), read_ranges(json)};
-}
-
-FilmOrigin read_origin(const Json& json) {
-    return {json.at("command"), json.at("folder"), json.at("device")};
-}
-
-/// Powers of two among the samples of a tile.
-constexpr size_t MOST_LEVELS = 32;
-
-/// The round of an adaptive film, with room for the samples of its tiles.
-AdaptiveRound read_round(const Json& json, const Film& film) {
-    AdaptiveRound round;
-    round.first = whole<std::uint64_t>(json.at(0));
-    round.end = whole<std::uint64_t>(json.at(1));
-    for (TileSamples* samples : {&round.start, &round.target})
-        for (std::vector<std::uint32_t>& half : *samples)
-            half.resize(film_tiles(film));
-    const std::vector<double> noise(film_tiles(film));
-    round.noise.assign(std::min(whole<size_t>(json.at(2)), MOST_LEVELS), {noise, noise});
-    return round;
-}
-
-/// Whether a round is one that this film can be in.
-bool is_possible(const AdaptiveRound& round, const Film& film) {
-    const std::uint64_t samples = film_samples(film);
-    bool possible = round.first < round.end && round.first <= samples && samples <= round.end &&
-                    film.replicates % 2 == 0 && film.ranges.size() == 1 && film.ranges[0].first == 0;
-    const std::uint64_t most = FILM_SAMPLES_PER_REPLICATE * std::uint64_t(film.replicates);
-    for (int half = 0; half < 2; ++half)
-        for (size_t tile = 0; tile < round.start[half].size(); ++tile)
-            possible = possible && round.start[half][tile] <= round.target[half][tile] &&
-                       round.target[half][tile] <= most;
-    return possible;
-}
-
-/// Everything but the sums and the samples of tiles.
-FilmFile read_header(const Json& json) {
-    FilmFile film;
-    film.identity = json.at("identity");
-    film.origin = read_origin(json);
-    Film& sums = film.render.film;
-    const Crop window = film_window(film.identity).window;
-    sums.width = window.x1 - window.x0;
-    sums.height = window.y1 - window.y0;
-    sums.scale = {film.identity.at("quantum"), film.identity.at("largest")};
-    sums.replicates = whole<int>(json.at("replicates"));
-    sums.ranges = read_ranges(json);
-    if (film.identity.value("adaptive", false))
-        film.render.round = read_round(json.at("round"), sums);
-    film.render.counts = read_counts(json.at("counts"));
-    if (const Json& radiance = json.at("cut_radiance"); !radiance.is_null())
-        film.bias.cut_radiance = radiance.get<double>();
-    film.bias.blind_spots = read_blind_spots(json.at("blind_spots"));
-    for (const Json& error : json.at("history"))
-        film.render.history.push_back({whole<std::uint64_t>(error.at("samples")), error.at("mean_squared"),
-                                       error.at("mean_radiance"),
-                                       error.at("without").get<std::vector<double>>()});
-    json.at("seconds").get_to(film.render.seconds);
-    film.render.path_layers.assign(film_layer_names(film.identity).size(), film_layer(sums));
-    return film;
-}
 
 /// A film file that is being read.
 class FilmReader {
@@ -315,7 +155,7 @@ auto parse_header(FilmReader& reader, Parse&& parse) {
 } // namespace
 
 void write_film_file(const std::string& path, const FilmFile& film) {
-    const std::string header = header_json(film).dump();
+    const std::string header = film_header(film).dump();
     std::string start(MAGIC, MAGIC_BYTES);
     append_little_endian(start, FORMAT_VERSION);
     append_little_endian(start, std::uint32_t(header.size()));
@@ -351,11 +191,10 @@ void write_film_file(const std::string& path, const FilmFile& film) {
 
 FilmFile read_film_file(const std::string& path) {
     FilmReader reader(path);
-    Runs shown;
+    PixelRuns shown;
     FilmFile film = parse_header(reader, [&](const Json& json) {
-        if (json.contains("shown"))
-            shown = whole<Runs>(json.at("shown"));
-        return read_header(json);
+        shown = shown_runs_of(json);
+        return film_of_header(json);
     });
     Film& sums = film.render.film;
     bool in_order = !sums.ranges.empty() && sums.replicates > 0 && sums.width > 0 && sums.height > 0;
@@ -368,7 +207,7 @@ FilmFile read_film_file(const std::string& path) {
         reader.reject("damaged: the header's window, replicates or ranges are impossible");
     reader.sums(film.render);
     if (!shown.empty()) {
-        std::optional<std::vector<std::uint8_t>> pixels = shown_of(shown, film_plane(sums) / 3);
+        std::optional<std::vector<std::uint8_t>> pixels = shown_of_runs(shown, film_plane(sums) / 3);
         if (!pixels)
             reader.reject("damaged: the pixels that show the scene are not those of its window");
         sums.shown = std::move(*pixels);
@@ -383,12 +222,12 @@ FilmFile read_film_file(const std::string& path) {
 
 FilmOrigin read_film_origin(const std::string& path) {
     FilmReader reader(path);
-    return parse_header(reader, read_origin);
+    return parse_header(reader, film_origin_of);
 }
 
 FilmContent read_film_content(const std::string& path) {
     FilmReader reader(path);
-    return parse_header(reader, read_content);
+    return parse_header(reader, film_content_of);
 }
 
 } // namespace clrt

@@ -6,38 +6,23 @@
 //   8            "CLRTFILM"
 //   4            version of this format, 2
 //   4            n, the length of the header
-//   n            the header, a JSON object in UTF-8:
-//                  identity    every field that decides the bits (film_identity.h)
-//                  command     the command line, word by word, that --resume alone repeats
-//                  folder      where it was given
-//                  device      on which the samples were rendered
-//                  replicates  whose sums are kept apart
-//                  ranges      of sample numbers inside, [first, end), in order
-//                  round       with --adaptive: first and last mean samples a pixel of the present round, and
-//                  n counts      rays, cut paths and bad samples; bad_samples lists pairs of pixel and
-//                  sample,
-//                              bad_pixels (absent without bad samples) pairs of pixel and count
-//                  cut_radiance  what bounds the light of cut paths (cut_paths.h), or null
-//                  blind_spots  paths that no sample shows: paths, cause, where
-//                  shown       pixels that show the scene: lengths of runs of pixels, row by row, that do
-//                              not, that do, that do not, ...; absent where that is not known
-//                  history     errors at doublings of the samples
-//                  seconds     of rendering
+//   n            the header, a JSON object in UTF-8 (film_header.h)
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:
 //                [replicate][row][column][red, green, blue]
 //   8 w h 3      of each layer of paths (identity.layers), in one replicate
-//   16 t         with --adaptive: samples a pixel of t tiles (film.h) as unsigned 32-bit integers: before the
-//   round in the
-//                first half of the replicates, in the second half, and likewise after the round
-//   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first half,
-//   second half 16           XXH3-128 of all bytes before it, canonical (most significant byte first)
+//   16 t         with --adaptive: samples a pixel of t tiles (film.h) as unsigned 32-bit integers: before
+//                the round in the first half of the replicates, in the second half, and likewise after
+//                the round
+//   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first
+//                half, second half
+//   16           XXH3-128 of all bytes before it, canonical (most significant byte first)
 //
 // Integers are little endian.
 #pragma once
 
+#include "film/bias_sources.h"
 #include "film/film_identity.h"
-#include "render/cut_paths.h"
-#include "render/render.h"
+#include "film/render_progress.h"
 
 #include <string>
 #include <vector>

@@ -4,7 +4,6 @@
 #include "device/kernel_source.h"
 #include "film/whole_numbers.h"
 #include "render/kernels.h"
-#include "render/render_params.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -122,8 +121,8 @@ std::string scene_hash(const Scene& scene) {
     return hash.text();
 }
 
-FilmIdentity film_identity(const Scene& scene, const Options& options, const FilmScale& scale) {
-    const RenderParams params = make_render_params(scene, options, scale);
+FilmIdentity film_identity(const Scene& scene, const Options& options, const RenderParams& params,
+                           const FilmScale& scale) {
     FilmIdentity identity;
     identity["version"] = CLRT_VERSION;
     identity["integrator"] = integrator_name(options.transport.integrator);

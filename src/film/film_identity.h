@@ -4,6 +4,7 @@
 #pragma once
 
 #include "film/film.h"
+#include "kernels/shared/render_types.h"
 #include "options/options.h"
 #include "scene/scene.h"
 
@@ -20,8 +21,10 @@ using FilmIdentity = nlohmann::ordered_json;
 /// lights, environment, camera. The same for the same files, wherever they lie.
 std::string scene_hash(const Scene& scene);
 
-/// The identity of what these options make of this scene.
-FilmIdentity film_identity(const Scene& scene, const Options& options, const FilmScale& scale);
+/// The identity of what these options, and the parameters that they give (make_render_params), make of this
+/// scene.
+FilmIdentity film_identity(const Scene& scene, const Options& options, const RenderParams& params,
+                           const FilmScale& scale);
 
 /// The window of the picture that an identity's film shows, and the whole picture's size.
 struct FilmWindow {

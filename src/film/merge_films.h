@@ -3,7 +3,6 @@
 #pragma once
 
 #include "film/film_file.h"
-#include "output/image.h"
 
 #include <string>
 
@@ -13,8 +12,5 @@ namespace clrt {
 /// replicates apart, both are folded to theirs. The paths name the files in messages. Throws SceneError that
 /// names the field in which they differ, or the samples that both hold.
 void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const std::string& part_path);
-
-/// The picture of a film: radiance, variance and samples, with what is known as metadata.
-Picture film_picture(const FilmFile& film);
 
 } // namespace clrt

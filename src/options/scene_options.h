@@ -11,7 +11,7 @@ enum class MtlReading { AUTO, PLAIN };
 enum class MaterialOverride { NONE, CLAY };
 
 struct SceneOptions {
-    std::string path;                  ///< an OBJ file; "-": the standard input
+    std::string path;                  ///< a file; "-": the standard input
     MtlReading mtl = MtlReading::AUTO; ///< auto: as the writers of libraries mean them
     MaterialOverride material_override = MaterialOverride::NONE;
 };

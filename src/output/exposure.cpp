@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "output/exposure.h"
 
+#include "colour.h"
 #include "output/tonemap.h"
-#include "scene/colour.h"
 
 #include <algorithm>
 #include <cmath>

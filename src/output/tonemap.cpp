@@ -2,8 +2,8 @@
 // Radiance -> 8-bit sRGB.
 #include "output/tonemap.h"
 
+#include "colour.h"
 #include "output/agx.h"
-#include "scene/colour.h"
 
 #include <cmath>
 #include <glm/common.hpp>

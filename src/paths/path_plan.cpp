@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paths/path_plan.h"
 
-#include "scene/colour.h"
-#include "scene/material_rules.h"
+#include "colour.h"
+#include "scene/material_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -14,8 +14,9 @@
 // answers a light that no ray meets: its highlight is as bright as it is narrow.
 #pragma once
 
+#include "film/bias_sources.h"
+#include "film/render_progress.h"
 #include "paths/path_plan.h"
-#include "render/render.h"
 #include "scene/scene.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -28,12 +29,6 @@ namespace clrt {
 /// (L + B) / (1 - a), which times the weight of a cut path bounds what it lost; none where there is no bound.
 /// Lights of other kinds (KIND_*) than `kinds` are not asked for.
 std::optional<double> cut_radiance(const Scene& scene, unsigned kinds);
-
-/// What the scene and the integrator leave out of a picture, however many samples it has.
-struct BiasSources {
-    std::optional<double> cut_radiance; ///< where paths were cut
-    std::vector<BlindSpot> blind_spots;
-};
 
 /// Those of a render; bounds nothing where nothing was cut.
 BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const RenderProgress& render);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/error_price.h"
 
+#include "film/error_slope.h"
 #include "render/good_counts.h"
 
 #include <algorithm>

@@ -2,10 +2,12 @@
 // What is known about a picture's error, as JSON and metadata (error_text.h: in words).
 #pragma once
 
+#include "film/error_slope.h"
+#include "film/error_spread.h"
+#include "film/film_error.h"
 #include "output/image.h"
 #include "render/cut_paths.h"
 #include "render/error_price.h"
-#include "render/render.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "film/film_buffers.h"
+#include "render/render.h"
 
 #include <optional>
 

@@ -8,6 +8,7 @@
 #include "render/launcher.h"
 #include "render/measurements.h"
 #include "render/reminder.h"
+#include "render/render.h"
 
 #include <chrono>
 #include <optional>

@@ -7,6 +7,7 @@
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/picture.h"
+#include "render/render_params.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -112,8 +113,10 @@ void write_outputs(Report& report, FinalFiles& files) {
 Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,
                Progress& progress)
     : scene_(scene), paths_(paths), options_(options), device_(device) {
-    if (!options.film_file.checkpoint_path.empty())
-        identity = film_identity(scene, options, film_scale(scene));
+    if (!options.film_file.checkpoint_path.empty()) {
+        const FilmScale scale = film_scale(scene);
+        identity = film_identity(scene, options, make_render_params(scene, options, scale), scale);
+    }
     if (!options.film_file.resume_path.empty())
         resume();
     hooks.resume = resumed ? &*resumed : nullptr;

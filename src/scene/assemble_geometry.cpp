@@ -39,7 +39,7 @@ Bounds empty_bounds() {
     return {glm::dvec3(most), glm::dvec3(-most)};
 }
 
-/// A vn as a unit vector; zero if it has no direction.
+/// A normal as a unit vector; zero if it has no direction.
 vec4 unit_normal(const glm::vec3& normal) {
     const double length = glm::length(glm::dvec3(normal));
     if (!std::isfinite(length) || length <= 0)
@@ -63,12 +63,12 @@ Attribute check_attribute(const u32 (&index)[3], const F& usable) {
     return given == 3 && std::all_of(index, index + 3, usable) ? Attribute::USABLE : Attribute::BROKEN;
 }
 
-void note_count(NoticeList& notices, size_t count, const std::string& obj_path, const char* what) {
+void note_count(NoticeList& notices, size_t count, const std::string& path, const char* what) {
     if (count)
-        notices.add_line(fmt::format("{}: {} {}", obj_path, count, what));
+        notices.add_line(fmt::format("{}: {} {}", path, count, what));
 }
 
-void assemble_vertices(ObjMesh& mesh, const Normalisation& frame, Scene& scene) {
+void assemble_vertices(Mesh& mesh, const Normalisation& frame, Scene& scene) {
     scene.positions.resize(mesh.positions.size());
     for_each_index(mesh.positions.size(), [&](size_t i) {
         const glm::dvec3 p = to_normalised(frame, mesh.positions[i]);
@@ -91,7 +91,7 @@ void assemble_vertices(ObjMesh& mesh, const Normalisation& frame, Scene& scene) 
 
 } // namespace
 
-Bounds bounds_of_triangles(const ObjMesh& mesh) {
+Bounds bounds_of_triangles(const Mesh& mesh) {
     if (mesh.triangles.empty())
         return {};
     return tbb::parallel_reduce(
@@ -110,8 +110,8 @@ Bounds bounds_of_triangles(const ObjMesh& mesh) {
         });
 }
 
-void assemble_geometry(ObjMesh& mesh, const Bounds& bounds, const Normalisation& frame,
-                       const std::string& obj_path, Scene& scene, NoticeList& notices) {
+void assemble_geometry(Mesh& mesh, const Bounds& bounds, const Normalisation& frame, const std::string& path,
+                       Scene& scene, NoticeList& notices) {
     for (const glm::dvec3& corner : {to_normalised(frame, bounds.low), to_normalised(frame, bounds.high)})
         for (int c = 0; c < 3; ++c)
             scene.extent = std::max(scene.extent, float(std::fabs(corner[c])));
@@ -120,7 +120,7 @@ void assemble_geometry(ObjMesh& mesh, const Bounds& bounds, const Normalisation&
     std::atomic<size_t> broken_normals{0}, broken_uvs{0}, degenerate{0};
     scene.triangles.resize(mesh.triangles.size());
     for_each_index(mesh.triangles.size(), [&](size_t i) {
-        const ObjTriangle& from = mesh.triangles[i];
+        const MeshTriangle& from = mesh.triangles[i];
         Triangle& to = scene.triangles[i];
         to = {from.v[0], from.v[1], from.v[2], NO_INDEX,      NO_INDEX, NO_INDEX,
               NO_INDEX,  NO_INDEX,  NO_INDEX,  from.material, NO_INDEX, from.object};
@@ -141,14 +141,13 @@ void assemble_geometry(ObjMesh& mesh, const Bounds& bounds, const Normalisation&
     });
     release(mesh.triangles);
     if (mesh.first_normals_line && scene.triangles[mesh.first_normals_triangle].n0 != NO_INDEX)
-        scene.first_smooth = {obj_path, mesh.first_normals_line};
+        scene.first_smooth = {path, mesh.first_normals_line};
 
     scene.statistics.degenerate_triangles = degenerate;
-    note_count(notices, degenerate, obj_path,
+    note_count(notices, degenerate, path,
                "triangles of zero area: they can only close seams and give no light");
-    note_count(notices, broken_normals, obj_path,
-               "triangles with a zero, infinite or missing vn: shaded flat");
-    note_count(notices, broken_uvs, obj_path,
+    note_count(notices, broken_normals, path, "triangles with a zero, infinite or missing vn: shaded flat");
+    note_count(notices, broken_uvs, path,
                "triangles with an infinite or missing vt: texture coordinates unused");
 }
 

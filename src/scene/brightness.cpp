@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/brightness.h"
 
+#include "colour.h"
 #include "kernels/shared/path_types.h"
-#include "scene/colour.h"
 #include "scene/vectors.h"
 
 #include <algorithm>

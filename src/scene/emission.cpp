@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/emission.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 
 namespace clrt {
 

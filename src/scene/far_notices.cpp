@@ -45,9 +45,9 @@ std::vector<double> steps_between(double least, double most) {
 }
 
 /// The coarsest step, not below `least`, of which all coordinates along an axis are multiples; 0 if none is.
-double step_along(int axis, const ObjMesh& mesh, double least, double most) {
+double step_along(int axis, const Mesh& mesh, double least, double most) {
     std::vector<double> steps = steps_between(least, most);
-    for (const ObjTriangle& triangle : mesh.triangles)
+    for (const MeshTriangle& triangle : mesh.triangles)
         for (const u32 v : triangle.v)
             while (!is_multiple(mesh.positions[v][axis], steps.front())) {
                 steps.erase(steps.begin());
@@ -71,7 +71,7 @@ bool is_out_of_view(const Camera& camera, const Bounds& bounds, glm::ivec2 size)
 
 } // namespace
 
-void note_coarse_digits(const ObjMesh& mesh, const Bounds& bounds, const std::string& obj_path,
+void note_coarse_digits(const Mesh& mesh, const Bounds& bounds, const std::string& path,
                         NoticeList& notices) {
     const double diameter = 2 * bounds.radius(), least = COARSE_STEP * diameter;
     for (int axis = 0; axis < 3; ++axis) {
@@ -83,17 +83,13 @@ void note_coarse_digits(const ObjMesh& mesh, const Bounds& bounds, const std::st
         if (step > 0 && (step >= FLOAT_ROUNDOFF * most || step <= DOUBLE_STEP * most))
             notices.add_line(fmt::format("{}: {} is written in steps of {:g} near {:g}, {:.1e} of the scene: "
                                          "export it with more digits, or near its own origin",
-                                         obj_path, "xyz"[axis], step, most, step / diameter));
+                                         path, "xyz"[axis], step, most, step / diameter));
     }
 }
 
-void note_relative_positions(const Normalisation& frame, const Options& options, NoticeList& notices) {
+void note_relative_positions(const Normalisation& frame, NoticeList& notices) {
     const glm::dvec3 origin = position_origin(frame);
-    const auto is_exr = [](const std::string& path) {
-        return path.size() > 4 && path.compare(path.size() - 4, 4, ".exr") == 0;
-    };
-    const bool has_exr = std::any_of(options.output.files.begin(), options.output.files.end(), is_exr);
-    if (origin == glm::dvec3(0) || !has_exr)
+    if (origin == glm::dvec3(0))
         return;
     notices.add(fmt::format(
         "layer P counts from {} (metadata clrt.P.origin): floats would hold steps of {:g} there",
@@ -101,8 +97,8 @@ void note_relative_positions(const Normalisation& frame, const Options& options,
         2 * FLOAT_ROUNDOFF * std::max({std::fabs(origin.x), std::fabs(origin.y), std::fabs(origin.z)})));
 }
 
-void note_far_options(const Camera& camera, const Bounds& bounds, const Options& options,
-                      NoticeList& notices) {
+void note_far_options(const Camera& camera, glm::ivec2 size, const std::vector<PointOptions>& points,
+                      const Bounds& bounds, NoticeList& notices) {
     const glm::dvec3 centre = bounds.centre();
     const double radius = bounds.radius();
     if (!(radius > 0))
@@ -112,14 +108,14 @@ void note_far_options(const Camera& camera, const Bounds& bounds, const Options&
             "{:g} from the scene, whose centre is {} and radius {:g} in the file's coordinates",
             glm::distance(p, centre), triple(centre), radius);
     };
-    const double pixel = 2 * std::tan(glm::radians(camera.fov_degrees) / 2) / options.film.size.y;
+    const double pixel = 2 * std::tan(glm::radians(camera.fov_degrees) / 2) / size.y;
     if (2 * radius < pixel * glm::distance(camera.eye, centre))
         notices.add(fmt::format("camera: --eye {} is {}: it covers less than a pixel", triple(camera.eye),
                                 where(camera.eye)));
-    else if (is_out_of_view(camera, bounds, options.film.size))
+    else if (is_out_of_view(camera, bounds, size))
         notices.add(
             fmt::format("camera: --at {} is {}: it is out of view", triple(camera.at), where(camera.at)));
-    for (const PointOptions& point : options.light.points)
+    for (const PointOptions& point : points)
         if (glm::distance(point.position, centre) > FAR_LIGHT * radius)
             notices.add(fmt::format("--point {} is {}", triple(point.position), where(point.position)));
 }

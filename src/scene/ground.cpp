@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/ground.h"
 
-#include "scene/material_rules.h"
+#include "scene/build_material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,11 +35,9 @@ void append_corners(const glm::dvec3& centre, const glm::dvec3& u, const glm::dv
 }
 
 void append_material(const glm::dvec3& albedo, Scene& scene) {
-    MtlMaterial mtl;
-    mtl.kd = albedo;
-    NoticeList none;
-    const LoadMap no_map = [](const MtlTexture&, TextureRole) { return NO_INDEX; };
-    scene.materials.push_back(rule_material(mtl, {}, no_map, none).material);
+    MaterialDescription ground;
+    ground.base.value = albedo;
+    scene.materials.push_back(build_material(ground, {}, {}));
     scene.emitted.emplace_back();
     scene.material_names.emplace_back("ground");
     scene.material_places.emplace_back();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/lights.h"
 
+#include "colour.h"
 #include "error.h"
 #include "scene/alias_table.h"
-#include "scene/colour.h"
 #include "scene/normalise.h"
 #include "scene/vectors.h"
 

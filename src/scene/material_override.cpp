@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/material_override.h"
 
-#include "scene/material_rules.h"
-
 #include <fmt/format.h>
 
 namespace clrt {
@@ -10,7 +8,7 @@ namespace clrt {
 namespace {
 
 constexpr MaterialReplacement REPLACEMENTS[] = {
-    {MaterialOverride::CLAY, "clay", "clay: matte Kd 0.8, emission and coverage kept", DEFAULT_KD},
+    {MaterialOverride::CLAY, "clay", "clay: matte Kd 0.8, emission and coverage kept", DEFAULT_REFLECTANCE},
 };
 
 } // namespace
@@ -22,20 +20,17 @@ const MaterialReplacement* find_replacement(MaterialOverride which) {
     return nullptr;
 }
 
-MtlMaterial replace_material(const MtlMaterial& mtl, const MaterialReplacement& replacement,
-                             NoticeList& notices) {
-    if (is_dielectric(mtl))
-        notices.add(fmt::format("--material {}: glass is opaque", replacement.name), mtl.place);
-    MtlMaterial result;
-    result.name = mtl.name;
-    result.place = mtl.place;
-    result.key_lines = mtl.key_lines;
-    result.kd = glm::dvec3(replacement.kd);
-    result.ke = mtl.ke;
-    result.map_ke = mtl.map_ke;
-    result.d = mtl.d;
-    result.tr = mtl.tr;
-    result.map_d = mtl.map_d;
+MaterialDescription replace_material(const MaterialDescription& material,
+                                     const MaterialReplacement& replacement, NoticeList& notices) {
+    if (material.reflection == Reflection::DIELECTRIC)
+        notices.add(fmt::format("--material {}: glass is opaque", replacement.name), material.place);
+    MaterialDescription result;
+    result.name = material.name;
+    result.place = material.place;
+    result.rule = replacement.rule;
+    result.base.value = glm::dvec3(replacement.reflectance);
+    result.emission = material.emission;
+    result.coverage = material.coverage;
     return result;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of a scene in words.
-#include "scene/material_rules.h"
+#include "scene/material_table.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>

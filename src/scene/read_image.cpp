@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/read_image.h"
 
+#include "colour.h"
 #include "error.h"
-#include "scene/colour.h"
 
 #include <algorithm>
 #include <array>

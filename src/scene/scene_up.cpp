@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
@@ -104,7 +103,7 @@ double area_under(const std::vector<glm::dvec2>& corners, const glm::dvec2& cent
     return twice / 2;
 }
 
-Touching measure_touching(const ObjMesh& mesh, const Bounds& bounds) {
+Touching measure_touching(const Mesh& mesh, const Bounds& bounds) {
     const glm::dvec3 size = bounds.high - bounds.low, inverse = 1. / size;
     return tbb::parallel_reduce(
         tbb::blocked_range<size_t>(0, mesh.triangles.size(), TRIANGLE_GRAIN), Touching(),
@@ -136,21 +135,11 @@ Touching measure_touching(const ObjMesh& mesh, const Bounds& bounds) {
         });
 }
 
-/// A writer that knows no other up than z; empty: none.
-std::string z_up_writer(const std::string& head) {
-    const std::pair<const char*, const char*> writers[] = {{"# Created by FreeCAD", "FreeCAD"},
-                                                           {"# OpenSCAD obj exporter", "OpenSCAD"}};
-    for (const auto& [comment, name] : writers)
-        if (head.find(comment) != std::string::npos)
-            return name;
-    return "";
-}
-
 /// Whether the surface in the lowest z is seen from below: that of a floor, or of the back of a room, is not.
-bool faces_down(const ObjMesh& mesh, const Bounds& bounds) {
+bool faces_down(const Mesh& mesh, const Bounds& bounds) {
     const double top = bounds.low.z + TOUCHING * (bounds.high.z - bounds.low.z);
     double down = 0; // twice the area
-    for (const ObjTriangle& t : mesh.triangles) {
+    for (const MeshTriangle& t : mesh.triangles) {
         const glm::dvec3 &a = mesh.positions[t.v[0]], &b = mesh.positions[t.v[1]],
                          &c = mesh.positions[t.v[2]];
         if (a.z <= top && b.z <= top && c.z <= top)
@@ -167,7 +156,7 @@ bool has_map_coordinates(const Bounds& bounds) {
 
 } // namespace
 
-Footing measure_footing(const ObjMesh& mesh, const Bounds& bounds) {
+Footing measure_footing(const Mesh& mesh, const Bounds& bounds) {
     Footing footing{};
     const glm::dvec3 size = bounds.high - bounds.low;
     if (!(size.x > 0 && size.y > 0 && size.z > 0))
@@ -183,9 +172,9 @@ Footing measure_footing(const ObjMesh& mesh, const Bounds& bounds) {
     return footing;
 }
 
-FoundUp find_up(const ObjMesh& mesh, const Bounds& bounds) {
-    if (const std::string writer = z_up_writer(mesh.head); !writer.empty())
-        return {true, true, fmt::format("it is by {}, whose up is z", writer)};
+FoundUp find_up(const Mesh& mesh, const Bounds& bounds, const std::string& z_up_reason) {
+    if (!z_up_reason.empty())
+        return {true, true, z_up_reason};
     if (has_map_coordinates(bounds))
         return {true, true, "its coordinates are those of a map"};
     const Footing footing = measure_footing(mesh, bounds);

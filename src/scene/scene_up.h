@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which way is up in a file: OBJ does not say, and programs whose up is z write z-up files unless told
+// Which way is up in a file that does not say so: programs whose up is z write z-up files unless told
 // otherwise.
 #pragma once
 
+#include "scene/mesh.h"
 #include "scene/normalise.h"
-#include "scene/readers/obj_reader.h"
 
 #include <array>
 #include <string>
@@ -26,10 +26,10 @@ struct FoundUp {
 using Footing = std::array<double, 6>;
 
 /// Footing of the triangles, whose box `bounds` is. Points up to 0.5 % of the box's size from a face count.
-Footing measure_footing(const ObjMesh& mesh, const Bounds& bounds);
+Footing measure_footing(const Mesh& mesh, const Bounds& bounds);
 
 /// z is up where
-/// - the writer's up is z and it has no other: FreeCAD, OpenSCAD;
+/// - the reader knows it, by `z_up_reason` (SceneDescription);
 /// - x and y are far from the origin and z is not: coordinates of a map;
 /// - it stands well on its lowest z, and is open to no other reading: it stands on its highest z much less,
 /// and
@@ -38,6 +38,6 @@ Footing measure_footing(const ObjMesh& mesh, const Bounds& bounds);
 /// Where it stands on its lowest z and something speaks against it, z is likely, and not sure. Of 80 files of
 /// models, scans, robots' links and rooms, some 18 of them z-up, this was sure of 6, hinted at 2, and wrong
 /// in none.
-FoundUp find_up(const ObjMesh& mesh, const Bounds& bounds);
+FoundUp find_up(const Mesh& mesh, const Bounds& bounds, const std::string& z_up_reason);
 
 } // namespace clrt

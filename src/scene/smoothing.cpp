@@ -32,7 +32,7 @@ struct SmoothCorner {
     }
 };
 
-std::vector<SmoothCorner> find_corners(const ObjMesh& mesh) {
+std::vector<SmoothCorner> find_corners(const Mesh& mesh) {
     std::vector<SmoothCorner> corners;
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
         if (mesh.smoothing[t] != NO_INDEX && mesh.triangles[t].n[0] == NO_INDEX)
@@ -55,7 +55,7 @@ std::vector<size_t> find_runs(const std::vector<SmoothCorner>& corners) {
 }
 
 /// Cross product of the edges that leave a corner; its direction is the triangle's normal.
-glm::dvec3 cross_at(const ObjMesh& mesh, const ObjTriangle& triangle, u32 k, double& angle) {
+glm::dvec3 cross_at(const Mesh& mesh, const MeshTriangle& triangle, u32 k, double& angle) {
     const glm::dvec3& p = mesh.positions[triangle.v[k]];
     const glm::dvec3 to_next = mesh.positions[triangle.v[(k + 1) % 3]] - p,
                      to_last = mesh.positions[triangle.v[(k + 2) % 3]] - p;
@@ -65,7 +65,7 @@ glm::dvec3 cross_at(const ObjMesh& mesh, const ObjTriangle& triangle, u32 k, dou
 }
 
 /// The normal that the corners [begin, end) share, of unit length; 0 where it cancels.
-glm::dvec3 shared_normal(const ObjMesh& mesh, const SmoothCorner* begin, const SmoothCorner* end) {
+glm::dvec3 shared_normal(const Mesh& mesh, const SmoothCorner* begin, const SmoothCorner* end) {
     glm::dvec3 sum(0);
     double weights = 0;
     for (const SmoothCorner* at = begin; at != end; ++at) {
@@ -82,7 +82,7 @@ glm::dvec3 shared_normal(const ObjMesh& mesh, const SmoothCorner* begin, const S
 }
 
 /// False where a corner has no normal, or where the corners describe nothing but the plane.
-bool is_smooth(const ObjMesh& mesh, const ObjTriangle& triangle) {
+bool is_smooth(const Mesh& mesh, const MeshTriangle& triangle) {
     double angle = 0;
     const glm::dvec3 cross = cross_at(mesh, triangle, 0, angle);
     const double length = glm::length(cross);
@@ -98,7 +98,7 @@ bool is_smooth(const ObjMesh& mesh, const ObjTriangle& triangle) {
 
 } // namespace
 
-void smooth_by_groups(ObjMesh& mesh, const std::string& obj_path, NoticeList& notices) {
+void smooth_by_groups(Mesh& mesh, const std::string& path, NoticeList& notices) {
     if (mesh.smoothing.empty())
         return;
     const std::vector<SmoothCorner> corners = find_corners(mesh);
@@ -114,7 +114,7 @@ void smooth_by_groups(ObjMesh& mesh, const std::string& obj_path, NoticeList& no
     });
     std::atomic<size_t> smoothed{0};
     tbb::parallel_for(size_t(0), mesh.triangles.size(), [&](size_t t) {
-        ObjTriangle& triangle = mesh.triangles[t];
+        MeshTriangle& triangle = mesh.triangles[t];
         if (triangle.n[0] == NO_INDEX || triangle.n[0] < first)
             return;
         if (is_smooth(mesh, triangle))
@@ -124,7 +124,7 @@ void smooth_by_groups(ObjMesh& mesh, const std::string& obj_path, NoticeList& no
     });
     if (smoothed)
         notices.add_line(fmt::format("{}: {} triangles without vn are smooth by their smoothing groups (s)",
-                                     obj_path, smoothed.load()));
+                                     path, smoothed.load()));
 }
 
 } // namespace clrt

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/texture_store.h"
 
+#include "colour.h"
 #include "error.h"
-#include "scene/colour.h"
 #include "scene/find_file.h"
 #include "scene/text_scanner.h"
 
@@ -46,14 +46,14 @@ TextureStore::TextureStore() {
         words_[i] = float_bits(float(srgb_to_linear(i / 255.0)));
 }
 
-u32 TextureStore::add_record(const Texture& texture, const MtlTexture& use) {
+u32 TextureStore::add_record(const Texture& texture, const TextureUse& use) {
     textures_.push_back(texture);
     names_.push_back(use.file);
     places_.push_back(use.place);
     return u32(textures_.size() - 1);
 }
 
-u32 TextureStore::add(const MtlTexture& use, TextureRole role, NoticeList& notices) {
+u32 TextureStore::add(const TextureUse& use, TextureRole role, NoticeList& notices) {
     if (use.by_vertex) {
         Texture texture{};
         texture.width = texture.height = 1;
@@ -84,7 +84,7 @@ u32 TextureStore::add(const MtlTexture& use, TextureRole role, NoticeList& notic
     return add_record(texture, use);
 }
 
-TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& use, TextureRole role,
+TextureStore::StoredImage* TextureStore::find_or_read(const TextureUse& use, TextureRole role,
                                                       NoticeList& notices) {
     const auto path = find_file(use.file, use.place.file);
     if (!path) {
@@ -113,7 +113,7 @@ TextureStore::StoredImage* TextureStore::find_or_read(const MtlTexture& use, Tex
                 .first->second;
 }
 
-TextureStore::StoredImage* TextureStore::try_to_read(const MtlTexture& use, TextureRole role,
+TextureStore::StoredImage* TextureStore::try_to_read(const TextureUse& use, TextureRole role,
                                                      NoticeList& notices) {
     NoticeList found;
     StoredImage* image = find_or_read(use, role, found);
@@ -122,11 +122,11 @@ TextureStore::StoredImage* TextureStore::try_to_read(const MtlTexture& use, Text
     return image;
 }
 
-bool TextureStore::is_readable(const MtlTexture& use, TextureRole role, NoticeList& notices) {
+bool TextureStore::is_readable(const TextureUse& use, TextureRole role, NoticeList& notices) {
     return try_to_read(use, role, notices) != nullptr;
 }
 
-bool TextureStore::is_normal_map(const MtlTexture& use, NoticeList& notices) {
+bool TextureStore::is_normal_map(const TextureUse& use, NoticeList& notices) {
     StoredImage* image = try_to_read(use, TextureRole::NORMAL, notices);
     if (!image || image->is_grey)
         return false;

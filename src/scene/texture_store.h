@@ -4,7 +4,7 @@
 
 #include "scene/notices.h"
 #include "scene/read_image.h"
-#include "scene/readers/mtl_reader.h"
+#include "scene/texture_use.h"
 
 #include <glm/vec3.hpp>
 #include <map>
@@ -16,15 +16,6 @@
 
 namespace clrt {
 
-/// What a map is for: it decides how its numbers are stored and which channel is read.
-enum class TextureRole {
-    COLOUR,   ///< sRGB where the file holds integers
-    NORMAL,   ///< three linear channels
-    LEVEL,    ///< three linear channels that multiply a reflectance
-    COVERAGE, ///< the alpha channel where there is one, else luminance
-    SCALAR    ///< the only channel, else luminance
-};
-
 /// The first words hold the sRGB curve: word i is the linear value of byte i as the bits of a float.
 constexpr u32 SRGB_TABLE_WORDS = 256;
 
@@ -33,16 +24,16 @@ public:
     TextureStore();
 
     /// Adds a use of a map and returns its index; NO_INDEX, with one notice per file, if it cannot be read.
-    /// The file is looked for relative to the MTL file (find_file.h). Throws SceneError if the texels exceed
-    /// 2^32 words. The texels of a use by_vertex are added later (store_vertex_colours).
-    u32 add(const MtlTexture& use, TextureRole role, NoticeList& notices);
+    /// The file is looked for relative to the file that names it (find_file.h). Throws SceneError if the
+    /// texels exceed 2^32 words. The texels of a use by_vertex are added later (store_vertex_colours).
+    u32 add(const TextureUse& use, TextureRole role, NoticeList& notices);
 
     /// Whether a map can be read. Where not, add() says why.
-    bool is_readable(const MtlTexture& use, TextureRole role, NoticeList& notices);
+    bool is_readable(const TextureUse& use, TextureRole role, NoticeList& notices);
 
     /// Whether the picture of a map is a normal map by its texels: in colour, nearly all of them unit vectors
     /// coded as (n + 1) / 2, and on the whole near +z. False where it cannot be read; add() says why.
-    bool is_normal_map(const MtlTexture& use, NoticeList& notices);
+    bool is_normal_map(const TextureUse& use, NoticeList& notices);
 
     /// Mean of the texture's values over its picture: linear, with base and gain, negative values as 0.
     glm::dvec3 mean(u32 texture) const;
@@ -69,14 +60,14 @@ private:
         std::optional<bool> is_normal_map = std::nullopt; ///< once asked
     };
 
-    u32 add_record(const Texture& texture, const MtlTexture& use);
+    u32 add_record(const Texture& texture, const TextureUse& use);
 
     /// Calls action(rgb) for the value of each texel: base and gain applied, 0 where that is negative.
     template <class Action>
     void for_each_value(u32 texture, Action&& action) const;
 
-    StoredImage* find_or_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
-    StoredImage* try_to_read(const MtlTexture& use, TextureRole role, NoticeList& notices);
+    StoredImage* find_or_read(const TextureUse& use, TextureRole role, NoticeList& notices);
+    StoredImage* try_to_read(const TextureUse& use, TextureRole role, NoticeList& notices);
     bool has_unit_vectors(const StoredImage& image) const;
     StoredImage store(const Image& image, ImageEncoding encoding, const std::string& path,
                       NoticeList& notices);

@@ -4,9 +4,9 @@
 
 #include "support/run_command.h"
 #include "support/scratch_folder.h"
+#include "support/test_device.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <OpenImageIO/imageio.h>
@@ -45,8 +45,7 @@ class ClrtCommand : public testing::Test {
 protected:
     /// Runs clrt with these arguments. The device is that of the other tests.
     CommandResult clrt(const std::vector<std::string>& arguments, CommandSettings settings = {}) const {
-        const char* device = std::getenv("CLRT_TEST_DEVICE");
-        settings.environment.emplace("CLRT_DEVICE", device ? device : "pocl");
+        settings.environment.emplace("CLRT_DEVICE", test_device_name());
         if (settings.folder.empty())
             settings.folder = path();
         std::vector<std::string> command{CLRT_EXECUTABLE};

@@ -25,10 +25,7 @@ protected:
         return seconds_of_commands() - before;
     }
     /// Times are promised for PoCL; other devices only have to work.
-    static bool is_pocl() {
-        const char* device = std::getenv("CLRT_TEST_DEVICE");
-        return !device || std::string(device) == "pocl";
-    }
+    static bool is_pocl() { return test_device_name() == "pocl"; }
 };
 
 } // namespace

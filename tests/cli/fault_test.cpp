@@ -25,8 +25,7 @@ protected:
     CommandResult shell(const std::string& arguments) const {
         CommandSettings settings;
         settings.folder = path();
-        const char* device = std::getenv("CLRT_TEST_DEVICE");
-        settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+        settings.environment["CLRT_DEVICE"] = test_device_name();
         return run_command({"/bin/sh", "-c", std::string(CLRT_EXECUTABLE) + " " + arguments}, settings);
     }
 
@@ -182,11 +181,10 @@ TEST_F(Fault, KillsAtAnyMomentLeaveWholeFilesAndOneTemporaryFileAtMost) {
               0);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> moment(0.5, 2.5);
-    const char* device = std::getenv("CLRT_TEST_DEVICE");
     for (int kill = 0; kill < 8; ++kill) {
         CommandSettings settings;
         settings.folder = path();
-        settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+        settings.environment["CLRT_DEVICE"] = test_device_name();
         settings.signals = {{moment(random), SIGKILL}};
         std::vector<std::string> command{CLRT_EXECUTABLE};
         command.insert(command.end(), words.begin(), words.end());
@@ -266,9 +264,7 @@ TEST_F(Fault, AMeshThatTheMemoryCannotHoldIsAnErrorWhereverItRunsOut) {
     if (IS_SANITIZED)
         GTEST_SKIP() << "needs a limit of memory";
     // The long tier reads a file of two gigabytes, more than a machine may have memory to succeed with.
-    const char* tier = std::getenv("CLRT_TEST_LONG");
-    const bool is_long = tier && std::string(tier) == "1";
-    const size_t bytes = (is_long ? 2048 : 24) * MEBIBYTE;
+    const size_t bytes = (tests_are_long() ? 2048 : 24) * MEBIBYTE;
     write_mesh("mesh.obj", bytes);
     const size_t base = least_memory();
     // The mesh takes more than four bytes for each byte of its text and less than sixteen.

@@ -259,8 +259,7 @@ TEST_F(FilmCommand, AKilledRunLeavesAWholeFilm) {
         CommandSettings settings;
         settings.folder = path();
         settings.signals = {{seconds, SIGKILL}};
-        const char* device = std::getenv("CLRT_TEST_DEVICE");
-        settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+        settings.environment["CLRT_DEVICE"] = test_device_name();
         EXPECT_EQ(run_command(command, settings).signal, SIGKILL);
         EXPECT_NO_THROW(film("a.film")) << "killed after " << seconds;
     }
@@ -273,8 +272,7 @@ TEST_F(FilmCommand, PicturesSoFarAreSavedAtWholePasses) {
     std::vector<std::string> command{CLRT_EXECUTABLE, "lamp.obj", "-t",         "60",           "-s",
                                      "4000000",       "-o",       "so_far.exr", "--save-every", "0.1s"};
     settings.folder = path();
-    const char* device = std::getenv("CLRT_TEST_DEVICE");
-    settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+    settings.environment["CLRT_DEVICE"] = test_device_name();
     EXPECT_EQ(run_command(command, settings).signal, SIGKILL);
     ASSERT_TRUE(exists("so_far.exr"));
     const ReadPicture so_far(folder.file("so_far.exr"));

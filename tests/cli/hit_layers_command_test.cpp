@@ -56,8 +56,7 @@ protected:
 } // namespace
 
 TEST_F(HitLayersCommand, LittleDeviceMemoryCostsNoLayers) {
-    const char* device = std::getenv("CLRT_TEST_DEVICE");
-    if (device && std::string(device) != "pocl")
+    if (test_device_name() != "pocl")
         GTEST_SKIP() << "only PoCL's memory can be limited";
     // A gigabyte, of which one buffer takes a quarter: the layers of all pixels at once would not fit.
     CommandSettings little;

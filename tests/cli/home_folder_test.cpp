@@ -19,10 +19,7 @@ protected:
         settings.environment = {{"HOME", home}, {"XDG_CACHE_HOME", ""}, {"TMPDIR", temporary}};
         return settings;
     }
-    bool is_pocl() const {
-        const char* device = std::getenv("CLRT_TEST_DEVICE");
-        return !device || std::string(device) == "pocl";
-    }
+    bool is_pocl() const { return test_device_name() == "pocl"; }
 };
 
 } // namespace

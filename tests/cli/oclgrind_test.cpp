@@ -82,8 +82,7 @@ protected:
 } // namespace
 
 TEST_F(Oclgrind, FindsNothingInAnyKernel) {
-    const char* tier = std::getenv("CLRT_TEST_LONG");
-    if (!tier || std::string(tier) != "1") {
+    if (!tests_are_long()) {
         expect_no_finding("path", "bvh8", "single");
         expect_no_finding("whitted", "bvh2", "double");
         expect_no_finding("raycast", "cwbvh", "single");

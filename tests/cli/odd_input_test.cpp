@@ -81,7 +81,7 @@ TEST_F(OddInput, LineEndsMarksAndIndicesAreAsWritersMakeThem) {
 
 TEST_F(OddInput, FilesOfOtherFormatsAreErrorsThatSayWhatToDo) {
     expect_error("glTF", "{\"asset\":{\"version\":\"2.0\"}}",
-                 {"odd.obj: expected a Wavefront OBJ, found a glTF file", "export"});
+                 {"odd.obj: expected a Wavefront OBJ or an STL file, found a glTF file", "export"});
     expect_error("GLB", std::string("glTF\2\0\0\0\x10\0\0\0", 12),
                  {"a binary glTF file (GLB)", "assimp export"});
     expect_error("PLY", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n", {"a PLY file"});

@@ -26,8 +26,7 @@ protected:
             line.replace(at, std::strlen("clrt "), program);
         CommandSettings settings;
         settings.folder = path();
-        const char* device = std::getenv("CLRT_TEST_DEVICE");
-        settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+        settings.environment["CLRT_DEVICE"] = test_device_name();
         return run_command({"/bin/bash", "-o", "pipefail", "-c", line}, settings);
     }
 };

@@ -3,7 +3,6 @@
 #include "clrt_command.h"
 #include "support/instruction_sets.h"
 
-#include <cstdlib>
 #include <fstream>
 
 namespace clrt {
@@ -40,10 +39,9 @@ TEST_F(ProgramCacheCommand, TwoRunsAtOnceShareOneEntryAndTheNextOneUsesIt) {
     std::string words;
     for (const std::string& word : cached(""))
         words += word.empty() ? "" : " " + word;
-    const char* device = std::getenv("CLRT_TEST_DEVICE");
     CommandSettings settings;
     settings.folder = path();
-    settings.environment["CLRT_DEVICE"] = device ? device : "pocl";
+    settings.environment["CLRT_DEVICE"] = test_device_name();
     const std::string clrt_command = std::string(CLRT_EXECUTABLE) + words;
     const CommandResult both = run_command({"/bin/sh", "-c",
                                             clrt_command + " a.ppm & first=$!; " + clrt_command +

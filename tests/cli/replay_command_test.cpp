@@ -131,10 +131,9 @@ TEST_F(ReplayCommand, APlantedFaultIsReportedWithItsCauseAndTheCommandThatReplay
         for (int x = 0; x < 16; ++x)
             EXPECT_EQ(marked.at(x, y, "badSamples"), x == 6 && y == 8 ? 1 : 0);
     // The command replays the sample.
-    const char* const device = std::getenv("CLRT_TEST_DEVICE");
     CommandSettings settings;
     settings.folder = path();
-    settings.environment = {{"CLRT_DEVICE", device ? device : "pocl"}};
+    settings.environment = {{"CLRT_DEVICE", test_device_name()}};
     const std::string programs = std::filesystem::path(CLRT_EXECUTABLE).parent_path().string();
     const CommandResult again = run_command(
         {"/bin/sh", "-c", "PATH=" + programs + ":$PATH; " + cause["replay"].get<std::string>()}, settings);

@@ -49,8 +49,8 @@ void check_material(const MtlMaterial& m) {
 
 /// A repaired material is in the same ranges; the pictures of half the names can be read, or are normal maps.
 void check_repairs(const MtlMaterial& mtl, NoticeList& notices) {
-    const MapFacts facts{[](const MtlTexture& map, TextureRole) { return map.file.size() % 2 == 0; },
-                         [](const MtlTexture& map) { return map.file.size() % 4 == 0; }};
+    const PictureFacts facts{[](const TextureUse& map, TextureRole) { return map.file.size() % 2 == 0; },
+                             [](const TextureUse& map) { return map.file.size() % 4 == 0; }};
     check_material(repair_material(mtl, facts, notices));
 }
 

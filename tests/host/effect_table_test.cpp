@@ -123,7 +123,7 @@ TEST(TakeOut, AConstantSkyHasTheMeanOfTheMap) {
 }
 
 TEST(TakeOut, FlatTrianglesKeepTheFrontThatNormalsGaveThem) {
-    TestScene scene;
+    ScratchScene scene;
     scene.build.material("m", "Kd 1 1 1").use("m");
     scene.build.raw("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\nvn 0 0 1\nf 1//2 2//2 3//2");
     Scene loaded = scene.load();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/environment.h"
 
+#include "colour.h"
 #include "error.h"
-#include "scene/colour.h"
 #include "scene_support.h"
 
 #include <cmath>

@@ -34,6 +34,26 @@ Film noisy_film(int replicates, const Noise& noise, std::mt19937& random) {
     return film;
 }
 
+/// A film whose paths splat the same to `reach` x `reach` pixels: to those of a fixed lattice where reach is
+/// 2, else around any pixel, beyond the border too.
+Film splatted_film(int replicates, int reach, std::mt19937& random) {
+    Film film = empty_film(WIDTH, HEIGHT, replicates, 0, std::uint64_t(replicates));
+    const int step = reach == 2 ? 2 : 1, first = reach == 2 ? 0 : 1 - reach;
+    for (size_t r = 0; r < size_t(replicates); ++r) {
+        std::vector<double> values(film_plane(film) / 3, MEAN);
+        for (int top = first; top < HEIGHT; top += step)
+            for (int left = first; left < WIDTH; left += step) {
+                const double splat = std::normal_distribution<double>()(random);
+                for (int y = std::max(top, 0); y < std::min(top + reach, HEIGHT); ++y)
+                    for (int x = std::max(left, 0); x < std::min(left + reach, WIDTH); ++x)
+                        values[size_t(y) * WIDTH + size_t(x)] += splat;
+            }
+        for (size_t i = 0; i < film_plane(film); ++i)
+            film.sums[r * film_plane(film) + i] = std::llround(values[i / 3] / film.scale.quantum);
+    }
+    return film;
+}
+
 /// The error that the picture has.
 double own_error(const Film& film) {
     double squared = 0, mean = 0;
@@ -140,6 +160,45 @@ TEST_P(OwnError, IsInTheIntervalAsOftenAsItSays) {
     }
     EXPECT_GE(held, 0.93);
     EXPECT_LE(held, 0.97);
+}
+
+TEST(OwnErrorOfSplats, IsInTheIntervalThatTakesBlocksOfPixels) {
+    // Each path splats the same to four pixels; then to three by three around any.
+    for (const int reach : {2, 3}) {
+        std::mt19937 random(5);
+        int held = 0, held_by_pixels = 0;
+        for (int trial = 0; trial < TRIALS; ++trial) {
+            const Film film = splatted_film(8, reach, random);
+            const double own = own_error(film);
+            const auto holds = [&](int block) {
+                const auto error = relative_error(*film_squared_error(film, ErrorPixels::ALL, block));
+                return error->low <= own && own <= error->high;
+            };
+            held += holds(reach == 2 ? 2 : 12);
+            held_by_pixels += holds(1);
+        }
+        std::printf("splats of %d x %d pixels: held %.3f by blocks, %.3f by pixels\n", reach, reach,
+                    double(held) / TRIALS, double(held_by_pixels) / TRIALS);
+        EXPECT_GE(held, 0.92 * TRIALS) << reach; // few independent blocks: a little too sure
+        EXPECT_LE(held, 0.97 * TRIALS) << reach;
+        EXPECT_LE(held_by_pixels, 0.85 * TRIALS) << reach << ": too sure";
+    }
+}
+
+TEST(OwnErrorOfSplats, BlocksOfOnePixelAreThePixels) {
+    std::mt19937 random(3);
+    const Film film = splatted_film(8, 3, random);
+    const double pixels = film_squared_error(film)->degrees;
+    const double blocks = film_squared_error(film, ErrorPixels::SCENE, 2)->degrees;
+    EXPECT_LT(blocks, 0.7 * pixels);
+    Film apart = film; // every other pixel shows nothing: no two are neighbours
+    apart.shown.assign(film_plane(film) / 3, 0);
+    for (int y = 0; y < HEIGHT; y += 2)
+        for (int x = 0; x < WIDTH; x += 2)
+            apart.shown[size_t(y) * WIDTH + size_t(x)] = 1;
+    EXPECT_NEAR(film_squared_error(apart, ErrorPixels::SCENE, 2)->degrees /
+                    film_squared_error(apart)->degrees,
+                1, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Replicates, OwnError, testing::Values(4, 8, 32),

@@ -13,10 +13,10 @@ namespace clrt {
 namespace {
 
 /// Triangles between random points of a box of 500 units at `offset` along x, rounded to multiples of `step`.
-ObjMesh points(double offset, double step) {
+Mesh points(double offset, double step) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> place(0, 500);
-    ObjMesh mesh;
+    Mesh mesh;
     for (u32 i = 0; i < 300; ++i) {
         const double x = std::round((offset + place(random)) / step) * step;
         mesh.positions.emplace_back(x, place(random), place(random));
@@ -27,7 +27,7 @@ ObjMesh points(double offset, double step) {
 }
 
 std::vector<std::string> digits(double offset, double step) {
-    const ObjMesh mesh = points(offset, step);
+    const Mesh mesh = points(offset, step);
     NoticeList notices;
     note_coarse_digits(mesh, bounds_of_triangles(mesh), "a.obj", notices);
     return notices.lines();
@@ -48,7 +48,7 @@ TEST(FarNotices, StepsThatFloatsWouldResolveAreTheFilesLimit) {
 TEST(FarNotices, NearTheOriginStepsAreTheModels) {
     for (const double offset : {0., 1000., 1e5})
         EXPECT_EQ(digits(offset, 1).size(), 0u) << offset;
-    ObjMesh flat;
+    Mesh flat;
     flat.positions = {{5.4e6, 0.25, 0}, {5.4e6, 1.75, 0}, {5.4e6, 0, 0.5}};
     flat.triangles.push_back({{0, 1, 2}, {}, {}, 0, 0});
     NoticeList notices;

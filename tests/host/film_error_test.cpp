@@ -2,6 +2,8 @@
 // Errors, intervals, slopes and prices from made-up sums, against direct computation and the truth.
 #include "film/film_error.h"
 
+#include "film/error_slope.h"
+#include "film/error_spread.h"
 #include "film/f_distribution.h"
 #include "support/noise_film.h"
 #include "support/statistics.h"

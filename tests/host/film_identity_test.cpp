@@ -3,6 +3,7 @@
 #include "film/film_identity.h"
 
 #include "console/progress.h"
+#include "render/render_params.h"
 #include "scene/load_scene.h"
 #include "scene_support.h"
 
@@ -27,7 +28,8 @@ protected:
         return load_scene(options, progress);
     }
     FilmIdentity identity(const Options& options) const {
-        return film_identity(load(options), options, {1, 2});
+        const Scene scene = load(options);
+        return film_identity(scene, options, make_render_params(scene, options, {1, 2}), {1, 2});
     }
     /// The field that tells changed options from the default ones.
     std::string field(const std::function<void(Options&)>& change) const {

@@ -25,7 +25,6 @@ TEST(ForeignFormat, FormatsAreKnownByTheirFirstBytes) {
     EXPECT_EQ(name_of("{}"), "a JSON file");
     EXPECT_EQ(name_of("ply\nformat ascii 1.0\n"), "a PLY file");
     EXPECT_EQ(name_of("ply\r\nformat binary_little_endian 1.0\r\n"), "a PLY file");
-    EXPECT_EQ(name_of("solid thing\n facet normal 0 0 1\n"), "an STL file");
     EXPECT_EQ(name_of("Kaydara FBX Binary  \0"sv), "an FBX file");
     EXPECT_EQ(name_of("; FBX 7.3.0 project file\n"), "an FBX file");
     EXPECT_EQ(name_of("BLENDER-v300"), "a Blender file");
@@ -40,15 +39,6 @@ TEST(ForeignFormat, FormatsAreKnownByTheirFirstBytes) {
     EXPECT_EQ(name_of("\x89PNG\r\n"), "a PNG picture");
     EXPECT_EQ(name_of("version https://git-lfs.github.com/spec/v1\n"), "a pointer of Git LFS");
     EXPECT_EQ(name_of("\xff\xfev\0 \0"sv), "") << "UTF-16 text may be an OBJ";
-}
-
-TEST(ForeignFormat, BinaryStlIsKnownByItsSize) {
-    std::string stl(84 + 2 * 50, ' ');
-    stl[80] = 2;
-    stl[81] = stl[82] = stl[83] = 0;
-    EXPECT_EQ(name_of(stl), "an STL file");
-    EXPECT_EQ(name_of(stl + "x"), "");
-    EXPECT_EQ(name_of(std::string(84, '\0')), "") << "zero triangles: nothing but zeros";
 }
 
 TEST(ForeignFormat, WhatAnObjMayBeginWithIsLeftAlone) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every rule of the MTL table.
-#include "scene/material_rules.h"
+// Every rule of the MTL table, and what it makes for the kernels.
+#include "scene/readers/mtl_rules.h"
 
+#include "scene/material_table.h"
 #include "scene_support.h"
+#include "support/mtl_material.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -23,7 +25,7 @@ struct Ruled {
         const std::vector<MtlMaterial> parsed = parse_mtl("newmtl m\n" + text, "a.mtl", list);
         const RuledMaterial ruled = rule_material(
             parsed.at(0), context,
-            [&](const MtlTexture& use, TextureRole) {
+            [&](const TextureUse& use, TextureRole) {
                 if (use.file.rfind("missing", 0) == 0)
                     return NO_INDEX;
                 loaded.push_back(use.file);
@@ -150,8 +152,8 @@ TEST(MaterialRules, AbsentKdDependsOnItsNeighbours) {
     }
     expect_colour(Ruled("map_Kd a.png\n").m.matte, 1, 1, 1);
     expect_colour(Ruled("map_Kd missing.png\n").m.matte, 1, 1, 1);
-    expect_colour(default_material().material.matte, 0.8, 0.8, 0.8);
-    EXPECT_EQ(default_material().material.lobes, LOBE_MATTE);
+    expect_colour(build_material({}, {}, {}).matte, 0.8, 0.8, 0.8);
+    EXPECT_EQ(build_material({}, {}, {}).lobes, LOBE_MATTE);
 }
 
 TEST(MaterialRules, MapsAloneSetTheirConstantToOneOnlyIfTheyCanBeRead) {
@@ -362,7 +364,7 @@ TEST(MaterialRules, TheReflectanceOfTheDielectricPartCanBeGiven) {
         }
         u32 maps = 0;
         return rule_material(
-                   mtl, {}, [&](const MtlTexture&, TextureRole) { return maps++; }, notices)
+                   mtl, {}, [&](const TextureUse&, TextureRole) { return maps++; }, notices)
             .material;
     };
     const Material plain = with_f0("Kd 1\nPm 0\nPr 0.5\n", 0.2, nullptr);

@@ -3,6 +3,7 @@
 #include "film/merge_films.h"
 
 #include "error.h"
+#include "render/film_picture.h"
 #include "support/noise_film.h"
 
 #include <algorithm>

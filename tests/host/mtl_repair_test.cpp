@@ -2,9 +2,9 @@
 // Every repair of the table: what writers mean, before and after.
 #include "scene/readers/mtl_repair.h"
 
-#include "scene/material_rules.h"
 #include "scene_support.h"
 #include "support/blender_mtl.h"
+#include "support/mtl_material.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@ using namespace clrt;
 namespace {
 
 /// Files named missing* cannot be read, files named normal* are normal maps.
-const MapFacts FACTS{
-    [](const MtlTexture& use, TextureRole) { return use.file.rfind("missing", 0) != 0; },
-    [](const MtlTexture& use) { return use.file.rfind("normal", 0) == 0; },
+const PictureFacts FACTS{
+    [](const TextureUse& use, TextureRole) { return use.file.rfind("missing", 0) != 0; },
+    [](const TextureUse& use) { return use.file.rfind("normal", 0) == 0; },
 };
 
 struct Repaired {
@@ -45,7 +45,7 @@ Material ruled(const MtlMaterial& m) {
     NoticeList notices;
     u32 maps = 0;
     return rule_material(
-               m, {}, [&](const MtlTexture&, TextureRole) { return maps++; }, notices)
+               m, {}, [&](const TextureUse&, TextureRole) { return maps++; }, notices)
         .material;
 }
 
@@ -231,7 +231,7 @@ TEST(MtlRepair, CoatsAreScaledAndSaid) {
     EXPECT_EQ(Repaired(BLENDER_HEADER + "newmtl a\nPr 0\nPc 9\n").m.pc, 1);
     NoticeList notices;
     rule_material(
-        coated.m, {}, [](const MtlTexture&, TextureRole) { return NO_INDEX; }, notices);
+        coated.m, {}, [](const TextureUse&, TextureRole) { return NO_INDEX; }, notices);
     EXPECT_EQ(count_notices(notices, "Pc (coat) has no effect here and is ignored"), 1);
 }
 
@@ -299,7 +299,7 @@ TEST(MtlRepair, RulesNameTheRepairsThatChangedAMaterial) {
     NoticeList notices;
     const Repaired r = plain("illum 4\nKd 0.5 0.4 0.3\nTf 1 1 1\nNi 1\nTr 1\n");
     const RuledMaterial ruled = rule_material(
-        r.m, {}, [](const MtlTexture&, TextureRole) { return NO_INDEX; }, notices);
+        r.m, {}, [](const TextureUse&, TextureRole) { return NO_INDEX; }, notices);
     EXPECT_EQ(ruled.rule, "illum 2: matte Kd, glossy Ks by Ns (repaired: opaque Tr 1, opaque Ni 1)");
 }
 

@@ -14,19 +14,19 @@ using namespace clrt;
 
 namespace {
 
-ObjTriangle obj_triangle(u32 a, u32 b, u32 c) {
+MeshTriangle mesh_triangle(u32 a, u32 b, u32 c) {
     return {{a, b, c}, {NO_INDEX, NO_INDEX, NO_INDEX}, {NO_INDEX, NO_INDEX, NO_INDEX}, 0, 0};
 }
 
-ObjMesh wedge(double scale) {
-    ObjMesh mesh;
+Mesh wedge(double scale) {
+    Mesh mesh;
     mesh.positions = {glm::dvec3(0.1, 0.7, -3.3) * scale, glm::dvec3(1.3, 2.9, 0.3) * scale,
                       glm::dvec3(-4.1, 0.2, 8.8) * scale};
-    mesh.triangles = {obj_triangle(0, 1, 2)};
+    mesh.triangles = {mesh_triangle(0, 1, 2)};
     return mesh;
 }
 
-Scene assembled(ObjMesh mesh) {
+Scene assembled(Mesh mesh) {
     Scene scene;
     NoticeList notices;
     const Bounds bounds = bounds_of_triangles(mesh);
@@ -73,7 +73,7 @@ TEST(Normalise, ScalingByAPowerOfTwoChangesNoBit) {
 TEST(Normalise, FarFromTheOriginPositionsKeepTheirDigits) {
     // 2^23 + k 2^-20 is exact in double and no float: what is left after centring is.
     const Scene near = assembled(wedge(1));
-    ObjMesh mesh = wedge(1);
+    Mesh mesh = wedge(1);
     for (glm::dvec3& p : mesh.positions)
         p = glm::dvec3(glm::round(p * 0x1p20)) * 0x1p-20;
     const Scene rounded = assembled(mesh);
@@ -97,7 +97,7 @@ TEST(Normalise, LayersCountFromWhereFloatsResolveTheScene) {
 }
 
 TEST(Normalise, PositionsThatNoTriangleUsesDoNotCount) {
-    ObjMesh mesh = wedge(1);
+    Mesh mesh = wedge(1);
     mesh.positions.push_back(glm::dvec3(1e30));
     mesh.positions.push_back(glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
     const Scene scene = assembled(mesh);
@@ -114,7 +114,7 @@ TEST(AssembleGeometry, ExtentIsTheLargestCoordinate) {
 }
 
 TEST(AssembleGeometry, NormalsBecomeUnitVectors) {
-    ObjMesh mesh = wedge(1);
+    Mesh mesh = wedge(1);
     mesh.normals = {glm::vec3(0, 0, 5), glm::vec3(1e-30f, 0, 0), glm::vec3(3e38f, 3e38f, 0)};
     mesh.triangles[0].n[0] = 0, mesh.triangles[0].n[1] = 1, mesh.triangles[0].n[2] = 2;
     const Scene scene = assembled(mesh);
@@ -128,7 +128,7 @@ TEST(AssembleGeometry, NormalsBecomeUnitVectors) {
 TEST(AssembleGeometry, ATriangleWithABrokenNormalIsFlat) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const glm::vec3& broken : {glm::vec3(0), glm::vec3(nan, 0, 1), glm::vec3(INFINITY, 0, 0)}) {
-        ObjMesh mesh = wedge(1);
+        Mesh mesh = wedge(1);
         mesh.normals = {glm::vec3(0, 0, 1), broken};
         mesh.triangles[0].n[0] = 0, mesh.triangles[0].n[1] = 1, mesh.triangles[0].n[2] = 0;
         const Scene scene = assembled(mesh);
@@ -140,7 +140,7 @@ TEST(AssembleGeometry, ATriangleWithABrokenNormalIsFlat) {
 }
 
 TEST(AssembleGeometry, TextureCoordinatesAreForAllCornersOrNone) {
-    ObjMesh mesh = wedge(1);
+    Mesh mesh = wedge(1);
     mesh.uvs = {glm::vec2(0.25f, 0.5f), glm::vec2(INFINITY, 0)};
     mesh.triangles.push_back(mesh.triangles[0]);
     mesh.triangles.push_back(mesh.triangles[0]);
@@ -158,9 +158,9 @@ TEST(AssembleGeometry, TextureCoordinatesAreForAllCornersOrNone) {
 }
 
 TEST(AssembleGeometry, TrianglesKeepTheirOrderAndDegenerateOnesAreCounted) {
-    ObjMesh mesh = wedge(1);
-    mesh.triangles.push_back(obj_triangle(1, 1, 2));
-    mesh.triangles.push_back(obj_triangle(2, 1, 0));
+    Mesh mesh = wedge(1);
+    mesh.triangles.push_back(mesh_triangle(1, 1, 2));
+    mesh.triangles.push_back(mesh_triangle(2, 1, 0));
     const Scene scene = assembled(mesh);
     ASSERT_EQ(scene.triangles.size(), 3u);
     EXPECT_EQ(scene.triangles[1].v0, 1u);

@@ -4,6 +4,7 @@
 #include "support/file_size_limit.h"
 #include "support/kernel_probe.h"
 #include "support/scratch_folder.h"
+#include "support/test_device.h"
 
 #include <chrono>
 #include <cstdlib>

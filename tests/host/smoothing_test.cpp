@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/smoothing.h"
 
+#include "scene/readers/obj_reader.h"
 #include "scene_support.h"
 
 #include <cmath>
@@ -13,9 +14,8 @@ namespace clrt {
 namespace {
 
 ObjMesh read(const std::string& text, NoticeList& notices) {
-    const TemporaryFolder folder;
     Progress silent(Toggle::OFF, true);
-    ObjMesh mesh = read_obj(folder.write("a.obj", text), silent);
+    ObjMesh mesh = read_obj({"a.obj", text}, silent);
     smooth_by_groups(mesh, "a.obj", notices);
     return mesh;
 }
@@ -58,7 +58,7 @@ TEST(Smoothing, GroupsDoNotMix) {
     NoticeList notices;
     const ObjMesh apart =
         read(std::string(CUBE) + "s 1\nf 1 4 3 2\ns 2\nf 5 6 7 8\ns 3\nf 1 2 6 5\n", notices);
-    for (const ObjTriangle& triangle : apart.triangles)
+    for (const MeshTriangle& triangle : apart.triangles)
         EXPECT_EQ(triangle.n[0], NO_INDEX) << "normals of a plane are left to the plane";
     EXPECT_TRUE(notices.lines().empty());
     const ObjMesh pair = read(std::string(CUBE) + "s 1\nf 5 6 7 8\ns 2\nf 1 4 3 2\ns 1\nf 1 2 6 5\n");
@@ -78,7 +78,7 @@ TEST(Smoothing, WithoutGroupsAndWithVnNothingChanges) {
 TEST(Smoothing, SidesThatCancelStayFlat) {
     // A sheet whose two sides are faces of one group: their normals sum to nothing.
     const ObjMesh sheet = read("v 0 0 0.1\nv 1 0 0.2\nv 0.3 1 0.7\ns 1\nf 1 2 3\nf 3 2 1\n");
-    for (const ObjTriangle& triangle : sheet.triangles)
+    for (const MeshTriangle& triangle : sheet.triangles)
         EXPECT_EQ(triangle.n[0], NO_INDEX);
     // Faces without area have no normal to give.
     const ObjMesh needle = read(std::string(CUBE) + "s 1\n" + CUBE_FACES + "f 1 2 2\n");

@@ -5,6 +5,7 @@
 
 #include "command_line_support.h"
 #include "film/film_identity.h"
+#include "render/render_params.h"
 #include "scene/ground.h"
 #include "support/render_scene.h"
 
@@ -135,8 +136,11 @@ TEST(Studio, ItsFlagsGiveTheSameScene) {
             test.options.light.environment_scale = scale;
             const Scene given = test.load();
             EXPECT_FALSE(given.is_studio);
-            EXPECT_EQ(film_identity(studio, test.options, {1, 2}), film_identity(given, test.options, {1, 2}))
-                << notice(studio, "no light in the scene");
+            const auto identity = [&](const Scene& scene) {
+                return film_identity(scene, test.options, make_render_params(scene, test.options, {1, 2}),
+                                     {1, 2});
+            };
+            EXPECT_EQ(identity(studio), identity(given)) << notice(studio, "no light in the scene");
         }
 }
 

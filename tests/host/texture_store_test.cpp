@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/texture_store.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene_support.h"
 
 #include <array>
@@ -19,7 +19,7 @@ using Bytes = std::vector<std::uint8_t>;
 class TextureStoreTest : public testing::Test {
 protected:
     /// Adds a use of a file beside the (imaginary) material library.
-    u32 add(const std::string& file, TextureRole role, MtlTexture use = {}) {
+    u32 add(const std::string& file, TextureRole role, TextureUse use = {}) {
         use.file = file;
         use.place = {folder.path("scene.mtl"), 5};
         return store.add(use, role, notices);
@@ -99,7 +99,7 @@ TEST_F(TextureStoreTest, FloatsStayLinearAndSixteenBitColoursAreDecoded) {
 
 TEST_F(TextureStoreTest, AFileIsStoredOnceForEachEncoding) {
     folder.write_image("a.png", 4, 4, 3, Bytes(48, 7), OIIO::TypeDesc::UINT8);
-    MtlTexture scaled;
+    TextureUse scaled;
     scaled.scale = {2, 3};
     scaled.offset = {0.5, 0.25};
     scaled.base = 0.1;
@@ -134,7 +134,7 @@ TEST_F(TextureStoreTest, CoverageIsAlphaWhereThereIsOne) {
     EXPECT_EQ(texture(add("grey.png", TextureRole::COVERAGE)).channel, 0u);
     EXPECT_EQ(texture(add("rgba.png", TextureRole::SCALAR)).channel, 4u);
     EXPECT_EQ(texture(add("grey.png", TextureRole::SCALAR)).channel, 0u);
-    MtlTexture red;
+    TextureUse red;
     red.channel = 0;
     EXPECT_EQ(texture(add("rgba.png", TextureRole::COVERAGE, red)).channel, 0u);
 }
@@ -227,7 +227,7 @@ TEST_F(TextureStoreTest, MeanIsLinearWithBaseAndGain) {
     folder.write_image("a.png", 2, 1, 1, Bytes{0, 188}, OIIO::TypeDesc::UINT8);
     EXPECT_EQ(store.mean(add("a.exr", TextureRole::COLOUR)), glm::dvec3(2, 1, 2));
     EXPECT_NEAR(store.mean(add("a.png", TextureRole::COLOUR)).x, srgb_to_linear(188 / 255.) / 2, 1e-6);
-    MtlTexture use;
+    TextureUse use;
     use.base = -1;
     use.gain = 2;
     const glm::dvec3 mean = store.mean(add("a.exr", TextureRole::COLOUR, use));
@@ -257,7 +257,7 @@ TEST_F(TextureStoreTest, NormalMapsAreKnownByTheirTexels) {
         BLUE{90, 120, 210}, SIDEWAYS{255, 128, 128};
     const auto is_normal = [&](const std::string& name, const Bytes& bytes, int channels = 3) {
         folder.write_image(name, 10, 10, channels, bytes, OIIO::TypeDesc::UINT8);
-        MtlTexture use;
+        TextureUse use;
         use.file = name;
         use.place = {folder.path("scene.mtl"), 5};
         return store.is_normal_map(use, notices);
@@ -271,7 +271,7 @@ TEST_F(TextureStoreTest, NormalMapsAreKnownByTheirTexels) {
     EXPECT_FALSE(is_normal("heights.png", picture(GREY, {200, 200, 200}, 50)));
     EXPECT_FALSE(is_normal("grey.png", Bytes(100, 202), 1)) << "(202, 202, 202) is near a unit vector";
     folder.write_image("floats.exr", 1, 1, 3, std::vector<float>{0.5f, 0.5f, 1}, OIIO::TypeDesc::FLOAT);
-    MtlTexture use;
+    TextureUse use;
     use.place = {folder.path("scene.mtl"), 5};
     use.file = "floats.exr";
     EXPECT_TRUE(store.is_normal_map(use, notices));
@@ -284,7 +284,7 @@ TEST_F(TextureStoreTest, NormalMapsAreKnownByTheirTexels) {
 TEST_F(TextureStoreTest, QuestionsReadAPictureOnceAndKeepItsNotices) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     folder.write_image("a.exr", 1, 1, 3, std::vector<float>{nan, 0.5f, 1}, OIIO::TypeDesc::FLOAT);
-    MtlTexture use;
+    TextureUse use;
     use.file = "a.exr";
     use.place = {folder.path("scene.mtl"), 5};
     EXPECT_FALSE(store.is_normal_map(use, notices));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/vertex_colours.h"
+#include "scene/readers/obj_colours.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 #include "scene/load_scene.h"
 #include "scene_support.h"
 

@@ -3,6 +3,7 @@
 // the side on which nothing made from them adds light.
 #include "support/bsdf_probe.h"
 #include "support/closed_forms.h"
+#include "support/test_device.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ constexpr double MOST_ABOVE = 1e-3;
 constexpr double MOST_BELOW_ROUND = 2e-3, MOST_BELOW_GLASS = 2e-2, MOST_BELOW_STRETCHED = 4e-2;
 
 BsdfProbe& probe() {
-    static BsdfProbe instance;
+    static BsdfProbe instance(test_device());
     return instance;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/bsdf_energy.h: every material that the table of rules makes, in a white furnace. A surface under
 // light from everywhere never shines brighter than the light, and as bright where nothing is absorbed.
-#include "scene/material_rules.h"
+#include "support/mtl_material.h"
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cstring>
@@ -63,7 +64,7 @@ real3 furnace_albedo(const Bsdf* bsdf, uint count)
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"scattering/material.h"}, TEXT);
+        SceneProbe made(test_device(), {"scattering/material.h"}, TEXT);
         // a: barycentric weights, triangle, number of directions; b: wo
         made.add(
             "albedo",
@@ -100,7 +101,7 @@ public:
     /// Adds what the rules make of the keys, unless it is there already.
     void add(const std::string& keys) {
         NoticeList notices;
-        const LoadMap first_texture = [](const MtlTexture&, TextureRole) { return 0u; };
+        const LoadMap first_texture = [](const TextureUse&, TextureRole) { return 0u; };
         MtlMaterial mtl = parse_mtl("newmtl m\n" + keys, "m.mtl", notices).at(0);
         const Material material = rule_material(mtl, {}, first_texture, notices).material;
         for (const Case& old : cases)

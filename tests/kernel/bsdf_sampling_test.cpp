@@ -3,6 +3,7 @@
 #include "support/bsdf_probe.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ constexpr size_t SAMPLES = 1000000;
 constexpr double MASS_ERROR = 1.5e-3;
 
 BsdfProbe& probe() {
-    static BsdfProbe instance;
+    static BsdfProbe instance(test_device());
     return instance;
 }
 

@@ -6,6 +6,7 @@
 #include "support/reference.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ double tolerance(const LobeSet& set, const dvec3& wo, const dvec3& wi) {
 }
 
 BsdfProbe& probe() {
-    static BsdfProbe instance;
+    static BsdfProbe instance(test_device());
     return instance;
 }
 

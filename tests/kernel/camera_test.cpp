@@ -6,6 +6,7 @@
 #include "support/scene_probe.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 #include <set>
@@ -23,7 +24,7 @@ constexpr double RESOLVED_PITCH = 2.4e-7;    // radians between pixels whose ray
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"geometry/scene.h", "camera/camera.h"});
+        SceneProbe made(test_device(), {"geometry/scene.h", "camera/camera.h"});
         made.add("filter", "first = (vec4)(camera_filter_sample(params, (real2)(a.x, a.y)), 0.0f, 0.0f);");
         made.add("tent", "first.x = camera_tent(a.x);");
         // a: pixel x, y, sample

@@ -12,6 +12,7 @@
 #include "support/bsdf_probe.h"
 #include "support/ray_device.h"
 #include "support/scratch_folder.h"
+#include "support/test_device.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -128,11 +129,11 @@ TEST_F(CodeGeneration, OfTheProbesOfTestsAndClrtStability) {
     rays.effects = EFFECT_ALL;
     for (const BvhLayout layout : ALL_LAYOUTS) {
         rays.layout = layout;
-        expect_clean(fmt::format("rays through {}", layout_name(layout)), ray_probe(rays));
+        expect_clean(fmt::format("rays through {}", layout_name(layout)), ray_probe(test_device(), rays));
     }
     expect_clean("rays by Moeller and Trumbore's test",
-                 ray_probe(ray_options(Build::NAIVE, plain_triangles())));
-    expect_clean("the tests' lobes", BsdfProbe().probe());
+                 ray_probe(test_device(), ray_options(Build::NAIVE, plain_triangles(test_device()))));
+    expect_clean("the tests' lobes", BsdfProbe(test_device()).probe());
     expect_clean("the catalogue's lobes", bsdf_probes(test_device()).probe(Build::SINGLE));
     expect_clean("the catalogue's paths", path_probe(test_device(), Build::SINGLE));
     expect_clean("the catalogue's film", film_bench_probe(test_device(), Build::SINGLE));

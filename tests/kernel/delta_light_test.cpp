@@ -7,6 +7,7 @@
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ namespace {
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"lights/lights.h"});
+        SceneProbe made(test_device(), {"lights/lights.h"});
         const std::string outputs =
             "first = probe_vec4(s.wi, s.pdf_w);"
             "second = probe_vec4(s.radiance, (s.is_distant ? 1.0f : 0.0f) + (s.is_delta ? 2.0f : 0.0f));"

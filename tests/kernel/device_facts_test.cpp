@@ -3,6 +3,7 @@
 #include "device/device_facts.h"
 #include "support/kernel_probe.h"
 #include "support/scratch_folder.h"
+#include "support/test_device.h"
 
 #include <filesystem>
 #include <fstream>

@@ -5,6 +5,7 @@
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ namespace {
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"lights/emitter.h", "geometry/triangle.h"});
+        SceneProbe made(test_device(), {"lights/emitter.h", "geometry/triangle.h"});
         // a: position, second number; b: words
         const std::string sample =
             "const LightSample s = emitter_sample(scene, params, vector_from(a), as_uint(b.x), "

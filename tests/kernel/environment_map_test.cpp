@@ -5,6 +5,7 @@
 #include "support/scene_probe.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace {
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"lights/environment.h", "numerics/sampler.h"});
+        SceneProbe made(test_device(), {"lights/environment.h", "numerics/sampler.h"});
         made.add("uv", "const real2 uv = environment_uv(environment_to_map(params, vector_from(a)));"
                        "first = (vec4)(uv.x, uv.y, 0.0f, 0.0f);");
         made.add("turn", "first = probe_vec4(environment_to_world(params, vector_from(a)), REAL(0.0));"

@@ -5,6 +5,7 @@
 #include "kernels/shared/render_types.h"
 #include "support/kernel_probe.h"
 #include "support/random_inputs.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

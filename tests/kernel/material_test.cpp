@@ -3,6 +3,7 @@
 // cannot see.
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
+#include "support/test_device.h"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ SceneProbe& probe() {
             "const Surface surface = surface_at(scene, &hit, &ray_there);";
         const std::string bsdf =
             surface + "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b));";
-        SceneProbe made({"scattering/material.h"});
+        SceneProbe made(test_device(), {"scattering/material.h"});
         made.add("colors", bsdf + "first = probe_vec4(bsdf.matte, bsdf.alpha_x); second = "
                                   "probe_vec4(bsdf.specular, bsdf.alpha_y);"
                                   "third = probe_vec4(bsdf.transmission, bsdf.eta);");

@@ -4,6 +4,7 @@
 #include "support/reference.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 

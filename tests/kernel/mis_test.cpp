@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// path/mis.h: where only one technique finds a direction. What two of them weigh is case L09 of the
+// numerics/mis.h: where only one technique finds a direction. What two of them weigh is case L09 of the
 // catalogue.
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 #include <limits>
@@ -12,7 +13,7 @@ namespace {
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
-        KernelProbe made(test_device(), {"path/mis.h"});
+        KernelProbe made(test_device(), {"numerics/mis.h"});
         made.add<float(float, float)>("weight", "mis_weight(a, b)");
         return made;
     }();

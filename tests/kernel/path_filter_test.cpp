@@ -5,6 +5,7 @@
 #include "kernels/shared/scene_types.h"
 #include "support/kernel_probe.h"
 #include "support/random_inputs.h"
+#include "support/test_device.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,8 @@ ProbeOptions in_time() {
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"camera/camera.h", "geometry/visibility.h", "lights/light_sample.h"}, "", in_time());
+        SceneProbe made(test_device(), {"camera/camera.h", "path/visibility.h", "lights/light_sample.h"}, "",
+                        in_time());
         made.add("camera", "const uint x = i % params->width, y = i / params->width;"
                            "const Sampler s = sampler_make(params->seed, i, 0u, 0u);"
                            "const Ray ray = camera_ray(params, &s, x, y);"

@@ -3,6 +3,7 @@
 #include "support/kernel_probe.h"
 #include "support/random_inputs.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 #include <limits>

@@ -3,6 +3,7 @@
 #include "kernels/shared/render_types.h"
 #include "kernels/shared/scene_types.h"
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include <array>
 #include <cstddef>

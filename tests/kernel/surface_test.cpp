@@ -3,6 +3,7 @@
 // leave a triangle without meeting it again.
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
+#include "support/test_device.h"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ SceneProbe& probe() {
             "hit.triangle = as_uint(a.z);"
             "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
             "const Surface surface = surface_at(scene, &hit, &ray_there);";
-        SceneProbe made({"geometry/surface.h", "geometry/triangle.h"});
+        SceneProbe made(test_device(), {"geometry/surface.h", "geometry/triangle.h"});
         made.add("geometry", surface + "first = probe_vec4(surface.position, surface.offset);"
                                        "second = probe_vec4(surface.normal_g, surface.front ? 1.0f : 0.0f);"
                                        "third = probe_vec4(surface.normal_s, 0.0f);");

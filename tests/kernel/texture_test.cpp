@@ -2,6 +2,7 @@
 // geometry/texture.h: texel formats, bilinear lookup with wrapping and clamping, orientation, channels.
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
+#include "support/test_device.h"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ using Texel = std::array<double, 4>;
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made({"geometry/texture.h"});
+        SceneProbe made(test_device(), {"geometry/texture.h"});
         made.add("lookup", "first = texture_lookup(scene, 0u, (float2)(a.x, a.y));"
                            "second = probe_vec4(texture_color(scene, 0u, (float2)(a.x, a.y)), REAL(0.0));"
                            "third.x = texture_scalar(scene, 0u, (float2)(a.x, a.y));");

@@ -3,6 +3,7 @@
 #include "support/meshes.h"
 #include "support/random_inputs.h"
 #include "support/ray_device.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays,
                         Precision precision = Precision::SINGLE) {
     std::vector<TestHit> all;
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(scene, layout, precision);
+        const RayDevice device(test_device(), scene, layout, precision);
         if (all.empty())
             all = device.closest_of_all(rays);
         EXPECT_EQ(count_differences(device.closest(rays), all), 0u)
@@ -84,7 +85,8 @@ TEST(Traverse, HitsInASoupAreThoseOfAllTriangles) {
 TEST(Traverse, HitsInDoubleAreThoseOfAllTriangles) {
     const Scene soup = make_soup(1000, 0.3, 5);
     if (!test_device().info.fp64) {
-        EXPECT_THROW(RayDevice(soup, BvhLayout::BVH8, Precision::DOUBLE).closest({}), DeviceError);
+        EXPECT_THROW(RayDevice(test_device(), soup, BvhLayout::BVH8, Precision::DOUBLE).closest({}),
+                     DeviceError);
         return;
     }
     expect_hits_of_all(soup, mixed_rays(soup, 20000, 5), Precision::DOUBLE);
@@ -104,7 +106,7 @@ TEST(Traverse, CornersOfScatteredTrianglesAreFoundFromNearAndFar) {
             }
         std::vector<TestHit> all;
         for (const BvhLayout layout : ALL_LAYOUTS) {
-            const RayDevice device(scene, layout);
+            const RayDevice device(test_device(), scene, layout);
             if (all.empty())
                 all = device.closest_of_all(rays);
             EXPECT_EQ(count_differences(device.closest(rays), all), 0u)
@@ -121,7 +123,7 @@ TEST(Traverse, ShortStacksOfBvh2GiveTheSameBits) {
     for (int k = 0; k < 40; ++k)
         append_scene(scene, placed(make_soup(50, 0.5, unsigned(11 + k)), std::ldexp(1.0, -k), {0, 0, 0}));
     const std::vector<TestRay> rays = mixed_rays(scene, 50000, 10);
-    const RayDevice wide(scene, BvhLayout::BVH8);
+    const RayDevice wide(test_device(), scene, BvhLayout::BVH8);
     const std::vector<TestHit> expected = wide.closest(rays);
     const std::vector<u32> expected_any = wide.any(rays);
     EXPECT_GT(count_hits(expected), rays.size() / 2);
@@ -129,7 +131,7 @@ TEST(Traverse, ShortStacksOfBvh2GiveTheSameBits) {
         RayDeviceOptions options;
         options.layout = BvhLayout::BVH2;
         options.defines = {"BVH2_STACK_SIZE=" + std::to_string(entries)};
-        const RayDevice device(scene, options);
+        const RayDevice device(test_device(), scene, options);
         EXPECT_GT(device.bvh().depth, 40);
         EXPECT_EQ(count_differences(device.closest(rays), expected), 0u) << entries;
         EXPECT_TRUE(device.any(rays) == expected_any) << entries;
@@ -139,9 +141,10 @@ TEST(Traverse, ShortStacksOfBvh2GiveTheSameBits) {
 TEST(Traverse, LayoutsGiveTheSameBits) {
     const Scene soup = make_soup(100000, 0.03, 7);
     const std::vector<TestRay> rays = mixed_rays(soup, 500000, 7);
-    const std::vector<TestHit> wide = RayDevice(soup, BvhLayout::BVH8).closest(rays);
+    const std::vector<TestHit> wide = RayDevice(test_device(), soup, BvhLayout::BVH8).closest(rays);
     for (const BvhLayout layout : {BvhLayout::BVH2, BvhLayout::CWBVH})
-        EXPECT_EQ(count_differences(RayDevice(soup, layout).closest(rays), wide), 0u) << layout_name(layout);
+        EXPECT_EQ(count_differences(RayDevice(test_device(), soup, layout).closest(rays), wide), 0u)
+            << layout_name(layout);
     EXPECT_GT(count_hits(wide), rays.size() / 2);
 }
 
@@ -161,7 +164,8 @@ TEST(Traverse, SpatialSplitsChangeNoBit) {
     for (const Scene& scene : scenes) {
         const std::vector<TestRay> rays = mixed_rays(scene, 40000, 9);
         for (const BvhLayout layout : ALL_LAYOUTS) {
-            const RayDevice fast(scene, layout), high(scene, {layout, BvhQuality::HIGH});
+            const RayDevice fast(test_device(), scene, layout),
+                high(test_device(), scene, {layout, BvhQuality::HIGH});
             EXPECT_GT(high.bvh().reference_count, fast.bvh().reference_count);
             const std::vector<TestHit> hits = fast.closest(rays);
             EXPECT_EQ(count_differences(hits, high.closest(rays)), 0u) << layout_name(layout);
@@ -176,7 +180,7 @@ TEST(Traverse, PartsOfNeedlesAreHitLikeTheWhole) {
     const std::vector<TestRay> rays = mixed_rays(scene, 20000, 10);
     std::vector<TestHit> all;
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice high(scene, {layout, BvhQuality::HIGH});
+        const RayDevice high(test_device(), scene, {layout, BvhQuality::HIGH});
         const double least_growth = layout == BvhLayout::BVH8 ? 1.05 : 1.005;
         EXPECT_GT(double(high.bvh().reference_count), least_growth * double(high.bvh().triangle_count))
             << layout_name(layout);
@@ -190,7 +194,7 @@ TEST(Traverse, ARayEndsAtItsLengthAndTheEndBelongsToIt) {
     const Scene soup = make_soup(20000, 0.05, 8);
     const std::vector<TestRay> rays = mixed_rays(soup, 100000, 8);
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(soup, layout);
+        const RayDevice device(test_device(), soup, layout);
         const std::vector<TestHit> hits = device.closest(rays);
         std::vector<TestRay> to_hit, short_of_hit;
         for (size_t i = 0; i < rays.size(); ++i) {
@@ -240,7 +244,7 @@ TEST(Traverse, TheNearerOfTwoCloseSquaresIsHit) {
                     make_ray({0, 0, 0}, {random.between(-0.9, 0.9), random.between(-0.9, 0.9), 1}));
             for (const BvhLayout layout : ALL_LAYOUTS) {
                 size_t wrong = 0;
-                for (const TestHit& hit : RayDevice(scene, layout).closest(rays))
+                for (const TestHit& hit : RayDevice(test_device(), scene, layout).closest(rays))
                     wrong += hit.triangle != 2 && hit.triangle != 3;
                 EXPECT_EQ(wrong, 0u) << gap << " units at " << t << ", " << layout_name(layout);
             }

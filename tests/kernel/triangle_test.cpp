@@ -5,6 +5,7 @@
 #include "support/random_inputs.h"
 #include "support/ray_device.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,7 @@
 #include "support/random_inputs.h"
 #include "support/ray_device.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,8 @@ TEST(Visibility, EveryLayerIsMetOnceAndInOrder) {
     for (const BvhLayout layout : ALL_LAYOUTS) {
         size_t wrong = 0;
         for (const std::vector<u32>& layers :
-             RayDevice(scene, layout, Precision::SINGLE, CUT_OUT).layers(rays_down(20000, 1))) {
+             RayDevice(test_device(), scene, layout, Precision::SINGLE, CUT_OUT)
+                 .layers(rays_down(20000, 1))) {
             bool right = layers.size() == 9;
             for (size_t i = 0; right && i < layers.size(); ++i)
                 right = square_of(layers[i]) == i;
@@ -86,7 +88,7 @@ TEST(Visibility, LayersOfASoupAreAllItsHits) {
         rays.push_back(make_ray_to(random.in_cube(2), random.in_cube(0.5)));
     std::vector<std::vector<u32>> wide;
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(soup, layout, Precision::SINGLE, CUT_OUT);
+        const RayDevice device(test_device(), soup, layout, Precision::SINGLE, CUT_OUT);
         const std::vector<std::vector<u32>> layers = device.layers(rays);
         // The next layer is what remains when those before are taken away.
         size_t wrong = 0;
@@ -94,7 +96,7 @@ TEST(Visibility, LayersOfASoupAreAllItsHits) {
             Scene rest = soup;
             for (size_t layer = 0; layer <= layers[ray].size(); ++layer) {
                 const std::vector<TestHit> hit =
-                    RayDevice(rest, layout, Precision::SINGLE, CUT_OUT).closest({rays[ray]});
+                    RayDevice(test_device(), rest, layout, Precision::SINGLE, CUT_OUT).closest({rays[ray]});
                 const bool is_last = layer == layers[ray].size();
                 wrong += hit[0].triangle != (is_last ? NO_INDEX : layers[ray][layer]);
                 if (is_last || wrong)
@@ -119,7 +121,8 @@ TEST(Visibility, AHitIsTheFirstLayerThatCovers) {
                 layers[covering].coverage = 1;
             size_t wrong = 0;
             for (const u32 found :
-                 RayDevice(make_layers(layers), layout, Precision::SINGLE, CUT_OUT).visible(rays))
+                 RayDevice(test_device(), make_layers(layers), layout, Precision::SINGLE, CUT_OUT)
+                     .visible(rays))
                 wrong += covering < 5 ? square_of(found) != covering : found != NO_INDEX;
             EXPECT_EQ(wrong, 0u) << covering << ", " << layout_name(layout);
         }
@@ -131,7 +134,8 @@ TEST(Visibility, HitsFallToTheLayersByTheirCoverage) {
     const std::vector<TestRay> rays = rays_down(100000, 4);
     for (const BvhLayout layout : ALL_LAYOUTS) {
         std::vector<double> counts(5);
-        for (const u32 found : RayDevice(scene, layout, Precision::SINGLE, CUT_OUT).visible(rays))
+        for (const u32 found :
+             RayDevice(test_device(), scene, layout, Precision::SINGLE, CUT_OUT).visible(rays))
             counts[found == NO_INDEX ? 4 : square_of(found)] += 1;
         EXPECT_GT(chi_squared_test(counts, expected).p_value, SMALLEST_P) << layout_name(layout);
     }
@@ -144,7 +148,8 @@ TEST(Visibility, AShareIsTheProductOfWhatLayersLetPass) {
     const std::vector<std::pair<float, float>> share_at_length = {
         {1.5f, 1.0f}, {2.5f, 0.5f}, {3.5f, 0x1p-5f}, {4.5f, 0x1p-6f}, {6.0f, 0.0f}};
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(scene, layout, Precision::SINGLE, CUT_OUT), opaque(scene, layout);
+        const RayDevice device(test_device(), scene, layout, Precision::SINGLE, CUT_OUT),
+            opaque(test_device(), scene, layout);
         for (const auto& [length, share] : share_at_length) {
             for (TestRay& ray : rays)
                 ray.origin.w = length;

@@ -5,6 +5,7 @@
 #include "support/random_inputs.h"
 #include "support/sphere_cells.h"
 #include "support/statistics.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 // A background is what the camera sees where it hits nothing, and nothing else: it lights nothing, no mirror
 // shows it, no integrator and no layer differs about it.
 #include "film/film_identity.h"
+#include "render/render_params.h"
 #include "support/film_estimate.h"
 #include "support/render_scene.h"
 
@@ -159,7 +160,9 @@ TEST(Background, IsBlackWithoutTheEnvironmentsEffect) {
 TEST(Background, FilmsTellTheirBackgrounds) {
     SquareBeforeSky scene;
     const auto background = [&] {
-        return film_identity(scene.load(), scene.options, {1, 2}).at("background").dump();
+        const Scene loaded = scene.load();
+        const RenderParams params = make_render_params(loaded, scene.options, {1, 2});
+        return film_identity(loaded, scene.options, params, {1, 2}).at("background").dump();
     };
     EXPECT_EQ(background(), "\"sky\"");
     scene.background({0, 0, 0});

@@ -2,7 +2,7 @@
 // Coverage below 1: what shows through, what shadows and lamps become.
 #include "render/kernels.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // that are cut. In a closed room of one material, Ke over 1 - Kd shines from everywhere.
 #include "render/cut_paths.h"
 #include "render/render_params.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

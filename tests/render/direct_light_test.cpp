@@ -2,7 +2,7 @@
 // Direct light on matte surfaces against closed forms, for every integrator: area lights, point lights, suns.
 #include "render/kernels.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <algorithm>

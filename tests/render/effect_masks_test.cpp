@@ -9,9 +9,9 @@
 #include "render/kernels.h"
 #include "scene/load_scene.h"
 #include "support/effect_masks.h"
+#include "support/render_scene.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -23,13 +23,9 @@ namespace clrt {
 
 namespace {
 
-bool is_long_run() {
-    return std::getenv("CLRT_TEST_LONG") != nullptr;
-}
-
 std::vector<Integrator> integrators() {
-    return is_long_run() ? std::vector{Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}
-                         : std::vector{Integrator::PATH};
+    return tests_are_long() ? std::vector{Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}
+                            : std::vector{Integrator::PATH};
 }
 
 /// How many sums differ, so that a failure prints a number and no film.
@@ -104,7 +100,7 @@ TEST(EffectMasks, EveryPairOfEffectsHasTheBitsOfTheFullProgram) {
 
 TEST(EffectMasks, AllEffectsButOneHaveTheBitsOfTheFullProgram) {
     const std::vector<u32> sets = all_but_one_effect();
-    for (size_t i = 0; i < (is_long_run() ? sets.size() : 1); ++i)
+    for (size_t i = 0; i < (tests_are_long() ? sets.size() : 1); ++i)
         expect_same_bits(sets[i]);
 }
 
@@ -141,7 +137,7 @@ TEST(EffectMasks, ALeftOutEffectIsASceneWithoutIt) {
     // Whatever is left out, the program without its code and the full program render the same scene.
     const Scene scene = SceneOfEffects(EVERY_EFFECT).load();
     const std::vector<EffectSpec>& table = effect_table();
-    for (size_t i = 0; i < table.size(); i += is_long_run() ? 1 : 5) {
+    for (size_t i = 0; i < table.size(); i += tests_are_long() ? 1 : 5) {
         Options options = SceneOfEffects(EVERY_EFFECT).options;
         options.effects.off = table[i].bit;
         const Effects effects = find_effects(scene, options);
@@ -168,7 +164,7 @@ TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
             small.options.device.cache = Toggle::ON;
             small.options.device.cache_folder = fs::path(cache.file("any")).parent_path().string();
             bool from_cache = false;
-            const Film cached = render_afresh(small.load(), small.options, &from_cache).film;
+            const Film cached = render_afresh(test_device(), small.load(), small.options, &from_cache).film;
             EXPECT_EQ(from_cache, round == 1) << describe_effects(effects);
             EXPECT_EQ(count_differences(plain, cached), 0u) << describe_effects(effects);
         }

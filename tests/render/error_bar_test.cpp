@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether the printed error is the error of the picture: many renders of small scenes with different seeds
 // against a long run.
+#include "film/error_slope.h"
 #include "film/film_error.h"
 #include "render/kernels.h"
 #include "support/render_scene.h"

@@ -2,7 +2,7 @@
 // Furnaces: surroundings of equal radiance, in which every material shows its albedo and nothing else.
 #include "render/kernels.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

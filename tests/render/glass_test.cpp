@@ -2,7 +2,7 @@
 // Smooth glass in pictures: Fresnel's parts of a slab, Snell's directions, total reflection, and tint.
 #include "render/kernels.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

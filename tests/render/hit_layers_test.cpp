@@ -29,7 +29,7 @@ protected:
         options.film.size = {27, 21}; // tiles at the edges are not whole
         options.sampling.replicates = 4;
         options.output.files = {"a.exr"};
-        prepared_.emplace(prepare_for_test(test_.load(), options, test_device()));
+        prepared_.emplace(prepare_loaded(test_device(), test_.load(), options));
         params_ = launch_params(*prepared_->planned);
         film_.width = options.film.size.x;
         film_.height = options.film.size.y;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that is scattered several times between two matte squares, against radiosity in double precision.
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

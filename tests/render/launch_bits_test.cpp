@@ -35,7 +35,7 @@ PreparedScene make_scene(Integrator integrator) {
     scene.options.sampling.replicates = 4;
     scene.options.transport.integrator = integrator;
     scene.look({0, 1.5, 3}, {0, 0.4, 0}, 45);
-    return prepare_for_test(scene.load(), scene.options, test_device());
+    return prepare_loaded(test_device(), scene.load(), scene.options);
 }
 
 /// A prepared scene and the films that launches leave.

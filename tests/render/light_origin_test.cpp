@@ -31,8 +31,7 @@ constexpr double GLASS_SHARPNESS = 9e-3;
 class OneTechnique {
 public:
     OneTechnique() {
-        const char* folder = std::getenv("CLRT_TEST_KERNELS");
-        const KernelFiles files = folder ? read_kernel_files(folder) : embedded_kernel_files();
+        const KernelFiles files = kernels_under_test();
         const std::string combined = "return emitted * mis_weight(pdf_w, light_pdf_w);";
         write(files, "light", combined, "return (real3)(REAL(0.0));",
               "light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w);", "REAL(1.0);");

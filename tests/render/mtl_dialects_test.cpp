@@ -2,7 +2,7 @@
 // What the writers of material libraries mean, in pictures; --mtl plain shows what they wrote.
 #include "support/blender_mtl.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

@@ -115,12 +115,13 @@ PatchedKernels spoiled_kernels(const std::vector<Place>& places) {
             text += fmt::format("\n if (params->seed == {}u) {{ {} = REAL_NAN; }}\n", ++seed, value.name);
         patches.push_back(insertion(place.file, place.statement, text));
     }
-    return PatchedKernels(patches);
+    return PatchedKernels(kernels_under_test(), patches);
 }
 
 /// Kernels that make what a statement declares NaN.
 PatchedKernels spoiled_kernels(const char* file, const char* statement, const char* value) {
-    return PatchedKernels({insertion(file, statement, fmt::format(" {} = REAL_NAN;", value))});
+    return PatchedKernels(kernels_under_test(),
+                          {insertion(file, statement, fmt::format(" {} = REAL_NAN;", value))});
 }
 
 /// A floor under a lamp, with nothing else to see; every sample sees the floor.

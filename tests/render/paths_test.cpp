@@ -4,7 +4,7 @@
 #include "film/film_identity.h"
 #include "render/kernels.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where pixels lie and how filters spread them: pictures of a straight edge against the filter's integral.
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "console/progress.h"
 #include "render/ledger.h"
 #include "support/effect_masks.h"
-#include "support/kernel_probe.h"
+#include "support/render_scene.h"
 
 #include <functional>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Plan plan_every_effect(const std::function<void(Options&)>& change) {
     change(small.options);
     if (small.options.transport.integrator != Integrator::PATH)
         small.options.transport.paths.clear();
-    return plan_for_test(small.load(), small.options);
+    return plan_loaded(test_device(), small.load(), small.options);
 }
 
 /// A matte floor under a lamp, by the program of what it needs, from another camera and on another film.
@@ -41,7 +41,7 @@ Plan plan_matte() {
     scene.options.sampling.spp = 9;
     scene.options.sampling.replicates = 3;
     scene.options.sampling.seed = 5;
-    return plan_for_test(scene.load(), scene.options);
+    return plan_loaded(test_device(), scene.load(), scene.options);
 }
 
 /// Plans that differ in scene, integrator, effects, layout, precision, paths and film.
@@ -78,7 +78,7 @@ Plan plan_needles() {
     scene.options.transport.integrator = Integrator::RAYCAST;
     scene.options.sampling.spp.reset();
     scene.options.sampling.time_seconds = 0.5;
-    return plan_for_test(scene.load(), scene.options);
+    return plan_loaded(test_device(), scene.load(), scene.options);
 }
 
 } // namespace

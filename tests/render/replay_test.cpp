@@ -7,6 +7,7 @@
 #include "replay/flips.h"
 #include "support/effect_masks.h"
 #include "support/kernel_probe.h"
+#include "support/render_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,6 @@ namespace {
 
 constexpr Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
 
-/// A folder of kernels to take instead of those inside the test; empty: none.
-std::string tested_kernels_folder() {
-    const char* const folder = std::getenv("CLRT_TEST_KERNELS");
-    return folder ? folder : "";
-}
-
 /// A loaded scene on the test device, without programs. Its options may change where their programs do.
 struct Stage {
     std::shared_ptr<PlannedScene> planned;
@@ -33,7 +28,7 @@ struct Stage {
     Options& options = planned->options;
 
     Stage(Scene scene, Options given)
-        : planned(plan_for_test(std::move(scene), std::move(given))),
+        : planned(plan_loaded(test_device(), std::move(scene), std::move(given))),
           prepared(prepare_scene(test_device(), planned)) {}
 
     std::vector<SampleAddress> all_pixels(u32 sample) const {
@@ -76,7 +71,7 @@ Stage every_effect(Integrator integrator) {
 class PlantedKernels {
 public:
     PlantedKernels() {
-        const std::string from = tested_kernels_folder();
+        const std::string from = test_kernels_folder();
         std::filesystem::copy(from.empty() ? CLRT_KERNELS_FOLDER : from, path(),
                               std::filesystem::copy_options::recursive);
     }
@@ -290,7 +285,7 @@ TEST(Replay, ADecisionThatDoubleMakesDifferentlyIsFound) {
     make_white_room(room);
     room.options.sampling.spp = 4;
     room.options.transport.roulette_depth = 2;
-    room.options.device.kernels_folder = tested_kernels_folder();
+    room.options.device.kernels_folder = test_kernels_folder();
     const FlipStatistics clean = flips_of(room);
     EXPECT_EQ(clean.samples, 16u * 16u * 4u);
     EXPECT_LE(clean.flips.size(), 1u) << "1e-5 of the samples of a matte room flip (flips_test)";

@@ -2,7 +2,7 @@
 // --sampler: both choices give the same expectation; Sobol points bring it with less noise, white noise by
 // the known law.
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <gtest/gtest.h>

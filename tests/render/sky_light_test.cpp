@@ -2,7 +2,7 @@
 // Light from outside the scene: constant skies and latitude-longitude maps, seen and as irradiance.
 #include "render/kernels.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // Maps in pictures: which way up they lie, how they repeat, and what each of them scales.
 #include "render/kernels.h"
 #include "support/closed_forms.h"
-#include "support/film_estimate.h"
+#include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours of vertices multiply Kd: linear between the vertices, sRGB in the file.
+#include "colour.h"
 #include "kernels/shared/effects.h"
-#include "scene/colour.h"
 #include "support/film_estimate.h"
 #include "support/render_scene.h"
 

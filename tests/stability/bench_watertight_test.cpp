@@ -3,6 +3,7 @@
 #include "bench/closed_meshes.h"
 #include "bench/watertight.h"
 #include "support/ray_device.h"
+#include "support/test_device.h"
 
 #include <gtest/gtest.h>
 #include <map>

@@ -2,6 +2,7 @@
 // Meshes that break builders and traversals: corners on a line, coordinates that are not finite, needles.
 // More is in the catalogue (tools/stability/cases/degenerate_cases.cpp).
 #include "support/aimed_rays.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ size_t count_hits(const std::vector<TestHit>& hits) {
 void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays, size_t least_hits) {
     std::vector<TestHit> all;
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(scene, layout);
+        const RayDevice device(test_device(), scene, layout);
         if (all.empty())
             all = device.closest_of_all(rays);
         EXPECT_EQ(count_differences(device.closest(rays), all), 0u) << layout_name(layout);
@@ -62,9 +63,10 @@ TEST(Degenerate, TrianglesThatAreNotFiniteChangeNoHit) {
         RayDeviceOptions options;
         options.layout = layout;
         options.extent = extent;
-        const RayDevice device(with_bad, options);
+        const RayDevice device(test_device(), with_bad, options);
         EXPECT_EQ(device.bvh().triangle_count, soup.triangles.size());
-        EXPECT_EQ(count_differences(device.closest(rays), RayDevice(soup, layout).closest(rays)), 0u)
+        EXPECT_EQ(
+            count_differences(device.closest(rays), RayDevice(test_device(), soup, layout).closest(rays)), 0u)
             << layout_name(layout);
     }
 }
@@ -84,7 +86,7 @@ TEST(Degenerate, ADeepTreeOverflowsNoStack) {
         rays.push_back(i % 2 ? make_ray({0, 0, 0}, d) : make_ray(d * std::ldexp(1.0, 62), -d));
     }
     for (const BvhLayout layout : ALL_LAYOUTS)
-        EXPECT_GT(RayDevice(scene, layout).bvh().depth, 40) << layout_name(layout);
+        EXPECT_GT(RayDevice(test_device(), scene, layout).bvh().depth, 40) << layout_name(layout);
     expect_hits_of_all(scene, rays, rays.size() * 2 / 5);
 }
 
@@ -108,7 +110,7 @@ TEST(Degenerate, TinyTrianglesAndNeedlesHaveUnitNormals) {
         hits.push_back({1, 0.25, 0.25, i});
     }
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const std::vector<vec4> normals = RayDevice(scene, layout).normals(rays, hits);
+        const std::vector<vec4> normals = RayDevice(test_device(), scene, layout).normals(rays, hits);
         for (size_t i = 0; i < normals.size(); ++i) {
             const glm::dvec3 n = to_dvec3(normals[i]);
             EXPECT_NEAR(glm::length(n), 1, 4 * FLOAT_U) << "triangle " << i << ", " << layout_name(layout);

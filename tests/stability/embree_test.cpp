@@ -5,6 +5,7 @@
 #include "support/meshes.h"
 #include "support/random_inputs.h"
 #include "support/ray_device.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +176,8 @@ TEST(Embree, GivesTheSameHitsOrIsWrong) {
         expected.push_back({hit.t, hit.u, hit.v, hit.triangle});
     }
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const Verdict v = compare(scene, rays, RayDevice(scene, layout).closest(rays), expected);
+        const Verdict v =
+            compare(scene, rays, RayDevice(test_device(), scene, layout).closest(rays), expected);
         std::printf("%s, %zu rays: lost %zu, by Embree %zu; twins %zu; differences %zu, wrong %zu, Embree "
                     "wrong %zu\n",
                     layout_name(layout), rays.size(), v.lost, v.embree_lost, v.twins, v.differences, v.wrong,

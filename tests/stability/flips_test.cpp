@@ -8,9 +8,9 @@
 #include "replay/quantities.h"
 #include "scene/load_scene.h"
 #include "support/kernel_probe.h"
+#include "support/test_device.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     options.transport.integrator = integrator;
     options.transport.max_depth.reset();
     options.film.size = {64, 64};
-    options.sampling.spp = std::getenv("CLRT_TEST_LONG") ? 256 : 16;
+    options.sampling.spp = tests_are_long() ? 256 : 16;
     Progress silent(Toggle::OFF, true);
     return find_flips(prepare_scene(test_device(), plan_scene(load_scene(options, silent), options)));
 }

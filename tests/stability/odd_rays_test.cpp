@@ -2,6 +2,7 @@
 // Rays of unusual length and from afar. More is in the catalogue
 // (tools/stability/cases/intersection_cases.cpp).
 #include "support/aimed_rays.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ TEST(OddRays, AnInfiniteLengthIsAsGoodAsAFarOne) {
     for (TestRay& ray : infinite)
         ray.origin.w = INFINITE;
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(ball, layout);
+        const RayDevice device(test_device(), ball, layout);
         const std::vector<TestHit> expected = device.closest(far), found = device.closest(infinite);
         size_t differences = 0;
         for (size_t i = 0; i < far.size(); ++i)
@@ -51,7 +52,7 @@ TEST(OddRays, DirectionsOfAnyLengthGiveTheSameHits) {
     const Scene ball = make_ball(24, 24);
     const std::vector<TestRay> unit = spoiled_rays({FAR_AWAY}, &vec4::w, &TestRay::origin);
     for (const BvhLayout layout : ALL_LAYOUTS) {
-        const RayDevice device(ball, layout);
+        const RayDevice device(test_device(), ball, layout);
         const std::vector<TestHit> expected = device.closest(unit);
         for (const int exponent : {-20, -3, 1, 20}) {
             const float scale = std::ldexp(1.0f, exponent);
@@ -83,7 +84,7 @@ TEST(OddRays, RaysFromAfarHitWhatAllTrianglesGive) {
         }
         std::vector<TestHit> all;
         for (const BvhLayout layout : ALL_LAYOUTS) {
-            const RayDevice device(ball, layout);
+            const RayDevice device(test_device(), ball, layout);
             all = device.closest_of_all(rays);
             const std::vector<TestHit> found = device.closest(rays);
             size_t differences = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // No ray passes through the seams of a closed mesh whose neighbours share edges but not their middles.
 #include "support/aimed_rays.h"
+#include "support/test_device.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +62,7 @@ void expect_no_misses(const Scene& scene, double inner, const std::string& name)
                 RayDeviceOptions options;
                 options.layout = layout;
                 options.quality = quality;
-                EXPECT_EQ(count_misses(RayDevice(scene, options).closest(rays)), 0u)
+                EXPECT_EQ(count_misses(RayDevice(test_device(), scene, options).closest(rays)), 0u)
                     << "of " << AIMED_RAYS << " rays at " << (aim == Aim::EDGE ? "edges" : "vertices") << ", "
                     << name << ", " << layout_name(layout)
                     << (quality == BvhQuality::HIGH ? ", high" : ", fast");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Apart from film_estimate.cpp, so that programs without GoogleTest can link that.
-#include "support/film_estimate.h"
+// Standard errors between an estimate and a number.
+#include "support/film_agrees.h"
 
 #include <cmath>
 

@@ -76,10 +76,10 @@ std::string BsdfInputs::describe(size_t i) const {
                               columns[4][i], columns[5][i], columns[6][i], columns[7][i]);
 }
 
-ProbeSet& bsdf_probes(const Device& device) {
-    // Never freed: at exit some drivers are gone before our statics.
-    static auto* const probes = new ProbeSet(device, {"scattering/bsdf.h"}, {EVAL, SAMPLE}, sets_text());
-    return *probes;
+ProbeSet& bsdf_probes(const ProbeDevice& device) {
+    return device.once<ProbeSet>("lobe sets", [&] {
+        return ProbeSet(device, {"scattering/bsdf.h"}, {EVAL, SAMPLE}, sets_text());
+    });
 }
 
 bool is_smooth(const LobeSet& set) {

@@ -36,8 +36,8 @@ enum BsdfSampled {
     SAMPLED_EVAL_PDF = 11
 };
 
-/// "eval" and "sample" over BsdfInputs, in a frame that rounds nothing. One for the process.
-ProbeSet& bsdf_probes(const Device& device);
+/// "eval" and "sample" over BsdfInputs, in a frame that rounds nothing. One a device.
+ProbeSet& bsdf_probes(const ProbeDevice& device);
 
 /// True for sets that light sampling can meet.
 bool is_smooth(const LobeSet& set);

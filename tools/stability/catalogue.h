@@ -12,10 +12,17 @@
 
 namespace clrt {
 
-/// A group of cases that share a letter.
+/// A group of cases, whose ids begin with its letter.
 struct CaseGroup {
+    char letter;
     const char* title;
-    const std::vector<StabilityCase>& cases;
+    std::vector<StabilityCase> cases;
+};
+
+/// A case that cannot run yet.
+struct WaitingCase {
+    const char *id, *name, *set_up, *oracle; ///< as those of StabilityCase
+    const char* waits_for;
 };
 
 /// All groups in the order of the report.
@@ -24,8 +31,11 @@ const std::vector<CaseGroup>& catalogue();
 /// Whether a case is asked for: its id begins with one of `ids`, or there are none.
 bool is_asked_for(const std::string& id, const std::vector<std::string>& ids);
 
-/// The cases that run, of all groups or those that are asked for.
-std::vector<const StabilityCase*> runnable_cases(const std::vector<std::string>& ids = {});
+/// What the catalogue will take in once clrt has what it needs, in the order of the report.
+const std::vector<WaitingCase>& waiting_cases();
+
+/// The cases of all groups, or those that are asked for.
+std::vector<const StabilityCase*> chosen_cases(const std::vector<std::string>& ids = {});
 
 /// Rounds of a timing: enough for quartiles that a disturbed round does not move.
 constexpr int CHOICE_ROUNDS = 15;
@@ -37,7 +47,7 @@ struct RobustChoice {
     const char* robust;
     const char* case_id; ///< the case that shows what the naive one gets wrong ...
     int figure = 0;      ///< ... and which of its figures
-    ProbeTime (*time)(const Device&, int rounds);
+    ProbeTime (*time)(const ProbeDevice&, int rounds);
 };
 
 /// All of them, in the order of the report.
@@ -58,7 +68,6 @@ const std::vector<StabilityCase>& environment_cases();
 const std::vector<StabilityCase>& camera_cases();
 const std::vector<StabilityCase>& film_cases();
 const std::vector<StabilityCase>& bidirectional_cases();
-const std::vector<StabilityCase>& metropolis_cases();
 const std::vector<StabilityCase>& sample_cases();
 const std::vector<StabilityCase>& device_cases();
 

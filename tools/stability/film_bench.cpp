@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/film_bench.h"
 
-#include "support/ray_device.h"
-
 #include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -102,21 +100,18 @@ std::vector<double> widened(const std::vector<T>& values) {
 
 } // namespace
 
-KernelProbe& film_bench_probe(const Device& device, Build build) {
-    // Never freed, as all that holds drivers' objects.
-    static auto* const probes = new std::map<Precision, KernelProbe>;
+KernelProbe& film_bench_probe(const ProbeDevice& device, Build build) {
     const Precision precision = precision_of(build);
-    const auto found = probes->find(precision);
-    if (found != probes->end())
-        return found->second;
-    KernelProbe made(device, {"film/film.h"}, ProbeOptions{precision, {}}, kernels_under_test());
-    made.add_text(HELPERS);
-    for (const SumText& sum : SUM_TEXTS)
-        made.add_text(kernel_text(sum));
-    return probes->emplace(precision, std::move(made)).first->second;
+    return device.once<KernelProbe>(fmt::format("film bench: {}", int(precision)), [&] {
+        KernelProbe made(device, {"film/film.h"}, ProbeOptions{precision, {}});
+        made.add_text(HELPERS);
+        for (const SumText& sum : SUM_TEXTS)
+            made.add_text(kernel_text(sum));
+        return made;
+    });
 }
 
-FilmBench::FilmBench(const Device& device, std::vector<float> series, double mean_radiance)
+FilmBench::FilmBench(const ProbeDevice& device, std::vector<float> series, double mean_radiance)
     : device_(device), series_(std::move(series)), series_buffer_(upload_buffer(device, "series", series_)),
       scale_(scale_of_mean(mean_radiance)) {
     if (series_.empty() || series_.size() % (PIXELS * REPLICATES) != 0)
@@ -193,7 +188,7 @@ ProbeTime FilmBench::time_film_against(SumKind naive, int rounds) {
         const Bound bound = bind(Build::SINGLE, kind, u32(series_.size()));
         return [&p, bound] { p.launch(bound.kernel, PIXELS, 1); };
     };
-    return time_in_turns(timed(naive), timed(SumKind::FILM), series_.size() * PIXELS, rounds);
+    return time_in_turns(device_, timed(naive), timed(SumKind::FILM), series_.size() * PIXELS, rounds);
 }
 
 std::vector<long double> FilmBench::replicate_means() const {

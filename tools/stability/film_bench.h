@@ -20,8 +20,8 @@ enum class SumKind {
     DOUBLE     ///< a sum in double; needs fp64
 };
 
-/// The program of all ways in a build's precision, one a process.
-KernelProbe& film_bench_probe(const Device& device, Build build);
+/// The program of all ways in a build's precision, one a device.
+KernelProbe& film_bench_probe(const ProbeDevice& device, Build build);
 
 class FilmBench {
 public:
@@ -30,7 +30,7 @@ public:
     /// Pixel i adds the series from place 8 i k on, round its end: all pixels and their replicates sum the
     /// same values in another order. The length is a multiple of 512. The film's scale is that of a scene of
     /// this mean radiance.
-    FilmBench(const Device& device, std::vector<float> series, double mean_radiance);
+    FilmBench(const ProbeDevice& device, std::vector<float> series, double mean_radiance);
 
     const std::vector<float>& series() const { return series_; }
     FilmScale scale() const { return scale_; }
@@ -56,7 +56,7 @@ private:
     Bound bind(Build build, SumKind kind, u32 samples) const;
     RenderParams params() const;
 
-    const Device& device_;
+    const ProbeDevice& device_;
     std::vector<float> series_;
     cl::Buffer series_buffer_;
     FilmScale scale_;

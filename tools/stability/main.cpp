@@ -9,25 +9,21 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <fmt/format.h>
 
 namespace clrt {
 
 namespace {
 
-/// Opens the device and lets everything that runs kernels take it and the kernels that were asked for.
-const Device& open_chosen_device(const StabilityOptions& options) {
+/// Opens the device for the kernels that were asked for.
+ProbeDevice open_chosen_device(const StabilityOptions& options) {
     std::string notice;
     const DeviceInfo info = choose_device(list_platforms(), options.device, notice);
-    setenv("CLRT_TEST_DEVICE", fmt::format("{}:{}", info.platform_index, info.device_index).c_str(), 1);
-    if (!options.kernels_folder.empty())
-        setenv("CLRT_TEST_KERNELS", options.kernels_folder.c_str(), 1);
-    return test_device();
+    return ProbeDevice(open_device(info), options.kernels_folder);
 }
 
 /// Times a choice; what it throws becomes its error, so that one that fails does not cost the report.
-ChoiceCost measure_choice(const RobustChoice& choice, const Device& device, int rounds) {
+ChoiceCost measure_choice(const RobustChoice& choice, const ProbeDevice& device, int rounds) {
     ChoiceCost cost;
     cost.choice = &choice;
     try {
@@ -38,7 +34,7 @@ ChoiceCost measure_choice(const RobustChoice& choice, const Device& device, int 
     return cost;
 }
 
-void measure_costs(const StabilityOptions& options, const Device& device, Progress& progress,
+void measure_costs(const StabilityOptions& options, const ProbeDevice& device, Progress& progress,
                    StabilityReport& report) {
     for (const RobustChoice& choice : robust_choices())
         if (is_asked_for(choice.case_id, options.cases)) {
@@ -53,9 +49,9 @@ void measure_costs(const StabilityOptions& options, const Device& device, Progre
     progress.finish();
 }
 
-void run_cases(const StabilityOptions& options, const Device& device, Progress& progress,
+void run_cases(const StabilityOptions& options, const ProbeDevice& device, Progress& progress,
                StabilityReport& report) {
-    const std::vector<const StabilityCase*> subjects = runnable_cases(options.cases);
+    const std::vector<const StabilityCase*> subjects = chosen_cases(options.cases);
     fmt::print("{}", format_case_head());
     std::fflush(stdout);
     for (const StabilityCase* subject : subjects) {
@@ -68,7 +64,7 @@ void run_cases(const StabilityOptions& options, const Device& device, Progress& 
     }
 }
 
-StabilityReport run_catalogue(const StabilityOptions& options, const Device& device) {
+StabilityReport run_catalogue(const StabilityOptions& options, const ProbeDevice& device) {
     const auto start = std::chrono::steady_clock::now();
     StabilityReport report;
     report.device = device.info;

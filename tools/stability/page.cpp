@@ -92,8 +92,8 @@ std::string contents(const StabilityReport& report) {
         const auto holding = std::count_if(results.begin(), results.end(),
                                            [](const CaseResult* result) { return result->holds(); });
         if (!results.empty())
-            items += fmt::format("<li><a href=\"#group-{}\">{}</a>: {} of {}</li>\n",
-                                 group.cases.front().id[0], group.title, holding, results.size());
+            items += fmt::format("<li><a href=\"#group-{}\">{}</a>: {} of {}</li>\n", group.letter,
+                                 group.title, holding, results.size());
     }
     return items.empty() ? "" : "<ul class=\"contents\">\n" + items + "</ul>\n";
 }
@@ -110,7 +110,7 @@ std::string case_tables(const StabilityReport& report) {
                 "class=\"cases\">\n<tr><td>figure</td><td>"
                 "inputs</td><td>naive &rarr; <b>single</b></td><td>fast</td><td>double</td><td>limit</td>"
                 "<td></td></tr>\n{}</table></div>\n",
-                group.cases.front().id[0], group.title, rows);
+                group.letter, group.title, rows);
     }
     return tables;
 }
@@ -175,11 +175,9 @@ std::string render_cost_table(const StabilityReport& report) {
 
 std::string waiting_table() {
     std::string rows;
-    for (const CaseGroup& group : catalogue())
-        for (const StabilityCase& subject : group.cases)
-            if (subject.waits_for)
-                rows += fmt::format("<tr><td>{} {}</td><td>{}</td><td>{}</td></tr>\n", subject.id,
-                                    subject.name, escape(subject.set_up), escape(subject.waits_for));
+    for (const WaitingCase& waiting : waiting_cases())
+        rows += fmt::format("<tr><td>{} {}</td><td>{}</td><td>{}</td></tr>\n", waiting.id, waiting.name,
+                            escape(waiting.set_up), escape(waiting.waits_for));
     if (rows.empty())
         return "";
     return "<h2>Cases that do not apply yet</h2>\n<div "

@@ -2,10 +2,9 @@
 #include "stability/path_probe.h"
 
 #include "kernels/shared/effects.h"
+#include "stability/probe_set.h"
 
 #include <fmt/format.h>
-#include <map>
-#include <memory>
 #include <utility>
 
 namespace clrt {
@@ -46,25 +45,21 @@ std::shared_ptr<PlannedScene> plan_in_probed_layout(Scene scene, Options options
 
 } // namespace
 
-KernelProbe& path_probe(const Device& device, Build build) {
-    // Never freed: at exit some drivers are gone before our statics.
-    static auto* const probes = new std::map<Build, std::unique_ptr<KernelProbe>>;
-    std::unique_ptr<KernelProbe>& made = (*probes)[build];
-    if (!made) {
+KernelProbe& path_probe(const ProbeDevice& device, Build build) {
+    return device.once<KernelProbe>(std::string("paths: ") + build_name(build), [&] {
         ProbeOptions options;
-        options.precision = build == Build::DOUBLE ? Precision::DOUBLE : Precision::SINGLE;
+        options.precision = precision_of(build);
         options.defines = {fmt::format("CLRT_EFFECTS={:#x}u", EFFECT_ALL & ~EFFECT_PATH_FILTER),
                            "SAMPLES_AT_ONCE=1"};
-        made = std::make_unique<KernelProbe>(
-            device, std::vector<std::string>{"integrators/path.h", "integrators/whitted.h"}, options,
-            kernels_under_test());
-        made->add_text(TEXT);
-    }
-    return *made;
+        KernelProbe made(device, {"integrators/path.h", "integrators/whitted.h"}, options);
+        made.add_text(TEXT);
+        return made;
+    });
 }
 
-PathProbe::PathProbe(const Device& device, Scene scene, Options options)
-    : prepared_(prepare_scene(device, plan_in_probed_layout(std::move(scene), std::move(options)))) {
+PathProbe::PathProbe(const ProbeDevice& device, Scene scene, Options options)
+    : device_(device),
+      prepared_(prepare_scene(device, plan_in_probed_layout(std::move(scene), std::move(options)))) {
     params = launch_params(*prepared_.planned);
 }
 
@@ -75,7 +70,7 @@ TestRay PathProbe::ray(const glm::dvec3& origin, const glm::dvec3& at) const {
 
 std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator,
                                             const std::vector<TestRay>& rays, size_t samples) const {
-    KernelProbe& probe = path_probe(prepared_.device, build);
+    KernelProbe& probe = path_probe(device_, build);
     Kernel kernel = probe.kernel(integrator == Integrator::WHITTED ? "probe_whitted" : "probe_path");
     const size_t count = rays.size() * samples;
     std::vector<vec4> words;

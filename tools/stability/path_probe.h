@@ -6,23 +6,23 @@
 #include "render/prepared_scene.h"
 #include "stability/stability_case.h"
 #include "support/ray_device.h"
-#include "support/render_scene.h"
+#include "support/scratch_scene.h"
 
 #include <glm/vec3.hpp>
 #include <vector>
 
 namespace clrt {
 
-/// The program of a build, one a process.
-KernelProbe& path_probe(const Device& device, Build build);
+/// The program of a build, one a device.
+KernelProbe& path_probe(const ProbeDevice& device, Build build);
 
-/// A scene on the device in every build but naive; the programs are made once a process.
+/// A scene on the device in every build but naive; the programs are made once a device.
 class PathProbe {
 public:
     /// Loads the scene; its camera is not used. Its options give depth, roulette and seed.
-    PathProbe(const Device& device, const TestScene& scene)
+    PathProbe(const ProbeDevice& device, const ScratchScene& scene)
         : PathProbe(device, scene.load(), scene.options) {}
-    PathProbe(const Device& device, Scene scene, Options options);
+    PathProbe(const ProbeDevice& device, Scene scene, Options options);
 
     /// What the integrators get; a case may change it.
     RenderParams params{};
@@ -36,6 +36,7 @@ public:
                                      size_t samples = 1) const;
 
 private:
+    const ProbeDevice& device_;
     PreparedScene prepared_;
 };
 

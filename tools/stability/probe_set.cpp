@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/probe_set.h"
 
-#include "support/ray_device.h"
-
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
@@ -83,7 +81,7 @@ Precision precision_of(Build build) {
                                   : Precision::SINGLE;
 }
 
-ProbeSet::ProbeSet(const Device& device, std::vector<std::string> headers,
+ProbeSet::ProbeSet(const ProbeDevice& device, std::vector<std::string> headers,
                    std::vector<ProbedExpression> expressions, std::string text,
                    std::vector<std::string> defines)
     : device_(device), headers_(std::move(headers)), expressions_(std::move(expressions)),
@@ -114,7 +112,7 @@ KernelProbe& ProbeSet::probe(Build build) {
     if (!made) {
         made = std::make_unique<KernelProbe>(device_, headers_, ProbeOptions{precision_of(build), defines_},
                                              build == Build::NAIVE && naive_kernels_ ? *naive_kernels_
-                                                                                     : kernels_under_test());
+                                                                                     : device_.kernels());
         made->add_text(text_);
         for (const ProbedExpression& e : expressions_)
             if (build != Build::NAIVE || !e.naive.empty())
@@ -168,11 +166,11 @@ ProbeTime ProbeSet::time(const std::string& expression, const Columns& inputs, i
     const auto launch = [&](int side) {
         return [&, side] { probe(builds[side]).launch(kernels[side], items); };
     };
-    return time_in_turns(launch(0), launch(1), count, rounds);
+    return time_in_turns(device_, launch(0), launch(1), count, rounds);
 }
 
-double device_seconds() {
-    if (test_device().info.type != "CPU")
+double device_seconds(const Device& device) {
+    if (device.info.type != "CPU")
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -180,15 +178,15 @@ double device_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single,
-                        size_t elements, int rounds) {
+ProbeTime time_in_turns(const Device& device, const std::function<void()>& naive,
+                        const std::function<void()>& single, size_t elements, int rounds) {
     std::vector<double> seconds[2], ratios;
     for (int round = 0; round <= rounds; ++round) {
         double taken[2];
         for (int side = 0; side < 2; ++side) {
-            const double start = device_seconds();
+            const double start = device_seconds(device);
             (side ? single : naive)();
-            taken[side] = (device_seconds() - start) / double(elements);
+            taken[side] = (device_seconds(device) - start) / double(elements);
         }
         if (round == 0)
             continue;

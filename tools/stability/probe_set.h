@@ -37,20 +37,20 @@ struct ProbeTime {
     double ratio_low = 0, ratio_high = 0; ///< its quartiles
 };
 
-/// Seconds that the device has worked, from some moment on: CPU seconds of this process where the test device
-/// is a CPU, so that other programs do not count, else wall seconds.
-double device_seconds();
+/// Seconds that the device has worked, from some moment on: CPU seconds of this process where the device is a
+/// CPU, so that other programs do not count, else wall seconds.
+double device_seconds(const Device& device);
 
 /// Times two ways of doing the same to `elements` inputs in turns; the first round of each, in which drivers
 /// compile, does not count.
-ProbeTime time_in_turns(const std::function<void()>& naive, const std::function<void()>& single,
-                        size_t elements, int rounds);
+ProbeTime time_in_turns(const Device& device, const std::function<void()>& naive,
+                        const std::function<void()>& single, size_t elements, int rounds);
 
 class ProbeSet {
 public:
     /// `headers` by their path below kernels/; `text`: functions that the expressions need. One program a
     /// build, made when it is first needed.
-    ProbeSet(const Device& device, std::vector<std::string> headers,
+    ProbeSet(const ProbeDevice& device, std::vector<std::string> headers,
              std::vector<ProbedExpression> expressions, std::string text = "",
              std::vector<std::string> defines = {});
 
@@ -75,7 +75,7 @@ private:
     Kernel prepare(Build build, const std::string& kernel, const Columns& inputs, cl::Buffer& out,
                    size_t out_values);
 
-    const Device& device_;
+    const ProbeDevice& device_;
     std::vector<std::string> headers_;
     std::vector<ProbedExpression> expressions_;
     std::string text_;

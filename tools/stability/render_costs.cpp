@@ -41,7 +41,7 @@ double relative_difference(const std::vector<float>& a, const std::vector<float>
 }
 
 /// Renders by a variant and by clrt's own kernels in turns.
-void measure(const Device& device, const RenderVariant& variant, const PreparedRender& own,
+void measure(const ProbeDevice& device, const RenderVariant& variant, const PreparedRender& own,
              const ShippedScene& subject, const Scene& scene, int rounds, RenderCost& cost) {
     Device as_told = device;
     as_told.info.correctly_rounded_division &= variant.rounds_correctly;
@@ -49,11 +49,13 @@ void measure(const Device& device, const RenderVariant& variant, const PreparedR
     options.device.precision = variant.precision;
     std::unique_ptr<PatchedKernels> patched;
     if (variant.contracts) {
-        patched = std::make_unique<PatchedKernels>(std::vector<KernelPatch>{
-            {"numerics/real.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"}});
+        patched = std::make_unique<PatchedKernels>(
+            device.kernels(), std::vector<KernelPatch>{{"numerics/real.h", "#pragma OPENCL FP_CONTRACT OFF",
+                                                        "#pragma OPENCL FP_CONTRACT ON"}});
         options.device.kernels_folder = patched->path();
     }
-    const PreparedRender other(scene, options, as_told);
+    const ProbeDevice other_device(as_told, device.kernels_folder());
+    const PreparedRender other(other_device, scene, options);
     Film films[2];
     double noise = 0;
     const auto render = [&](const PreparedRender& picture, Film& film) {
@@ -62,7 +64,8 @@ void measure(const Device& device, const RenderVariant& variant, const PreparedR
         if (&film == &films[0] && rendered.error)
             noise = rendered.error->relative_rmse;
     };
-    cost.time = time_in_turns([&] { render(own, films[0]); }, [&] { render(other, films[1]); }, 1, rounds);
+    cost.time = time_in_turns(
+        device, [&] { render(own, films[0]); }, [&] { render(other, films[1]); }, 1, rounds);
     cost.difference = relative_difference(film_mean(films[1]), film_mean(films[0]));
     cost.noise = noise;
 }
@@ -75,7 +78,7 @@ bool is_known(const RenderVariant& variant, const DeviceInfo& device) {
 
 /// Measures all variants on a scene. What one throws becomes the error of its row, so that it does not cost
 /// the report.
-void measure_scene(const Device& device, const char* name, int rounds,
+void measure_scene(const ProbeDevice& device, const char* name, int rounds,
                    const std::function<void(const std::string&)>& tell, std::vector<RenderCost>& costs) {
     const auto attempt = [&](const char* choice, const auto& work) {
         tell(fmt::format("{}, {}", name, choice));
@@ -97,7 +100,7 @@ void measure_scene(const Device& device, const char* name, int rounds,
         subject->options.film.size = SIZE;
         subject->options.sampling.spp = SPP;
         scene = subject->load();
-        own = std::make_unique<PreparedRender>(scene, subject->options, device);
+        own = std::make_unique<PreparedRender>(device, scene, subject->options);
     });
     if (!own) {
         costs.push_back(prepared);
@@ -112,7 +115,7 @@ void measure_scene(const Device& device, const char* name, int rounds,
 
 } // namespace
 
-std::vector<RenderCost> measure_render_costs(const Device& device, int rounds,
+std::vector<RenderCost> measure_render_costs(const ProbeDevice& device, int rounds,
                                              const std::function<void(const std::string&)>& tell) {
     std::vector<RenderCost> costs;
     for (const char* name : {"cornell_box", "every_effect"})

@@ -25,7 +25,7 @@ struct RenderCost {
 constexpr int PICTURE_ROUNDS = 7;
 
 /// Renders all of them, a minute or two in PICTURE_ROUNDS; `tell` hears which one is next.
-std::vector<RenderCost> measure_render_costs(const Device& device, int rounds,
+std::vector<RenderCost> measure_render_costs(const ProbeDevice& device, int rounds,
                                              const std::function<void(const std::string&)>& tell);
 
 } // namespace clrt

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace clrt {
@@ -181,11 +182,15 @@ std::string format_summary(const StabilityReport& report) {
 std::string format_catalogue() {
     std::string lines;
     for (const CaseGroup& group : catalogue()) {
+        std::map<std::string, std::string> by_id;
+        for (const StabilityCase& c : group.cases)
+            by_id[c.id] = fmt::format("  {} {}: {}; against {}\n", c.id, c.name, c.set_up, c.oracle);
+        for (const WaitingCase& c : waiting_cases())
+            if (c.id[0] == group.letter)
+                by_id[c.id] = fmt::format("  {} {}: {}; waits for {}\n", c.id, c.name, c.set_up, c.waits_for);
         lines += fmt::format("{}\n", group.title);
-        for (const StabilityCase& subject : group.cases)
-            lines += fmt::format("  {} {}: {}; {}\n", subject.id, subject.name, subject.set_up,
-                                 subject.waits_for ? fmt::format("waits for {}", subject.waits_for)
-                                                   : fmt::format("against {}", subject.oracle));
+        for (const auto& [id, line] : by_id)
+            lines += line;
     }
     return lines;
 }
@@ -206,11 +211,8 @@ std::string report_json(const StabilityReport& report) {
         json["costs"].push_back(choice_cost_json(cost));
     for (const RenderCost& cost : report.render_costs)
         json["render_costs"].push_back(render_cost_json(cost, takes_cpu_seconds(report)));
-    for (const CaseGroup& group : catalogue())
-        for (const StabilityCase& subject : group.cases)
-            if (subject.waits_for)
-                json["waiting"].push_back(
-                    {{"id", subject.id}, {"name", subject.name}, {"for", subject.waits_for}});
+    for (const WaitingCase& waiting : waiting_cases())
+        json["waiting"].push_back({{"id", waiting.id}, {"name", waiting.name}, {"for", waiting.waits_for}});
     return json.dump(2) + "\n";
 }
 

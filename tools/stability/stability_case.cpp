@@ -40,7 +40,7 @@ bool CaseResult::holds() const {
            std::all_of(figures.begin(), figures.end(), [](const Figure& figure) { return figure.holds(); });
 }
 
-CaseResult run_case(const StabilityCase& subject, const Device& device, Tier tier) {
+CaseResult run_case(const StabilityCase& subject, const ProbeDevice& device, Tier tier) {
     const auto start = std::chrono::steady_clock::now();
     CaseRun run(device, tier);
     CaseResult result;

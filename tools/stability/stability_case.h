@@ -3,7 +3,7 @@
 // the kernels gave.
 #pragma once
 
-#include "device/device.h"
+#include "support/probe_device.h"
 
 #include <array>
 #include <cstdint>
@@ -69,9 +69,9 @@ struct Figure {
 /// What a case is given and what it fills in.
 class CaseRun {
 public:
-    CaseRun(const Device& run_device, Tier run_tier) : device(run_device), tier(run_tier) {}
+    CaseRun(const ProbeDevice& run_device, Tier run_tier) : device(run_device), tier(run_tier) {}
 
-    const Device& device;
+    const ProbeDevice& device;
     const Tier tier;
 
     /// The number of inputs for the tier.
@@ -93,7 +93,6 @@ struct StabilityCase {
     const char* oracle; ///< what judges it
     const char* why;    ///< why its limits are what they are
     void (*run)(CaseRun&);
-    const char* waits_for = nullptr; ///< of a case that does not apply yet, which then has no `run`
 };
 
 /// What a case gave.
@@ -107,6 +106,6 @@ struct CaseResult {
 };
 
 /// Runs a case; what it throws becomes its error.
-CaseResult run_case(const StabilityCase& subject, const Device& device, Tier tier);
+CaseResult run_case(const StabilityCase& subject, const ProbeDevice& device, Tier tier);
 
 } // namespace clrt

@@ -51,7 +51,7 @@ Tier parse_tier(const std::string& text) {
 
 void check_cases(const std::vector<std::string>& ids) {
     for (const std::string& id : ids)
-        if (runnable_cases({id}).empty())
+        if (chosen_cases({id}).empty())
             throw UsageError("option --case: expected the beginning of a case's id, found '" + id +
                              "'; `clrt-stability --list` prints all");
 }

@@ -4,8 +4,6 @@
 #include "scene/readers/text_encoding.h"
 #include "scene/text_scanner.h"
 
-#include <cstdint>
-
 namespace clrt {
 
 namespace {
@@ -34,7 +32,6 @@ constexpr Format FORMATS[] = {
     {"{"sv, ""sv, "a JSON file", EXPORT},
     {"ply\n"sv, ""sv, "a PLY file", EXPORT},
     {"ply\r"sv, ""sv, "a PLY file", EXPORT},
-    {"solid"sv, "facet"sv, "an STL file", EXPORT},
     {"Kaydara FBX Binary"sv, ""sv, "an FBX file", EXPORT},
     {"; FBX"sv, ""sv, "an FBX file", EXPORT},
     {"BLENDER"sv, ""sv, "a Blender file", EXPORT},
@@ -64,17 +61,6 @@ constexpr Format FORMATS[] = {
     {"\0\0\xfe\xff"sv, ""sv, "UTF-32 text", "save it as UTF-8"},
 };
 
-/// A binary STL: 80 bytes of anything, the number of triangles, 50 bytes for each.
-bool is_binary_stl(std::string_view bytes) {
-    constexpr size_t HEADER = 84, TRIANGLE = 50, COUNT = 80;
-    if (bytes.size() < HEADER + TRIANGLE)
-        return false;
-    std::uint64_t triangles = 0;
-    for (size_t i = 0; i < 4; ++i)
-        triangles |= std::uint64_t(static_cast<unsigned char>(bytes[COUNT + i])) << (8 * i);
-    return bytes.size() == HEADER + TRIANGLE * triangles;
-}
-
 std::string describe(const char* name, const char* advice) {
     return std::string(name) + ": " + advice;
 }
@@ -89,7 +75,7 @@ std::string foreign_format(std::string_view bytes) {
         for (const std::string_view start : {head, text})
             if (start.substr(0, format.start.size()) == format.start && start.find(format.word) != start.npos)
                 return describe(format.name, format.advice);
-    return is_binary_stl(bytes) ? describe("an STL file", EXPORT) : std::string();
+    return {};
 }
 
 } // namespace clrt

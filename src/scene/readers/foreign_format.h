@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are no OBJ but are given as one: what they are.
+// Files that no reader knows: what they are.
 #pragma once
 
 #include <string>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront MTL text -> materials exactly as written: an absent key stays absent (material_rules.h gives it
+// Wavefront MTL text -> materials exactly as written: an absent key stays absent (mtl_rules.h gives it
 // meaning).
 #pragma once
 
 #include "scene/notices.h"
 #include "scene/readers/mtl_dialect.h"
-#include "scene/scene.h"
+#include "scene/texture_use.h"
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -16,16 +15,9 @@
 
 namespace clrt {
 
-/// A map_* statement: a file name and its options.
-struct MtlTexture {
-    std::string file; ///< as written
-    SourcePlace place;
-    glm::dvec2 scale{1}, offset{0}; ///< -s, -o
-    double base = 0, gain = 1;      ///< -mm
-    double bump_multiplier = 1;     ///< -bm
-    bool clamp = false;             ///< -clamp on
-    std::optional<u32> channel;     ///< -imfchan: 0..3 = r, g, b, m; 4 = l
-    bool by_vertex = false;         ///< no file but the colours of the vertices (vertex_colours.h)
+/// A map_* statement: its file, -s, -o, -mm (base and gain), -clamp on and -imfchan are the use of a picture.
+struct MtlTexture : TextureUse {
+    double bump_multiplier = 1; ///< -bm
 };
 
 /// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their

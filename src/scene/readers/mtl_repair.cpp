@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/readers/mtl_repair.h"
 
-#include "scene/colour.h"
+#include "colour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ bool is_glass_by_illum(const MtlMaterial& m) {
 // that were made for other things.
 
 /// Before 2.8, and only then, Ni was always 1; maps were those of hardness and of mirror reflection.
-bool has_maps_of_internal(const MtlMaterial& m, const MapFacts&) {
+bool has_maps_of_internal(const MtlMaterial& m, const PictureFacts&) {
     return m.writer.dialect == MtlDialect::BLENDER_PYTHON && m.ni == 1.0 && (m.map_ns || m.map_refl);
 }
 
@@ -56,7 +56,7 @@ void drop_ns_and_refl_maps(MtlMaterial& m) {
 }
 
 /// For a material without a Principled BSDF the exporter writes Ni 1, and no Ps even where it writes Pr.
-bool has_lost_nodes(const MtlMaterial& m, const MapFacts&) {
+bool has_lost_nodes(const MtlMaterial& m, const PictureFacts&) {
     return is_blender(m) && m.ni == 1.0 && !(has_pr_or_pm(m) && m.ps);
 }
 
@@ -64,7 +64,7 @@ void set_usual_index(MtlMaterial& m) {
     m.ni = BLENDER_IOR;
 }
 
-bool is_default_export(const MtlMaterial& m, const MapFacts&) {
+bool is_default_export(const MtlMaterial& m, const PictureFacts&) {
     return is_blender(m) && !has_pr_or_pm(m);
 }
 
@@ -79,7 +79,7 @@ void read_default_export(MtlMaterial& m) {
     m.map_pm = std::exchange(m.map_refl, std::nullopt);
 }
 
-bool is_blender_material(const MtlMaterial& m, const MapFacts&) {
+bool is_blender_material(const MtlMaterial& m, const PictureFacts&) {
     return is_blender(m);
 }
 
@@ -95,7 +95,7 @@ void read_specular_level(MtlMaterial& m) {
     m.illum.reset();
 }
 
-bool has_replaced_kd(const MtlMaterial& m, const MapFacts& maps) {
+bool has_replaced_kd(const MtlMaterial& m, const PictureFacts& maps) {
     return is_blender(m) && m.kd && m.kd != glm::dvec3(1) && m.map_kd &&
            maps.is_readable(*m.map_kd, TextureRole::COLOUR);
 }
@@ -106,11 +106,11 @@ void set_kd_to_one(MtlMaterial& m) {
 
 // Any writer.
 
-bool has_hidden_kd_map(const MtlMaterial& m, const MapFacts& maps) {
+bool has_hidden_kd_map(const MtlMaterial& m, const PictureFacts& maps) {
     return m.kd == glm::dvec3(0) && m.map_kd && maps.is_readable(*m.map_kd, TextureRole::COLOUR);
 }
 
-bool is_opaque_by_tr(const MtlMaterial& m, const MapFacts&) {
+bool is_opaque_by_tr(const MtlMaterial& m, const PictureFacts&) {
     return !m.d && m.tr == 1.0;
 }
 
@@ -118,7 +118,7 @@ void drop_tr(MtlMaterial& m) {
     m.tr.reset();
 }
 
-bool has_hidden_coverage_map(const MtlMaterial& m, const MapFacts&) {
+bool has_hidden_coverage_map(const MtlMaterial& m, const PictureFacts&) {
     return m.map_d && m.d == 0.0;
 }
 
@@ -126,7 +126,7 @@ void set_d_to_one(MtlMaterial& m) {
     m.d = 1;
 }
 
-bool is_invisible_glass(const MtlMaterial& m, const MapFacts&) {
+bool is_invisible_glass(const MtlMaterial& m, const PictureFacts&) {
     return is_glass_by_illum(m) && m.ni == 1.0 && m.d.value_or(1 - m.tr.value_or(0)) == 1 && !has_pr_or_pm(m);
 }
 
@@ -135,7 +135,7 @@ void make_opaque(MtlMaterial& m) {
     m.tf.reset();
 }
 
-bool is_black_glass(const MtlMaterial& m, const MapFacts&) {
+bool is_black_glass(const MtlMaterial& m, const PictureFacts&) {
     return is_glass_by_illum(m) && m.tf == glm::dvec3(0) && m.ni.value_or(0) > 1;
 }
 
@@ -143,7 +143,7 @@ void make_clear(MtlMaterial& m) {
     m.tf = glm::dvec3(1);
 }
 
-bool has_scaled_coat(const MtlMaterial& m, const MapFacts&) {
+bool has_scaled_coat(const MtlMaterial& m, const PictureFacts&) {
     return m.pc && (*m.pc > 1 || (is_blender(m) && *m.pc > 0));
 }
 
@@ -159,7 +159,7 @@ double transmission_share(const MtlMaterial& m) {
     return mean(*m.tf) * (1 - m.pm.value_or(m.map_pm ? 1 : 0));
 }
 
-bool is_partly_glass(const MtlMaterial& m, const MapFacts&) {
+bool is_partly_glass(const MtlMaterial& m, const PictureFacts&) {
     return transmission_share(m) > 0 && transmission_share(m) < 1;
 }
 
@@ -172,11 +172,11 @@ void make_all_or_nothing(MtlMaterial& m) {
     m.pm = 0;
 }
 
-bool is_glass_by_tf(const MtlMaterial& m, const MapFacts&) {
+bool is_glass_by_tf(const MtlMaterial& m, const PictureFacts&) {
     return transmission_share(m) == 1;
 }
 
-bool has_kd_map_on_glass(const MtlMaterial& m, const MapFacts& maps) {
+bool has_kd_map_on_glass(const MtlMaterial& m, const PictureFacts& maps) {
     return is_glass_by_tf(m, maps) && m.map_kd;
 }
 
@@ -193,7 +193,7 @@ void make_glass(MtlMaterial& m) {
     m.map_pm.reset();
 }
 
-bool has_two_normal_maps(const MtlMaterial& m, const MapFacts& maps) {
+bool has_two_normal_maps(const MtlMaterial& m, const PictureFacts& maps) {
     return m.map_normal && m.map_bump && maps.is_normal_map(*m.map_bump);
 }
 
@@ -202,7 +202,7 @@ void drop_bump_map(MtlMaterial& m) {
 }
 
 /// Blender writes no other map_Bump, whatever its texels look like.
-bool has_normals_as_bumps(const MtlMaterial& m, const MapFacts& maps) {
+bool has_normals_as_bumps(const MtlMaterial& m, const PictureFacts& maps) {
     return m.map_bump && (m.writer.dialect == MtlDialect::BLENDER || maps.is_normal_map(*m.map_bump));
 }
 
@@ -210,7 +210,7 @@ void move_bump_to_normal(MtlMaterial& m) {
     m.map_normal = std::exchange(m.map_bump, std::nullopt);
 }
 
-bool has_boilerplate_ks(const MtlMaterial& m, const MapFacts&) {
+bool has_boilerplate_ks(const MtlMaterial& m, const PictureFacts&) {
     return !m.illum && !m.ns && !m.map_ns && !has_pr_or_pm(m) &&
            (m.map_ks || (m.ks && largest_component(*m.ks) > 0));
 }
@@ -223,7 +223,7 @@ void drop_ks(MtlMaterial& m) {
 /// One repair: when it applies, what it changes, what is said about it and at which key.
 struct Repair {
     const char* name;
-    bool (*applies)(const MtlMaterial&, const MapFacts&);
+    bool (*applies)(const MtlMaterial&, const PictureFacts&);
     void (*apply)(MtlMaterial&);
     const char* key; ///< lower case; "": the material's newmtl
     const char* notice;
@@ -266,7 +266,7 @@ constexpr Repair REPAIRS[] = {
 
 } // namespace
 
-MtlMaterial repair_material(const MtlMaterial& mtl, const MapFacts& maps, NoticeList& notices) {
+MtlMaterial repair_material(const MtlMaterial& mtl, const PictureFacts& maps, NoticeList& notices) {
     MtlMaterial repaired = mtl;
     for (const Repair& repair : REPAIRS) {
         if (!repair.applies(repaired, maps))

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writer of a material meant -> the same said in the words of the MTL table (material_rules.h). The
+// What the writer of a material meant -> the same said in the words of the MTL table (mtl_rules.h). The
 // repairs are one table; --mtl plain leaves it out.
 #pragma once
 
 #include "scene/notices.h"
 #include "scene/readers/mtl_reader.h"
-#include "scene/texture_store.h"
 
-#include <functional>
 #include <map>
 #include <string>
 
 namespace clrt {
 
-/// What the repairs ask about the picture of a map; false for one that cannot be read.
-struct MapFacts {
-    std::function<bool(const MtlTexture&, TextureRole)> is_readable;
-    std::function<bool(const MtlTexture&)> is_normal_map; ///< its texels are unit vectors
-};
-
 /// Applies every repair whose condition holds, each with one notice (file:line) and its name in `repairs`.
-MtlMaterial repair_material(const MtlMaterial& mtl, const MapFacts& maps, NoticeList& notices);
+MtlMaterial repair_material(const MtlMaterial& mtl, const PictureFacts& maps, NoticeList& notices);
 
 /// Notes which program wrote each library, where its header says so.
 void note_writers(const std::map<std::string, MtlMaterial>& library, NoticeList& notices);

@@ -2,6 +2,7 @@
 // The statements of OBJ text, one function each; a function returns what is wrong, or nothing.
 #include "scene/readers/obj_chunk.h"
 
+#include "scene/readers/coordinate.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>
@@ -96,14 +97,6 @@ std::string parse_face(std::string_view rest, size_t line, ObjChunk& chunk) {
     return {};
 }
 
-/// Beyond the range of float a coordinate is infinite or zero: squares of sizes stay in the range of double.
-double in_range(double x) {
-    const double size = std::fabs(x);
-    if (size > double(std::numeric_limits<float>::max()))
-        return std::copysign(std::numeric_limits<double>::infinity(), x);
-    return size < double(std::numeric_limits<float>::denorm_min()) ? 0 : x;
-}
-
 /// Three more numbers behind a position are its colour; one alone is a weight.
 bool parse_colour(std::string_view rest, glm::vec3& colour) {
     for (int c = 0; c < 3; ++c)
@@ -115,7 +108,7 @@ bool parse_colour(std::string_view rest, glm::vec3& colour) {
 std::string parse_position(std::string_view rest, size_t line, ObjChunk& chunk) {
     glm::dvec3 p(0);
     std::string error = parse_numbers("v", rest, 3, 3, &p.x);
-    p = {in_range(p.x), in_range(p.y), in_range(p.z)};
+    p = {as_coordinate(p.x), as_coordinate(p.y), as_coordinate(p.z)};
     chunk.has_non_finite_position |= !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     if (glm::vec3 colour; !rest.empty() && parse_colour(rest, colour)) {
         if (chunk.colours.empty())

@@ -76,13 +76,13 @@ void resolve_piece(const ObjMesh& mesh, ObjPiece& piece, bool check_finite) {
 }
 
 /// The triangle of three corners. Attributes that not all three have are left out.
-ObjTriangle make_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorner& c, u32 material,
-                          u32 object) {
-    ObjTriangle triangle{{u32(a.v), u32(b.v), u32(c.v)},
-                         {NO_INDEX, NO_INDEX, NO_INDEX},
-                         {NO_INDEX, NO_INDEX, NO_INDEX},
-                         material,
-                         object};
+MeshTriangle make_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorner& c, u32 material,
+                           u32 object) {
+    MeshTriangle triangle{{u32(a.v), u32(b.v), u32(c.v)},
+                          {NO_INDEX, NO_INDEX, NO_INDEX},
+                          {NO_INDEX, NO_INDEX, NO_INDEX},
+                          material,
+                          object};
     const auto set = [](u32(&to)[3], i32 i, i32 j, i32 k) {
         if (i >= 0 && j >= 0 && k >= 0)
             to[0] = u32(i), to[1] = u32(j), to[2] = u32(k);
@@ -109,7 +109,7 @@ private:
 
 /// Writes a piece's triangles to their place in the mesh; `groups` are the smoothing groups by name's number.
 void triangulate_piece(ObjPiece& piece, const std::vector<u32>& groups, ObjMesh& mesh) {
-    ObjTriangle* out = mesh.triangles.data() + piece.first_triangle;
+    MeshTriangle* out = mesh.triangles.data() + piece.first_triangle;
     std::vector<glm::dvec3> polygon;
     std::vector<u32> cut;
     RunWalk materials(piece.materials), objects(piece.objects), smoothings(piece.smoothings);

@@ -3,9 +3,6 @@
 // parallel.
 #include "scene/readers/obj_reader.h"
 
-#include "error.h"
-#include "output/standard_streams.h"
-#include "scene/readers/foreign_format.h"
 #include "scene/readers/obj_faces.h"
 #include "scene/readers/obj_notices.h"
 #include "scene/readers/text_encoding.h"
@@ -13,17 +10,12 @@
 
 namespace clrt {
 
-ObjMesh read_obj(const std::string& file, Progress& progress, size_t chunk_bytes) {
-    const std::string path = input_name(file);
+ObjMesh read_obj(SceneFile file, Progress& progress, size_t chunk_bytes) {
+    const std::string& path = file.name;
     ObjMesh mesh;
-    progress.update({"load", 0});
     ObjPieces pieces;
     {
-        std::string bytes = read_file(file);
-        mesh.bytes = bytes.size();
-        if (const std::string other = foreign_format(bytes); !other.empty())
-            throw SceneError(path, 0, "expected a Wavefront OBJ, found " + other);
-        const std::string text = as_utf8(std::move(bytes));
+        const std::string text = as_utf8(std::move(file.bytes));
         mesh.head = text.substr(0, OBJ_HEAD_BYTES);
         progress.update({"load", OBJ_READ});
         pieces = parse_obj_text(path, without_byte_order_mark(text), chunk_bytes, progress);

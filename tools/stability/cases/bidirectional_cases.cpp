@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that is sampled from both ends: corners, where a connection may be as short as one likes, and what
-// must hold once there is a bidirectional integrator.
+// Light that is sampled from both ends: corners, where a connection may be as short as one likes.
 #include "stability/catalogue.h"
 #include "stability/probe_set.h"
 
@@ -16,7 +15,7 @@ namespace {
 
 /// A matte unit square under another of radiance 1, opposite or at an edge; the picture is that square, seen
 /// in plan from between the two: every pixel shows the same area, so its mean is the form factor.
-struct LitSquare : TestScene {
+struct LitSquare : ScratchScene {
     explicit LitSquare(bool opposite) {
         build.material("matte", "Kd 1 1 1").material("lamp", "Kd 0 0 0\nKe 1 1 1");
         build.use("matte").floor(0.5);
@@ -47,7 +46,7 @@ void corners(CaseRun& run) {
         bool opposite;
         double form_factor;
     };
-    const PatchedKernels light_sampling(LIGHT_SAMPLING_ONLY);
+    const PatchedKernels light_sampling(run.device.kernels(), LIGHT_SAMPLING_ONLY);
     Figure& z = run.figure("standard errors off", LARGEST_Z);
     // Six of them are 1.2 % of the form factor.
     Figure& noise = run.figure("relative standard error", 2e-3);
@@ -64,7 +63,7 @@ void corners(CaseRun& run) {
             options.device.precision = precision_of(build);
             options.device.kernels_folder = build == Build::NAIVE ? light_sampling.path() : "";
             options.sampling.spp = std::uint32_t(run.count(1024, 16384, 262144));
-            const Estimate mean = film_estimate(PreparedRender(scene, options).run().film);
+            const Estimate mean = film_estimate(PreparedRender(run.device, scene, options).run().film);
             const double miss =
                 std::abs(mean.mean - arrangement.form_factor) - RENDER_ROUNDING * arrangement.form_factor;
             z[build].see(std::max(miss, 0.0) / mean.error, describe);
@@ -72,12 +71,11 @@ void corners(CaseRun& run) {
             options.sampling.spp =
                 std::uint32_t(options.sampling.replicates); // every sample has sums of its own
             options.film.size = {128, 128};
-            contribution[build].see(largest_sample(PreparedRender(scene, options).run().film), describe);
+            contribution[build].see(largest_sample(PreparedRender(run.device, scene, options).run().film),
+                                    describe);
         }
     }
 }
-
-constexpr const char* BIDIRECTIONAL = "a bidirectional integrator";
 
 } // namespace
 
@@ -88,16 +86,6 @@ const std::vector<StabilityCase>& bidirectional_cases() {
          "6 standard errors of 64 replicates; multiple importance sampling "
          "bounds a sample where light sampling alone (naive) has none near the edge",
          corners},
-        {"B02", "CoincidentVertices", "vertices to connect at the same place", "none; counted", "", nullptr,
-         BIDIRECTIONAL},
-        {"B03", "IntegratorsAgree", "six scenes by path tracing, light tracing, bidirectional and Metropolis",
-         "each other", "", nullptr, "integrators that trace from lights"},
-        {"B04", "WeightsSumToOne", "all strategies of paths up to 20 vertices, densities 1e-30 to 1e30", "1",
-         "", nullptr, BIDIRECTIONAL},
-        {"B05", "DeltaChains", "light through glass, mirror and glass; other windows and sizes",
-         "the same mean", "", nullptr, BIDIRECTIONAL},
-        {"B06", "ShadingNormals", "smooth normals traced from lights", "path tracing", "", nullptr,
-         "integrators that trace from lights"},
     };
     return cases;
 }

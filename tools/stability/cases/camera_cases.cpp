@@ -33,7 +33,7 @@ kernel void camera_rays(const RenderParams params, const u32 count, global real*
 
 template <class Number>
 std::vector<glm::dvec3> directions(const CaseRun& run, Precision precision, const RenderParams& params) {
-    KernelProbe probe(run.device, {"camera/camera.h"}, {precision, {}}, kernels_under_test());
+    KernelProbe probe(run.device, {"camera/camera.h"}, {precision, {}});
     probe.add_text(CAMERA_RAYS);
     const size_t count = size_t(params.width) * params.height;
     const cl::Buffer out = create_buffer(run.device, "out", 3 * count * sizeof(Number));
@@ -117,7 +117,6 @@ void look_along_up(CaseRun& run) {
 } // namespace
 
 const std::vector<StabilityCase>& camera_cases() {
-    constexpr const char* LENS = "a thin lens";
     static const std::vector<StabilityCase> cases = {
         {"K01", "ExtremeAngles",
          "angles of view of 1e-3 and 179.9 degrees, a camera away from all axes, pixel centres",
@@ -125,12 +124,6 @@ const std::vector<StabilityCase>& camera_cases() {
         {"K02", "LookAlongUp", "an up vector along the view, and 1e-7 to 1e-5 beside it",
          "orthonormal film vectors", "computed in double, rounded once: products of two have 4 u",
          look_along_up},
-        {"K03", "LensRadiusZero", "a lens of radius 0", "the pinhole", "", nullptr, LENS},
-        {"K04", "OddFocus", "focus at 0, at infinity, at 1e7", "a message; parallel rays", "", nullptr, LENS},
-        {"K05", "BlurCircle", "a point at S2, focus at S1, aperture A", "A |S2 - S1| / S2 on the focus plane",
-         "", nullptr, LENS},
-        {"K06", "ShutterZero", "a shutter of length 0, the ends of its time", "the static picture", "",
-         nullptr, "moving geometry and a shutter"},
     };
     return cases;
 }

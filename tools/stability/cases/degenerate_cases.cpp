@@ -4,7 +4,7 @@
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
 #include "support/aimed_rays.h"
-#include "support/render_scene.h"
+#include "support/scratch_scene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,7 +21,7 @@ void count_different_sums(const Film& a, const Film& b, const std::string& name,
 }
 
 /// A room with a lamp and a box.
-TestScene& make_room_scene(TestScene& scene) {
+ScratchScene& make_room_scene(ScratchScene& scene) {
     scene.build.material("white", "Kd 0.7 0.7 0.7")
         .material("red", "Kd 0.6 0.1 0.1")
         .material("lamp", "Kd 0 0 0\nKe 8 7 5");
@@ -37,8 +37,8 @@ TestScene& make_room_scene(TestScene& scene) {
 
 void zero_area(CaseRun& run) {
     const size_t count = run.count(1e3, 1e4, 1e4);
-    TestScene clean, with;
-    const Film expected = make_room_scene(clean).render().film;
+    ScratchScene clean, with;
+    const Film expected = make_room_scene(clean).render(run.device).film;
     make_room_scene(with);
     Random random(1);
     std::string faces;
@@ -52,7 +52,7 @@ void zero_area(CaseRun& run) {
     }
     with.build.use("lamp").raw(faces);
     const Scene scene = with.load();
-    count_different_sums(expected, render_loaded(scene, with.options).film, "room",
+    count_different_sums(expected, render_loaded(run.device, scene, with.options).film, "room",
                          run.figure("sums of the film that differ in any bit", 0)[Build::SINGLE]);
     run.figure("triangles that are not counted", 0)[Build::SINGLE].see(
         double(count) - double(std::min(count, scene.statistics.degenerate_triangles)),
@@ -68,12 +68,13 @@ void zero_area(CaseRun& run) {
     const std::vector<TestRay> rays = rays_at(spoiled, run.count(2e4, 1e5, 1e6), 1);
     Figure& hits = run.figure("rays whose hit differs in any bit", 0);
     for (const Build build : robust_builds(run))
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const std::vector<TestHit> a = RayDevice(soup, options).closest(rays),
-                                       b = RayDevice(spoiled, options).closest(rays);
-            for (size_t i = 0; i < rays.size(); ++i)
-                hits[build].count(a[i] != b[i], [&] { return tree + ": " + ray_text(rays[i]); });
-        });
+        for_each_tree(
+            build, plain_boxes(run.device), [&](const RayDeviceOptions& options, const std::string& tree) {
+                const std::vector<TestHit> a = RayDevice(run.device, soup, options).closest(rays),
+                                           b = RayDevice(run.device, spoiled, options).closest(rays);
+                for (size_t i = 0; i < rays.size(); ++i)
+                    hits[build].count(a[i] != b[i], [&] { return tree + ": " + ray_text(rays[i]); });
+            });
 }
 
 /// Text of an OBJ whose numbers are random bits, sometimes words that are no numbers.
@@ -107,7 +108,7 @@ void garbage(CaseRun& run) {
     size_t rendered = 0;
     const size_t scenes = run.count(60, 1000, 10000);
     for (size_t k = 0; k < scenes; ++k) {
-        TestScene scene;
+        ScratchScene scene;
         scene.build.raw(garbage_obj(random, k % 2));
         scene.options.light.environment = glm::dvec3(1);
         scene.options.film.size = {8, 8};
@@ -115,7 +116,7 @@ void garbage(CaseRun& run) {
         scene.options.sampling.replicates = 4;
         const auto describe = [&] { return fmt::format("scene {}", k); };
         try {
-            const Render render = scene.render();
+            const Render render = scene.render(run.device);
             ++rendered;
             double wrong = double(render.counts.bad());
             for (const float value : film_mean(render.film))
@@ -157,14 +158,15 @@ void duplicates(CaseRun& run) {
     Figure& wrong = run.figure("hits of a copy", 0);
     Figure& depth = run.figure("depth of the tree", 64);
     for (const Build build : robust_builds(run))
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            if (options.quality != BvhQuality::FAST)
-                return;
-            const RayDevice device(scene, options);
-            depth[build].see(device.bvh().depth, [&] { return tree; });
-            for (const TestHit& hit : device.closest(rays))
-                wrong[build].count(hit.triangle != 0, [&] { return tree; });
-        });
+        for_each_tree(build, plain_boxes(run.device),
+                      [&](const RayDeviceOptions& options, const std::string& tree) {
+                          if (options.quality != BvhQuality::FAST)
+                              return;
+                          const RayDevice device(run.device, scene, options);
+                          depth[build].see(device.bvh().depth, [&] { return tree; });
+                          for (const TestHit& hit : device.closest(rays))
+                              wrong[build].count(hit.triangle != 0, [&] { return tree; });
+                      });
     Figure& slowness = run.figure("time to build over that of a soup of as many", 3);
     const Scene soup = make_soup(int(COPIES), 0.05, 1);
     double ratio = INFINITY;
@@ -179,9 +181,10 @@ void needles(CaseRun& run) {
     for (const Aim aim : {Aim::VERTEX, Aim::EDGE}) {
         const std::vector<TestRay> rays = aimed_rays(ball, 0.5, aim, run.count(2e4, 1e6, 1e6), 7);
         for (const Build build : run.builds())
-            for_each_tree(build, plain_triangles(),
+            for_each_tree(build, plain_triangles(run.device),
                           [&](const RayDeviceOptions& options, const std::string& tree) {
-                              const std::vector<TestHit> hits = RayDevice(ball, options).closest(rays);
+                              const std::vector<TestHit> hits =
+                                  RayDevice(run.device, ball, options).closest(rays);
                               for (size_t i = 0; i < rays.size(); ++i)
                                   lost[build].count(hits[i].triangle == NO_INDEX,
                                                     [&] { return tree + ": " + ray_text(rays[i]); });
@@ -203,12 +206,13 @@ void coplanar_twins(CaseRun& run) {
     const std::vector<TestRay> rays = rays_at(scene, run.count(2e4, 2e5, 1e6), 4);
     Figure& wrong = run.figure("hits of the second twin", 0);
     for (const Build build : robust_builds(run))
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const std::vector<TestHit> hits = RayDevice(scene, options).closest(rays);
-            for (size_t i = 0; i < rays.size(); ++i)
-                wrong[build].count(hits[i].triangle != NO_INDEX && hits[i].triangle >= count,
-                                   [&] { return tree + ": " + ray_text(rays[i]); });
-        });
+        for_each_tree(
+            build, plain_boxes(run.device), [&](const RayDeviceOptions& options, const std::string& tree) {
+                const std::vector<TestHit> hits = RayDevice(run.device, scene, options).closest(rays);
+                for (size_t i = 0; i < rays.size(); ++i)
+                    wrong[build].count(hits[i].triangle != NO_INDEX && hits[i].triangle >= count,
+                                       [&] { return tree + ": " + ray_text(rays[i]); });
+            });
 }
 
 void nothing(CaseRun& run) {
@@ -219,31 +223,33 @@ void nothing(CaseRun& run) {
             add_triangle(scene, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5});
         const std::vector<TestRay> rays = rays_at(scene, 10000, 5);
         for (const Build build : robust_builds(run))
-            for_each_tree(
-                build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-                    const RayDevice device(scene, options);
-                    const std::vector<u32> any = device.any(rays);
-                    const std::vector<TestHit> found = device.closest(rays);
-                    for (size_t i = 0; i < rays.size(); ++i)
-                        hits[build].count(any[i] || found[i].triangle != NO_INDEX, [&] { return tree; });
-                });
+            for_each_tree(build, plain_boxes(run.device),
+                          [&](const RayDeviceOptions& options, const std::string& tree) {
+                              const RayDevice device(run.device, scene, options);
+                              const std::vector<u32> any = device.any(rays);
+                              const std::vector<TestHit> found = device.closest(rays);
+                              for (size_t i = 0; i < rays.size(); ++i)
+                                  hits[build].count(any[i] || found[i].triangle != NO_INDEX,
+                                                    [&] { return tree; });
+                          });
     }
     Scene triangle = make_empty_scene();
     add_triangle(triangle, {-1, -1, 0.25}, {1, -1, 0.25}, {0, 1, 0.25});
     Figure& one = run.figure("rays whose hit of a single triangle differs", 0);
     const std::vector<TestRay> rays = rays_at(triangle, 10000, 6);
     for (const Build build : robust_builds(run))
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const RayDevice device(triangle, options);
-            const std::vector<TestHit> found = device.closest(rays), all = device.closest_of_all(rays);
-            for (size_t i = 0; i < rays.size(); ++i)
-                one[build].count(found[i] != all[i], [&] { return tree + ": " + ray_text(rays[i]); });
-        });
-    TestScene scene;
+        for_each_tree(
+            build, plain_boxes(run.device), [&](const RayDeviceOptions& options, const std::string& tree) {
+                const RayDevice device(run.device, triangle, options);
+                const std::vector<TestHit> found = device.closest(rays), all = device.closest_of_all(rays);
+                for (size_t i = 0; i < rays.size(); ++i)
+                    one[build].count(found[i] != all[i], [&] { return tree + ": " + ray_text(rays[i]); });
+            });
+    ScratchScene scene;
     scene.build.raw("v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3");
     scene.options.light.environment = glm::dvec3(0.25, 0.5, 0.75);
     scene.options.sampling.spp = 64;
-    const std::vector<float> picture = film_mean(scene.render().film);
+    const std::vector<float> picture = film_mean(scene.render(run.device).film);
     Figure& background = run.figure("difference from the background", 0);
     for (size_t i = 0; i < picture.size(); ++i)
         background[Build::SINGLE].see(std::abs(picture[i] - 0.25 * double(i % 3 + 1)),
@@ -251,7 +257,7 @@ void nothing(CaseRun& run) {
 }
 
 /// A lit quad whose corners have this normal ("" for none).
-TestScene& make_quad_with_normal(TestScene& scene, const std::string& normal) {
+ScratchScene& make_quad_with_normal(ScratchScene& scene, const std::string& normal) {
     scene.build.material("matte", "Kd 0.5 0.6 0.7\nKs 0.2 0.2 0.2\nNs 10\nillum 2").use("matte");
     const std::string n = normal.empty() ? "" : "//-1";
     scene.build.raw("v -1 0 1\nv 1 0 1\nv 1 0.5 -1\nv -1 0.5 -1\n" +
@@ -267,17 +273,17 @@ TestScene& make_quad_with_normal(TestScene& scene, const std::string& normal) {
 }
 
 void bad_normals(CaseRun& run) {
-    TestScene flat;
-    const Film expected = make_quad_with_normal(flat, "").render().film;
+    ScratchScene flat;
+    const Film expected = make_quad_with_normal(flat, "").render(run.device).film;
     Figure& differing = run.figure("sums that differ from the geometric normal's", 0);
     Figure& bad = run.figure("bad samples", 0);
     Figure& silent = run.figure("fallbacks without a notice", 0);
     for (const char* normal :
          {"0 0 0", "nan 0 1", "inf 0 0", "1e-42 0 0", "0 -1e30 1e-30", "0 -0.970142 -0.242536"}) {
-        TestScene scene;
+        ScratchScene scene;
         make_quad_with_normal(scene, normal);
         const Scene loaded = scene.load();
-        const Render render = render_loaded(loaded, scene.options);
+        const Render render = render_loaded(run.device, loaded, scene.options);
         bad[Build::SINGLE].see(double(render.counts.bad()), [&] { return normal; });
         if (normal[1] == 'a' || normal[0] == 'i' || std::string(normal) == "0 0 0") {
             count_different_sums(expected, render.film, normal, differing[Build::SINGLE]);

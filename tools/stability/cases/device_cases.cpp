@@ -60,11 +60,11 @@ std::string describe_sum(const Film& film, size_t i) {
 }
 
 /// Shares of samples and standard errors between the films of two devices.
-void compare_devices(const Device& other, const Scene& scene, const Options& options, const Film& here,
+void compare_devices(const ProbeDevice& other, const Scene& scene, const Options& options, const Film& here,
                      CaseRun& run) {
     Figure& far = run.figure("samples off by 1e-4 on another device, %", 0.1);
     Figure& z = run.figure("standard errors between devices", 6);
-    const Film there = PreparedRender(scene, options, other).run().film;
+    const Film there = PreparedRender(other, scene, options).run().film;
     const double mean = film_estimate(here).mean / here.scale.quantum;
     Worst off;
     for (size_t i = 0; i < here.sums.size(); ++i) {
@@ -87,21 +87,21 @@ void devices_agree(CaseRun& run) {
     const EverySample subject;
     const Scene scene = subject.load();
     // Without units to choose from the device is asked twice.
-    static const std::optional<Device> unit =
-        one_unit_of(run.device); // never freed before the driver's own statics
-    const Device& part = unit ? *unit : run.device;
+    const std::optional<Device> unit = one_unit_of(run.device);
+    const ProbeDevice part(unit ? *unit : run.device, run.device.kernels_folder());
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)
             continue;
         Options options = subject.options;
         options.device.precision = precision_of(build);
-        const Film whole = render_loaded(scene, options).film;
-        const Film other = PreparedRender(scene, options, part).run().film;
+        const Film whole = render_loaded(run.device, scene, options).film;
+        const Film other = PreparedRender(part, scene, options).run().film;
         for (size_t i = 0; i < whole.sums.size(); ++i)
             differing[build].count(whole.sums[i] != other.sums[i], [&] { return describe_sum(whole, i); });
         if (build == Build::SINGLE)
             if (const std::optional<Device> second = another_device(run.device))
-                compare_devices(*second, scene, options, whole, run);
+                compare_devices(ProbeDevice(*second, run.device.kernels_folder()), scene, options, whole,
+                                run);
     }
 }
 
@@ -142,7 +142,7 @@ const Operation OPERATIONS[] = {
 };
 
 void device_functions(CaseRun& run) {
-    const KernelFiles files = kernels_under_test();
+    const KernelFiles files = run.device.kernels();
     Random random(3);
     for (const Operation& operation : OPERATIONS) {
         if (files.count(operation.header) == 0) // these kernels use no such function

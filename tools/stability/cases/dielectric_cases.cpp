@@ -135,7 +135,7 @@ const ProbedExpression& fresnel_expression() {
     return FRESNEL;
 }
 
-ProbeTime time_fresnel(const Device& device, int rounds) {
+ProbeTime time_fresnel(const ProbeDevice& device, int rounds) {
     Random random(1);
     Columns inputs(2);
     for (int i = 0; i < 1 << 20; ++i) {
@@ -167,9 +167,6 @@ const std::vector<StabilityCase>& dielectric_cases() {
         {"T06", "ThinSlab",
          "slabs of size 1: 1e-5 thick at the origin, 4 ULP of a coordinate thick 1000 away",
          "every ray meets both faces and nothing else", "a law", thin_slab},
-        {"T07", "WaterInGlass", "coinciding, overlapping and parted boundaries",
-         "products of Fresnel factors", "", nullptr,
-         "media that know what they lie in (a stack of priorities)"},
         {"T08", "StartInside", "the eye inside glass below a bright sky",
          "F and (1 - F) eta^2 by Fresnel and Snell",
          "4e-7 of F times eta^2, and a rounding of the cosine where F is steep", start_inside},

@@ -20,7 +20,7 @@ constexpr int NO_ROULETTE = 65535;
 const Integrator TREE_AND_PATH[] = {Integrator::WHITTED, Integrator::PATH};
 
 /// A white sky, deep paths.
-struct SkyScene : TestScene {
+struct SkyScene : ScratchScene {
     explicit SkyScene(int max_depth) {
         options.light.environment = dvec3(1);
         options.transport.max_depth = max_depth;
@@ -62,11 +62,11 @@ std::vector<TestRay> rays_to_origin(const PathProbe& probe, size_t count, double
 
 /// Rays from above straight through a slab of size 1.
 void meet_both_faces(CaseRun& run, double place, double thickness, Figure& lost) {
-    TestScene scene;
+    ScratchScene scene;
     scene.build.material("glass", "Ni 1.5\nillum 7").use("glass");
     scene.build.box({place - 0.5, place - 0.5, place}, {place + 0.5, place + 0.5, place + thickness});
     const Scene loaded = scene.load();
-    const RayDevice slab(loaded, BvhLayout::BVH8);
+    const RayDevice slab(run.device, loaded, BvhLayout::BVH8);
     Random random(4);
     std::vector<TestRay> rays;
     const size_t count = run.count(1e5, 1e6, 4e6);
@@ -134,7 +134,7 @@ void glass_slab(CaseRun& run) {
     Figure& tree = run.figure("|radiance - (1 - R) / (1 + R)|, tree of rays", 2e-6);
     // A slab reflects 0.04 twice: six standard errors are a third of what one surface reflects.
     MeanFigure paths(run, "paths", 2e-3);
-    TestScene scene;
+    ScratchScene scene;
     scene.build.material("glass", "Ni 1.5\nillum 7").material("lamp", "Kd 0 0 0\nKe 1 1 1");
     scene.build.use("glass").box({-60, -60, -0.5}, {60, 60, 0.5});
     scene.build.use("lamp").polygon({{-50, -50, -2}, {50, -50, -2}, {50, 50, -2}, {-50, 50, -2}});
@@ -159,7 +159,7 @@ void slab_shift(CaseRun& run) {
     const double offset = FLOAT_U * (4 * SIZE / 2 + 24 * SIZE); // surface_offset_bound
     Figure& shift = run.figure("|shift - closed form|", 8 * FLOAT_U * SIZE + 2 * offset);
     const RayDevice slab(
-        make_room({-SIZE / 2, -SIZE / 2, -THICKNESS / 2}, {SIZE / 2, SIZE / 2, THICKNESS / 2}),
+        run.device, make_room({-SIZE / 2, -SIZE / 2, -THICKNESS / 2}, {SIZE / 2, SIZE / 2, THICKNESS / 2}),
         BvhLayout::BVH8);
     std::vector<TestRay> rays, at;
     std::vector<dvec3> inside, outside;

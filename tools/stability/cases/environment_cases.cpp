@@ -28,8 +28,8 @@ Environment map_of(const EnvironmentImage& image) {
 }
 
 /// A floor of reflectance 1/2 under a map.
-PathProbe floor_under(const Device& device, const Environment& sky) {
-    TestScene scene;
+PathProbe floor_under(const ProbeDevice& device, const Environment& sky) {
+    ScratchScene scene;
     scene.build.material("floor", "Kd 0.5 0.5 0.5").use("floor").floor(1);
     scene.options.transport.max_depth = 2;
     scene.options.light.environment = dvec3(0);
@@ -124,18 +124,18 @@ void poles(CaseRun& run) {
     Figure& density = run.figure("|4 pi density - 1| of a map of ones", 16 * FLOAT_U);
     Figure& radiance = run.figure("radiances of it that are not 1", 0);
     Figure& bad = run.figure("densities at the poles that are no finite number > 0", 0);
-    static SceneProbe& probe = *[] {
-        auto* made = new SceneProbe({"lights/environment.h", "numerics/sampler.h"});
-        made->add("sample",
-                  "const LightSample s = environment_sample(scene, params, vector_make(REAL(0.0), REAL(0.0), "
-                  "REAL(1.0)), as_uint(a.x),"
-                  "as_uint(a.y), a.z); first = probe_vec4(s.wi, s.pdf_w); second = probe_vec4(s.radiance, "
-                  "environment_map_pdf_w(scene, params, s.wi));");
-        made->add("at", "first = probe_vec4(environment_eval(scene, params, vector_from(a)), "
-                        "environment_map_pdf_w(scene, "
-                        "params, vector_from(a)));");
+    auto& probe = run.device.once<SceneProbe>("sky", [&] {
+        SceneProbe made(run.device, {"lights/environment.h", "numerics/sampler.h"});
+        made.add("sample",
+                 "const LightSample s = environment_sample(scene, params, vector_make(REAL(0.0), REAL(0.0), "
+                 "REAL(1.0)), as_uint(a.x),"
+                 "as_uint(a.y), a.z); first = probe_vec4(s.wi, s.pdf_w); second = probe_vec4(s.radiance, "
+                 "environment_map_pdf_w(scene, params, s.wi));");
+        made.add("at", "first = probe_vec4(environment_eval(scene, params, vector_from(a)), "
+                       "environment_map_pdf_w(scene, "
+                       "params, vector_from(a)));");
         return made;
-    }();
+    });
     for (const int height : {1, 2, 16, 512}) {
         Scene scene;
         scene.environment = map_of(even_image(2 * height, height, 1));

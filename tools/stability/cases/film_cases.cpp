@@ -118,8 +118,8 @@ void compare_films(Worst& worst, const Film& whole, const Film& parts, const std
 }
 
 /// The film of a render that is cut: by `windows` and by ranges of samples.
-Film render_in_parts(const Scene& scene, Options options, const std::vector<Crop>& windows,
-                     const std::vector<u32>& range_lengths) {
+Film render_in_parts(const ProbeDevice& device, const Scene& scene, Options options,
+                     const std::vector<Crop>& windows, const std::vector<u32>& range_lengths) {
     Film whole;
     whole.width = options.film.size.x;
     whole.height = options.film.size.y;
@@ -132,7 +132,7 @@ Film render_in_parts(const Scene& scene, Options options, const std::vector<Crop
         first += length;
         for (const Crop& window : windows) {
             options.film.crop = window;
-            const Film part = render_loaded(scene, options).film;
+            const Film part = render_loaded(device, scene, options).film;
             const size_t row = size_t(part.width) * 3;
             for (size_t i = 0; i < part.sums.size(); ++i) {
                 const size_t line = i / row, replicate = line / size_t(part.height),
@@ -159,14 +159,15 @@ void partition(CaseRun& run) {
             continue;
         Options options = subject.options;
         options.device.precision = precision_of(build);
-        const Film whole = render_loaded(scene, options).film;
+        const Film whole = render_loaded(run.device, scene, options).film;
         const Crop all{0, 0, 37, 29};
         compare_films(differing[build], whole,
-                      render_in_parts(scene, options, {all}, {1, 5, 1, 10, spp - 17}), "five ranges");
-        compare_films(
-            differing[build], whole,
-            render_in_parts(scene, options, {{0, 0, 13, 29}, {13, 0, 37, 1}, {13, 1, 37, 29}}, {spp}),
-            "three windows");
+                      render_in_parts(run.device, scene, options, {all}, {1, 5, 1, 10, spp - 17}),
+                      "five ranges");
+        compare_films(differing[build], whole,
+                      render_in_parts(run.device, scene, options,
+                                      {{0, 0, 13, 29}, {13, 0, 37, 1}, {13, 1, 37, 29}}, {spp}),
+                      "three windows");
     }
 }
 
@@ -190,7 +191,7 @@ void full_film(CaseRun& run) {
 
 /// Addresses of random numbers around the first and the last sample number.
 void count_repeated_numbers(Figure& figure, CaseRun& run) {
-    KernelProbe probe(run.device, {"numerics/sampler.h"}, {}, kernels_under_test());
+    KernelProbe probe(run.device, {"numerics/sampler.h"});
     const auto add = [&](const char* name, const char* component) {
         probe.add<u32(u32)>(name, fmt::format("Sampler s = sampler_make(0u, 7u, a % 8u, a / 8u);"
                                               "out = sampler_pair_words(&s, 0u, SAMPLE_FILM).{};",
@@ -222,11 +223,11 @@ void last_samples(CaseRun& run) {
     options.sampling.first_sample = UINT32_MAX - 40;
     options.sampling.spp = 40;
     const Scene scene = subject.load();
-    const Film whole = render_loaded(scene, options).film;
+    const Film whole = render_loaded(run.device, scene, options).film;
     compare_films(differing[Build::SINGLE], whole,
-                  render_in_parts(scene, options, {{0, 0, 16, 8}}, {7, 1, 32}), "ranges");
+                  render_in_parts(run.device, scene, options, {{0, 0, 16, 8}}, {7, 1, 32}), "ranges");
     options.sampling.spp = 1000;
-    const Render refused = render_loaded(scene, options);
+    const Render refused = render_loaded(run.device, scene, options);
     const std::uint64_t end = refused.film.ranges.back().end;
     beyond[Build::SINGLE].see(end > UINT32_MAX ? double(end - UINT32_MAX) : 0,
                               [&] { return fmt::format("ends at {}", end); });
@@ -237,22 +238,22 @@ void last_samples(CaseRun& run) {
 
 namespace {
 
-ProbeTime time_against(const Device& device, SumKind naive, int rounds) {
+ProbeTime time_against(const ProbeDevice& device, SumKind naive, int rounds) {
     return FilmBench(device, noisy_series(1 << 13, 100), 100.5).time_film_against(naive, rounds);
 }
 
 } // namespace
 
-ProbeTime time_film_plain(const Device& device, int rounds) {
+ProbeTime time_film_plain(const ProbeDevice& device, int rounds) {
     return time_against(device, SumKind::PLAIN, rounds);
 }
-ProbeTime time_film_blocks(const Device& device, int rounds) {
+ProbeTime time_film_blocks(const ProbeDevice& device, int rounds) {
     return time_against(device, SumKind::BLOCKS, rounds);
 }
-ProbeTime time_film_double(const Device& device, int rounds) {
+ProbeTime time_film_double(const ProbeDevice& device, int rounds) {
     return time_against(device, SumKind::DOUBLE, rounds);
 }
-ProbeTime time_film_guard(const Device& device, int rounds) {
+ProbeTime time_film_guard(const ProbeDevice& device, int rounds) {
     return time_against(device, SumKind::UNGUARDED, rounds);
 }
 
@@ -274,8 +275,6 @@ const std::vector<StabilityCase>& film_cases() {
         {"A04", "Partition", "a scene of all effects in five ranges of samples and in three windows",
          "the same render in one run", "sums are integers: no order of samples, windows or launches may show",
          partition},
-        {"A05", "Splats", "1e8 equal splats on one pixel", "exact sum", "", nullptr,
-         "an integrator that splats: light tracing, bidirectional or Metropolis"},
         {"A06", "LastSamples", "sample numbers up to 2^32 - 2 and runs that would go on",
          "one run; pairs of 64 bits never repeat",
          "numbers of samples have 32 bits; what is beyond is refused, not wrapped", last_samples},

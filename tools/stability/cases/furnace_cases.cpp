@@ -19,7 +19,7 @@ using glm::dvec3;
 constexpr int NO_ROULETTE = 65535;
 
 /// Closed walls that glow and reflect.
-struct Furnace : TestScene {
+struct Furnace : ScratchScene {
     Furnace(double reflectance, double glow, int max_depth) {
         build.material("wall", fmt::format("Kd {0} {0} {0}\nKe {1} {1} {1}", reflectance, glow)).use("wall");
         options.transport.max_depth = max_depth;
@@ -110,7 +110,7 @@ void shapes(CaseRun& run) {
 void facing_mirrors(CaseRun& run) {
     constexpr double STEP = 0.01, LENGTH = 1000 * STEP;
     Figure& error = run.figure("relative error of 0.999^1000", 1000 * 2 * FLOAT_U);
-    TestScene scene;
+    ScratchScene scene;
     scene.build.material("mirror", "Kd 0 0 0\nKs 0.999 0.999 0.999\nillum 3").use("mirror");
     scene.build.polygon({{0, -1, 0}, {LENGTH, -1, 0}, {LENGTH, 1, 0}, {0, 1, 0}});
     scene.build.polygon({{0, 1, 1}, {LENGTH, 1, 1}, {LENGTH, -1, 1}, {0, -1, 1}});
@@ -151,7 +151,7 @@ void roulette(CaseRun& run) {
 /// Radiance of a floor below a point light of intensity R^2 at height R, and of a ball of radius R around
 /// one.
 double lit(const CaseRun& run, Build build, double size, bool is_ball) {
-    TestScene scene;
+    ScratchScene scene;
     scene.build.material("wall", "Kd 0.5 0.5 0.5").use("wall");
     scene.options.transport.roulette_depth = NO_ROULETTE;
     scene.options.transport.max_depth = is_ball ? 32 : 2;
@@ -190,8 +190,6 @@ const std::vector<StabilityCase>& furnace_cases() {
          by_bsdf_sampling},
         {"F02", "LightSampling", "the same with light sampling and multiple importance sampling", "1",
          "noise: corners of flat triangles see each other unevenly", by_light_sampling},
-        {"F03", "Bidirectional", "every way to make a path of k scatterings", "Le kd^k", "", nullptr,
-         "bidirectional path tracing"},
         {"F04", "Shapes", "a cube, a ball, a blob of 2e4 triangles that glow", "1 for every path",
          "a law: a path that loses light has left", shapes},
         {"F05", "EveryBsdf", "every BSDF under a white sky, a lattice of random numbers",
@@ -203,7 +201,6 @@ const std::vector<StabilityCase>& furnace_cases() {
          "two roundings a reflection", facing_mirrors},
         {"F07", "Roulette", "walls that reflect 0.99, roulette from the first vertex", "1",
          "noise; lengths have a geometric distribution of mean 100", roulette},
-        {"F08", "LightTracing", "the sum of splats", "the captured flux", "", nullptr, "light tracing"},
         {"F09", "InverseSquare", "a point light of intensity R^2 at distance R, R from 1e-3 to 1e3",
          "I kd / (pi R^2), in a ball over 1 - kd",
          "a dozen roundings under a lamp; in balls a path whose hit falls to the neighbouring facet changes; "

@@ -30,7 +30,7 @@ void grazed_plane(CaseRun& run) {
             angles.push_back(angle);
         }
         for (const Build build : run.builds()) {
-            const RayDevice device(scene, ray_options(build, plain_triangles()));
+            const RayDevice device(run.device, scene, ray_options(build, plain_triangles(run.device)));
             const std::vector<TestHit> hits = device.closest(rays);
             for (size_t i = 0; i < rays.size(); ++i) {
                 const vec4 &o = rays[i].origin, &d = rays[i].direction;

@@ -68,19 +68,17 @@ using Found = std::vector<std::vector<double>>;
 
 /// One program a build serves all cases that have pairs.
 Found run_pairs(const CaseRun& run, Build build, const Pairs& pairs) {
-    // Never freed, like the device that it refers to.
-    static auto* const probes = [&] {
-        auto* made = new ProbeSet(
-            run.device, {"geometry/triangle.h"},
-            {{"triangle", 15, 4,
-              "probe_triangle((real3)(a, b, c), (real3)(d, e, f), (real3)(g, h, j), (real3)(k, l, m), "
-              "(real3)(n, o, p), out);",
-              ""}},
-            TEXT);
-        made->use_naive_kernels(plain_triangles().files);
+    auto& probes = run.device.once<ProbeSet>("triangles", [&] {
+        ProbeSet made(run.device, {"geometry/triangle.h"},
+                      {{"triangle", 15, 4,
+                        "probe_triangle((real3)(a, b, c), (real3)(d, e, f), (real3)(g, h, j), "
+                        "(real3)(k, l, m), (real3)(n, o, p), out);",
+                        ""}},
+                      TEXT);
+        made.use_naive_kernels(plain_triangles(run.device).files);
         return made;
-    }();
-    return probes->run(build, "triangle", pairs.columns);
+    });
+    return probes.run(build, "triangle", pairs.columns);
 }
 
 /// A triangle as seen along a ray, in double.
@@ -280,8 +278,9 @@ void far_ball(CaseRun& run) {
         }
         for (const Build build : run.builds())
             for_each_tree(
-                build, plain_triangles(), [&](const RayDeviceOptions& options, const std::string& tree) {
-                    const std::vector<TestHit> hits = RayDevice(ball, options).closest(rays);
+                build, plain_triangles(run.device),
+                [&](const RayDeviceOptions& options, const std::string& tree) {
+                    const std::vector<TestHit> hits = RayDevice(run.device, ball, options).closest(rays);
                     for (size_t i = 0; i < rays.size(); ++i) {
                         const auto describe = [&] {
                             return fmt::format("from {}, {}: {}", distance, tree, ray_text(rays[i]));
@@ -313,7 +312,7 @@ void planet(CaseRun& run) {
     Figure& depth = run.figure("|dt| cos, of the facet's offset bound", 1);
     Figure& again = run.figure("rays that leave the body and meet it", 0);
     for (const Build build : run.builds()) {
-        const RayDevice device(scene, ray_options(build, plain_offsets()));
+        const RayDevice device(run.device, scene, ray_options(build, plain_offsets(run.device)));
         const Arrivals from = arrivals(device, rays);
         const std::vector<TestPoint> points = device.points(from.rays, from.hits);
         for (size_t i = 0; i < from.rays.size(); ++i) {

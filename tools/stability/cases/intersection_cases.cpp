@@ -28,9 +28,10 @@ void hold_rays(CaseRun& run, const Scene& mesh, double inner, Aim aim) {
             const Scene scene = in_frame ? normalised(in_world) : in_world;
             const std::vector<TestRay> rays = aimed_rays(scene, inner, aim, count, 7);
             for (const Build build : run.builds())
-                for_each_tree(build, plain_triangles(),
+                for_each_tree(build, plain_triangles(run.device),
                               [&](const RayDeviceOptions& options, const std::string& tree) {
-                                  const std::vector<TestHit> hits = RayDevice(scene, options).closest(rays);
+                                  const std::vector<TestHit> hits =
+                                      RayDevice(run.device, scene, options).closest(rays);
                                   for (size_t i = 0; i < rays.size(); ++i)
                                       lost[build].count(hits[i].triangle == NO_INDEX, [&] {
                                           return fmt::format("{}{}, {}: {}", placement.name,
@@ -86,12 +87,13 @@ void face_planes(CaseRun& run) {
     const Scene room = make_room({-1, -1, -1}, {1, 1, 1});
     Figure& lost = run.figure("axis-parallel rays lost in a box", 0);
     for (const Build build : run.builds())
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const std::vector<TestHit> hits = RayDevice(room, options).closest(rays);
-            for (size_t i = 0; i < rays.size(); ++i)
-                lost[build].count(hits[i].triangle == NO_INDEX,
-                                  [&] { return tree + ": " + ray_text(rays[i]); });
-        });
+        for_each_tree(
+            build, plain_boxes(run.device), [&](const RayDeviceOptions& options, const std::string& tree) {
+                const std::vector<TestHit> hits = RayDevice(run.device, room, options).closest(rays);
+                for (size_t i = 0; i < rays.size(); ++i)
+                    lost[build].count(hits[i].triangle == NO_INDEX,
+                                      [&] { return tree + ": " + ray_text(rays[i]); });
+            });
 }
 
 void flat_boxes(CaseRun& run) {
@@ -104,17 +106,18 @@ void flat_boxes(CaseRun& run) {
     Figure& distance =
         run.figure("|dt| / t", (run.device.info.correctly_rounded_division ? 13 : 21) * FLOAT_U);
     for (const Build build : run.builds())
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const std::vector<TestHit> hits = RayDevice(grid, options).closest(rays);
-            for (size_t i = 0; i < rays.size(); ++i) {
-                const auto describe = [&] { return tree + ": " + ray_text(rays[i]); };
-                const bool missed = hits[i].triangle == NO_INDEX;
-                lost[build].count(missed, describe);
-                const double t = -double(rays[i].origin.y) / rays[i].direction.y;
-                if (!missed)
-                    distance[build].see(std::abs(hits[i].t - t) / t, describe);
-            }
-        });
+        for_each_tree(
+            build, plain_boxes(run.device), [&](const RayDeviceOptions& options, const std::string& tree) {
+                const std::vector<TestHit> hits = RayDevice(run.device, grid, options).closest(rays);
+                for (size_t i = 0; i < rays.size(); ++i) {
+                    const auto describe = [&] { return tree + ": " + ray_text(rays[i]); };
+                    const bool missed = hits[i].triangle == NO_INDEX;
+                    lost[build].count(missed, describe);
+                    const double t = -double(rays[i].origin.y) / rays[i].direction.y;
+                    if (!missed)
+                        distance[build].see(std::abs(hits[i].t - t) / t, describe);
+                }
+            });
 }
 
 /// Rays towards the origin with one component replaced by each of the values.
@@ -148,18 +151,20 @@ void bad_rays(CaseRun& run) {
     Figure& hits = run.figure("bad rays that hit", 0);
     Figure& slowness = run.figure("time over that of good rays", 2.5);
     for (const Build build : robust_builds(run))
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const RayDevice device(ball, options);
-            const std::vector<TestHit> found = device.closest(rays);
-            const std::vector<u32> any = device.any(rays);
-            for (size_t i = 0; i < rays.size(); ++i)
-                hits[build].count(found[i].triangle != NO_INDEX || any[i],
-                                  [&] { return tree + ": " + ray_text(rays[i]); });
-            if (options.quality == BvhQuality::FAST)
-                slowness[build].see(
-                    time_in_turns(device.tracer(good), device.tracer(rays), rays.size(), 5).ratio,
-                    [&] { return tree; });
-        });
+        for_each_tree(build, plain_boxes(run.device),
+                      [&](const RayDeviceOptions& options, const std::string& tree) {
+                          const RayDevice device(run.device, ball, options);
+                          const std::vector<TestHit> found = device.closest(rays);
+                          const std::vector<u32> any = device.any(rays);
+                          for (size_t i = 0; i < rays.size(); ++i)
+                              hits[build].count(found[i].triangle != NO_INDEX || any[i],
+                                                [&] { return tree + ": " + ray_text(rays[i]); });
+                          if (options.quality == BvhQuality::FAST)
+                              slowness[build].see(time_in_turns(run.device, device.tracer(good),
+                                                                device.tracer(rays), rays.size(), 5)
+                                                      .ratio,
+                                                  [&] { return tree; });
+                      });
 }
 
 } // namespace
@@ -168,37 +173,38 @@ void count_tree_differences(CaseRun& run, const Scene& scene, const std::vector<
                             const std::string& name, Figure& differences) {
     for (const Build build : run.builds()) {
         std::vector<TestHit> all;
-        for_each_tree(build, plain_boxes(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            const RayDevice device(scene, options);
-            if (all.empty())
-                all = device.closest_of_all(rays);
-            const std::vector<TestHit> found = device.closest(rays);
-            for (size_t i = 0; i < rays.size(); ++i)
-                differences[build].count(found[i] != all[i], [&] {
-                    return fmt::format("{}, {}: {}", name, tree, ray_text(rays[i]));
-                });
-        });
+        for_each_tree(build, plain_boxes(run.device),
+                      [&](const RayDeviceOptions& options, const std::string& tree) {
+                          const RayDevice device(run.device, scene, options);
+                          if (all.empty())
+                              all = device.closest_of_all(rays);
+                          const std::vector<TestHit> found = device.closest(rays);
+                          for (size_t i = 0; i < rays.size(); ++i)
+                              differences[build].count(found[i] != all[i], [&] {
+                                  return fmt::format("{}, {}: {}", name, tree, ray_text(rays[i]));
+                              });
+                      });
     }
 }
 
 namespace {
 
 /// Times the kernels of a variant against clrt's on rays through a soup.
-ProbeTime time_variant(const KernelVariant& variant, int rounds) {
+ProbeTime time_variant(const ProbeDevice& device, const KernelVariant& variant, int rounds) {
     const Scene soup = make_soup(100000, 0.05, 4);
     const std::vector<TestRay> rays = rays_at(soup, 1 << 17, 1);
-    const RayDevice naive(soup, ray_options(Build::NAIVE, variant)),
-        single(soup, ray_options(Build::SINGLE, variant));
-    return time_in_turns(naive.tracer(rays), single.tracer(rays), rays.size(), rounds);
+    const RayDevice naive(device, soup, ray_options(Build::NAIVE, variant)),
+        single(device, soup, ray_options(Build::SINGLE, variant));
+    return time_in_turns(device, naive.tracer(rays), single.tracer(rays), rays.size(), rounds);
 }
 
 } // namespace
 
-ProbeTime time_edge_test(const Device&, int rounds) {
-    return time_variant(plain_triangles(), rounds);
+ProbeTime time_edge_test(const ProbeDevice& device, int rounds) {
+    return time_variant(device, plain_triangles(device), rounds);
 }
-ProbeTime time_slab(const Device&, int rounds) {
-    return time_variant(plain_boxes(), rounds);
+ProbeTime time_slab(const ProbeDevice& device, int rounds) {
+    return time_variant(device, plain_boxes(device), rounds);
 }
 
 const std::vector<StabilityCase>& intersection_cases() {

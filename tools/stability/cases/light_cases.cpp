@@ -24,7 +24,7 @@ const ProbedExpression MIS = {
     "const real a2 = a * a, b2 = b * b; out[0] = a2 / (a2 + b2); out[1] = b2 / (a2 + b2);"};
 
 /// A matte floor of reflectance 1/2, light by one reflection.
-struct FloorScene : TestScene {
+struct FloorScene : ScratchScene {
     FloorScene() {
         build.material("floor", "Kd 0.5 0.5 0.5").use("floor").floor(1);
         options.transport.max_depth = 2;
@@ -101,7 +101,7 @@ void in_the_lamps_plane(CaseRun& run) {
         const dvec3 x = is_tilted ? glm::normalize(dvec3(0.8, 0.37, 0.1)) : dvec3(1, 0, 0);
         const dvec3 z = is_tilted ? glm::normalize(glm::cross(x, dvec3(0.2, 0.9, -0.3))) : dvec3(0, 0, 1),
                     up = glm::cross(z, x);
-        TestScene scene;
+        ScratchScene scene;
         scene.options.transport.max_depth = 2;
         scene.build.material("floor", "Kd 0.5 0.5 0.5").material("lamp", "Kd 0 0 0\nKe 0 1 0");
         scene.build.use("floor").polygon({z, x + z, x - z, -z}).use("lamp").polygon({dvec3(0), -z, -x});
@@ -152,7 +152,7 @@ void all_powers(CaseRun& run) {
 }
 
 void mis_grid(CaseRun& run) {
-    ProbeSet probes(run.device, {"path/mis.h"}, {MIS});
+    ProbeSet probes(run.device, {"numerics/mis.h"}, {MIS});
     Figure& sum = run.figure("|w_a + w_b - 1|", 4 * FLOAT_U);
     Figure& error = run.figure("|w_a - a^2 / (a^2 + b^2)|", 4 * FLOAT_U);
     Figure& bad = run.figure("weights outside [0, 1] with a density of 0 or infinity", 0);
@@ -193,7 +193,7 @@ void mis_grid(CaseRun& run) {
 void light_in_a_box(CaseRun& run) {
     Figure& leaks = run.figure("paths from outside that see the light", 0);
     Figure& edges = run.figure("share of paths to edges and corners that do", 0);
-    TestScene scene;
+    ScratchScene scene;
     scene.build.material("wall", "Kd 0.8 0.8 0.8").material("lamp", "Kd 0 0 0\nKe 1e6 1e6 1e6");
     scene.build.use("wall")
         .floor(4, -1.5)
@@ -271,14 +271,14 @@ void delta_lights(CaseRun& run) {
 
 } // namespace
 
-ProbeTime time_mis_weight(const Device& device, int rounds) {
+ProbeTime time_mis_weight(const ProbeDevice& device, int rounds) {
     Random random(1);
     Columns inputs(2);
     for (int i = 0; i < 1 << 20; ++i) {
         inputs[0].push_back(float(random.between(0.01, 10)));
         inputs[1].push_back(float(random.between(0.01, 10)));
     }
-    return ProbeSet(device, {"path/mis.h"}, {MIS}).time("mis", inputs, rounds);
+    return ProbeSet(device, {"numerics/mis.h"}, {MIS}).time("mis", inputs, rounds);
 }
 
 const std::vector<StabilityCase>& light_cases() {
@@ -294,8 +294,6 @@ const std::vector<StabilityCase>& light_cases() {
          in_the_lamps_plane},
         {"L04", "DarkLights", "lamps without area or power among 1e4",
          "never chosen, by enumeration of the table", "a law", dark_lights},
-        {"L05", "SphereLight", "R / d from 1e-6 to 0.999999, and from inside", "pi L (R / d)^2 cos", "",
-         nullptr, "lights that are spheres"},
         {"L06", "SolidAngle", "triangles from 1e-10 to 6.2 sr, seen at 75 degrees at most",
          "van Oosterom and Strackee in double",
          "a triangle below 3e-4 sr at a distance of 1 has edges of few roundings; the sum of the angles less "

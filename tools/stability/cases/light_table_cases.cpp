@@ -112,7 +112,7 @@ void many_lights(CaseRun& run) {
     }
 }
 
-ProbeTime time_light_choice(const Device& device, int rounds) {
+ProbeTime time_light_choice(const ProbeDevice& device, int rounds) {
     const std::vector<double> weights = powers(TABLE_SIZE);
     const AliasTable table = build_alias_table(weights);
     const double whole = std::accumulate(weights.begin(), weights.end(), 0.0);

@@ -59,10 +59,10 @@ const ProbedExpression PAIR = {"pair", 4, 4,
                                "out[0] = (real)(p.x >> 16); out[1] = (real)(p.x & 0xffffu); out[2] = "
                                "(real)(p.y >> 16); out[3] = (real)(p.y & 0xffffu);"};
 
-ProbeSet& number_probes(const Device& device) {
-    static auto* const probes =
-        new ProbeSet(device, {"numerics/frame.h", "numerics/sampler.h"}, {FRAME, UNIT, STREAM, PAIR});
-    return *probes;
+ProbeSet& number_probes(const ProbeDevice& device) {
+    return device.once<ProbeSet>("numbers", [&] {
+        return ProbeSet(device, {"numerics/frame.h", "numerics/sampler.h"}, {FRAME, UNIT, STREAM, PAIR});
+    });
 }
 
 u32 word_of(const std::vector<std::vector<double>>& outputs, size_t first, size_t i) {
@@ -214,14 +214,14 @@ void nets(CaseRun& run) {
     }
 }
 
-ProbeTime time_uniforms(const Device& device, int rounds) {
+ProbeTime time_uniforms(const ProbeDevice& device, int rounds) {
     std::vector<float> upper(1u << 20);
     for (size_t i = 0; i < upper.size(); ++i)
         upper[i] = float(i * 16);
     return number_probes(device).time("unit", {upper}, rounds);
 }
 
-ProbeTime time_frames(const Device& device, int rounds) {
+ProbeTime time_frames(const ProbeDevice& device, int rounds) {
     return number_probes(device).time("frame", normals(1u << 20), rounds);
 }
 

@@ -18,12 +18,13 @@ namespace clrt {
 namespace {
 
 /// Calls `trace` with every layout in single, else with the eight-wide tree.
-void for_each_layout(Build build,
+void for_each_layout(const CaseRun& run, Build build,
                      const std::function<void(const RayDeviceOptions&, const std::string&)>& trace) {
-    for_each_tree(build, plain_offsets(), [&](const RayDeviceOptions& options, const std::string& tree) {
-        if (options.quality == BvhQuality::FAST)
-            trace(options, tree);
-    });
+    for_each_tree(build, plain_offsets(run.device),
+                  [&](const RayDeviceOptions& options, const std::string& tree) {
+                      if (options.quality == BvhQuality::FAST)
+                          trace(options, tree);
+                  });
 }
 
 /// Lets rays leave where they arrive and counts those that are stopped.
@@ -58,8 +59,8 @@ void own_triangle(CaseRun& run) {
             rays.push_back(
                 make_ray_to(random.in_cube(2 * extent), point_on(scene, scene.triangles[0], random)));
         for (const Build build : run.builds())
-            for_each_layout(build, [&](const RayDeviceOptions& options, const std::string& tree) {
-                const RayDevice device(scene, options);
+            for_each_layout(run, build, [&](const RayDeviceOptions& options, const std::string& tree) {
+                const RayDevice device(run.device, scene, options);
                 count_stopped(scene, device, arrivals(device, rays), 16, u32(k), tree, stopped[build]);
             });
     }
@@ -82,8 +83,8 @@ void tessellated_plane(CaseRun& run) {
             rays.push_back(make_ray_to(random.in_cube(2 * size), target));
         }
         for (const Build build : run.builds())
-            for_each_layout(build, [&](const RayDeviceOptions& options, const std::string& tree) {
-                const RayDevice device(scene, options);
+            for_each_layout(run, build, [&](const RayDeviceOptions& options, const std::string& tree) {
+                const RayDevice device(run.device, scene, options);
                 count_stopped(scene, device, arrivals(device, rays), 2, 2,
                               fmt::format("size {}, {}", size, tree), stopped[build]);
             });
@@ -105,8 +106,8 @@ void convex_body(CaseRun& run) {
             make_ray_to(target + 2.0 * random.unit() * triangle_normal(scene, triangle) * 4096.0, target));
     }
     for (const Build build : run.builds())
-        for_each_layout(build, [&](const RayDeviceOptions& options, const std::string& tree) {
-            const RayDevice device(scene, options);
+        for_each_layout(run, build, [&](const RayDeviceOptions& options, const std::string& tree) {
+            const RayDevice device(run.device, scene, options);
             count_stopped(scene, device, arrivals(device, rays), 2, 3, tree, stopped[build]);
         });
 }
@@ -126,7 +127,7 @@ void offset_size(CaseRun& run) {
             hits.push_back({1, 0.25, 0.25, i});
         }
         for (const Build build : run.builds()) {
-            const RayDevice device(scene, ray_options(build, plain_offsets()));
+            const RayDevice device(run.device, scene, ray_options(build, plain_offsets(run.device)));
             const std::vector<TestPoint> points = device.points(rays, hits);
             const std::vector<TestRay> away = device.leaving(rays, hits, outward);
             for (size_t i = 0; i < rays.size(); ++i) {
@@ -166,8 +167,8 @@ void thin_gap(CaseRun& run) {
             up.push_back(leaving_direction(n, rays.back(), random.between(0.02, 1), random));
         }
         for (const Build build : run.builds())
-            for_each_layout(build, [&](const RayDeviceOptions& options, const std::string& tree) {
-                const RayDevice device(scene, options);
+            for_each_layout(run, build, [&](const RayDeviceOptions& options, const std::string& tree) {
+                const RayDevice device(run.device, scene, options);
                 const std::vector<TestHit> found = device.closest(device.leaving(rays, hits, up));
                 for (size_t i = 0; i < found.size(); ++i)
                     lost[build].count(found[i].triangle != 2 && found[i].triangle != 3, [&] {
@@ -179,13 +180,13 @@ void thin_gap(CaseRun& run) {
 
 } // namespace
 
-ProbeTime time_offset(const Device&, int rounds) {
+ProbeTime time_offset(const ProbeDevice& device, int rounds) {
     const Scene ball = make_ball(256, 256);
     std::vector<TestRay> rays = aimed_rays(ball, BALL_INNER, Aim::EDGE, 1 << 18, 1);
-    const RayDevice naive(ball, ray_options(Build::NAIVE, plain_offsets()));
-    const RayDevice single(ball, ray_options(Build::SINGLE, plain_offsets()));
+    const RayDevice naive(device, ball, ray_options(Build::NAIVE, plain_offsets(device)));
+    const RayDevice single(device, ball, ray_options(Build::SINGLE, plain_offsets(device)));
     const Arrivals from = arrivals(single, rays);
-    return time_in_turns(naive.leaver(from.rays, from.hits), single.leaver(from.rays, from.hits),
+    return time_in_turns(device, naive.leaver(from.rays, from.hits), single.leaver(from.rays, from.hits),
                          from.rays.size(), rounds);
 }
 

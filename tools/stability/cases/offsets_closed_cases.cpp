@@ -4,7 +4,7 @@
 #include "stability/cases/offsets_cases.h"
 #include "stability/cases/ray_builds.h"
 #include "support/leaving_rays.h"
-#include "support/render_scene.h"
+#include "support/scratch_scene.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -16,29 +16,31 @@ void count_escapes(const CaseRun& run, const Scene& room, size_t paths, const st
                    Figure& escapes) {
     constexpr int BOUNCES = 5;
     for (const Build build : run.builds())
-        for_each_tree(build, plain_offsets(), [&](const RayDeviceOptions& options, const std::string& tree) {
-            if (options.quality != BvhQuality::FAST)
-                return;
-            const RayDevice device(room, options);
-            Random random(4);
-            std::vector<TestRay> rays = rays_in_room(room, paths, random);
-            for (int bounce = 0;; ++bounce) {
-                const std::vector<TestHit> hits = device.closest(rays);
-                Arrivals from;
-                for (size_t i = 0; i < rays.size(); ++i) {
-                    const bool out = hits[i].triangle == NO_INDEX;
-                    escapes[build].count(
-                        out, [&] { return fmt::format("{}, {}: {}", name, tree, ray_text(rays[i])); });
-                    if (!out) {
-                        from.rays.push_back(rays[i]);
-                        from.hits.push_back(hits[i]);
-                    }
-                }
-                if (bounce == BOUNCES)
-                    break;
-                rays = leave_at_random(room, device, from, random);
-            }
-        });
+        for_each_tree(build, plain_offsets(run.device),
+                      [&](const RayDeviceOptions& options, const std::string& tree) {
+                          if (options.quality != BvhQuality::FAST)
+                              return;
+                          const RayDevice device(run.device, room, options);
+                          Random random(4);
+                          std::vector<TestRay> rays = rays_in_room(room, paths, random);
+                          for (int bounce = 0;; ++bounce) {
+                              const std::vector<TestHit> hits = device.closest(rays);
+                              Arrivals from;
+                              for (size_t i = 0; i < rays.size(); ++i) {
+                                  const bool out = hits[i].triangle == NO_INDEX;
+                                  escapes[build].count(out, [&] {
+                                      return fmt::format("{}, {}: {}", name, tree, ray_text(rays[i]));
+                                  });
+                                  if (!out) {
+                                      from.rays.push_back(rays[i]);
+                                      from.hits.push_back(hits[i]);
+                                  }
+                              }
+                              if (bounce == BOUNCES)
+                                  break;
+                              rays = leave_at_random(room, device, from, random);
+                          }
+                      });
 }
 
 namespace {
@@ -77,7 +79,7 @@ void shadow_ray_ends(CaseRun& run) {
     Figure& hidden = run.figure("samples in which the light hides itself", 0);
     Figure& seen = run.figure("samples that see it through the blocker", 0);
     for (const bool blocked : {false, true}) {
-        TestScene text;
+        ScratchScene text;
         text.build.material("matte", "Kd 0.5 0.5 0.5").material("lamp", "Kd 0 0 0\nKe 1 1 1");
         const glm::dvec3 a(-0.5, 1, 0.6), b(0.7, 1.3, 0.4), c(0.1, 1.2, -0.7),
             n = glm::normalize(glm::cross(b - a, c - a));
@@ -110,7 +112,8 @@ void shadow_ray_ends(CaseRun& run) {
         }
         for (const Build build : run.builds()) {
             const std::vector<u32> light =
-                RayDevice(scene, ray_options(build, plain_offsets())).lights_seen(rays, hits, numbers);
+                RayDevice(run.device, scene, ray_options(build, plain_offsets(run.device)))
+                    .lights_seen(rays, hits, numbers);
             for (size_t i = 0; i < light.size(); ++i) {
                 const auto describe = [&] { return fmt::format("weights {}, {}", hits[i].b1, hits[i].b2); };
                 if (!blocked)
@@ -131,10 +134,11 @@ struct BallUnderTheSun {
     double rms = 0;
 };
 
-BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, const std::string& kernels) {
+BallUnderTheSun ball_under_the_sun(const CaseRun& run, int subdivisions, Integrator integrator,
+                                   const std::string& kernels) {
     const double distance = 8, half_angle = 8.0;
     const glm::dvec3 sun = glm::normalize(glm::dvec3(1, 0.4, -0.2));
-    TestScene scene;
+    ScratchScene scene;
     scene.build.material("m", "Kd 1 1 1")
         .use("m")
         .icosphere({0, 0, 0}, 1, subdivisions, Facing::OUTWARD, Shading::SMOOTH);
@@ -145,7 +149,7 @@ BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, cons
     scene.options.transport.integrator = integrator;
     scene.options.device.kernels_folder = kernels;
     scene.look({0, 0, distance}, {0, 0, 0}, 2 * half_angle);
-    const std::vector<float> picture = film_mean(scene.render().film);
+    const std::vector<float> picture = film_mean(scene.render(run.device).film);
     BallUnderTheSun result;
     double squares = 0;
     for (int y = 0; y < 64; ++y)
@@ -171,7 +175,7 @@ BallUnderTheSun ball_under_the_sun(int subdivisions, Integrator integrator, cons
 
 void shadow_terminator(CaseRun& run) {
     ScratchFolder folder;
-    KernelFiles flat = kernels_under_test();
+    KernelFiles flat = run.device.kernels();
     replace_in_kernel(flat, "geometry/surface.h", "if (nearest >= SURFACE_FLAT_COS)", "if (true)");
     write_kernel_files(flat, folder.file("flat"));
     Figure& black = run.figure("black pixels with cos > 0.05", 0);
@@ -184,7 +188,7 @@ void shadow_terminator(CaseRun& run) {
                 if (build == Build::NAIVE && integrator != Integrator::WHITTED)
                     continue; // the same geometry
                 const BallUnderTheSun ball = ball_under_the_sun(
-                    subdivisions, integrator, build == Build::NAIVE ? folder.file("flat") : "");
+                    run, subdivisions, integrator, build == Build::NAIVE ? folder.file("flat") : "");
                 const auto describe = [&] { return integrator == Integrator::PATH ? "path" : "whitted"; };
                 for (int i = 0; i < ball.pixels; ++i)
                     black[build].count(i < ball.black, describe);

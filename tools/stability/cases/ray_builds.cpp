@@ -2,31 +2,33 @@
 #include "stability/cases/ray_builds.h"
 
 #include "naive/naive_kernels.h"
+#include "stability/probe_set.h"
 
 #include <fmt/format.h>
 
 namespace clrt {
 
-const KernelVariant& plain_triangles() {
-    static const KernelVariant variant = {"plain triangles", with_naive(kernels_under_test(), true, false)};
-    return variant;
+const KernelVariant& plain_triangles(const ProbeDevice& device) {
+    return device.once<KernelVariant>("plain triangles", [&] {
+        return KernelVariant{"plain triangles", with_naive(device.kernels(), true, false)};
+    });
 }
 
-const KernelVariant& plain_boxes() {
-    static const KernelVariant variant = {"plain boxes", with_naive(kernels_under_test(), false, true)};
-    return variant;
+const KernelVariant& plain_boxes(const ProbeDevice& device) {
+    return device.once<KernelVariant>("plain boxes", [&] {
+        return KernelVariant{"plain boxes", with_naive(device.kernels(), false, true)};
+    });
 }
 
-const KernelVariant& plain_offsets() {
-    static const KernelVariant variant = {"plain offsets", with_naive_offset(kernels_under_test())};
-    return variant;
+const KernelVariant& plain_offsets(const ProbeDevice& device) {
+    return device.once<KernelVariant>("plain offsets", [&] {
+        return KernelVariant{"plain offsets", with_naive_offset(device.kernels())};
+    });
 }
 
 RayDeviceOptions ray_options(Build build, const KernelVariant& naive) {
     RayDeviceOptions options;
-    options.precision = build == Build::DOUBLE ? Precision::DOUBLE
-                        : build == Build::FAST ? Precision::FAST
-                                               : Precision::SINGLE;
+    options.precision = precision_of(build);
     options.variant = build == Build::NAIVE ? &naive : nullptr;
     return options;
 }

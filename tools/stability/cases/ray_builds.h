@@ -10,10 +10,10 @@
 
 namespace clrt {
 
-/// Kernels with one robust part replaced by the textbook's (tools/naive).
-const KernelVariant& plain_triangles();
-const KernelVariant& plain_boxes();
-const KernelVariant& plain_offsets();
+/// The device's kernels with one robust part replaced by the textbook's (tools/naive).
+const KernelVariant& plain_triangles(const ProbeDevice& device);
+const KernelVariant& plain_boxes(const ProbeDevice& device);
+const KernelVariant& plain_offsets(const ProbeDevice& device);
 
 /// A build of the ray tracing kernels: `naive` are those of Build::NAIVE.
 RayDeviceOptions ray_options(Build build, const KernelVariant& naive);

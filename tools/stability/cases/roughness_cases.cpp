@@ -268,7 +268,7 @@ void sample_is_eval(CaseRun& run) {
 
 } // namespace
 
-ProbeTime time_ggx_d(const Device& device, int rounds) {
+ProbeTime time_ggx_d(const ProbeDevice& device, int rounds) {
     Random random(1);
     Columns inputs(4);
     for (int i = 0; i < 1 << 20; ++i) {

@@ -49,7 +49,7 @@ std::vector<KernelPatch> planting_patches() {
 }
 
 /// The inside of a shining box, every sample with sums of its own.
-struct FurnaceBox : TestScene {
+struct FurnaceBox : ScratchScene {
     FurnaceBox() {
         build.material("white", "Kd 0.5 0.5 0.5\nKe 1 1 1")
             .use("white")
@@ -65,7 +65,7 @@ void planted_faults(CaseRun& run) {
     Figure& counted = run.figure("planted samples not counted by kind", 0);
     Figure& listed = run.figure("planted samples not listed, and others", 0);
     Figure& differing = run.figure("sums of other samples that differ", 0);
-    const PatchedKernels planting(planting_patches());
+    const PatchedKernels planting(run.device.kernels(), planting_patches());
     const FurnaceBox subject;
     const Scene scene = subject.load();
     std::vector<Address> addresses;
@@ -76,9 +76,9 @@ void planted_faults(CaseRun& run) {
             continue;
         Options options = subject.options;
         options.device.precision = precision_of(build);
-        const Film clean = render_loaded(scene, options).film;
+        const Film clean = render_loaded(run.device, scene, options).film;
         options.device.kernels_folder = planting.path();
-        const Render bad = PreparedRender(scene, options).run();
+        const Render bad = PreparedRender(run.device, scene, options).run();
         const RenderCounts& counts = bad.counts;
         const std::pair<std::uint64_t, std::uint64_t> kinds[] = {
             {counts.nan, 1}, {counts.infinite, 2}, {counts.negative, 1}, {counts.overflow, 1}};
@@ -124,14 +124,14 @@ void no_hiding(CaseRun& run) {
         for (const Build build : run.builds())
             if (build != Build::NAIVE) {
                 subject.options.device.precision = precision_of(build);
-                see_counts(shipped[build], render_loaded(scene, subject.options), name);
+                see_counts(shipped[build], render_loaded(run.device, scene, subject.options), name);
             }
     }
     for (const u32 effects : all_effect_sets()) {
         SceneOfEffects subject(effects & ~u32(EFFECT_PATH_FILTER));
         subject.options.effects.all = true;
         subject.options.sampling.spp = spp;
-        see_counts(made[Build::SINGLE], subject.render(), describe_effects(effects));
+        see_counts(made[Build::SINGLE], subject.render(run.device), describe_effects(effects));
     }
 }
 

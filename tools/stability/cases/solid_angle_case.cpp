@@ -87,7 +87,7 @@ void solid_angles(CaseRun& run) {
     }
 }
 
-ProbeTime time_solid_angle(const Device& device, int rounds) {
+ProbeTime time_solid_angle(const ProbeDevice& device, int rounds) {
     Random random(7);
     Columns inputs(11);
     for (int i = 0; i < 1 << 18; ++i) {

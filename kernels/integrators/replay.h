@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The entry point of builds with -DCLRT_TRACE: one work-item replays one sample of the picture and writes its record.
+// Included by entry_point.h, in place of the loop over samples.
+#ifndef CLRT_INTEGRATORS_REPLAY_H
+#define CLRT_INTEGRATORS_REPLAY_H
+
+#include "pixel.h"
+
+/* The counter that stands at a sample. */
+static inline SampleCounter trace_counter(const RenderParams* params, uint sample)
+{
+    SampleCounter counter;
+    counter.sample = sample;
+    counter.replicate = sample % params->replicates;
+    counter.index = sample / params->replicates;
+    return counter;
+}
+
+/* Under which counter the film books a finished sample; its sums where it is good. */
+static inline uint trace_film(const RenderParams* params, const CameraSample* sample, global long* sums)
+{
+    sums[0] = sums[1] = sums[2] = 0;
+    const uint fault = film_fault(params, sample->radiance);
+    if (fault != COUNT_WORDS)
+        return fault;
+    film_add(params, sums, &sample->sampler, sample->radiance);
+#if PATH_LAYERS > 0
+    for (uint i = 0; i < PATH_LAYERS; ++i)
+        if (film_fault(params, sample->layers.radiance[i]) != COUNT_WORDS)
+            return COUNT_OVERFLOW;
+#endif
+    return pixel_fault(sample, COUNT_WORDS);
+}
+
+static inline void trace_finish(const Scene* scene, const CameraSample* sample)
+{
+    TRACE_VECTOR(scene, TRACE_RADIANCE, sample->radiance);
+#if PATH_LAYERS > 0
+    for (uint i = 0; i < PATH_LAYERS; ++i)
+        TRACE_VECTOR(scene, TRACE_LAYER, sample->layers.radiance[i]);
+#endif
+}
+
+/* Replays sample `number` of a pixel and writes the head of its record. */
+static CLRT_NOINLINE void replay_sample(const Scene* scene, const RenderParams* params, uint pixel, uint number,
+                                        global ulong* head)
+{
+    CameraSample sample;
+    PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
+    pixel_aim(params, 0, pixel % params->width, pixel / params->width, trace_counter(params, number), &sample, 1u);
+    INTEGRATOR_RADIANCE(scene, params, &sample, 1u, &rays);
+    trace_finish(scene, &sample);
+    head[TRACE_HEAD_FAULT] = trace_film(params, &sample, (global long*)(head + TRACE_HEAD_FILM));
+    head[TRACE_HEAD_COUNT] = scene->trace->count;
+    head[TRACE_HEAD_DECISIONS] = scene->trace->decisions;
+}
+
+CLRT_KERNEL void replay_samples(const RenderParams params, SCENE_PARAMS, global const uint* restrict addresses,
+                                global ulong* records)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= addresses[TRACE_ADDRESS_COUNT])
+        return;
+    const uint capacity = addresses[TRACE_ADDRESS_CAPACITY];
+    global ulong* head = records + (ulong)i * (TRACE_HEAD_WORDS + TRACE_EVENT_WORDS * capacity);
+    global const uint* address = addresses + TRACE_ADDRESS_FIRST + 2u * i;
+    Trace trace = {head + TRACE_HEAD_WORDS, capacity, 0u, 0u};
+    Scene scene = SCENE_MAKE;
+    scene.trace = &trace;
+    replay_sample(&scene, &params, address[0], address[1], head);
+}
+
+#endif

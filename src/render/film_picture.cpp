@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_picture.h"
+
+#include "render/error_report.h"
+
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+std::string ranges_text(const Film& film) {
+    std::string text;
+    for (const SampleRange& range : film.ranges)
+        text += fmt::format("{}{}-{}", text.empty() ? "" : ", ", range.first, range.end - 1);
+    return text;
+}
+
+} // namespace
+
+Picture film_picture(const FilmFile& file) {
+    const Film& film = file.render.film;
+    const FilmWindow window = film_window(file.identity);
+    Picture picture;
+    picture.width = film.width;
+    picture.height = film.height;
+    picture.x0 = window.window.x0;
+    picture.y0 = window.window.y0;
+    picture.full_width = window.size.x;
+    picture.full_height = window.size.y;
+    picture.layers.push_back({"", {"R", "G", "B"}, film_mean(film), false});
+    picture.is_transparent = file.identity.value("background", FilmIdentity()) == TRANSPARENT_BACKGROUND;
+    const std::vector<std::string> layer_names = film_layer_names(file.identity);
+    for (size_t i = 0; i < layer_names.size(); ++i)
+        picture.layers.push_back(
+            {layer_names[i], {"R", "G", "B"}, film_mean(file.render.path_layers[i]), false});
+    if (std::vector<float> variance = film_variance(film); !variance.empty())
+        picture.layers.push_back({"variance", {"R", "G", "B"}, std::move(variance), false});
+    picture.layers.push_back({"", {"samples"}, film_pixel_samples(film), false});
+
+    for (const auto& [name, value] : file.identity.items())
+        picture.metadata.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+    picture.metadata.emplace_back("spp", std::to_string(film_samples(film)));
+    picture.metadata.emplace_back("samples", ranges_text(film));
+    add_error_metadata(make_error_report(file.render, file.bias, picture.x0, picture.y0), picture.metadata);
+    return picture;
+}
+
+} // namespace clrt

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// A material as readers of any format give it: quantities of the field, with the pictures that vary them.
+#pragma once
+
+#include "scene/texture_use.h"
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// Matte reflectance of a material that says nothing about itself, and of faces without one.
+constexpr double DEFAULT_REFLECTANCE = 0.8;
+
+/// An index of 1.5 reflects 4 % head-on: the F0 of metallic-roughness materials that are no metal and do not
+/// say otherwise.
+constexpr double DIELECTRIC_F0 = 0.04;
+
+/// The index of refraction of glass, where nothing else is said.
+constexpr double DEFAULT_IOR = 1.5;
+
+/// A quantity: a constant, and the picture that multiplies it.
+template <typename T>
+struct Mapped {
+    T value{};
+    std::optional<TextureUse> map = std::nullopt;
+    std::optional<T> without_map = std::nullopt; ///< the value where the map cannot be read; absent: the same
+};
+
+/// What a surface reflects beside its matte part.
+enum class Reflection {
+    NONE,
+    CONSTANT, ///< `specular` at every angle
+    SCHLICK,  ///< `specular` head-on, 1 at grazing angles
+    /// Metallic-roughness: Schlick with F0 = mix(dielectric_f0, base, metallic), matte base (1 - metallic)
+    METALLIC,
+    DIELECTRIC ///< reflection and refraction with exact Fresnel; no matte part
+};
+
+/// Something that a material asks for and does not get.
+struct Remark {
+    std::string text;
+    SourcePlace place;
+};
+
+/// Colours are linear and in [0,1] but for emission. What is not set is a matte grey.
+struct MaterialDescription {
+    std::string name;                               ///< "" for faces without a material
+    SourcePlace place;                              ///< of its definition
+    std::string rule = "no material: matte Kd 0.8"; ///< by what it became what it is, for --explain
+
+    Mapped<glm::dvec3> base{glm::dvec3(DEFAULT_REFLECTANCE)}; ///< matte reflectance, colour of a metal
+    Reflection reflection = Reflection::NONE;
+    Mapped<glm::dvec3> specular;                 ///< of CONSTANT and SCHLICK
+    Mapped<double> metallic;                     ///< of METALLIC, in [0,1]
+    Mapped<double> dielectric_f0{DIELECTRIC_F0}; ///< of METALLIC, in [0,1]
+    Mapped<double> roughness;                    ///< in [0,1]; GGX alpha is its square, 0 a mirror
+    double anisotropy = 0; ///< in [0,1]; stretches the roughness along the tangent (Burley 2012, section 5.4)
+    std::optional<double> phong_exponent; ///< that the roughness was made of, where no map multiplies it
+    bool whitted_mirror = false;          ///< `whitted` follows its reflection as a mirror's
+    double ior = DEFAULT_IOR;             ///< of DIELECTRIC, above 0
+    glm::dvec3 transmission{1};           ///< tint of each crossing
+
+    Mapped<glm::dvec3> emission; ///< radiance on the front side
+    Mapped<double> coverage{1};  ///< in [0,1]; below 1 the surface is cut out
+    std::optional<TextureUse> normal_map, bump_map;
+    double normal_strength = 1; ///< factor of the x and y of a normal map
+    double bump_height = 1;     ///< of a full-range bump map, scene units
+
+    /// Of what is neither emission nor coverage: not said where another surface takes its place.
+    std::vector<Remark> surface_remarks;
+};
+
+} // namespace clrt

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture and how a material looks it up.
+#pragma once
+
+#include "kernels/shared/types.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+namespace clrt {
+
+/// What a map is for: it decides how its numbers are stored and which channel is read.
+enum class TextureRole {
+    COLOUR,   ///< sRGB where the file holds integers
+    NORMAL,   ///< three linear channels
+    LEVEL,    ///< three linear channels that multiply a reflectance
+    COVERAGE, ///< the alpha channel where there is one, else luminance
+    SCALAR    ///< the only channel, else luminance
+};
+
+/// The lookup of uv is at scale uv + offset, its value base + gain times the texel.
+struct TextureUse {
+    std::string file;  ///< as written; relative to the file in `place` (find_file.h)
+    SourcePlace place; ///< of the statement that names it
+    glm::dvec2 scale{1}, offset{0};
+    double base = 0, gain = 1;
+    bool clamp = false;         ///< black outside [0,1] in place of repetition
+    std::optional<u32> channel; ///< of a scalar: 0..3 = r, g, b, a; 4 = luminance; absent: by role and file
+    bool by_vertex = false;     ///< no file but Mesh::colours
+};
+
+/// What readers may ask about pictures; false for one that cannot be read, which is said when it is used.
+struct PictureFacts {
+    std::function<bool(const TextureUse&, TextureRole)> is_readable;
+    std::function<bool(const TextureUse&)> is_normal_map; ///< its texels are unit vectors
+};
+
+} // namespace clrt

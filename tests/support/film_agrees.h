@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a film agrees with a closed form.
+#pragma once
+
+#include "support/film_estimate.h"
+
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+/// Whether an estimate is within LARGEST_Z standard errors, plus `rounding` of the expected value. The
+/// standard error must not exceed `sharpness` of the expected value, so that the comparison can fail.
+testing::AssertionResult agrees(const Estimate& estimate, double expected, double sharpness = 2e-3,
+                                double rounding = RENDER_ROUNDING);
+
+} // namespace clrt

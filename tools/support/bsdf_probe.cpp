@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program that evaluates and samples a BSDF, and the lobe sets that tests go through.
+#include "support/bsdf_probe.h"
+
+#include <stdexcept>
+
+namespace clrt {
+
+namespace {
+
+const char* const TEXT = R"(
+#define PROBE_BSDF const vec4 matte, const vec4 specular, const vec4 transmission, const vec4 shape, \
+                   const vec4 normal_g, const u32 lobes, const u32 fresnel
+#define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, lobes, fresnel
+
+Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
+{
+    Bsdf bsdf;
+    const real3 n = vector_normalize(vector_make(REAL(0.36), REAL(-0.48), REAL(0.8)));
+    bsdf.frame = frame_make_tangent(n, vector_make(REAL(0.3), REAL(1.0), REAL(0.2)));
+    bsdf.wo = vector_from(wo);
+    bsdf.normal_g = frame_to_world(&bsdf.frame, vector_from(normal_g));
+    bsdf.is_curved = false;
+    bsdf.matte = vector_from(matte);
+    bsdf.specular = vector_from(specular);
+    bsdf.transmission = vector_from(transmission);
+    bsdf.alpha_x = (real)shape.x;
+    bsdf.alpha_y = (real)shape.y;
+    bsdf.eta = (real)shape.z;
+    bsdf.exponent = REAL(0.0);
+    bsdf.lobes = lobes;
+    bsdf.fresnel = fresnel;
+    bsdf.flags = 0u;
+    bsdf_energy_set(&bsdf);
+    bsdf_choose_lobes(&bsdf);
+    return bsdf;
+}
+
+kernel void probe_eval(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
+                       global vec4* out_first, global vec4* out_second)
+{
+    const size_t i = get_global_id(0);
+    if (i >= count)
+        return;
+    const Bsdf bsdf = probe_bsdf(PROBE_BSDF_ARGUMENTS, in_a[i]);
+    const BsdfValue eval = bsdf_eval(&bsdf, frame_to_world(&bsdf.frame, vector_from(in_b[i])));
+    out_first[i] = (vec4)(convert_float3(eval.value), (float)eval.pdf_w);
+    out_second[i] = (vec4)(bsdf_has_smooth_lobe(&bsdf) ? 1.0f : 0.0f);
+}
+
+kernel void probe_sample(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
+                         global vec4* out_first, global vec4* out_second)
+{
+    const size_t i = get_global_id(0);
+    if (i >= count)
+        return;
+    const Bsdf bsdf = probe_bsdf(PROBE_BSDF_ARGUMENTS, in_a[i]);
+    const vec4 u = in_b[i];
+    const BsdfSample sample = bsdf_sample(&bsdf, (real)u.x, (real2)((real)u.y, (real)u.z));
+    out_first[i] = (vec4)(convert_float3(frame_to_local(&bsdf.frame, sample.wi)), (float)sample.pdf_w);
+    out_second[i] = (vec4)(convert_float3(sample.weight), sample.is_valid ? (float)sample.eta : 0.0f);
+}
+)";
+
+/// Appended to TEXT: what the tables of albedo.h say of a set's roughness and of directions.
+const char* const ALBEDO_TEXT = R"(
+kernel void probe_albedo(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
+                         global vec4* out_first, global vec4* out_second)
+{
+    const size_t i = get_global_id(0);
+    if (i >= count)
+        return;
+    const vec4 up = (vec4)(0.0f, 0.0f, 1.0f, 0.0f);
+    const Bsdf bsdf = probe_bsdf(PROBE_BSDF_ARGUMENTS, up);
+    const real3 w = vector_from(in_a[i]);
+    if (lobes & LOBE_DIELECTRIC) {
+        const real eta = w.z > REAL(0.0) ? bsdf.eta : REAL(1.0) / bsdf.eta;
+        out_first[i] = (vec4)((float)albedo_dielectric_loss(&bsdf.rough, eta, fabs(w.z)), 0.0f,
+                              (float)albedo_dielectric_mean_loss(&bsdf.rough, eta), 0.0f);
+        return;
+    }
+    const Albedo albedo = bsdf_energy_albedo(&bsdf, w);
+    Albedo mean = {REAL(0.0), FRESNEL_SCHLICK_MEAN};
+    if (bsdf.rough.alpha > REAL(0.0))
+        mean = albedo_reflection_mean(&bsdf.rough);
+    out_first[i] = (vec4)((float)albedo.loss, (float)albedo.schlick, (float)mean.loss, (float)mean.schlick);
+}
+)";
+
+std::vector<vec4> to_vec4s(const std::vector<glm::dvec3>& values) {
+    std::vector<vec4> converted;
+    converted.reserve(values.size());
+    for (const glm::dvec3& value : values)
+        converted.push_back(to_vec4(value));
+    return converted;
+}
+
+LobeSet rough(LobeSet set, const char* name, double alpha_x, double alpha_y, u32 fresnel) {
+    set.name = name;
+    set.alpha_x = alpha_x;
+    set.alpha_y = alpha_y;
+    set.fresnel = fresnel;
+    return set;
+}
+
+LobeSet dielectric(const char* name, double alpha, double eta) {
+    LobeSet set{name, LOBE_DIELECTRIC};
+    set.specular = {1, 1, 1};
+    set.transmission = {1, 0.8, 0.5};
+    set.alpha_x = set.alpha_y = alpha;
+    set.eta = eta;
+    return set;
+}
+
+} // namespace
+
+std::vector<LobeSet> all_lobe_sets() {
+    const LobeSet matte{"matte", LOBE_MATTE, {0.75, 0.5, 0.25}};
+    const LobeSet glossy{"", LOBE_GLOSSY, {0, 0, 0}, {0.9, 0.6, 0.3}};
+    const LobeSet mirror{"mirror", LOBE_MIRROR, {0, 0, 0}, {0.875, 0.75, 0.5}};
+    const LobeSet coated{"", LOBE_MATTE | LOBE_GLOSSY, {0.5, 0.3, 0.1}, {0.04, 0.04, 0.04}};
+    const LobeSet varnished{
+        "matte and mirror", LOBE_MATTE | LOBE_MIRROR, {0.5, 0.25, 0.125}, {0.25, 0.25, 0.5}};
+    return {matte,
+            rough(glossy, "glossy", 0.4, 0.4, FRESNEL_NONE),
+            rough(glossy, "glossy, Schlick", 0.2, 0.2, FRESNEL_SCHLICK),
+            rough(glossy, "glossy, full roughness", 1, 1, FRESNEL_SCHLICK),
+            rough(glossy, "glossy, anisotropic", 0.5, 0.15, FRESNEL_NONE),
+            rough(glossy, "glossy, anisotropic, Schlick", 0.15, 0.6, FRESNEL_SCHLICK),
+            mirror,
+            rough(mirror, "mirror, Schlick", 0, 0, FRESNEL_SCHLICK),
+            dielectric("smooth glass from outside", 0, 1 / 1.5),
+            dielectric("smooth glass from inside", 0, 1.5),
+            dielectric("rough glass from outside", 0.3, 1 / 1.5),
+            dielectric("rough glass from inside", 0.3, 1.5),
+            rough(coated, "matte and glossy", 0.25, 0.25, FRESNEL_SCHLICK),
+            rough(coated, "matte and glossy, no Fresnel", 0.3, 0.3, FRESNEL_NONE),
+            varnished,
+            rough(varnished, "matte and mirror, Schlick", 0, 0, FRESNEL_SCHLICK)};
+}
+
+LobeSet lobe_set(const std::string& name) {
+    for (const LobeSet& set : all_lobe_sets())
+        if (set.name == name)
+            return set;
+    throw std::logic_error("there is no lobe set \"" + name + "\"");
+}
+
+BsdfProbe::BsdfProbe(const ProbeDevice& device) : device_(device), probe_(device, {"scattering/bsdf.h"}) {
+    probe_.add_text(TEXT);
+    probe_.add_text(ALBEDO_TEXT);
+}
+
+Kernel BsdfProbe::prepare(const char* name, const LobeSet& set, const std::vector<glm::dvec3>& a,
+                          const std::vector<glm::dvec3>& b, const glm::dvec3& normal_g) {
+    if (a.size() != b.size())
+        throw std::logic_error("BsdfProbe: expected as many inputs of one kind as of the other");
+    Kernel kernel = probe_.kernel(name);
+    kernel.set("matte", to_vec4(set.matte));
+    kernel.set("specular", to_vec4(set.specular));
+    kernel.set("transmission", to_vec4(set.transmission));
+    kernel.set("shape", to_vec4({set.alpha_x, set.alpha_y, set.eta}));
+    kernel.set("normal_g", to_vec4(normal_g));
+    kernel.set("lobes", set.lobes);
+    kernel.set("fresnel", set.fresnel);
+    kernel.set("in_a", probe_.upload(to_vec4s(a)));
+    kernel.set("in_b", probe_.upload(to_vec4s(b)));
+    kernel.set("count", u32(a.size()));
+    return kernel;
+}
+
+BsdfValues BsdfProbe::eval(const LobeSet& set, const std::vector<glm::dvec3>& wo,
+                           const std::vector<glm::dvec3>& wi, const glm::dvec3& normal_g) {
+    Kernel kernel = prepare("probe_eval", set, wo, wi, normal_g);
+    const cl::Buffer first = create_buffer(device_, "values", wo.size() * sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "smooth", wo.size() * sizeof(vec4));
+    kernel.set("out_first", first);
+    kernel.set("out_second", second);
+    probe_.launch(kernel, wo.size());
+    BsdfValues values;
+    for (const vec4& v : probe_.read<vec4>(first, wo.size())) {
+        values.value.push_back(to_dvec3(v));
+        values.pdf_w.push_back(v.w);
+    }
+    return values;
+}
+
+BsdfSamples BsdfProbe::sample(const LobeSet& set, const std::vector<glm::dvec3>& wo,
+                              const std::vector<glm::dvec3>& u, const glm::dvec3& normal_g) {
+    Kernel kernel = prepare("probe_sample", set, wo, u, normal_g);
+    const cl::Buffer first = create_buffer(device_, "directions", wo.size() * sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "weights", wo.size() * sizeof(vec4));
+    kernel.set("out_first", first);
+    kernel.set("out_second", second);
+    probe_.launch(kernel, wo.size());
+    BsdfSamples samples;
+    for (const vec4& v : probe_.read<vec4>(first, wo.size())) {
+        samples.wi.push_back(to_dvec3(v));
+        samples.pdf_w.push_back(v.w);
+    }
+    for (const vec4& v : probe_.read<vec4>(second, wo.size())) {
+        samples.weight.push_back(to_dvec3(v));
+        samples.eta.push_back(v.w);
+    }
+    return samples;
+}
+
+std::vector<AlbedoSample> BsdfProbe::albedos(const LobeSet& set, const std::vector<glm::dvec3>& w) {
+    Kernel kernel = prepare("probe_albedo", set, w, w, {0, 0, 1});
+    const cl::Buffer first = create_buffer(device_, "albedos", w.size() * sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "nothing", w.size() * sizeof(vec4));
+    kernel.set("out_first", first);
+    kernel.set("out_second", second);
+    probe_.launch(kernel, w.size());
+    std::vector<AlbedoSample> samples;
+    for (const vec4& v : probe_.read<vec4>(first, w.size()))
+        samples.push_back({v.x, v.y, v.z, v.w});
+    return samples;
+}
+
+bool BsdfProbe::has_smooth_lobe(const LobeSet& set) {
+    const std::vector<glm::dvec3> up = {{0, 0, 1}};
+    Kernel kernel = prepare("probe_eval", set, up, up, {0, 0, 1});
+    const cl::Buffer first = create_buffer(device_, "values", sizeof(vec4));
+    const cl::Buffer second = create_buffer(device_, "smooth", sizeof(vec4));
+    kernel.set("out_first", first);
+    kernel.set("out_second", second);
+    probe_.launch(kernel, 1);
+    return probe_.read<vec4>(second, 1)[0].x != 0;
+}
+
+std::vector<glm::dvec3> repeated(const glm::dvec3& value, size_t count) {
+    return std::vector<glm::dvec3>(count, to_dvec3(to_vec4(value)));
+}
+
+std::vector<glm::dvec3> random_triples(size_t count, u32 seed) {
+    Random random(seed);
+    std::vector<glm::dvec3> triples;
+    for (size_t i = 0; i < count; ++i) {
+        const double a = random.unit(), b = random.unit();
+        triples.push_back({a, b, random.unit()});
+    }
+    return triples;
+}
+
+} // namespace clrt

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sets of effects to test, and for each a small scene that calls for exactly these.
+#pragma once
+
+#include "effects/effect_table.h"
+#include "support/scratch_scene.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// Every effect with just those that it cannot be without.
+std::vector<u32> single_effects();
+
+/// All effects but one and those that imply it, for every effect.
+std::vector<u32> all_but_one_effect();
+
+/// A covering array: for every two effects, each of "both", "one", "the other" and "neither" that a scene can
+/// call for occurs in some set. Found greedily, always the same.
+std::vector<u32> pairwise_effects();
+
+/// The three families together, each set once.
+std::vector<u32> all_effect_sets();
+
+/// Names for messages.
+std::string describe_effects(u32 effects);
+
+/// A scene that calls for exactly these effects, each of which shows where light and lobes allow; 16 x 16
+/// pixels.
+class SceneOfEffects : public ScratchScene {
+public:
+    explicit SceneOfEffects(u32 effects);
+
+private:
+    bool has(u32 effect) const { return (effects_ & effect) != 0; }
+    void add_materials();
+    void add_bodies();
+    void add_lights();
+    const u32 effects_;
+};
+
+} // namespace clrt
