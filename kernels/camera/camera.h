@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Film positions and the rays through them.
+// Film positions and the rays through them: the pixel filter, and the table of cameras. All cameras have
+//   Ray camera_NAME_generate(const CameraParams*, real2 film, real2 lens, real time)
+//   CameraPdf camera_NAME_pdf(const CameraParams*, real3 direction)
+//   CameraConnection camera_NAME_project(const CameraParams*, real3 point, real2 lens)
 #ifndef CLRT_CAMERA_CAMERA_H
 #define CLRT_CAMERA_CAMERA_H
 
-#include "geometry/ray.h"
+#include "camera_orthographic.h"
+#include "camera_perspective.h"
 #include "numerics/real_functions.h"
 #include "numerics/sampler.h"
 #include "shared/effects.h"
@@ -19,8 +23,8 @@ static inline real camera_tent(real u)
                          : REAL(1.0) - real_sqrt(REAL(2.0) * (REAL(1.0) - u));
 }
 
-/* Film position of a sample relative to its pixel's centre, distributed as the pixel filter (filter importance sampling,
-   Ernst et al. 2006): every sample has weight 1. */
+/* Film position of a sample relative to its pixel's centre, distributed as the pixel filter (filter
+   importance sampling, Ernst et al. 2006): every sample has weight 1. */
 static inline real2 camera_filter_sample(const RenderParams* params, real2 u)
 {
     const real radius = (real)params->filter_radius;
@@ -36,17 +40,75 @@ static inline real2 camera_filter_sample(const RenderParams* params, real2 u)
     return (real2)(r * sc.y, r * sc.x);
 }
 
+/* Which camera takes the picture is a run-time choice: a branch that all work-items take alike, once a
+   path, while programs of their own would be compiled and kept apart for each. `lens` is a pair of numbers
+   in (0, 1) that chooses a point of the lens: a pinhole and parallel rays have none to choose. A camera
+   without a row sees nothing: its ray has no direction. */
+static inline Ray camera_generate(const CameraParams* camera, real2 film, real2 lens, real time)
+{
+#define CAMERA_GENERATE(constant, name)                \
+    if (camera->projection == PROJECTION_##constant) \
+        return camera_##name##_generate(camera, film, lens, time);
+    PROJECTION_ROWS(CAMERA_GENERATE)
+    return ray_make((real3)(REAL(0.0)), (real3)(REAL(0.0)), time);
+}
+
+/* Densities of a ray that the camera generates in this direction. */
+static inline CameraPdf camera_pdf(const CameraParams* camera, real3 direction)
+{
+#define CAMERA_PDF(constant, name)                   \
+    if (camera->projection == PROJECTION_##constant) \
+        return camera_##name##_pdf(camera, direction);
+    PROJECTION_ROWS(CAMERA_PDF)
+    const CameraPdf none = {REAL(0.0), REAL(0.0)};
+    return none;
+}
+
+/* Importance that the camera emits along such a ray, times its cosine (Veach 1997, 8.3): all rays of a
+   pixel weigh alike in the picture, so it is their density. */
+static inline real camera_importance(const CameraParams* camera, real3 direction)
+{
+    const CameraPdf pdf = camera_pdf(camera, direction);
+    return pdf.pdf_a * pdf.pdf_w;
+}
+
+/* Where the film sees a point, through the point of the lens that `lens` chooses. Light that leaves the
+   point for the lens adds its radiance times the point's cosine times pdf_a to the pixel there, over the
+   number of such connections a pixel. */
+static inline CameraConnection camera_project(const CameraParams* camera, real3 point, real2 lens)
+{
+#define CAMERA_PROJECT(constant, name)               \
+    if (camera->projection == PROJECTION_##constant) \
+        return camera_##name##_project(camera, point, lens);
+    PROJECTION_ROWS(CAMERA_PROJECT)
+    return camera_connection_none();
+}
+
+/* Film position of the centre of pixel (x, y) of the whole picture: from its middle, exact, because
+   counted from a corner the terms of a wide angle would cancel. */
+static inline real2 camera_pixel_centre(const RenderParams* params, uint x, uint y)
+{
+    const int from_left = 2 * (int)x + 1 - (int)params->width, from_top = 2 * (int)y + 1 - (int)params->height;
+    return (real2)((real)from_left, (real)from_top) * REAL(0.5);
+}
+
+/* The pixel of the whole picture that a film position lies in, row by row; NO_INDEX outside the picture. */
+static inline uint camera_pixel(const RenderParams* params, real2 film)
+{
+    const real2 corner = floor(film + (real2)((real)params->width, (real)params->height) * REAL(0.5));
+    const bool is_inside = corner.x >= REAL(0.0) && corner.x < (real)params->width && corner.y >= REAL(0.0) &&
+                           corner.y < (real)params->height;
+    return is_inside ? (uint)corner.y * params->width + (uint)corner.x : NO_INDEX;
+}
+
 /* The ray of a sample through pixel (x, y) of the whole picture. */
 static inline Ray camera_ray(const RenderParams* params, const Sampler* sampler, uint x, uint y)
 {
     const real2 offset = camera_filter_sample(params, sampler_pair(sampler, 0u, SAMPLE_FILM));
-    /* From the picture's centre, exact for pixel centres: from a corner, the terms of a wide angle would cancel. */
-    const real film_x = (real)(2 * (int)x + 1 - (int)params->width) * REAL(0.5) + offset.x;
-    const real film_y = (real)(2 * (int)y + 1 - (int)params->height) * REAL(0.5) + offset.y;
-    const real3 direction = fma((real3)(film_x), vector_from(params->film_dx),
-                                fma((real3)(film_y), vector_from(params->film_dy), vector_from(params->look)));
+    const real2 film = camera_pixel_centre(params, x, y) + offset;
+    const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
     const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_number(sampler, 0u, SAMPLE_TIME) : REAL(0.0);
-    return ray_make(vector_from(params->eye), vector_normalize(direction), time);
+    return camera_generate(&params->camera, film, lens, time);
 }
 
 #endif

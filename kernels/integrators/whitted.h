@@ -9,9 +9,6 @@
 #include "path/nan.h"
 #include "pixel.h"
 
-/* The deepest tree; every level leaves at most one ray waiting. The command line refuses more. */
-#define WHITTED_MAX_DEPTH 64
-
 /* Levels whose rays are numbered one by one: a random number's address has room for 2^28 of them (sampler_address). */
 #define WHITTED_NUMBERED_LEVELS 28u
 #define WHITTED_FIRST_HASHED (1u << (WHITTED_NUMBERED_LEVELS - 1u))

@@ -3,6 +3,7 @@
 #ifndef CLRT_SHARED_RENDER_TYPES_H
 #define CLRT_SHARED_RENDER_TYPES_H
 
+#include "camera_types.h"
 #include "types.h"
 
 SHARED_BEGIN
@@ -11,14 +12,11 @@ SHARED_BEGIN
 #define FILTER_TENT 1u
 #define FILTER_GAUSSIAN 2u
 
-typedef struct {
-    /* Camera in the normalised frame: the ray through film position (x, y), in pixels right of and below the
-       picture's centre, has the direction look + x film_dx + y film_dy, not of unit length. */
-    vec4 eye;
-    vec4 film_dx;
-    vec4 film_dy;
-    vec4 look; /* unit */
+/* The deepest tree of `whitted`; every level leaves at most one ray waiting on its stack. The command line refuses more. */
+#define WHITTED_MAX_DEPTH 64
 
+typedef struct {
+    CameraParams camera;
     vec4 environment; /* rgb: radiance of a constant environment, or factor of the map; w: unused, 0 */
     vec4 background;  /* rgb: radiance that camera rays see outside the scene; w: 1, or 0 where they see sky and suns */
 
@@ -53,7 +51,7 @@ typedef struct {
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
 } RenderParams;
-ASSERT_SIZE(RenderParams, 240);
+ASSERT_SIZE(RenderParams, 256);
 
 /* The picture is rendered and summed in tiles of 8 x 8 pixels; sums of a tile lie together. */
 #define TILE_SIZE 8

@@ -37,14 +37,17 @@ std::vector<OptionSpec> camera_options() {
         {group, "", "--view", "NAME",
          "from where to look where --eye is not given: front, back, left, right, top, bottom or iso; with "
          "y up the front is +z, with z up -y (default: from the right, above and in front; into rooms)",
+         [](Options& o, const OptionValue& v) { o.camera.view = parse_choice<View>(v); }},
+        {group, "", "--projection", "NAME",
+         "how rays leave the film: perspective (from the eye) or orthographic (parallel, from the plane "
+         "through the eye; default perspective)",
+         [](Options& o, const OptionValue& v) { o.camera.projection = parse_choice<Projection>(v); }},
+        {group, "", "--ortho-height", "X",
+         "orthographic: height of what the picture shows, scene units (default: fitted to the scene; with "
+         "--eye, "
+         "what perspective shows at --at)",
          [](Options& o, const OptionValue& v) {
-             o.camera.view = parse_choice<View>(v, {{"front", View::FRONT},
-                                                    {"back", View::BACK},
-                                                    {"left", View::LEFT},
-                                                    {"right", View::RIGHT},
-                                                    {"top", View::TOP},
-                                                    {"bottom", View::BOTTOM},
-                                                    {"iso", View::ISO}});
+             o.camera.ortho_height = parse_number(v, "a length above 0", positive);
          }},
         {group, "", "--fov", "DEG", "vertical angle of view, degrees (default 40; 60 from within a room)",
          [](Options& o, const OptionValue& v) {

@@ -46,6 +46,12 @@ void apply_point(Options& o, const OptionValue& v) {
     o.light.points.push_back(point);
 }
 
+void apply_studio(Options& o, const OptionValue& v) {
+    if (v.text != "auto" && v.text != "off")
+        reject_value(v, "auto or off");
+    o.light.studio = v.text == "auto";
+}
+
 void apply_ground(Options& o, const OptionValue& v) {
     o.light.ground.emplace();
     if (v.text == "none")
@@ -94,9 +100,7 @@ std::vector<OptionSpec> light_options() {
         {group, "", "--studio", "auto|off",
          "where neither the scene nor an option gives light: key light, even sky, ground and backdrop, "
          "said as flags to copy; in rooms a white sky and a lamp; off: a white sky (default auto)",
-         [](Options& o, const OptionValue& v) {
-             o.light.studio = parse_choice<bool>(v, {{"auto", true}, {"off", false}});
-         }},
+         apply_studio},
         {group, "", "--ground", "none|R,G,B",
          "matte plane of this reflectance under the scene (default none, but for --studio)", apply_ground},
         {group, "", "--background", "transparent|R,G,B",

@@ -33,11 +33,7 @@ void apply_exposure(Options& options, const OptionValue& value) {
 }
 
 void apply_tonemap(Options& options, const OptionValue& value) {
-    options.output.tonemap = parse_choice<Tonemap>(value, {{"none", Tonemap::NONE},
-                                                           {"reinhard", Tonemap::REINHARD},
-                                                           {"aces", Tonemap::ACES},
-                                                           {"filmic", Tonemap::FILMIC},
-                                                           {"agx", Tonemap::AGX}});
+    options.output.tonemap = parse_choice<Tonemap>(value);
 }
 
 } // namespace clrt

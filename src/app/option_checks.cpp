@@ -2,6 +2,7 @@
 // Options that are fine one by one and make no sense together.
 #include "app/option_checks.h"
 
+#include "app/option_values.h"
 #include "error.h"
 #include "film/adaptive.h"
 #include "output/file_name.h"
@@ -9,6 +10,7 @@
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "run/run_files.h"
+#include "scene/camera_params.h"
 
 #include <algorithm>
 #include <string>
@@ -18,8 +20,6 @@ namespace clrt {
 
 namespace {
 
-/// The ray stack of the whitted kernel holds one ray a segment.
-constexpr int WHITTED_STACK_DEPTH = 64;
 /// Fewer give no interval.
 constexpr int FEWEST_REPLICATES_WITH_ERROR = 4;
 /// Two in each half, whose spread is the half's noise.
@@ -83,6 +83,27 @@ void check_lens(const Options& options) {
     reject(options, std::string("option ") + (has_focal ? "--focal-length" : "--film-width") +
                         ": expected together with " + (has_focal ? "--film-width" : "--focal-length") +
                         ", found alone");
+}
+
+/// Each projection has its own option for the size of what it shows. Where only the command line asks for
+/// parallel rays, the angle in an options file stands for the height that it shows.
+void check_projection(const Options& options) {
+    const CameraOptions& camera = options.camera;
+    if (camera.projection != PROJECTION_ORTHOGRAPHIC) {
+        if (camera.ortho_height)
+            reject(options, std::string("option --ortho-height: expected --projection orthographic, found ") +
+                                name_of(camera.projection) + "; --fov is its angle of view");
+        return;
+    }
+    const auto is_in_file = [&](const char* name) {
+        const auto given = options.run.given.find(name);
+        return given != options.run.given.end() && !given->second.empty();
+    };
+    for (const char* const name : {"--fov", "--focal-length", "--film-width"})
+        if (options.run.given.count(name) && (!is_in_file(name) || is_in_file("--projection")))
+            reject(options,
+                   std::string("option ") + name +
+                       ": expected --ortho-height with --projection orthographic, found an angle of view");
 }
 
 void check_samples(const Options& options) {
@@ -197,17 +218,15 @@ void check_replay(const Options& options) {
                             ", found " + std::to_string(options.run.sample));
 }
 
-/// Only `path` walks the automaton; the others simulate one language each.
+/// Not every integrator can tell paths apart.
 void check_paths(const Options& options) {
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
     const bool has_paths = !options.transport.paths.empty();
-    if (options.transport.integrator != Integrator::PATH &&
-        (has_paths || !options.output.path_layers.empty())) {
-        const bool whitted = options.transport.integrator == Integrator::WHITTED;
+    if ((has_paths || !options.output.path_layers.empty()) && !(integrator.takes & TAKES_PATHS))
         reject(options, std::string(has_paths ? "option --paths" : "option --aov NAME=EXPR") +
-                            ": expected --integrator path, found " +
-                            (whitted ? "whitted, which simulates 'LD?S*E' alone"
-                                     : "raycast, which simulates 'LD?E' alone"));
-    }
+                            ": expected --integrator " + alternatives(integrators_with(TAKES_PATHS)) +
+                            ", found " + integrator.name + ", which simulates '" + integrator.paths.all +
+                            "' alone");
     const bool has_exr =
         std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
     if (!options.output.path_layers.empty() && !has_exr && options.run.explain == Explain::NO &&
@@ -216,12 +235,21 @@ void check_paths(const Options& options) {
                             options.output.path_layers.front().name + "', found none; add -o FILE.exr");
 }
 
+void check_depth(const Options& options) {
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
+    const int depth = effective_max_depth(options.transport);
+    if (depth > integrator.depth.longest)
+        reject(options, "option --max-depth: expected at most " + std::to_string(integrator.depth.longest) +
+                            " with --integrator " + integrator.name + ", found " + std::to_string(depth));
+}
+
 } // namespace
 
 void check_combinations(const Options& options) {
     check_crop(options);
     check_output_sizes(options);
     check_lens(options);
+    check_projection(options);
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
@@ -231,11 +259,7 @@ void check_combinations(const Options& options) {
     check_save_every(options);
     check_paths(options);
     check_replay(options);
-    if (options.transport.integrator == Integrator::WHITTED &&
-        effective_max_depth(options.transport) > WHITTED_STACK_DEPTH)
-        reject(options, "option --max-depth: expected at most " + std::to_string(WHITTED_STACK_DEPTH) +
-                            " with --integrator whitted, found " +
-                            std::to_string(*options.transport.max_depth));
+    check_depth(options);
     if (options.camera.eye && options.camera.eye == options.camera.at)
         reject(options, "options --eye and --at: expected two different points, found the same");
 }

@@ -29,9 +29,16 @@ const OptionSpec* find_option(const std::string& long_name) {
 
 const std::vector<std::pair<std::string, std::string>>& exclusive_options() {
     static const std::vector<std::pair<std::string, std::string>> pairs = {
-        {"--quiet", "--verbose"},  {"--cache", "--no-cache"}, {"--fov", "--focal-length"},
-        {"--fov", "--film-width"}, {"--pixel", "--explain"},  {"--pixel", "--ledger"},
+        {"--quiet", "--verbose"},
+        {"--cache", "--no-cache"},
+        {"--fov", "--focal-length"},
+        {"--fov", "--film-width"},
+        {"--pixel", "--explain"},
+        {"--pixel", "--ledger"},
         {"--eye", "--view"},
+        {"--fov", "--ortho-height"},
+        {"--focal-length", "--ortho-height"},
+        {"--film-width", "--ortho-height"},
     };
     return pairs;
 }

@@ -20,7 +20,7 @@ struct OptionSpec {
     const char* short_name; ///< "s", or ""
     const char* long_name;  ///< with its dashes
     const char* value_name; ///< "N", "" for a flag, "[=json]" for a flag with an optional value
-    const char* help;       ///< meaning, unit and default; one line, wrapped by --help
+    std::string help;       ///< meaning, unit and default; one line, wrapped by --help
     void (*apply)(Options&, const OptionValue&);
     Repeat repeat = Repeat::NO;   ///< several values make a list; otherwise the last one counts
     InFile in_file = InFile::YES; ///< makes sense in an options file

@@ -183,6 +183,13 @@ std::string parse_result(const OptionValue& value) {
     return is_standard_output(value.text) ? value.text : parse_path(value);
 }
 
+std::string alternatives(const std::vector<std::string>& texts) {
+    std::string list;
+    for (size_t i = 0; i < texts.size(); ++i)
+        list += (i == 0 ? "" : i + 1 < texts.size() ? ", " : " or ") + texts[i];
+    return list;
+}
+
 bool looks_like_numbers(const std::string& text) {
     return read_all<double>(split_list(text)[0]).has_value();
 }

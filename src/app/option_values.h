@@ -3,6 +3,7 @@
 // UsageError that names the option, the value found and what was expected.
 #pragma once
 
+#include "options/names.h"
 #include "options/options.h"
 
 #include <array>
@@ -80,16 +81,18 @@ std::string trimmed(const std::string& text);
 /// The parts of "a,b,c"; blanks around them are dropped. "" has one empty part.
 std::vector<std::string> split_list(const std::string& text);
 
-/// One of several names, such as {{"auto", Toggle::AUTO}, ...}.
-template <typename T, size_t N>
-T parse_choice(const OptionValue& value, const std::pair<const char*, T> (&choices)[N]) {
-    std::string expected;
-    for (size_t i = 0; i < N; ++i) {
-        if (value.text == choices[i].first)
-            return choices[i].second;
-        expected += (i == 0 ? "" : i + 1 < N ? ", " : " or ") + std::string(choices[i].first);
-    }
-    reject_value(value, expected);
+/// "a, b or c".
+std::string alternatives(const std::vector<std::string>& texts);
+
+/// A value of an enum by its name (options/names.h).
+template <typename T>
+T parse_choice(const OptionValue& value) {
+    if (const std::optional<T> found = find_named<T>(value.text))
+        return *found;
+    std::vector<std::string> names;
+    for (const auto& row : NAMES<T>)
+        names.emplace_back(row.name);
+    reject_value(value, alternatives(names));
 }
 
 } // namespace clrt

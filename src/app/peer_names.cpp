@@ -114,6 +114,9 @@ const std::vector<std::pair<const char*, const char*>>& peer_names() {
         {"camera-view-angle", "--fov DEG"},
         {"angle", "--fov DEG"},
         {"sensor-width", "--film-width X"},
+        {"camera-orthographic", "--projection orthographic"},
+        {"ortho", "--projection orthographic"},
+        {"ortho-scale", "--ortho-height X"},
         // light and materials
         {"envmap", "--env FILE"},
         {"envname", "--env FILE"},

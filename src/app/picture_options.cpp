@@ -19,8 +19,7 @@ void apply_filter(Options& o, const OptionValue& v) {
     const size_t colon = v.text.find(':');
     OptionValue name = v, radius = v;
     name.text = v.text.substr(0, colon);
-    o.film.filter = parse_choice<Filter>(
-        name, {{"box", Filter::BOX}, {"tent", Filter::TENT}, {"gaussian", Filter::GAUSSIAN}});
+    o.film.filter = parse_choice<Filter>(name);
     o.film.filter_radius.reset();
     if (colon == std::string::npos)
         return;

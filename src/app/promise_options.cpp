@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "The promises".
 #include "app/effect_option.h"
+#include "app/integrator_help.h"
 #include "app/layer_option.h"
 #include "app/option_rows.h"
 
@@ -21,10 +22,10 @@ std::vector<OptionSpec> promise_options() {
          "listed, such as matte,area-lights; -NAME takes one away: --effects=-refraction (default auto)",
          apply_effects},
         {group, "", "--paths", "EXPR",
-         "path: simulate only these paths, light to eye: L light (La area, Lp point, Ld sun, Le sky), D "
-         "matte, G "
-         "glossy, S specular (R mirror, T refraction), . any surface, E eye, and | * + ? ( ), such as "
-         "'L(D|S)*E' (default: all)",
+         takers(TAKES_PATHS) +
+             "simulate only these paths, light to eye: L light (La area, Lp point, Ld sun, Le sky), D matte, "
+             "G glossy, S specular (R mirror, T refraction), . any surface, E eye, and | * + ? ( ), such as "
+             "'L(D|S)*E' (default: all)",
          [](Options& o, const OptionValue& v) {
              check_paths(v, v.text);
              o.transport.paths = v.text;
@@ -39,10 +40,7 @@ std::vector<OptionSpec> promise_options() {
          "to stderr",
          [](Options& o, const OptionValue& v) { o.output.stats_path = parse_result(v); }},
         {group, "", "--check", "MODE", "non-finite samples: off, count, strict (exit 4) (default count)",
-         [](Options& o, const OptionValue& v) {
-             o.run.check = parse_choice<Check>(
-                 v, {{"off", Check::OFF}, {"count", Check::COUNT}, {"strict", Check::STRICT}});
-         }},
+         [](Options& o, const OptionValue& v) { o.run.check = parse_choice<Check>(v); }},
         {group, "", "--pixel", "X,Y",
          "replay one sample of this pixel and print its path, in single and double precision side by side; "
          "-v adds "

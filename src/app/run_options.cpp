@@ -28,10 +28,6 @@ void apply_checkpoint(Options& o, const OptionValue& v) {
     o.film_file.checkpoint_seconds = parse_duration(interval);
 }
 
-Toggle parse_toggle(const OptionValue& v) {
-    return parse_choice<Toggle>(v, {{"auto", Toggle::AUTO}, {"on", Toggle::ON}, {"off", Toggle::OFF}});
-}
-
 } // namespace
 
 std::vector<OptionSpec> run_options() {
@@ -60,14 +56,14 @@ std::vector<OptionSpec> run_options() {
          [](Options& o, const OptionValue& v) { o.device.dump_folder = parse_path(v); }},
         {group, "", "--cache", "MODE",
          "keep compiled kernels: on; auto: unless the driver does; off: neither (default auto)",
-         [](Options& o, const OptionValue& v) { o.device.cache = parse_toggle(v); }},
+         [](Options& o, const OptionValue& v) { o.device.cache = parse_choice<Toggle>(v); }},
         {group, "", "--no-cache", "", "same as --cache off",
          [](Options& o, const OptionValue&) { o.device.cache = Toggle::OFF; }},
         {group, "", "--cache-dir", "DIR", "where to keep them (default: clrt in the user's cache folder)",
          [](Options& o, const OptionValue& v) { o.device.cache_folder = parse_path(v); }},
         {group, "", "--progress", "MODE",
          "auto (a line on a terminal, else one now and then), on, off (default auto)",
-         [](Options& o, const OptionValue& v) { o.run.progress = parse_toggle(v); }},
+         [](Options& o, const OptionValue& v) { o.run.progress = parse_choice<Toggle>(v); }},
         {group, "q", "--quiet", "", "errors only, no progress",
          [](Options& o, const OptionValue&) { o.run.verbosity = -1; }},
         {group, "v", "--verbose", "", "say everything: the report too",

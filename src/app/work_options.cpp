@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "Work".
+#include "app/integrator_help.h"
 #include "app/option_rows.h"
 
-#include <map>
+#include <fmt/format.h>
 
 namespace clrt {
 
 namespace {
 
-/// Segments; no scene needs more, and a pixel's loop stays bounded.
-constexpr int LARGEST_DEPTH = 65535;
 constexpr int LARGEST_REPLICATES = 64;
 constexpr int LARGEST_THREADS = 4096;
 
@@ -19,25 +18,30 @@ void apply_text(std::string& target, const OptionValue& v) {
     target = v.text;
 }
 
+std::string layouts_and_qualities() {
+    std::vector<std::string> names;
+    for (const auto& row : NAMES<BvhLayout>)
+        names.emplace_back(row.name);
+    for (const auto& row : NAMES<BvhQuality>)
+        names.emplace_back(row.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // A layout, a quality or one of each; what is not named is chosen.
 void apply_bvh(Options& o, const OptionValue& v) {
-    o.bvh.layout = BvhChoice::AUTO;
-    o.bvh.quality = QualityChoice::AUTO;
+    o.bvh = {};
     if (v.text == "auto")
         return;
-    const std::map<std::string, BvhChoice> layouts = {
-        {"bvh8", BvhChoice::BVH8}, {"bvh2", BvhChoice::BVH2}, {"cwbvh", BvhChoice::CWBVH}};
-    const std::map<std::string, QualityChoice> qualities = {{"fast", QualityChoice::FAST},
-                                                            {"high", QualityChoice::HIGH}};
     for (const std::string& name : split_list(v.text)) {
-        const auto layout = layouts.find(name);
-        const auto quality = qualities.find(name);
-        if (o.bvh.layout == BvhChoice::AUTO && layout != layouts.end())
-            o.bvh.layout = layout->second;
-        else if (o.bvh.quality == QualityChoice::AUTO && quality != qualities.end())
-            o.bvh.quality = quality->second;
+        const auto layout = find_named<BvhLayout>(name);
+        const auto quality = find_named<BvhQuality>(name);
+        if (layout && !o.bvh.layout)
+            o.bvh.layout = layout;
+        else if (quality && !o.bvh.quality)
+            o.bvh.quality = quality;
         else
-            reject_value(v, "auto, bvh8, bvh2, cwbvh, fast, high, or a layout and a quality as in bvh8,high");
+            reject_value(v,
+                         "auto, " + layouts_and_qualities() + ", or a layout and a quality as in bvh8,high");
     }
 }
 
@@ -45,6 +49,7 @@ void apply_bvh(Options& o, const OptionValue& v) {
 
 std::vector<OptionSpec> work_options() {
     const char* const group = "Work";
+    const TransportOptions defaults;
     return {
         {group, "d", "--device", "NAME",
          "platform, else device, by a part of its name; cpu, gpu; or P:D as listed (default: variable "
@@ -52,14 +57,8 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) { apply_text(o.device.name, v); }},
         {group, "l", "--list-devices", "", "list platforms and devices, with -v how they compute, then exit",
          [](Options& o, const OptionValue&) { o.run.list_devices = true; }, Repeat::NO, COMMAND_LINE_ONLY},
-        {group, "i", "--integrator", "NAME",
-         "path (global illumination), whitted (mirrors, glass, shadows) or raycast (first hit, shadows) "
-         "(default path)",
-         [](Options& o, const OptionValue& v) {
-             o.transport.integrator = parse_choice<Integrator>(v, {{"raycast", Integrator::RAYCAST},
-                                                                   {"whitted", Integrator::WHITTED},
-                                                                   {"path", Integrator::PATH}});
-         }},
+        {group, "i", "--integrator", "NAME", integrator_choices(),
+         [](Options& o, const OptionValue& v) { o.transport.integrator = parse_choice<Integrator>(v); }},
         {group, "s", "--spp", "N",
          "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error)",
          [](Options& o, const OptionValue& v) {
@@ -80,17 +79,21 @@ std::vector<OptionSpec> work_options() {
                  reject_value(v, "an error above 0 such as 0.02 or 2%");
          }},
         {group, "", "--max-depth", "N",
-         "longest path in segments; 1 sees emitters, 2 adds direct light (default 4096, whitted 10, raycast "
-         "always 2); what it cuts is reported",
+         fmt::format("longest path in segments; 1 sees emitters, 2 adds direct light ({}); what it cuts is "
+                     "reported",
+                     depth_defaults()),
          [](Options& o, const OptionValue& v) {
              o.transport.max_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
          }},
-        {group, "", "--roulette-depth", "N", "path: first segment that Russian roulette may end (default 5)",
+        {group, "", "--roulette-depth", "N",
+         fmt::format("{}first segment that Russian roulette may end (default {})",
+                     takers(TAKES_ROULETTE_DEPTH), defaults.roulette_depth),
          [](Options& o, const OptionValue& v) {
              o.transport.roulette_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
          }},
         {group, "", "--min-contribution", "X",
-         "whitted: smallest weight worth a ray, also in % (default 0.002)",
+         fmt::format("{}smallest weight worth a ray, also in % (default {})", takers(TAKES_MIN_CONTRIBUTION),
+                     defaults.min_contribution),
          [](Options& o, const OptionValue& v) { o.transport.min_contribution = parse_fraction(v); }},
         {group, "", "--seed", "N", "chooses the noise; same seed, same picture (default 0)",
          [](Options& o, const OptionValue& v) {
@@ -113,17 +116,10 @@ std::vector<OptionSpec> work_options() {
         {group, "", "--sampler", "NAME",
          "sobol (scrambled points, even over the samples of a pixel) or independent (white noise, to compare "
          "with) (default sobol)",
-         [](Options& o, const OptionValue& v) {
-             o.sampling.sampler = parse_choice<SamplerChoice>(
-                 v, {{"sobol", SamplerChoice::SOBOL}, {"independent", SamplerChoice::INDEPENDENT}});
-         }},
+         [](Options& o, const OptionValue& v) { o.sampling.sampler = parse_choice<SamplerChoice>(v); }},
         {group, "", "--precision", "NAME",
          "single, double (needs fp64) or fast (relaxed maths) (default single)",
-         [](Options& o, const OptionValue& v) {
-             o.device.precision = parse_choice<Precision>(
-                 v,
-                 {{"single", Precision::SINGLE}, {"double", Precision::DOUBLE}, {"fast", Precision::FAST}});
-         }},
+         [](Options& o, const OptionValue& v) { o.device.precision = parse_choice<Precision>(v); }},
         {group, "j", "--threads", "N", "CPU threads, 0 for all (default 0)",
          [](Options& o, const OptionValue& v) {
              o.device.threads = static_cast<int>(parse_whole(v, 0, LARGEST_THREADS));
@@ -137,17 +133,13 @@ std::vector<OptionSpec> work_options() {
          "material libraries: auto (as Blender, Maya, scan tools and others mean what they write; every "
          "repair "
          "is said) or plain (word by word) (default auto)",
-         [](Options& o, const OptionValue& v) {
-             o.scene.mtl =
-                 parse_choice<MtlReading>(v, {{"auto", MtlReading::AUTO}, {"plain", MtlReading::PLAIN}});
-         }},
+         [](Options& o, const OptionValue& v) { o.scene.mtl = parse_choice<MtlReading>(v); }},
         {group, "", "--material", "NAME",
          "what everything is made of: none (as the libraries say) or clay (matte grey, to show shape and "
          "light "
          "alone; lights and cut-outs stay) (default none)",
          [](Options& o, const OptionValue& v) {
-             o.scene.material_override = parse_choice<MaterialOverride>(
-                 v, {{"none", MaterialOverride::NONE}, {"clay", MaterialOverride::CLAY}});
+             o.scene.material_override = parse_choice<MaterialOverride>(v);
          }},
     };
 }

@@ -4,25 +4,14 @@
 
 #include "kernels/shared/bvh_types.h"
 #include "kernels/shared/scene_types.h"
+#include "options/bvh_options.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace clrt {
 
-enum class BvhLayout { BVH8 = BVH_LAYOUT_BVH8, BVH2 = BVH_LAYOUT_BVH2, CWBVH = BVH_LAYOUT_CWBVH };
-
 constexpr BvhLayout ALL_LAYOUTS[] = {BvhLayout::BVH8, BvhLayout::BVH2, BvhLayout::CWBVH};
-
-/// A layout's name as on the command line.
-const char* layout_name(BvhLayout layout);
-
-/// How much work goes into the tree. HIGH builds several times as long for fewer tests a ray: spatial splits
-/// and reinsertion.
-enum class BvhQuality { FAST, HIGH };
-
-/// A quality's name as on the command line.
-const char* quality_name(BvhQuality quality);
 
 /// A tree in a device layout (kernels/shared/bvh_types.h) with the figures of its construction.
 struct Bvh {

@@ -30,22 +30,6 @@ constexpr double LARGEST_COST_SHARE = 0.95;
 
 } // namespace
 
-const char* layout_name(BvhLayout layout) {
-    switch (layout) {
-    case BvhLayout::BVH2:
-        return "bvh2";
-    case BvhLayout::CWBVH:
-        return "cwbvh";
-    case BvhLayout::BVH8:
-        break;
-    }
-    return "bvh8";
-}
-
-const char* quality_name(BvhQuality quality) {
-    return quality == BvhQuality::HIGH ? "high" : "fast";
-}
-
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
               BvhQuality quality) {
     const auto start = std::chrono::steady_clock::now();

@@ -150,9 +150,9 @@ void find_light_effects(const Scene& scene, const Options& options, EffectFinder
 /// --material may be the reason why effects of materials are absent.
 void find_material_effects(const Options& options, EffectFinder& finder) {
     const MaterialReplacement* replacement = find_replacement(options.scene.material_override);
-    const std::string by =
-        replacement ? fmt::format(", by {} {}", describe_option(options, "--material"), replacement->name)
-                    : "";
+    const std::string by = replacement ? fmt::format(", by {} {}", describe_option(options, "--material"),
+                                                     name_of(replacement->which))
+                                       : "";
     const auto lobe = [&](u32 bit, u32 lobe_bit, const std::string& absent) {
         finder.material(bit, absent + by,
                         [lobe_bit](const Material& m) { return (m.lobes & lobe_bit) != 0; });
@@ -200,7 +200,7 @@ void find_interreflection(const Scene& scene, const Options& options, EffectFind
     const int depth = effective_max_depth(options.transport);
     const size_t reflecting = finder.first_material([](const Material& m) { return m.lobes != 0; });
     const std::string limit =
-        options.transport.max_depth && options.transport.integrator != Integrator::RAYCAST
+        options.transport.max_depth && takes_option(options.transport.integrator, TAKES_MAX_DEPTH)
             ? fmt::format("{} {}", describe_option(options, "--max-depth"), depth)
             : fmt::format("paths of at most {} segments", depth);
     if (reflecting == scene.materials.size())

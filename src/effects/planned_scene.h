@@ -19,8 +19,9 @@ struct PlannedScene {
     Effects effects;
 };
 
-/// Finds the effects, takes out those that are not wanted, and plans the paths of what is left: the one order
-/// of these three. Throws UsageError for path expressions that are wrong or too large.
+/// Tabulates the sky as the integrator samples it, finds the effects, takes out those that are not wanted,
+/// and plans the paths of what is left: the one order of these. Throws UsageError for path expressions that
+/// are wrong or too large.
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
 
 } // namespace clrt

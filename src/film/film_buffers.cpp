@@ -38,8 +38,8 @@ std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_
 
 } // namespace
 
-std::vector<std::string> film_defines(const DeviceInfo& device, bool splats) {
-    if (!splats)
+std::vector<std::string> film_defines(const DeviceInfo& device, FilmAccess access) {
+    if (access == FilmAccess::GATHER)
         return {};
     return {"FILM_SPLATS=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.int64_atomics))};
 }

@@ -6,12 +6,13 @@
 #include "device/program.h"
 #include "film/render_progress.h"
 #include "kernels/shared/render_types.h"
+#include "options/integrators.h"
 
 namespace clrt {
 
-/// What the programs of an integrator are built with that adds to any pixel; of one that only gathers
-/// (`splats` false), nothing (kernels/film/sum.h).
-std::vector<std::string> film_defines(const DeviceInfo& device, bool splats);
+/// What the programs of an integrator that splats are built with; of one that gathers, nothing
+/// (kernels/film/sum.h).
+std::vector<std::string> film_defines(const DeviceInfo& device, FilmAccess access);
 
 /// Halves the number of replicates kept apart until their sums and those of `layers` layers of paths fit the
 /// device.

@@ -48,30 +48,6 @@ private:
     std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
 
-const char* precision_name(Precision precision) {
-    switch (precision) {
-    case Precision::SINGLE:
-        return "single";
-    case Precision::DOUBLE:
-        return "double";
-    case Precision::FAST:
-        break;
-    }
-    return "fast";
-}
-
-const char* filter_name(Filter filter) {
-    switch (filter) {
-    case Filter::BOX:
-        return "box";
-    case Filter::TENT:
-        return "tent";
-    case Filter::GAUSSIAN:
-        break;
-    }
-    return "gaussian";
-}
-
 /// "sky", "transparent", or a radiance.
 FilmIdentity background_identity(const Scene& scene, const Options& options) {
     if (has_transparent_background(options.light))
@@ -86,9 +62,7 @@ std::string kernels_hash(const Options& options) {
     const KernelFiles files = options.device.kernels_folder.empty()
                                   ? embedded_kernel_files()
                                   : read_kernel_files(options.device.kernels_folder);
-    const std::string entry =
-        std::string("integrators/") + integrator_name(options.transport.integrator) + ".cl";
-    const std::string source = expand_kernel_source(files, entry);
+    const std::string source = expand_kernel_source(files, integrator_file(options.transport.integrator));
     Hash hash;
     hash.bytes(source.data(), source.size());
     return hash.text();
@@ -116,6 +90,8 @@ std::string scene_hash(const Scene& scene) {
     hash.vector(scene.camera.at);
     hash.vector(scene.camera.up);
     hash.number(scene.camera.fov_degrees);
+    hash.number(scene.camera.projection);
+    hash.number(scene.camera.ortho_height);
     hash.vector(scene.normalisation.centre);
     hash.number(scene.normalisation.scale);
     return hash.text();
@@ -125,18 +101,18 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
                            const FilmScale& scale) {
     FilmIdentity identity;
     identity["version"] = CLRT_VERSION;
-    identity["integrator"] = integrator_name(options.transport.integrator);
+    identity["integrator"] = name_of(options.transport.integrator);
     identity["kernels"] = kernels_hash(options);
     identity["size"] = {params.width, params.height};
     identity["window"] = {params.crop_x, params.crop_y, params.crop_x + params.crop_width,
                           params.crop_y + params.crop_height};
     identity["scene"] = scene_hash(scene); // after the size, which a fitted camera follows
-    identity["precision"] = precision_name(options.device.precision);
-    identity["sampler"] = sampler_name(options.sampling.sampler);
+    identity["precision"] = name_of(options.device.precision);
+    identity["sampler"] = name_of(options.sampling.sampler);
     identity["adaptive"] = options.sampling.adaptive;
     identity["seed"] = params.seed;
     identity["replicates"] = params.replicates;
-    identity["filter"] = filter_name(options.film.filter);
+    identity["filter"] = name_of(options.film.filter);
     identity["filter_radius"] = params.filter_radius;
     identity["max_depth"] = params.max_depth;
     identity["roulette_depth"] = params.roulette_depth;

@@ -2,14 +2,31 @@
 // The tree of boxes.
 #pragma once
 
+#include "kernels/shared/bvh_types.h"
+#include "options/names.h"
+
+#include <optional>
+
 namespace clrt {
 
-enum class BvhChoice { AUTO, BVH8, BVH2, CWBVH };
-enum class QualityChoice { AUTO, FAST, HIGH };
+/// How nodes and leaves lie in the device's memory (kernels/shared/bvh_types.h).
+enum class BvhLayout { BVH8 = BVH_LAYOUT_BVH8, BVH2 = BVH_LAYOUT_BVH2, CWBVH = BVH_LAYOUT_CWBVH };
+
+template <>
+inline constexpr Named<BvhLayout> NAMES<BvhLayout>[] = {
+    {BvhLayout::BVH8, "bvh8"}, {BvhLayout::BVH2, "bvh2"}, {BvhLayout::CWBVH, "cwbvh"}};
+
+/// How much work goes into the tree. HIGH builds several times as long for fewer tests a ray: spatial splits
+/// and reinsertion.
+enum class BvhQuality { FAST, HIGH };
+
+template <>
+inline constexpr Named<BvhQuality> NAMES<BvhQuality>[] = {{BvhQuality::FAST, "fast"},
+                                                          {BvhQuality::HIGH, "high"}};
 
 struct BvhOptions {
-    BvhChoice layout = BvhChoice::AUTO;
-    QualityChoice quality = QualityChoice::AUTO; ///< work put into the tree
+    std::optional<BvhLayout> layout;   ///< none: the device's best
+    std::optional<BvhQuality> quality; ///< none: high where a long render pays for it
 };
 
 } // namespace clrt

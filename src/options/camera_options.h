@@ -2,6 +2,9 @@
 // The camera.
 #pragma once
 
+#include "kernels/shared/camera_types.h"
+#include "options/names.h"
+
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -11,14 +14,28 @@ namespace clrt {
 /// FRONT.
 enum class View { FRONT, BACK, LEFT, RIGHT, TOP, BOTTOM, ISO };
 
+template <>
+inline constexpr Named<View> NAMES<View>[] = {
+    {View::FRONT, "front"}, {View::BACK, "back"},     {View::LEFT, "left"}, {View::RIGHT, "right"},
+    {View::TOP, "top"},     {View::BOTTOM, "bottom"}, {View::ISO, "iso"}};
+
+template <>
+inline constexpr Named<Projection> NAMES<Projection>[] = {
+#define PROJECTION_NAME(constant, name) {PROJECTION_##constant, #name},
+    PROJECTION_ROWS(PROJECTION_NAME)
+#undef PROJECTION_NAME
+};
+
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
 struct CameraOptions {
     std::optional<glm::dvec3> eye, at, up;          ///< scene units
     std::optional<View> view;                       ///< direction of a fitted eye; none: three quarters
     std::optional<double> fov_degrees;              ///< vertical angle of view
     std::optional<double> focal_length, film_width; ///< any common unit; fov = 2 atan(width H / (2 W focal))
-    std::optional<int> frames;                      ///< pictures of a turn around what the camera looks at
-    int frame = 0;                                  ///< which of them this is, from 1; 0: none of them
+    Projection projection = PROJECTION_PERSPECTIVE;
+    std::optional<double> ortho_height; ///< orthographic: of what the picture shows, scene units
+    std::optional<int> frames;          ///< pictures of a turn around what the camera looks at
+    int frame = 0;                      ///< which of them this is, from 1; 0: none of them
 };
 
 } // namespace clrt

@@ -2,12 +2,18 @@
 // The device, and how programs for it are made and compute.
 #pragma once
 
+#include "options/names.h"
 #include "options/toggle.h"
+
 #include <string>
 
 namespace clrt {
 
 enum class Precision { SINGLE, DOUBLE, FAST };
+
+template <>
+inline constexpr Named<Precision> NAMES<Precision>[] = {
+    {Precision::SINGLE, "single"}, {Precision::DOUBLE, "double"}, {Precision::FAST, "fast"}};
 
 struct DeviceOptions {
     std::string name; ///< as given to --device; empty: CLRT_DEVICE, else the first GPU, else the CPU

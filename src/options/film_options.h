@@ -2,12 +2,18 @@
 // The picture as the kernels compute it.
 #pragma once
 
+#include "options/names.h"
+
 #include <glm/vec2.hpp>
 #include <optional>
 
 namespace clrt {
 
 enum class Filter { BOX, TENT, GAUSSIAN };
+
+template <>
+inline constexpr Named<Filter> NAMES<Filter>[] = {
+    {Filter::BOX, "box"}, {Filter::TENT, "tent"}, {Filter::GAUSSIAN, "gaussian"}};
 
 /// A window of the picture in pixels; x1, y1 excluded.
 struct Crop {

@@ -5,15 +5,8 @@
 namespace clrt {
 
 int effective_max_depth(const TransportOptions& transport) {
-    switch (transport.integrator) {
-    case Integrator::RAYCAST:
-        return 2;
-    case Integrator::WHITTED:
-        return transport.max_depth.value_or(DEFAULT_WHITTED_DEPTH);
-    case Integrator::PATH:
-        break;
-    }
-    return transport.max_depth.value_or(DEFAULT_PATH_DEPTH);
+    const int usual = integrator_row(transport.integrator).depth.usual;
+    return takes_option(transport.integrator, TAKES_MAX_DEPTH) ? transport.max_depth.value_or(usual) : usual;
 }
 
 bool has_transparent_background(const LightOptions& light) {

@@ -2,6 +2,8 @@
 // Files that are written, and how a picture is shown.
 #pragma once
 
+#include "options/names.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,13 @@
 namespace clrt {
 
 enum class Tonemap { NONE, REINHARD, ACES, FILMIC, AGX };
+
+template <>
+inline constexpr Named<Tonemap> NAMES<Tonemap>[] = {{Tonemap::NONE, "none"},
+                                                    {Tonemap::REINHARD, "reinhard"},
+                                                    {Tonemap::ACES, "aces"},
+                                                    {Tonemap::FILMIC, "filmic"},
+                                                    {Tonemap::AGX, "agx"}};
 
 /// An EXR layer with the light of some paths.
 struct PathLayerOption {

@@ -2,6 +2,7 @@
 // What a run does and how it talks.
 #pragma once
 
+#include "options/names.h"
 #include "options/toggle.h"
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -13,6 +14,10 @@
 namespace clrt {
 
 enum class Check { OFF, COUNT, STRICT };
+
+template <>
+inline constexpr Named<Check> NAMES<Check>[] = {
+    {Check::OFF, "off"}, {Check::COUNT, "count"}, {Check::STRICT, "strict"}};
 enum class Explain { NO, TABLE, JSON };
 
 struct RunOptions {

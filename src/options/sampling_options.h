@@ -2,12 +2,18 @@
 // Which samples are taken, and what ends a render.
 #pragma once
 
+#include "options/names.h"
+
 #include <cstdint>
 #include <optional>
 
 namespace clrt {
 
 enum class SamplerChoice { SOBOL, INDEPENDENT };
+
+template <>
+inline constexpr Named<SamplerChoice> NAMES<SamplerChoice>[] = {{SamplerChoice::SOBOL, "sobol"},
+                                                                {SamplerChoice::INDEPENDENT, "independent"}};
 
 /// Samples a pixel when none of --spp, --time and --error is given.
 constexpr std::uint32_t DEFAULT_SPP = 64;

@@ -2,13 +2,24 @@
 // The scene and how it is read.
 #pragma once
 
+#include "options/names.h"
+
 #include <string>
 
 namespace clrt {
 
 enum class MtlReading { AUTO, PLAIN };
+
+template <>
+inline constexpr Named<MtlReading> NAMES<MtlReading>[] = {{MtlReading::AUTO, "auto"},
+                                                          {MtlReading::PLAIN, "plain"}};
+
 /// CLAY: matte grey in the place of every material (scene/material_override.h).
 enum class MaterialOverride { NONE, CLAY };
+
+template <>
+inline constexpr Named<MaterialOverride> NAMES<MaterialOverride>[] = {{MaterialOverride::NONE, "none"},
+                                                                      {MaterialOverride::CLAY, "clay"}};
 
 struct SceneOptions {
     std::string path;                  ///< a file; "-": the standard input

@@ -17,26 +17,6 @@ namespace clrt {
 
 namespace {
 
-/// What an integrator simulates, and its techniques: paths whose light a ray meets, and paths whose light it
-/// connects to. With G, so that D means matte alone.
-struct Techniques {
-    const char* language;
-    const char* by_rays;
-    const char* by_connection;
-};
-
-Techniques techniques_of(Integrator integrator) {
-    switch (integrator) {
-    case Integrator::RAYCAST:
-        return {"L(D|G)?E", "LE", "L(D|G)E"};
-    case Integrator::WHITTED:
-        return {"L(D|G)?S*E", "LS*E", "L(D|G)S*E"};
-    case Integrator::PATH:
-        break;
-    }
-    return {"L(D|G|S)*E", "L(D|G|S)*E", "L(D|G)(D|G|S)*E"};
-}
-
 /// The image of a light, straight or by smooth surfaces.
 const char* const IMAGE = "LS*E";
 
@@ -57,10 +37,10 @@ struct Unsampled {
 class Product {
 public:
     Product(const PathPlan& plan, const PathExpression& picture, Integrator integrator) : plan_(plan) {
-        const Techniques techniques = techniques_of(integrator);
+        const SimulatedPaths& simulated = integrator_row(integrator).paths;
         const PathExpression expressions[] = {
-            parse_path_expression(techniques.language), picture, parse_path_expression(techniques.by_rays),
-            parse_path_expression(techniques.by_connection), parse_path_expression(IMAGE)};
+            parse_path_expression(simulated.all), picture, parse_path_expression(simulated.by_rays),
+            parse_path_expression(simulated.by_connection), parse_path_expression(IMAGE)};
         Joint start{};
         for (size_t i = 0; i < automata_.size(); ++i) {
             automata_[i] = make_automaton(expressions[i], {}, plan.alphabet);

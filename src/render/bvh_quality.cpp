@@ -21,12 +21,10 @@ constexpr double RAY_NS_A_LEVEL = 12;
 // default.
 constexpr std::uint32_t SPP_FOR_AN_ERROR = 1024;
 
-// Rays of a sample: each segment and its shadow ray, as long as roulette lets paths live.
+// Rays of a sample: to each vertex that scatters and on to a light, as long as roulette lets paths live.
 double rays_per_sample(const Options& options) {
-    constexpr int USUAL_SEGMENTS = 5;
-    return options.transport.integrator == Integrator::RAYCAST
-               ? 2.0
-               : 2.0 * std::min(effective_max_depth(options.transport), USUAL_SEGMENTS);
+    constexpr int USUAL_VERTICES = 5;
+    return 2.0 * std::clamp(effective_max_depth(options.transport) - 1, 1, USUAL_VERTICES);
 }
 
 double predicted_seconds(const Options& options, size_t triangles) {
@@ -47,9 +45,8 @@ double predicted_seconds(const Options& options, size_t triangles) {
 } // namespace
 
 BvhQualityChoice choose_bvh_quality(const Options& options, size_t triangles) {
-    if (options.bvh.quality != QualityChoice::AUTO)
-        return {options.bvh.quality == QualityChoice::HIGH ? BvhQuality::HIGH : BvhQuality::FAST,
-                "as chosen"};
+    if (options.bvh.quality)
+        return {*options.bvh.quality, "as chosen"};
     const double saved = SAVED_SHARE * predicted_seconds(options, triangles);
     const double extra = double(triangles) * EXTRA_BUILD_NS * 1e-9;
     const bool pays = saved > MARGIN * extra;

@@ -2,7 +2,7 @@
 #include "render/dark_picture.h"
 
 #include "output/exposure.h"
-#include "scene/view_frame.h"
+#include "scene/camera_params.h"
 #include "scene/voxel_grid.h"
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <set>
 
 namespace clrt {
@@ -54,10 +53,7 @@ struct InView {
 };
 
 InView probe_view(const VoxelGrid& grid, const Scene& scene, const Options& options) {
-    const Camera& camera = scene.camera;
-    const PictureAxes axes = picture_axes(camera.at - camera.eye, camera.up);
-    const double vertical = std::tan(glm::radians(camera.fov_degrees) / 2),
-                 horizontal = vertical * options.film.size.x / options.film.size.y;
+    const CameraParams camera = make_camera_params(scene.camera, scene.normalisation, options.film.size);
     const Crop whole{0, 0, options.film.size.x, options.film.size.y},
         window = options.film.crop.value_or(whole);
     InView view;
@@ -65,11 +61,8 @@ InView probe_view(const VoxelGrid& grid, const Scene& scene, const Options& opti
         for (int x = 0; x < PROBES; ++x) {
             const double px = window.x0 + (x + 0.5) * (window.x1 - window.x0) / PROBES,
                          py = window.y0 + (y + 0.5) * (window.y1 - window.y0) / PROBES;
-            const glm::dvec3 direction = axes.look +
-                                         axes.right * (horizontal * (2 * px / options.film.size.x - 1)) -
-                                         axes.up * (vertical * (2 * py / options.film.size.y - 1));
-            const VoxelGrid::Hit hit =
-                grid.cast(to_normalised(scene.normalisation, camera.eye), glm::normalize(direction));
+            const FilmRay ray = film_ray(camera, glm::dvec2(px, py) - glm::dvec2(options.film.size) / 2.);
+            const VoxelGrid::Hit hit = grid.cast(ray.origin, glm::normalize(ray.direction));
             view.hits += double(hit.is_hit) / (PROBES * PROBES);
             view.backs += double(hit.is_hit && hit.is_back) / (PROBES * PROBES);
         }

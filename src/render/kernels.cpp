@@ -54,44 +54,8 @@ ProgramRequest make_request(const KernelFiles& files, const std::string& name, c
 
 } // namespace
 
-const char* integrator_name(Integrator integrator) {
-    switch (integrator) {
-    case Integrator::RAYCAST:
-        return "raycast";
-    case Integrator::WHITTED:
-        return "whitted";
-    case Integrator::PATH:
-        break;
-    }
-    return "path";
-}
-
-bool integrator_splats(Integrator integrator) {
-    switch (integrator) {
-    case Integrator::PATH:
-    case Integrator::WHITTED:
-    case Integrator::RAYCAST:
-        break;
-    }
-    return false;
-}
-
-const char* sampler_name(SamplerChoice sampler) {
-    return sampler == SamplerChoice::INDEPENDENT ? "independent" : "sobol";
-}
-
-BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device) {
-    switch (choice) {
-    case BvhChoice::BVH8:
-        return BvhLayout::BVH8;
-    case BvhChoice::BVH2:
-        return BvhLayout::BVH2;
-    case BvhChoice::CWBVH:
-        return BvhLayout::CWBVH;
-    case BvhChoice::AUTO:
-        break;
-    }
-    return device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2;
+BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device) {
+    return choice.value_or(device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2);
 }
 
 bool wants_layers(const Options& options) {
@@ -119,8 +83,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     };
     RenderPrograms programs;
     std::vector<std::string> of_picture = path_defines(paths);
-    append(of_picture, film_defines(device.info, integrator_splats(options.transport.integrator)));
-    programs.picture = build(integrator_name(options.transport.integrator), of_picture);
+    append(of_picture, film_defines(device.info, integrator_row(options.transport.integrator).film));
+    programs.picture = build(name_of(options.transport.integrator), of_picture);
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -129,13 +93,13 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
-    ProgramRequest request = make_request(
-        kernel_files(options), integrator_name(options.transport.integrator), options, effects, layout, 1);
+    ProgramRequest request = make_request(kernel_files(options), name_of(options.transport.integrator),
+                                          options, effects, layout, 1);
     request.name += REPLAY_ENDING;
     request.precision = precision;
     request.defines.emplace_back("CLRT_TRACE=1");
     append(request.defines, path_defines(paths));
-    append(request.defines, film_defines(device.info, integrator_splats(options.transport.integrator)));
+    append(request.defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
     return build_program(device, request);
 }
 
@@ -143,7 +107,7 @@ std::vector<std::string> dumped_files(const Options& options) {
     std::vector<std::string> paths;
     if (options.device.dump_folder.empty())
         return paths;
-    const std::string integrator = integrator_name(options.transport.integrator);
+    const std::string integrator = name_of(options.transport.integrator);
     for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});

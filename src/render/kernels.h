@@ -18,19 +18,9 @@ struct RenderPrograms {
     double seconds = 0;            ///< wall time of building both
 };
 
-/// Name of an integrator as on the command line; its kernel is "render_" + name in integrators/NAME.cl.
-const char* integrator_name(Integrator integrator);
-
-/// Whether an integrator's work-items add to the pixels of others: splats are added by atomics, which those
-/// that only gather do without.
-bool integrator_splats(Integrator integrator);
-
-/// The name of a sampler, as in --sampler.
-const char* sampler_name(SamplerChoice sampler);
-
 /// The tree's layout: as chosen, else bvh8 on CPUs, where it is the fastest that was measured, and bvh2
 /// elsewhere: the simpler of the two layouts for GPUs, until bvh2 and cwbvh have been measured on one.
-BvhLayout choose_layout(BvhChoice choice, const DeviceInfo& device);
+BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device);
 
 /// True if some output file can hold auxiliary layers and the options want one.
 bool wants_layers(const Options& options);

@@ -49,7 +49,7 @@ std::string format_ledger(const Ledger& ledger, const Options& options, const De
         fmt::format("Ledger of {}: {} x {}, {}, on {}\n{} rounds of {} spp; {} for one sample a pixel; "
                     "medians with 96 % intervals\n\n",
                     input_name(options.scene.path), ledger.width, ledger.height,
-                    integrator_name(options.transport.integrator), device.name, LEDGER_ROUNDS, ledger.samples,
+                    name_of(options.transport.integrator), device.name, LEDGER_ROUNDS, ledger.samples,
                     ledger.is_processor_time ? "milliseconds of all threads together" : "milliseconds");
     const char* const row = "{:<22}  {:<26} {:<24} {:<24} {}\n";
     out += fmt::format(fmt::runtime(row), "", "    ms", "     % of time", "     % of light",
@@ -77,11 +77,11 @@ std::string ledger_json(const Ledger& ledger, const Options& options, const Devi
     Json root;
     root["version"] = CLRT_VERSION;
     root["scene"] = input_name(options.scene.path);
-    root["integrator"] = integrator_name(options.transport.integrator);
+    root["integrator"] = name_of(options.transport.integrator);
     root["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
     root["width"] = ledger.width;
     root["height"] = ledger.height;
-    root["bvh"] = {{"quality", quality_name(ledger.bvh_quality)}, {"reason", ledger.bvh_reason}};
+    root["bvh"] = {{"quality", name_of(ledger.bvh_quality)}, {"reason", ledger.bvh_reason}};
     root["seconds"] = ledger.seconds;
     root["compile_seconds"] = ledger.compile_seconds;
     root["not_measured"] = ledger.not_measured;

@@ -34,9 +34,8 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
     : prepared_(prepared), options_(prepared.planned->options), params_(params), progress_(progress),
       hooks_(hooks), result_(result),
       film_buffers_(prepared.device, params, prepared.planned->effects.paths.layers.size()),
-      launcher_(prepared.device, prepared.programs->picture,
-                std::string("render_") + integrator_name(options_.transport.integrator), params,
-                prepared.buffers),
+      launcher_(prepared.device, prepared.programs->picture, integrator_kernel(options_.transport.integrator),
+                params, prepared.buffers),
       rules_(options_.sampling, film_limit(result.film, options_)),
       picture_reminder_(options_.output.save_every_seconds),
       film_reminder_(options_.film_file.checkpoint_path.empty()

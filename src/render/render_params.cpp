@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render_params.h"
 
+#include "scene/camera_params.h"
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <stdexcept>
 
 namespace clrt {
 
@@ -15,19 +18,6 @@ constexpr double RADIANS = 3.14159265358979323846 / 180;
 
 vec4 to_vec4(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z), 0.0f};
-}
-
-/// Puts the camera into the normalised frame: the eye, and directions to film positions in pixels.
-void set_camera(const Scene& scene, const Options& options, RenderParams& params) {
-    const Camera& camera = scene.camera;
-    const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
-    const glm::dvec3 right = glm::normalize(glm::cross(look, camera.up));
-    const glm::dvec3 up = glm::cross(right, look);
-    const double pixel = 2 * std::tan(0.5 * camera.fov_degrees * RADIANS) / options.film.size.y;
-    params.eye = to_vec4((camera.eye - scene.normalisation.centre) * scene.normalisation.scale);
-    params.film_dx = to_vec4(right * pixel);
-    params.film_dy = to_vec4(up * -pixel);
-    params.look = to_vec4(look);
 }
 
 /// Shares next-event estimation evenly between the kinds of light that it can find. A constant sky is left to
@@ -99,8 +89,11 @@ Crop render_window(const FilmOptions& film) {
 }
 
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {
+    if (!scene.environment.texels.empty() &&
+        scene.environment.sampling != integrator_row(options.transport.integrator).sky)
+        throw std::logic_error("the environment map has no table for this integrator: tabulate_sky");
     RenderParams params{};
-    set_camera(scene, options, params);
+    params.camera = make_camera_params(scene.camera, scene.normalisation, options.film.size);
     set_lights(scene, params);
     set_window(options, params);
     set_filter(options, params);

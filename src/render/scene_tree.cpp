@@ -10,8 +10,8 @@ namespace clrt {
 
 SceneTree build_scene_tree(const Scene& scene, const Options& options, BvhLayout layout) {
     BvhQualityChoice choice = choose_bvh_quality(options, scene.triangles.size());
-    spdlog::debug("tree: {} ({})", quality_name(choice.quality), choice.reason);
-    const bool compare = choice.quality == BvhQuality::HIGH && options.bvh.quality == QualityChoice::AUTO;
+    spdlog::debug("tree: {} ({})", name_of(choice.quality), choice.reason);
+    const bool compare = choice.quality == BvhQuality::HIGH && !options.bvh.quality;
     SceneTree tree;
     tree.bvh = compare ? build_better_bvh(scene.positions, scene.triangles, layout)
                        : build_bvh(scene.positions, scene.triangles, layout, choice.quality);

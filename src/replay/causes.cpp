@@ -149,7 +149,7 @@ std::string format_causes(const std::vector<CauseCount>& causes, std::uint64_t b
         const std::string name = material_name(row.cause, scene);
         text += fmt::format("cause    {} x {}: {}, {}, bounce {}{}\n         {}\n", row.count,
                             fault_name(row.cause.kind), quantity_name(row.cause),
-                            integrator_name(options.transport.integrator), row.cause.bounce,
+                            name_of(options.transport.integrator), row.cause.bounce,
                             name.empty() ? "" : ", material " + name, replay_command(options, row.example));
     }
     if (!causes.empty() && replayed_samples(causes) < bad)
@@ -165,7 +165,7 @@ nlohmann::ordered_json causes_json(const std::vector<CauseCount>& causes, const 
         list.push_back(
             {{"kind", fault_name(row.cause.kind)},
              {"quantity", quantity_name(row.cause)},
-             {"integrator", integrator_name(options.transport.integrator)},
+             {"integrator", name_of(options.transport.integrator)},
              {"bounce", row.cause.bounce},
              {"material", name.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(name)},
              {"count", row.count},

@@ -29,7 +29,7 @@ Json event_json(const SampleTrace& trace, const TraceEvent& event, const Scene& 
 }
 
 Json trace_json(const SampleTrace& trace, const Scene& scene, double quantum) {
-    Json json{{"precision", precision_name(trace.precision)}, {"fault", nullptr}, {"film", Json::array()}};
+    Json json{{"precision", name_of(trace.precision)}, {"fault", nullptr}, {"film", Json::array()}};
     if (trace.fault != COUNT_WORDS)
         json["fault"] = fault_name(trace.fault);
     for (const std::int64_t sum : trace.film)
@@ -73,7 +73,7 @@ std::string replay_json(const ReplayReport& report) {
     Json json;
     json["version"] = CLRT_VERSION;
     json["command"] = shell_text(report.options.run.command);
-    json["integrator"] = integrator_name(report.options.transport.integrator);
+    json["integrator"] = name_of(report.options.transport.integrator);
     json["device"] = {
         {"platform", report.device.platform}, {"name", report.device.name}, {"driver", report.device.driver}};
     json["pixel"] = {pixel % width, pixel / width};

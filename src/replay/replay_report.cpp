@@ -56,7 +56,7 @@ std::string event_lines(const ReplayReport& report, size_t at, const std::string
 
 /// What one record alone has from an event on.
 std::string rest_lines(const ReplayReport& report, const SampleTrace& trace, size_t from, bool hex) {
-    std::string text = fmt::format("{} alone, from there on\n", precision_name(trace.precision));
+    std::string text = fmt::format("{} alone, from there on\n", name_of(trace.precision));
     ReplayReport alone{report.options, report.scene, report.device, report.quantum, trace, std::nullopt};
     for (size_t at = from; at < trace.events.size(); ++at)
         text += event_lines(alone, at, "", hex);
@@ -78,13 +78,13 @@ std::string header(const ReplayReport& report) {
     std::string text =
         fmt::format("sample {} of pixel {},{}: {} x {}, {}, seed {}, on {}\n", report.first.address.sample,
                     pixel % width, pixel / width, options.film.size.x, options.film.size.y,
-                    integrator_name(options.transport.integrator), options.sampling.seed, report.device.name);
+                    name_of(options.transport.integrator), options.sampling.seed, report.device.name);
     if (options.device.precision == Precision::FAST)
         text += "relaxed maths: this program's last bits may differ from the picture's\n";
     if (!report.twin)
         text += "the device has no fp64: single precision alone\n";
-    return text + line("", precision_name(report.first.precision),
-                       report.twin ? precision_name(report.twin->precision) : "", "difference");
+    return text + line("", name_of(report.first.precision),
+                       report.twin ? name_of(report.twin->precision) : "", "difference");
 }
 
 std::string summary(const ReplayReport& report, const TwinDifference& difference) {
@@ -107,10 +107,6 @@ std::string summary(const ReplayReport& report, const TwinDifference& difference
 }
 
 } // namespace
-
-const char* precision_name(Precision precision) {
-    return precision == Precision::DOUBLE ? "double" : precision == Precision::FAST ? "fast" : "single";
-}
 
 std::string format_replay(const ReplayReport& report, bool hex) {
     const SampleTrace& a = report.first;

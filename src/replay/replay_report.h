@@ -18,9 +18,6 @@ struct ReplayReport {
     std::optional<SampleTrace> twin; ///< in double, where the device has it
 };
 
-/// Name of a precision as in --precision.
-const char* precision_name(Precision precision);
-
 /// The record as a table: quantities in scene units; with `hex`, below each line the numbers of the kernel,
 /// which lie in the normalised frame, to the last bit.
 std::string format_replay(const ReplayReport& report, bool hex);

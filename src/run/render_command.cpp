@@ -133,7 +133,7 @@ void announce(const PlannedScene& planned) {
     for (const BlindSpot& spot : planned.effects.paths.blind_spots)
         spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
                      "with a diameter",
-                     integrator_name(planned.options.transport.integrator), spot.paths, spot.cause);
+                     name_of(planned.options.transport.integrator), spot.paths, spot.cause);
 }
 
 } // namespace

@@ -117,7 +117,7 @@ std::string report_json(const Report& report) {
     Json json;
     json["version"] = CLRT_VERSION;
     json["command"] = command_text(report.options);
-    json["integrator"] = integrator_name(report.options.transport.integrator);
+    json["integrator"] = name_of(report.options.transport.integrator);
     json["width"] = render.film.width;
     json["height"] = render.film.height;
     json["spp"] = film_samples(render.film);
@@ -127,7 +127,7 @@ std::string report_json(const Report& report) {
                                  : Json(film_samples(render.film) - render.passes);
     json["first_sample"] = report.options.sampling.first_sample;
     json["adaptive"] = adaptive_json(render.film);
-    json["sampler"] = sampler_name(report.options.sampling.sampler);
+    json["sampler"] = name_of(report.options.sampling.sampler);
     json["seed"] = report.options.sampling.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = file_triangles(report.scene);
@@ -159,8 +159,8 @@ std::string report_json(const Report& report) {
                                        {"sample", sample}});
     json["exposure_ev"] = report.exposure_ev;
     json["device"] = device_json(report);
-    json["bvh"] = {{"layout", layout_name(report.bvh.layout)},
-                   {"quality", quality_name(report.bvh.quality)},
+    json["bvh"] = {{"layout", name_of(report.bvh.layout)},
+                   {"quality", name_of(report.bvh.quality)},
                    {"reason", report.bvh_reason},
                    {"depth", report.bvh.depth},
                    {"references", report.bvh.reference_count},
@@ -181,10 +181,10 @@ Metadata report_metadata(const Report& report) {
     const auto seconds = [](double value) { return fmt::format("{:.3f}", value); };
     Metadata metadata{{"version", CLRT_VERSION},
                       {"command", command_text(report.options)},
-                      {"integrator", integrator_name(report.options.transport.integrator)},
+                      {"integrator", name_of(report.options.transport.integrator)},
                       {"device", report.device.platform + ": " + report.device.name},
                       {"driver", report.device.driver},
-                      {"sampler", sampler_name(report.options.sampling.sampler)},
+                      {"sampler", name_of(report.options.sampling.sampler)},
                       {"seed", std::to_string(report.options.sampling.seed)},
                       {"replicates", std::to_string(render.film.replicates)},
                       {"first_sample", std::to_string(report.options.sampling.first_sample)},

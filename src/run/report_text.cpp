@@ -37,19 +37,6 @@ std::string time_line(const Report& report) {
                        report.render.run_seconds, report.device.name);
 }
 
-/// What the integrator never simulates, whatever the scene.
-const char* omissions_of(Integrator integrator) {
-    switch (integrator) {
-    case Integrator::RAYCAST:
-        return "all light but the direct one";
-    case Integrator::WHITTED:
-        return "all indirect light but that of mirrors and smooth glass";
-    case Integrator::PATH:
-        break;
-    }
-    return nullptr;
-}
-
 /// What the picture lacks although the scene calls for it.
 std::string left_out_lines(const Report& report) {
     std::string text;
@@ -59,9 +46,9 @@ std::string left_out_lines(const Report& report) {
             effects.push_back(effect.name);
     if (!effects.empty())
         text += fmt::format("left out {}, by --effects\n", fmt::join(effects, ", "));
-    if (const char* const omissions = omissions_of(report.options.transport.integrator))
-        text += fmt::format("left out {}, by --integrator {}\n", omissions,
-                            integrator_name(report.options.transport.integrator));
+    const IntegratorRow& integrator = integrator_row(report.options.transport.integrator);
+    if (integrator.omitted)
+        text += fmt::format("left out {}, by --integrator {}\n", integrator.omitted, integrator.name);
     if (report.effects.paths.is_asked)
         text += fmt::format("paths    {}\n", path_summary(report.effects.paths));
     if (!text.empty())
@@ -90,10 +77,9 @@ std::string missed_line(const Report& report) {
 std::string work_lines(const Report& report) {
     const Render& render = report.render;
     const double samples = double(render.counts.primary);
-    std::string text =
-        fmt::format("by       {}, seed {}, {} sampler, {} replicates\n",
-                    integrator_name(report.options.transport.integrator), report.options.sampling.seed,
-                    sampler_name(report.options.sampling.sampler), render.film.replicates);
+    std::string text = fmt::format("by       {}, seed {}, {} sampler, {} replicates\n",
+                                   name_of(report.options.transport.integrator), report.options.sampling.seed,
+                                   name_of(report.options.sampling.sampler), render.film.replicates);
     text += fmt::format("stages   load {:.2f} s, bvh {:.2f} s, compile {:.2f} + {:.2f} s, render {:.2f} s\n",
                         report.load_seconds, report.bvh.seconds, report.compile_seconds,
                         render.first_launch_seconds, render.run_seconds);
@@ -102,8 +88,8 @@ std::string work_lines(const Report& report) {
                     samples > 0 ? double(render.counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,
                     render.seconds > 0 ? samples / render.seconds * 1e-6 : 0);
     if (!report.bvh.nodes.empty())
-        text += fmt::format("tree     {} {} ({}), SAH cost {:.1f}\n", layout_name(report.bvh.layout),
-                            quality_name(report.bvh.quality), report.bvh_reason, report.bvh.sah_cost);
+        text += fmt::format("tree     {} {} ({}), SAH cost {:.1f}\n", name_of(report.bvh.layout),
+                            name_of(report.bvh.quality), report.bvh_reason, report.bvh.sah_cost);
     return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "scene/box_cover.h"
+#include "scene/camera_params.h"
 #include "scene/framing.h"
 #include "scene/room_view.h"
 #include "scene/vectors.h"
@@ -31,13 +32,15 @@ ViewTangents view_tangents(double fov_degrees, glm::ivec2 size) {
 struct EyeAndAt {
     glm::dvec3 eye, at;
     std::optional<double> fov_degrees; ///< another than the default
+    std::optional<double> film_height; ///< in parallel projection, where it is not that of the angle of view
 };
 
 /// What is asked for, in the normalised frame.
 struct Wish {
     std::optional<glm::dvec3> at;
     std::optional<View> view;
-    glm::dvec3 up;              ///< unit
+    glm::dvec3 up; ///< unit
+    Projection projection;
     ViewTangents tangents;      ///< of the angle of view as given, or of the default
     ViewTangents room_tangents; ///< as given, or of the default in a room
 };
@@ -46,9 +49,17 @@ struct Wish {
 EyeAndAt view_from(const Scene& scene, const Wish& wish, const glm::dvec3& to_eye, const Framed& framed) {
     const glm::dvec3 look = -to_eye;
     const glm::dvec3 up = is_along(look, wish.up) ? up_beside(look, up_frame(wish.up)) : wish.up;
-    const glm::dvec3 eye =
-        framing_eye(scene, framed, wish.up, picture_axes(look, up), wish.tangents, wish.at);
-    return {eye, wish.at.value_or(eye + look * glm::dot(framed.centre - eye, look)), std::nullopt};
+    const PictureAxes axes = picture_axes(look, up);
+    EyeAndAt view;
+    if (wish.projection == PROJECTION_ORTHOGRAPHIC) {
+        const double aspect = wish.tangents.horizontal / wish.tangents.vertical;
+        const ParallelFilm film = framing_film(scene, framed, wish.up, axes, aspect, wish.at);
+        view.eye = film.eye;
+        view.film_height = film.height;
+    } else
+        view.eye = framing_eye(scene, framed, wish.up, axes, wish.tangents, wish.at);
+    view.at = wish.at.value_or(view.eye + look * glm::dot(framed.centre - view.eye, look));
+    return view;
 }
 
 EyeAndAt fitted_view(const Scene& scene, const Wish& wish) {
@@ -69,7 +80,7 @@ EyeAndAt fitted_view(const Scene& scene, const Wish& wish) {
     const auto inside =
         grid ? find_room_view(*grid, !scene.emitters.empty(), wish.up, wish.room_tangents) : std::nullopt;
     if (inside)
-        return {inside->eye, inside->at, ROOM_FOV_DEGREES};
+        return {inside->eye, inside->at, ROOM_FOV_DEGREES, std::nullopt};
     return from_outside();
 }
 
@@ -98,7 +109,11 @@ void complete(const CameraOptions& options, glm::ivec2 size, const Scene& scene,
     }
     const Normalisation& frame = scene.normalisation;
     const bool is_wide = !options.fov_degrees && !options.focal_length;
-    Wish wish{std::nullopt, options.view, glm::normalize(camera.up), view_tangents(camera.fov_degrees, size),
+    Wish wish{std::nullopt,
+              options.view,
+              glm::normalize(camera.up),
+              camera.projection,
+              view_tangents(camera.fov_degrees, size),
               view_tangents(is_wide ? ROOM_FOV_DEGREES : camera.fov_degrees, size)};
     if (options.at)
         wish.at = to_normalised(frame, *options.at);
@@ -107,6 +122,27 @@ void complete(const CameraOptions& options, glm::ivec2 size, const Scene& scene,
     camera.at = options.at ? *options.at : fitted.at / frame.scale + frame.centre;
     if (is_wide)
         camera.fov_degrees = fitted.fov_degrees.value_or(camera.fov_degrees);
+    if (fitted.film_height)
+        camera.ortho_height = *fitted.film_height / frame.scale;
+}
+
+/// Of parallel rays: as given, as fitted, or what the angle of view shows at `at`.
+double ortho_height(const CameraOptions& options, const Camera& camera) {
+    if (options.ortho_height || camera.ortho_height > 0)
+        return options.ortho_height.value_or(camera.ortho_height);
+    Camera pinhole = camera;
+    pinhole.projection = PROJECTION_PERSPECTIVE;
+    return shown_height(pinhole, glm::distance(camera.at, camera.eye));
+}
+
+/// The camera as options to copy.
+std::string camera_text(const Camera& camera) {
+    const std::string place = fmt::format("camera: --eye {} --at {} --up {}", triple(camera.eye),
+                                          triple(camera.at), triple(camera.up));
+    if (camera.projection == PROJECTION_ORTHOGRAPHIC)
+        return place + fmt::format(" --projection {} --ortho-height {}", name_of(camera.projection),
+                                   camera.ortho_height);
+    return place + fmt::format(" --fov {}", camera.fov_degrees);
 }
 
 void note_narrow_view(const Camera& camera, glm::ivec2 size, NoticeList& notices) {
@@ -142,6 +178,7 @@ Camera fit_camera(const CameraOptions& options, glm::ivec2 size, const Scene& sc
                   NoticeList& notices) {
     check_vectors(options);
     Camera camera;
+    camera.projection = options.projection;
     camera.fov_degrees = field_of_view(options, size);
     camera.up = options.up.value_or(DEFAULT_UP);
     complete(options, size, scene, bounds, camera);
@@ -157,10 +194,13 @@ Camera fit_camera(const CameraOptions& options, glm::ivec2 size, const Scene& sc
                                     triple(camera.up), triple(up)));
         camera.up = up;
     }
-    note_narrow_view(camera, size, notices);
-    if (!options.eye || !options.at)
-        notices.add(fmt::format("camera: --eye {} --at {} --up {} --fov {}", triple(camera.eye),
-                                triple(camera.at), triple(camera.up), camera.fov_degrees));
+    const bool is_parallel = camera.projection == PROJECTION_ORTHOGRAPHIC;
+    if (is_parallel)
+        camera.ortho_height = ortho_height(options, camera);
+    else
+        note_narrow_view(camera, size, notices);
+    if (!options.eye || !options.at || (is_parallel && !options.ortho_height))
+        notices.add(camera_text(camera));
     return camera;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/far_notices.h"
 
+#include "scene/camera_params.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <vector>
 
 namespace clrt {
@@ -57,15 +57,19 @@ double step_along(int axis, const Mesh& mesh, double least, double most) {
     return steps.front();
 }
 
-/// True if the sphere around the box is outside the cone around the picture.
+/// True if the sphere around the box is outside the cone around the picture, or the cylinder of parallel
+/// rays.
 bool is_out_of_view(const Camera& camera, const Bounds& bounds, glm::ivec2 size) {
     const glm::dvec3 way = bounds.centre() - camera.eye;
     const double distance = glm::length(way), radius = bounds.radius();
     if (distance <= radius)
         return false;
-    const double vertical = std::tan(glm::radians(camera.fov_degrees) / 2);
-    const double half_angle = std::atan(vertical * std::hypot(1.0, double(size.x) / size.y));
-    const double cosine = glm::dot(glm::normalize(camera.at - camera.eye), way / distance);
+    const double half_diagonal = shown_height(camera, 1) / 2 * std::hypot(1.0, double(size.x) / size.y);
+    const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
+    const double cosine = glm::dot(look, way / distance);
+    if (camera.projection == PROJECTION_ORTHOGRAPHIC)
+        return glm::length(glm::cross(look, way)) > half_diagonal + radius || distance * cosine < -radius;
+    const double half_angle = std::atan(half_diagonal);
     return std::acos(std::clamp(cosine, -1.0, 1.0)) > half_angle + std::asin(radius / distance);
 }
 
@@ -108,8 +112,8 @@ void note_far_options(const Camera& camera, glm::ivec2 size, const std::vector<P
             "{:g} from the scene, whose centre is {} and radius {:g} in the file's coordinates",
             glm::distance(p, centre), triple(centre), radius);
     };
-    const double pixel = 2 * std::tan(glm::radians(camera.fov_degrees) / 2) / size.y;
-    if (2 * radius < pixel * glm::distance(camera.eye, centre))
+    const double pixel = shown_height(camera, glm::distance(camera.eye, centre)) / size.y;
+    if (2 * radius < pixel)
         notices.add(fmt::format("camera: --eye {} is {}: it covers less than a pixel", triple(camera.eye),
                                 where(camera.eye)));
     else if (is_out_of_view(camera, bounds, size))

@@ -217,4 +217,21 @@ glm::dvec3 framing_eye(const Scene& scene, const Framed& framed, const glm::dvec
     return eye;
 }
 
+ParallelFilm framing_film(const Scene& scene, const Framed& framed, const glm::dvec3& up,
+                          const PictureAxes& axes, double aspect, const std::optional<glm::dvec3>& at) {
+    if (scene.triangles.empty() || !(framed.box.radius() > 0)) // as framing_eye
+        return {at.value_or(framed.centre) - axes.look * (1 + LEAST_DISTANCE),
+                2 / FRAMED_SHARE / std::min(1., aspect)};
+    const double radius = framed.box.radius();
+    const Reach reach = measure_reach(scene, framed, up, axes, {0, 0});
+    const double x = at ? glm::dot(*at, axes.right) : (reach.right - reach.left) / 2,
+                 y = at ? glm::dot(*at, axes.up) : (reach.above - reach.below) / 2;
+    const double nearest = at ? std::min(-reach.near, glm::dot(*at, axes.look)) : -reach.near;
+    const double half_width = std::max(reach.right - x, reach.left + x),
+                 half_height = std::max(reach.above - y, reach.below + y);
+    const double height = 2 * std::max(half_height, half_width / aspect) / FRAMED_SHARE;
+    return {axes.right * x + axes.up * y + axes.look * (nearest - LEAST_DISTANCE * radius),
+            std::max(height, LEAST_HEIGHT * radius)};
+}
+
 } // namespace clrt

@@ -24,6 +24,10 @@ constexpr double FRAMED_SHARE = 0.92;
 /// thing that points at the eye is then at most three times as large as the far one.
 constexpr double LEAST_DISTANCE = 1;
 
+/// Height of a film in parallel projection at least, in radii of what is framed: that of a long thing that
+/// points at the eye.
+constexpr double LEAST_HEIGHT = 0.1;
+
 /// What the camera frames, and its middle.
 struct Framed {
     bool without_floor = false; ///< a floor reaches out of the picture
@@ -46,5 +50,16 @@ Framed find_framed(const Scene& scene, const glm::dvec3& up);
 glm::dvec3 framing_eye(const Scene& scene, const Framed& framed, const glm::dvec3& up,
                        const PictureAxes& axes, const ViewTangents& view,
                        const std::optional<glm::dvec3>& at);
+
+/// A film in parallel projection.
+struct ParallelFilm {
+    glm::dvec3 eye{0}; ///< its middle, before all that is framed, normalised frame
+    double height = 0; ///< normalised frame
+};
+
+/// The smallest film with these axes, `aspect` times as wide as high, that holds all that is framed with a
+/// margin; where `at` is given, its middle lies on the line through it.
+ParallelFilm framing_film(const Scene& scene, const Framed& framed, const glm::dvec3& up,
+                          const PictureAxes& axes, double aspect, const std::optional<glm::dvec3>& at);
 
 } // namespace clrt

@@ -157,7 +157,7 @@ void load_camera_and_lights(const SceneRequest& request, const std::vector<doubl
         build_lights(light, scene.normalisation, bounds.radius() * scene.normalisation.scale, notices);
     scene.lights = std::move(lights.lights);
     scene.emitted_power = emitters.power + lights.power;
-    scene.environment = load_environment(light, has_light, request.sky, notices);
+    scene.environment = load_environment(light, has_light, notices);
     if (light.background)
         scene.background = light.background->radiance;
     if (light.ground && light.ground->albedo)

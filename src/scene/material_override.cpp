@@ -8,7 +8,7 @@ namespace clrt {
 namespace {
 
 constexpr MaterialReplacement REPLACEMENTS[] = {
-    {MaterialOverride::CLAY, "clay", "clay: matte Kd 0.8, emission and coverage kept", DEFAULT_REFLECTANCE},
+    {MaterialOverride::CLAY, "clay: matte Kd 0.8, emission and coverage kept", DEFAULT_REFLECTANCE},
 };
 
 } // namespace
@@ -23,7 +23,8 @@ const MaterialReplacement* find_replacement(MaterialOverride which) {
 MaterialDescription replace_material(const MaterialDescription& material,
                                      const MaterialReplacement& replacement, NoticeList& notices) {
     if (material.reflection == Reflection::DIELECTRIC)
-        notices.add(fmt::format("--material {}: glass is opaque", replacement.name), material.place);
+        notices.add(fmt::format("--material {}: glass is opaque", name_of(replacement.which)),
+                    material.place);
     MaterialDescription result;
     result.name = material.name;
     result.place = material.place;

@@ -11,7 +11,6 @@ namespace clrt {
 /// What takes the place of every material.
 struct MaterialReplacement {
     MaterialOverride which;
-    const char* name;   ///< as in --material NAME
     const char* rule;   ///< what every material becomes, for the plan
     double reflectance; ///< matte, in 0..1
 };

@@ -3,7 +3,9 @@
 // behaviour.
 #pragma once
 
+#include "kernels/shared/camera_types.h"
 #include "kernels/shared/scene_types.h"
+#include "options/integrators.h"
 #include "output/named_file.h"
 
 #include <glm/vec3.hpp>
@@ -20,10 +22,12 @@ struct Normalisation {
     double scale = 1;
 };
 
-/// A pinhole camera in world units.
+/// A camera in world units.
 struct Camera {
     glm::dvec3 eye{0}, at{0, 0, -1}, up{0, 1, 0};
-    double fov_degrees = 40; ///< vertical
+    double fov_degrees = 40; ///< perspective: vertical angle of view
+    Projection projection = PROJECTION_PERSPECTIVE;
+    double ortho_height = 0; ///< orthographic: of what the picture shows
 };
 
 /// A lat-long environment or, without texels, a constant one.
@@ -33,6 +37,8 @@ struct Environment {
     std::vector<EnvironmentTexel> texels;
     double rotation_degrees = 0; ///< about +Y
     double mean_radiance = 0;    ///< over the sphere, luminance, factor included
+    /// What the table in the texels is made for (scene/sky_table.h); none: there is none yet.
+    std::optional<SkySampling> sampling;
 };
 
 /// Radiance that a material emits, its map included.

@@ -15,7 +15,6 @@ bool is_exr(const std::string& path) {
 
 SceneRequest::SceneRequest(const Options& options)
     : scene(options.scene), camera(options.camera), light(options.light), size(options.film.size),
-      writes_layers(std::any_of(options.output.files.begin(), options.output.files.end(), is_exr)),
-      sky(sky_sampling(options.transport.integrator)) {}
+      writes_layers(std::any_of(options.output.files.begin(), options.output.files.end(), is_exr)) {}
 
 } // namespace clrt

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "options/options.h"
-#include "scene/environment.h"
 
 #include <glm/vec2.hpp>
 
@@ -15,7 +14,6 @@ struct SceneRequest {
     LightOptions light;
     glm::ivec2 size;    ///< of the picture, pixels: for the angle of view and what is framed
     bool writes_layers; ///< an EXR is asked for
-    SkySampling sky;    ///< what the table of a sky map is for
 
     /// The part of all options that loading takes; not explicit, so that load_scene() takes them as they are.
     SceneRequest(const Options& options);

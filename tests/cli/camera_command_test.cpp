@@ -4,7 +4,9 @@
 #include "clrt_command.h"
 
 #include <csignal>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace clrt {
 
@@ -47,6 +49,25 @@ TEST_F(CameraCommand, ViewsTurnWithUp) {
     EXPECT_EQ(both.exit_code, 2);
     EXPECT_TRUE(holds(both.err, {"--eye and --view: expected one of them"}));
     EXPECT_EQ(clrt({"pyramid.obj", "--view", "above"}).exit_code, 2);
+}
+
+TEST_F(CameraCommand, ParallelProjectionIsAnnouncedAndItsOwnOptionsGiveTheSamePicture) {
+    write_pyramid("pyramid");
+    const std::string notices = explain_notices({"pyramid.obj", "--projection", "orthographic"});
+    const std::string before = "camera: ";
+    const size_t start = notices.find(before + "--eye");
+    ASSERT_NE(start, std::string::npos) << notices;
+    EXPECT_TRUE(holds(notices, {"--projection orthographic --ortho-height "}));
+    std::istringstream words(
+        notices.substr(start + before.size(), notices.find('\n', start) - start - before.size()));
+    std::vector<std::string> same(std::istream_iterator<std::string>(words), {});
+    same.insert(same.end(), {"pyramid.obj", "-o", "same.exr"});
+    EXPECT_EQ(clrt(quick({"pyramid.obj", "--projection", "orthographic", "-o", "fitted.exr"})).exit_code, 0);
+    EXPECT_EQ(clrt(quick(same)).exit_code, 0);
+    const ReadPicture fitted(folder.file("fitted.exr"));
+    EXPECT_EQ(fitted.values, ReadPicture(folder.file("same.exr")).values);
+    EXPECT_EQ(clrt(quick({"pyramid.obj", "-o", "pinhole.exr"})).exit_code, 0);
+    EXPECT_NE(fitted.values, ReadPicture(folder.file("pinhole.exr")).values);
 }
 
 TEST_F(CameraCommand, ATurntableWritesAPictureAFrame) {

@@ -10,7 +10,12 @@ import tempfile
 import time
 import unittest
 
+sys.dont_write_bytecode = True
 TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools")
+sys.path.insert(0, TOOLS)
+from clrt_tools import study_runs  # noqa: E402
+from clrt_tools.clrt_choices import Choices  # noqa: E402
+
 FAKE_CLRT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support", "fake_clrt.py")
 CLRT = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "clrt"
 DEVICE = os.environ.get("CLRT_TEST_DEVICE", "pocl")
@@ -160,8 +165,19 @@ class StudyCommand(unittest.TestCase):
         self.assertIn("unknown option --quik; the nearest is --quick", self.run_command("--quik").stderr)
         self.assertIn("expected scene.obj, found none", self.run_command().stderr)
 
+    def test_takes_the_names_that_clrt_takes(self):
+        choices = Choices(CLRT)
+        self.assertEqual(choices.names("--integrator"), ["path", "whitted", "raycast"])
+        self.assertEqual(choices.names("--precision"), ["single", "double", "fast"])
+        self.assertEqual(choices.names("--sampler"), ["sobol", "independent"])
+        self.assertEqual(study_runs.CLRT_DEFAULT, study_runs.Method(*map(choices.default, ("--integrator", "--precision", "--sampler"))))
+        for option, found in (("-i", "path,pth"), ("-p", "half"), ("--samplers", "sobol,sobol")):
+            done = self.run_command("scene.obj", "--clrt", CLRT, option, found)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, f"s: expected a list out of [a-z, ]+, found '{found}'$")
+
     def test_says_what_it_cannot_do(self):
-        for arguments, code in (((), 2), (("none.obj",), 2), (("scene.obj", "--spp", "0"), 2), (("scene.obj", "-i", "none"), 2),
+        for arguments, code in (((), 2), (("none.obj",), 2), (("scene.obj", "--spp", "0"), 2), (("scene.obj", "--clrt", CLRT, "-i", "none"), 2),
                                 (("scene.obj", "-o", "page.txt"), 2), (("scene.obj", "--quik"), 2),
                                 (("scene.obj", "--clrt", "./none"), 1),
                                 (("scene.obj", "--clrt", CLRT, "-d", "no such device"), 1)):

@@ -37,7 +37,7 @@ void expect_hits_of_all_triangles(const Mesh& mesh, int ray_count) {
             differences += expected.triangle != found.triangle || expected.t != found.t;
             hits += found.triangle != NO_INDEX;
         }
-        EXPECT_EQ(differences, 0) << layout_name(layout);
+        EXPECT_EQ(differences, 0) << name_of(layout);
         EXPECT_GT(hits, ray_count / 50);
     }
 }
@@ -82,7 +82,7 @@ TEST(BvhLayout, HitsEqualEmbreesOrAllTrianglesDecideForThem) {
             ++differences;
             wrong += brute_force_hit(mesh, ray).triangle != found;
         }
-        EXPECT_EQ(wrong, 0) << layout_name(layout);
+        EXPECT_EQ(wrong, 0) << name_of(layout);
         EXPECT_LT(differences, 20); // rounding at edges: floats against doubles
     }
 }
@@ -105,7 +105,7 @@ TEST(BvhLayout, RaysMeetFewNodesOfAnUnevenScene) {
         // Seen: 6.7, 36.2 and 10.9 nodes a ray. Medians visit 9.7 and 48, a collapse at the highest cost 13
         // (the first two).
         const double most = layout == BvhLayout::BVH8 ? 7.5 : layout == BvhLayout::BVH2 ? 40.0 : 12.0;
-        EXPECT_LT(double(nodes) / double(rays.size()), most) << layout_name(layout);
+        EXPECT_LT(double(nodes) / double(rays.size()), most) << name_of(layout);
     }
 }
 

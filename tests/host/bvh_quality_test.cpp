@@ -15,11 +15,11 @@ BvhQuality choose(const Options& options, size_t triangles) {
 
 TEST(BvhQuality, ChoiceOfTheUserStands) {
     Options options;
-    options.bvh.quality = QualityChoice::HIGH;
+    options.bvh.quality = BvhQuality::HIGH;
     options.sampling.spp = 1;
     EXPECT_EQ(choose(options, 10000000), BvhQuality::HIGH);
     EXPECT_EQ(choose_bvh_quality(options, 10000000).reason, "as chosen");
-    options.bvh.quality = QualityChoice::FAST;
+    options.bvh.quality = BvhQuality::FAST;
     options.sampling.spp = 100000;
     EXPECT_EQ(choose(options, 100), BvhQuality::FAST);
 }

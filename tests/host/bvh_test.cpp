@@ -168,7 +168,7 @@ size_t uncovered_points(const Mesh& mesh, u32 index, const std::vector<Bounds>& 
 
 TreeFacts check_tree(const Mesh& mesh, const Bvh& bvh) {
     const bool wide = bvh.layout == BvhLayout::BVH8, high = bvh.quality == BvhQuality::HIGH;
-    SCOPED_TRACE(layout_name(bvh.layout));
+    SCOPED_TRACE(name_of(bvh.layout));
     SCOPED_TRACE(high ? "high" : "fast");
     TreeFacts facts;
     facts.seen.resize(mesh.triangles.size());
@@ -359,7 +359,7 @@ TEST(Bvh, SpatialSplitsCutLongTriangles) {
         const Bvh high = build_bvh(mesh.positions, mesh.triangles, layout, BvhQuality::HIGH);
         EXPECT_EQ(fast.reference_count, fast.triangle_count);
         EXPECT_GT(high.reference_count, high.triangle_count * 11 / 10);
-        EXPECT_LT(high.sah_cost, 0.95 * fast.sah_cost) << layout_name(layout);
+        EXPECT_LT(high.sah_cost, 0.95 * fast.sah_cost) << name_of(layout);
     }
 }
 

@@ -96,14 +96,17 @@ struct InPicture {
 
 InPicture project(const Camera& camera, glm::ivec2 size, const Points& points) {
     const PictureAxes axes = picture_axes(camera.at - camera.eye, camera.up);
-    const double vertical = std::tan(glm::radians(camera.fov_degrees) / 2),
+    const bool is_parallel = camera.projection == PROJECTION_ORTHOGRAPHIC;
+    const double vertical =
+                     is_parallel ? camera.ortho_height / 2 : std::tan(glm::radians(camera.fov_degrees) / 2),
                  horizontal = vertical * size.x / size.y;
     InPicture picture;
     for (const glm::dvec3& p : points) {
         const glm::dvec3 way = p - camera.eye;
         const double depth = glm::dot(way, axes.look);
-        const glm::dvec2 at(glm::dot(way, axes.right) / depth / horizontal,
-                            glm::dot(way, axes.up) / depth / vertical);
+        const double scale = is_parallel ? 1 : depth;
+        const glm::dvec2 at(glm::dot(way, axes.right) / scale / horizontal,
+                            glm::dot(way, axes.up) / scale / vertical);
         picture.low = glm::min(picture.low, at);
         picture.high = glm::max(picture.high, at);
         picture.nearest = std::min(picture.nearest, depth);
@@ -150,6 +153,69 @@ TEST(CameraFit, EverythingIsInThePictureAndTouchesTheMargin) {
                     EXPECT_LT(std::max({seen.high.x, seen.high.y, -seen.low.x, -seen.low.y}),
                               FRAMED_SHARE + 1e-5);
                 }
+}
+
+TEST(CameraFit, ParallelRaysShowEverythingAndTouchTheMargin) {
+    for (const Points& points : {ROD, PLATE, TOWER, random_points()})
+        for (const glm::ivec2 size : {glm::ivec2(800, 600), glm::ivec2(300, 900), glm::ivec2(1920, 400)})
+            for (const glm::dvec3& up : {glm::dvec3(0, 1, 0), {0, 0, 1}, {1, 2, -3}})
+                for (const auto& view : {std::optional<View>(), std::optional<View>(View::TOP)}) {
+                    CameraOptions options;
+                    options.up = up;
+                    options.view = view;
+                    options.projection = PROJECTION_ORTHOGRAPHIC;
+                    const Camera camera = fit_points(options, size, points).camera;
+                    const InPicture seen = project(camera, size, points);
+                    const Scene scene = scene_of(points);
+                    const double radius =
+                        find_framed(scene, glm::normalize(up)).box.radius() / scene.normalisation.scale;
+                    EXPECT_NEAR(seen.nearest, LEAST_DISTANCE * radius, 1e-4 * radius);
+                    for (int axis = 0; axis < 2; ++axis)
+                        EXPECT_NEAR(seen.low[axis], -seen.high[axis], 1e-4);
+                    // Points see the picture's edges, or the film is as small as it may be.
+                    const double widest = std::max(seen.high.x, seen.high.y);
+                    if (camera.ortho_height > (LEAST_HEIGHT + 1e-4) * radius)
+                        EXPECT_NEAR(widest, FRAMED_SHARE, 1e-5);
+                    else
+                        EXPECT_LT(widest, FRAMED_SHARE + 1e-5);
+                }
+}
+
+TEST(CameraFit, ParallelRaysAimAtThePointThatIsGiven) {
+    CameraOptions options;
+    options.projection = PROJECTION_ORTHOGRAPHIC;
+    options.view = View::FRONT;
+    options.at = glm::dvec3(0.5, 0, 0);
+    const Points points = box_points(CUBE);
+    const InPicture seen = project(fit_points(options, {800, 600}, points).camera, {800, 600}, points);
+    EXPECT_NEAR(seen.low.x * 4 / 3, -1.5 * FRAMED_SHARE / std::max(1.5 * 3 / 4, 1.), 1e-5);
+    EXPECT_NEAR(seen.high.x * 4 / 3, 0.5 * FRAMED_SHARE / std::max(1.5 * 3 / 4, 1.), 1e-5);
+}
+
+TEST(CameraFit, ARodAlongParallelRaysIsShownSmall) {
+    CameraOptions options;
+    options.projection = PROJECTION_ORTHOGRAPHIC;
+    options.view = View::RIGHT;
+    const Fitted fitted =
+        fit_points(options, {800, 600}, box_points({glm::dvec3(-5, 0, 0), glm::dvec3(5, 1e-3, 1e-3)}));
+    EXPECT_NEAR(fitted.camera.ortho_height, LEAST_HEIGHT * 5, 1e-3);
+}
+
+TEST(CameraFit, FromAGivenEyeParallelRaysShowWhatThePinholeShowsAtItsTarget) {
+    CameraOptions options;
+    options.projection = PROJECTION_ORTHOGRAPHIC;
+    options.eye = glm::dvec3(0, 0, 10);
+    options.at = glm::dvec3(0);
+    const Fitted fitted = fit(options);
+    EXPECT_NEAR(fitted.camera.ortho_height, 20 * std::tan(glm::radians(20.)), 1e-9);
+    ASSERT_EQ(fitted.notices.size(), 1u);
+    EXPECT_EQ(fitted.notices[0].find("camera: --eye 0,0,10 --at 0,0,0 --up 0,1,0 --projection orthographic "
+                                     "--ortho-height 7.279"),
+              0u)
+        << fitted.notices[0];
+    options.ortho_height = 3;
+    EXPECT_EQ(fit(options).camera.ortho_height, 3);
+    EXPECT_TRUE(fit(options).notices.empty());
 }
 
 TEST(CameraFit, ARodAlongTheViewIsSeenFromADistance) {

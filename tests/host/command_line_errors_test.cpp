@@ -135,6 +135,8 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--at", "1,2,1e39"},
         {"--eye", "1,2,3,4"},
         {"--up", "0,0,-0"},
+        {"--projection", "ortho"},
+        {"--ortho-height", "0"},
         {"--fov", "0"},
         {"--fov", "180"},
         {"--fov", "inf"},
@@ -185,6 +187,13 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"-q", "-v"}, "options --quiet and --verbose: expected one of them");
     expect({"--cache", "on", "--no-cache"}, "options --cache and --no-cache");
     expect({"--fov", "40", "--focal-length", "35", "--film-width", "24"}, "options --fov and --focal-length");
+    expect({"--projection", "orthographic", "--fov", "40"}, "option --fov: expected --ortho-height");
+    expect({"--projection", "orthographic", "--focal-length", "35", "--film-width", "24"},
+           "option --focal-length: expected --ortho-height");
+    expect({"--ortho-height", "2"},
+           "option --ortho-height: expected --projection orthographic, found perspective");
+    expect({"--projection", "orthographic", "--ortho-height", "2", "--fov", "40"},
+           "options --fov and --ortho-height");
     expect({"--focal-length", "35"}, "option --focal-length: expected together with --film-width");
     expect({"--film-width", "35"}, "option --film-width: expected together with --focal-length");
     expect({"--crop", "0,0,801,10"}, "option --crop: expected a window inside the picture of 800x600 pixels");

@@ -8,6 +8,7 @@
 #include "effects/effect_table.h"
 #include "error.h"
 #include "host/command_line_support.h"
+#include "scene/camera_params.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -51,6 +52,8 @@ const std::map<std::string, std::string>& samples() {
         {"--at", "-0,.5,1e2"},
         {"--up", "0,0,1"},
         {"--view", "iso"},
+        {"--projection", "orthographic"},
+        {"--ortho-height", "2.5"},
         {"--fov", "35"},
         {"--focal-length", "50"},
         {"--film-width", "36"},
@@ -96,6 +99,8 @@ std::vector<std::string> companions(const std::string& option) {
         return {"--film-width", "36"};
     if (option == "--film-width")
         return {"--focal-length", "50"};
+    if (option == "--ortho-height")
+        return {"--projection", "orthographic"};
     if (option == "--sample")
         return {"--pixel", "3,4"};
     return {};
@@ -168,7 +173,7 @@ TEST(CommandLine, WorkOptionsArrive) {
     EXPECT_EQ(o.device.threads, 2);
     EXPECT_EQ(o.device.precision, Precision::FAST);
     EXPECT_EQ(o.sampling.replicates, 64);
-    EXPECT_EQ(o.bvh.layout, BvhChoice::BVH8);
+    EXPECT_EQ(o.bvh.layout, BvhLayout::BVH8);
     EXPECT_EQ(o.transport.min_contribution, 0.02);
     EXPECT_EQ(o.transport.roulette_depth, 3);
     EXPECT_EQ(o.sampling.first_sample, 8u);
@@ -204,17 +209,17 @@ TEST(CommandLine, PictureOptionsArrive) {
 }
 
 TEST(CommandLine, TreeTakesLayoutAndQuality) {
-    EXPECT_EQ(parse({}).bvh.quality, QualityChoice::AUTO);
+    EXPECT_FALSE(parse({}).bvh.quality);
     const Options both = parse({"--bvh", "high,bvh2"});
-    EXPECT_EQ(both.bvh.layout, BvhChoice::BVH2);
-    EXPECT_EQ(both.bvh.quality, QualityChoice::HIGH);
+    EXPECT_EQ(both.bvh.layout, BvhLayout::BVH2);
+    EXPECT_EQ(both.bvh.quality, BvhQuality::HIGH);
     const Options compressed = parse({"--bvh", "cwbvh,high"});
-    EXPECT_EQ(compressed.bvh.layout, BvhChoice::CWBVH);
-    EXPECT_EQ(compressed.bvh.quality, QualityChoice::HIGH);
+    EXPECT_EQ(compressed.bvh.layout, BvhLayout::CWBVH);
+    EXPECT_EQ(compressed.bvh.quality, BvhQuality::HIGH);
     const Options quality = parse({"--bvh", "fast"});
-    EXPECT_EQ(quality.bvh.layout, BvhChoice::AUTO);
-    EXPECT_EQ(quality.bvh.quality, QualityChoice::FAST);
-    EXPECT_EQ(parse({"--bvh", "high", "--bvh", "auto"}).bvh.quality, QualityChoice::AUTO);
+    EXPECT_FALSE(quality.bvh.layout);
+    EXPECT_EQ(quality.bvh.quality, BvhQuality::FAST);
+    EXPECT_FALSE(parse({"--bvh", "high", "--bvh", "auto"}).bvh.quality);
 }
 
 TEST(CommandLine, CameraOptionsArrive) {
@@ -226,6 +231,17 @@ TEST(CommandLine, CameraOptionsArrive) {
     EXPECT_EQ(o.camera.focal_length, 35.0);
     EXPECT_EQ(o.camera.film_width, 24.0);
     EXPECT_EQ(parse({"--fov", "39.3"}).camera.fov_degrees, 39.3);
+    EXPECT_EQ(o.camera.projection, PROJECTION_PERSPECTIVE);
+    EXPECT_EQ(parse({"--projection", "orthographic", "--ortho-height", "2.5"}).camera.ortho_height, 2.5);
+}
+
+TEST(CommandLine, EveryProjectionHasItsNameAndIsInTheHelp) {
+    const std::string help = find_option("--projection")->help;
+    for (int i = 0; i < PROJECTION_COUNT; ++i) {
+        const char* const name = name_of(Projection(i));
+        EXPECT_EQ(parse({"--projection", name}).camera.projection, Projection(i));
+        EXPECT_NE(help.find(name), std::string::npos) << name;
+    }
 }
 
 TEST(CommandLine, StudioOptionsArrive) {

@@ -3,9 +3,11 @@
 
 #include "colour.h"
 #include "error.h"
+#include "scene/sky_table.h"
 #include "scene_support.h"
 
 #include <cmath>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
@@ -43,7 +45,8 @@ TEST(Environment, CellLuminanceIsTheMeanOfTheBilinearLookup) {
         EnvironmentImage image = black(size.x, size.y);
         for (glm::vec3& texel : image.texels)
             texel = glm::vec3(uniform(random), uniform(random), uniform(random));
-        const std::vector<double> cells = cell_luminance(image);
+        NoticeList notices;
+        const std::vector<double> cells = cell_luminance(map_environment(image, 1, 0, notices));
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 // Midpoints on a grid with even n integrate each linear half exactly in x and y.
@@ -61,7 +64,8 @@ TEST(Environment, ProbabilityIsPositiveExactlyWhereTheLookupIs) {
     EnvironmentImage image = black(8, 6);
     image.texels[0] = glm::vec3(100); // top left: its neighbours wrap around in u
     NoticeList notices;
-    const Environment environment = map_environment(image, 1, 0, SkySampling::BY_TABLE, notices);
+    Environment environment = map_environment(image, 1, 0, notices);
+    tabulate_sky(environment, SkySampling::BY_TABLE);
     double sum = 0;
     for (int y = 0; y < 6; ++y)
         for (int x = 0; x < 8; ++x) {
@@ -80,8 +84,9 @@ TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
     for (glm::vec3& texel : image.texels)
         texel = glm::vec3(uniform(random), uniform(random), uniform(random));
     NoticeList notices;
-    const Environment environment = map_environment(image, 3, 0, SkySampling::BY_TABLE_AND_BSDF, notices);
-    const std::vector<double> cells = cell_luminance(image);
+    Environment environment = map_environment(image, 3, 0, notices);
+    tabulate_sky(environment, SkySampling::BY_TABLE_AND_BSDF);
+    const std::vector<double> cells = cell_luminance(environment);
     double mean = 0, sum = 0;
     for (size_t i = 0; i < cells.size(); ++i)
         mean += cells[i] * texel_solid_angle(int(i) / 12, 12, 8) / (4 * PI);
@@ -102,9 +107,27 @@ TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
 }
 
 TEST(Environment, OnlyThePathTracerLeavesDimTexelsToTheBsdf) {
-    EXPECT_EQ(sky_sampling(Integrator::PATH), SkySampling::BY_TABLE_AND_BSDF);
-    EXPECT_EQ(sky_sampling(Integrator::WHITTED), SkySampling::BY_TABLE);
-    EXPECT_EQ(sky_sampling(Integrator::RAYCAST), SkySampling::BY_TABLE);
+    EXPECT_EQ(integrator_row(Integrator::PATH).sky, SkySampling::BY_TABLE_AND_BSDF);
+    EXPECT_EQ(integrator_row(Integrator::WHITTED).sky, SkySampling::BY_TABLE);
+    EXPECT_EQ(integrator_row(Integrator::RAYCAST).sky, SkySampling::BY_TABLE);
+}
+
+TEST(Environment, ATableIsMadeAnewForAnotherSampling) {
+    EnvironmentImage image = black(12, 8);
+    for (size_t i = 0; i < image.texels.size(); ++i)
+        image.texels[i] = glm::vec3(float(1 + i % 7));
+    NoticeList notices;
+    const Environment loaded = map_environment(image, 1, 0, notices);
+    EXPECT_FALSE(loaded.sampling) << "a scene is loaded for any integrator";
+    Environment turned = loaded, straight = loaded;
+    tabulate_sky(turned, SkySampling::BY_TABLE_AND_BSDF);
+    tabulate_sky(turned, SkySampling::BY_TABLE);
+    tabulate_sky(straight, SkySampling::BY_TABLE);
+    EXPECT_EQ(straight.sampling, SkySampling::BY_TABLE);
+    ASSERT_EQ(turned.texels.size(), straight.texels.size());
+    EXPECT_EQ(std::memcmp(turned.texels.data(), straight.texels.data(),
+                          straight.texels.size() * sizeof(EnvironmentTexel)),
+              0);
 }
 
 TEST(Environment, SolidAnglesSumToTheSphere) {
@@ -122,7 +145,8 @@ TEST(Environment, AConstantMapIsChosenBySolidAngle) {
         EnvironmentImage image = black(6, 5);
         image.texels.assign(30, glm::vec3(0.5f));
         NoticeList notices;
-        const Environment environment = map_environment(image, 3, 25, sampling, notices);
+        Environment environment = map_environment(image, 3, 25, notices);
+        tabulate_sky(environment, sampling);
         for (int y = 0; y < 5; ++y)
             EXPECT_NEAR(environment.texels[size_t(y * 6)].radiance.w, texel_solid_angle(y, 6, 5) / (4 * PI),
                         1e-7);
@@ -149,30 +173,28 @@ TEST(Environment, BadTexelsBecomeBlackAndAreCounted) {
 }
 
 TEST(Environment, ABlackMapGivesNoLight) {
-    for (const SkySampling sampling : {SkySampling::BY_TABLE, SkySampling::BY_TABLE_AND_BSDF}) {
-        NoticeList notices;
-        const Environment environment = map_environment(black(4, 2), 1, 0, sampling, notices);
-        EXPECT_TRUE(environment.texels.empty());
-        EXPECT_EQ(environment.width, 0);
-        EXPECT_EQ(environment.radiance, glm::dvec3(0));
-        EXPECT_EQ(count_notices(notices, "black"), 1);
-    }
+    NoticeList notices;
+    const Environment environment = map_environment(black(4, 2), 1, 0, notices);
+    EXPECT_TRUE(environment.texels.empty());
+    EXPECT_EQ(environment.width, 0);
+    EXPECT_EQ(environment.radiance, glm::dvec3(0));
+    EXPECT_EQ(count_notices(notices, "black"), 1);
 }
 
 TEST(Environment, AWhiteSkyComesOnlyWithoutAnyLight) {
     LightOptions options;
     NoticeList notices;
-    EXPECT_EQ(load_environment(options, false, SkySampling::BY_TABLE, notices).radiance, glm::dvec3(1));
+    EXPECT_EQ(load_environment(options, false, notices).radiance, glm::dvec3(1));
     EXPECT_EQ(count_notices(notices, "no light in the scene: white sky of radiance 1 (--env 1,1,1)"), 1);
 
     NoticeList none;
-    EXPECT_EQ(load_environment(options, true, SkySampling::BY_TABLE, none).radiance, glm::dvec3(0));
+    EXPECT_EQ(load_environment(options, true, none).radiance, glm::dvec3(0));
     options.environment = glm::dvec3(0);
-    EXPECT_EQ(load_environment(options, false, SkySampling::BY_TABLE, none).radiance, glm::dvec3(0))
+    EXPECT_EQ(load_environment(options, false, none).radiance, glm::dvec3(0))
         << "--env 0,0,0 counts as given";
     options.environment = glm::dvec3(1, 2, 3);
     options.environment_scale = 2;
-    EXPECT_EQ(load_environment(options, true, SkySampling::BY_TABLE, none).radiance, glm::dvec3(2, 4, 6));
+    EXPECT_EQ(load_environment(options, true, none).radiance, glm::dvec3(2, 4, 6));
     EXPECT_TRUE(none.lines().empty());
 }
 
@@ -180,10 +202,10 @@ TEST(Environment, WrongValuesAreUsageErrors) {
     NoticeList notices;
     LightOptions options;
     options.environment = glm::dvec3(1, -1, 0);
-    EXPECT_THROW(load_environment(options, false, SkySampling::BY_TABLE, notices), UsageError);
+    EXPECT_THROW(load_environment(options, false, notices), UsageError);
     options.environment = glm::dvec3(1);
     options.environment_scale = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(load_environment(options, false, SkySampling::BY_TABLE, notices), UsageError);
+    EXPECT_THROW(load_environment(options, false, notices), UsageError);
 }
 
 TEST(Environment, MapsAreReadFromTheTop) {

@@ -71,6 +71,8 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
         [](Scene& s) { s.camera.at.z += 1; },
         [](Scene& s) { s.camera.up.x += 1; },
         [](Scene& s) { s.camera.fov_degrees += 1; },
+        [](Scene& s) { s.camera.projection = PROJECTION_ORTHOGRAPHIC; },
+        [](Scene& s) { s.camera.ortho_height += 1; },
         [](Scene& s) { s.normalisation.scale *= 2; },
     };
     for (size_t i = 0; i < std::size(changes); ++i) {
@@ -108,7 +110,7 @@ TEST_F(FilmIdentityTest, OptionsThatChangeNoBitAreNone) {
     const std::function<void(Options&)> changes[] = {
         [](Options& o) { o.sampling.spp = 5; },          [](Options& o) { o.sampling.first_sample = 5; },
         [](Options& o) { o.sampling.time_seconds = 5; }, [](Options& o) { o.sampling.error = 0.5; },
-        [](Options& o) { o.effects.all = true; },        [](Options& o) { o.bvh.layout = BvhChoice::BVH2; },
+        [](Options& o) { o.effects.all = true; },        [](Options& o) { o.bvh.layout = BvhLayout::BVH2; },
         [](Options& o) { o.device.threads = 1; },        [](Options& o) { o.output.exposure_ev = 1; },
         [](Options& o) { o.output.files = {"a.exr"}; },
     };

@@ -103,7 +103,7 @@ TEST(KernelSource, AMissingFileNamesTheIncluderAndTheLine) {
 TEST(KernelSource, EmbeddedFilesAreTheFilesOfTheKernelsFolder) {
     const KernelFiles in_folder = read_kernel_files(CLRT_KERNELS_FOLDER);
     for (const auto& [file, text] : in_folder) {
-        ASSERT_TRUE(embedded_kernel_files().count(file)) << "list " << file << " in kernels/files.cmake";
+        ASSERT_TRUE(embedded_kernel_files().count(file)) << file << " is not embedded";
         EXPECT_EQ(embedded_kernel_files().at(file), text) << file;
     }
     EXPECT_EQ(embedded_kernel_files().size(), in_folder.size());

@@ -107,6 +107,17 @@ TEST_F(OptionsFile, CommandLineWinsOverWhatContradictsIt) {
     EXPECT_EQ(parse("--no-cache\n", {"--cache", "on"}).device.cache, Toggle::ON);
 }
 
+TEST_F(OptionsFile, ItsAngleOfViewStandsForAHeightWhereTheCommandLineAsksForParallelRays) {
+    const Options fitted = parse("--fov 40\n", {"--projection", "orthographic"});
+    EXPECT_EQ(fitted.camera.fov_degrees, 40);
+    const Options given = parse("--fov 40\n", {"--projection", "orthographic", "--ortho-height", "2"});
+    EXPECT_FALSE(given.camera.fov_degrees);
+    EXPECT_EQ(given.camera.ortho_height, 2);
+    for (const char* const content : {"--projection orthographic\n--fov 40\n", "--projection orthographic\n"})
+        EXPECT_NE(refusal(content, {"--fov", "50"}).find("option --fov: expected --ortho-height"),
+                  std::string::npos);
+}
+
 TEST_F(OptionsFile, IsSkippedOnRequestOrWhenAbsent) {
     const Options skipped = parse("--nonsense\n", {"--no-sidecar"});
     EXPECT_EQ(skipped.run.sidecar_path, "");

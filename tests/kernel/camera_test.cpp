@@ -2,6 +2,7 @@
 // camera/camera.h: pixel filters by their distributions, rays against double precision.
 #include "render/render_params.h"
 #include "scene/camera_fit.h"
+#include "scene/camera_params.h"
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/sphere_cells.h"
@@ -13,6 +14,7 @@
 #include <tuple>
 
 using namespace clrt;
+using glm::dvec2;
 using glm::dvec3;
 
 namespace {
@@ -35,6 +37,21 @@ SceneProbe& probe() {
                  "first = probe_vec4(ray.direction, ray.t_max); second = probe_vec4(ray.origin, REAL(0.0));"
                  "const real2 u = sampler_pair(&s, 0u, SAMPLE_FILM);"
                  "third = (vec4)(u.x, u.y, 0.0f, 0.0f);");
+        // a: film position, lens numbers; b.x: how far from the lens; c: film position to project to
+        made.add("project", R"(
+            const Ray ray = camera_generate(&params->camera, (real2)(a.x, a.y), (real2)(a.z, a.w), REAL(0.0));
+            const real3 point = ray.origin + ray.direction * (real)b.x;
+            const CameraConnection got = camera_project(&params->camera, point, (real2)(a.z, a.w));
+            const real3 off = got.lens - ray.origin;
+            first = (vec4)(got.film.x, got.film.y, got.pdf_a, vector_length(off));
+            second = probe_vec4(ray.direction, camera_importance(&params->camera, ray.direction));
+            const CameraPdf pdf = camera_pdf(&params->camera, ray.direction);
+            third = (vec4)(pdf.pdf_a, pdf.pdf_w, as_float(camera_pixel(params, got.film)),
+                           camera_project(&params->camera, ray.origin - ray.direction * (real)b.x, (real2)(a.z, a.w)).pdf_a);)");
+        // a: a point
+        made.add("see", "const CameraConnection got = camera_project(&params->camera, vector_from(a), "
+                        "(real2)(0.5f, 0.5f));"
+                        "first = (vec4)(got.film.x, got.film.y, got.pdf_a, 0.0f);");
         return made;
     }();
     return instance;
@@ -83,10 +100,12 @@ struct Pinhole {
     double fov_degrees;
 };
 
-/// What the host makes of a camera.
-RenderParams camera_params(const Pinhole& view, u32 width, u32 height) {
+/// What the host makes of a camera; parallel rays cover what the pinhole shows at distance 1.
+RenderParams camera_params(const Pinhole& view, u32 width, u32 height,
+                           Projection projection = PROJECTION_PERSPECTIVE) {
     Scene scene;
-    scene.camera = {view.eye, view.eye + view.look, view.up, view.fov_degrees};
+    scene.camera = {view.eye,         view.eye + view.look, view.up,
+                    view.fov_degrees, projection,           2 * std::tan(view.fov_degrees * PI / 360)};
     Options options;
     options.film.size = {int(width), int(height)};
     options.film.filter = Filter::BOX;
@@ -219,7 +238,7 @@ TEST(Camera, AnUpVectorNearTheViewLeavesTheFilmSquare) {
         const Bounds box{dvec3(-1), dvec3(1)};
         const Camera camera = fit_camera(given, {64, 64}, Scene(), box, notices);
         const RenderParams params = camera_params({camera.eye, tilted, camera.up, 90}, 64, 64);
-        const dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0;
+        const dvec3 x = to_dvec3(params.camera.film_dx) * 32.0, y = to_dvec3(params.camera.film_dy) * 32.0;
         EXPECT_NEAR(glm::length(x), 1, 4 * FLOAT_U) << angle;
         EXPECT_NEAR(glm::length(y), 1, 4 * FLOAT_U) << angle;
         EXPECT_NEAR(glm::dot(x, y), 0, 4 * FLOAT_U) << angle;
@@ -245,9 +264,9 @@ TEST(Camera, TheFilterMovesTheSampleByItsOffset) {
         RenderParams params = filter_params(filter, 1.5);
         params.width = WIDTH;
         params.height = HEIGHT;
-        params.look = {0, 0, -1, 0};
-        params.film_dx = {1, 0, 0, 0};
-        params.film_dy = {0, 1, 0, 0};
+        params.camera.look = {0, 0, -1, 0};
+        params.camera.film_dx = {1, 0, 0, 0};
+        params.camera.film_dy = {0, 1, 0, 0};
         const SceneProbe::Outputs got = probe().run("ray", Scene{}, params, pixels);
         const std::vector<vec4> offsets = filter_offsets(filter, 1.5, got.third);
         for (size_t i = 0; i < pixels.size(); ++i) {
@@ -256,4 +275,221 @@ TEST(Camera, TheFilterMovesTheSampleByItsOffset) {
             ASSERT_NEAR(d.y + HEIGHT / 2, float_to_bits(pixels[i].y) + 0.5 + offsets[i].y, 64 * 8 * FLOAT_U);
         }
     }
+}
+
+namespace {
+
+/// Every projection of the table, seen from a camera away from all axes.
+std::vector<Projection> projections() {
+    std::vector<Projection> all;
+    for (int i = 0; i < PROJECTION_COUNT; ++i)
+        all.push_back(Projection(i));
+    return all;
+}
+
+constexpr double ANGLES[] = {1e-3, 0.1, 40, 120, 179.9};
+
+Pinhole tilted_view(double fov_degrees) {
+    return {{0.4, -0.6, 0.5}, glm::normalize(dvec3(0.3, -0.5, -0.8)), {0.2, 1, 0.1}, fov_degrees};
+}
+
+/// Film positions all over a picture, lens numbers beside them.
+std::vector<vec4> film_positions(u32 width, u32 height, size_t count) {
+    Random random(7);
+    std::vector<vec4> positions;
+    for (size_t i = 0; i < count; ++i) {
+        const double x = random.between(-0.5, 0.5) * width, y = random.between(-0.5, 0.5) * height;
+        const double u = random.unit();
+        positions.push_back({float(x), float(y), float(u), float(random.unit())});
+    }
+    return positions;
+}
+
+/// The triangle's solid angle (Van Oosterom and Strackee 1983), by differences, which narrow views leave
+/// exact.
+double solid_angle(const dvec3& a, const dvec3& b, const dvec3& c) {
+    const double volume = glm::dot(a, glm::cross(b - a, c - a));
+    return 2 * std::atan2(std::abs(volume), 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+}
+
+/// The solid angle that a pinhole sees through a square of the film, in double.
+double cell_angle(const RenderParams& params, const dvec2& centre, double side) {
+    const auto direction = [&](double x, double y) {
+        return glm::normalize(film_ray(params.camera, centre + side * dvec2(x, y)).direction);
+    };
+    const dvec3 a = direction(-0.5, -0.5), b = direction(0.5, -0.5), c = direction(0.5, 0.5),
+                d = direction(-0.5, 0.5);
+    return solid_angle(a, b, c) + solid_angle(a, c, d);
+}
+
+} // namespace
+
+TEST(Camera, ProjectingToTheFilmInvertsItsRays) {
+    constexpr u32 WIDTH = 96, HEIGHT = 64;
+    const std::vector<vec4> film = film_positions(WIDTH, HEIGHT, 4000);
+    Random random(8);
+    std::vector<vec4> distances;
+    for (size_t i = 0; i < film.size(); ++i)
+        distances.push_back({float(std::exp(random.between(-2, 3))), 0, 0, 0});
+    for (const Projection projection : projections())
+        for (const double fov : ANGLES) {
+            const RenderParams params = camera_params(tilted_view(fov), WIDTH, HEIGHT, projection);
+            const SceneProbe::Outputs got = probe().run("project", Scene{}, params, film, distances);
+            const double pitch = glm::length(to_dvec3(params.camera.film_dx));
+            for (size_t i = 0; i < film.size(); ++i) {
+                // The point is rounded, as seen from the lens by so many radians, and in parallel projection
+                // by a length; at the edge of a wide film an angle is many pixels.
+                const double t = distances[i].x;
+                const double place = 8 * FLOAT_U * (2 + t + pitch * WIDTH);
+                const double tangent = projection == PROJECTION_PERSPECTIVE
+                                           ? pitch * std::hypot(double(film[i].x), double(film[i].y))
+                                           : 0;
+                const double allowed = projection == PROJECTION_PERSPECTIVE
+                                           ? (8 * FLOAT_U * (2 + t) / t) * (1 + tangent * tangent) / pitch
+                                           : place / pitch;
+                ASSERT_NEAR(got.first[i].x, film[i].x, allowed + WIDTH * FLOAT_U)
+                    << name_of(projection) << " " << fov << " " << t;
+                ASSERT_NEAR(got.first[i].y, film[i].y, allowed + WIDTH * FLOAT_U);
+                ASSERT_LE(got.first[i].w, place) << "it starts at another point of the lens";
+                ASSERT_GT(got.first[i].z, 0);
+                ASSERT_EQ(got.third[i].w, 0) << "the point lies behind the camera";
+                if (allowed < 0.01 && std::abs(std::remainder(film[i].x, 1.f)) > 0.02f &&
+                    std::abs(std::remainder(film[i].y, 1.f)) > 0.02f) {
+                    const u32 column = u32(std::floor(film[i].x + WIDTH / 2.0)),
+                              row = u32(std::floor(film[i].y + HEIGHT / 2.0));
+                    ASSERT_EQ(float_to_bits(got.third[i].z), row * WIDTH + column);
+                }
+            }
+        }
+}
+
+TEST(Camera, FilmPositionsOutsideThePictureHaveNoPixel) {
+    RenderParams params = camera_params(tilted_view(60), 96, 64);
+    const std::vector<vec4> outside = {
+        {-48.5f, 0, 0, 0}, {48.5f, 0, 0, 0}, {0, -32.5f, 0, 0}, {0, 32.5f, 0, 0}};
+    const std::vector<vec4> distances(outside.size(), {1, 0, 0, 0});
+    for (const vec4& pixel : probe().run("project", Scene{}, params, outside, distances).third)
+        EXPECT_EQ(float_to_bits(pixel.z), NO_INDEX);
+    const std::vector<vec4> corner = {{-47.5f, -31.5f, 0, 0}, {47.5f, 31.5f, 0, 0}};
+    const std::vector<vec4> got =
+        probe().run("project", Scene{}, params, corner, {{1, 0, 0, 0}, {1, 0, 0, 0}}).third;
+    EXPECT_EQ(float_to_bits(got[0].z), 0u);
+    EXPECT_EQ(float_to_bits(got[1].z), 96u * 64 - 1);
+}
+
+TEST(Camera, ThePinholesDensityIsFilmOverSolidAngle) {
+    // Small squares of the film, in double, whose rays are so many radians apart.
+    constexpr u32 WIDTH = 96, HEIGHT = 64;
+    constexpr double APART = 3e-3;
+    const std::vector<vec4> film = film_positions(WIDTH, HEIGHT, 2000);
+    const std::vector<vec4> distances(film.size(), {1, 0, 0, 0});
+    for (const double fov : ANGLES) {
+        const RenderParams params = camera_params(tilted_view(fov), WIDTH, HEIGHT);
+        const SceneProbe::Outputs got = probe().run("project", Scene{}, params, film, distances);
+        const double pitch = glm::length(to_dvec3(params.camera.film_dx));
+        for (size_t i = 0; i < film.size(); ++i) {
+            const dvec2 centre(film[i].x, film[i].y);
+            const double side = std::min(APART, pitch) / pitch * std::hypot(1, pitch * glm::length(centre));
+            const double angle = cell_angle(params, centre, side);
+            ASSERT_NEAR(angle * double(got.third[i].y) / (side * side), 1, 2e-3) << fov;
+            ASSERT_EQ(got.third[i].x, 1) << "one point to start from";
+            ASSERT_EQ(got.second[i].w, got.third[i].y);
+        }
+    }
+}
+
+TEST(Camera, ThePinholesImportanceIntegratesToOneAPixel) {
+    constexpr u32 WIDTH = 24, HEIGHT = 16;
+    constexpr int PARTS = 8; // of a pixel's side
+    std::vector<vec4> places;
+    for (u32 y = 0; y < PARTS * HEIGHT; ++y)
+        for (u32 x = 0; x < PARTS * WIDTH; ++x)
+            places.push_back({(float(x) + 0.5f) / PARTS - WIDTH / 2.f,
+                              (float(y) + 0.5f) / PARTS - HEIGHT / 2.f, 0.5f, 0.5f});
+    const std::vector<vec4> distances(places.size(), {1, 0, 0, 0});
+    for (const double fov : {1e-3, 40.0, 120.0}) {
+        const RenderParams params = camera_params(tilted_view(fov), WIDTH, HEIGHT);
+        const SceneProbe::Outputs got = probe().run("project", Scene{}, params, places, distances);
+        std::vector<double> pixels(WIDTH * HEIGHT);
+        for (size_t i = 0; i < places.size(); ++i)
+            pixels[i / (PARTS * PARTS * WIDTH) * WIDTH + i % (PARTS * WIDTH) / PARTS] +=
+                double(got.second[i].w) * cell_angle(params, {places[i].x, places[i].y}, 1. / PARTS);
+        for (const double pixel : pixels)
+            ASSERT_NEAR(pixel, 1, 2e-3) << fov;
+    }
+}
+
+TEST(Camera, TheDensityAtAPointIsThatOfItsFilmPositions) {
+    // Points beside one another across the ray, and the area of the film that they are projected to.
+    constexpr u32 WIDTH = 96, HEIGHT = 64;
+    const std::vector<vec4> film = film_positions(WIDTH, HEIGHT, 500);
+    Random random(9);
+    std::vector<vec4> distances;
+    for (size_t i = 0; i < film.size(); ++i)
+        distances.push_back({float(random.between(0.5, 3)), 0, 0, 0});
+    for (const Projection projection : projections())
+        for (const double fov : {10.0, 40.0, 120.0}) {
+            const RenderParams params = camera_params(tilted_view(fov), WIDTH, HEIGHT, projection);
+            const SceneProbe::Outputs at = probe().run("project", Scene{}, params, film, distances);
+            std::vector<vec4> points;
+            std::vector<double> sides;
+            for (size_t i = 0; i < film.size(); ++i) {
+                const FilmRay ray = film_ray(params.camera, {film[i].x, film[i].y});
+                const dvec3 d = glm::normalize(ray.direction);
+                const dvec3 x = glm::normalize(glm::cross(d, dvec3(0.1, 1, 0.3))), y = glm::cross(d, x);
+                const dvec3 point = ray.origin + d * double(distances[i].x);
+                // A side of about a pixel.
+                const double side = 1 / std::sqrt(double(at.first[i].z));
+                sides.push_back(side);
+                for (const auto& [u, v] : {std::pair{-0.5, 0.}, {0.5, 0.}, {0., -0.5}, {0., 0.5}})
+                    points.push_back(to_vec4(point + x * (u * side) + y * (v * side)));
+            }
+            const std::vector<vec4> seen = probe().run("see", Scene{}, params, points).first;
+            for (size_t i = 0; i < film.size(); ++i) {
+                const vec4* p = &seen[4 * i];
+                const double area = std::abs((double(p[1].x) - p[0].x) * (double(p[3].y) - p[2].y) -
+                                             (double(p[1].y) - p[0].y) * (double(p[3].x) - p[2].x));
+                ASSERT_NEAR(area / (sides[i] * sides[i]) / double(at.first[i].z), 1, 0.01)
+                    << name_of(projection) << " " << fov;
+            }
+        }
+}
+
+TEST(Camera, ParallelRaysStartOnTheFilmAndAreOneAPixelsArea) {
+    constexpr u32 WIDTH = 96, HEIGHT = 64;
+    const std::vector<vec4> film = film_positions(WIDTH, HEIGHT, 2000);
+    const std::vector<vec4> distances(film.size(), {2, 0, 0, 0});
+    const Pinhole view = tilted_view(40);
+    const RenderParams params = camera_params(view, WIDTH, HEIGHT, PROJECTION_ORTHOGRAPHIC);
+    const SceneProbe::Outputs got = probe().run("project", Scene{}, params, film, distances);
+    const double pixel = 2 * std::tan(view.fov_degrees * PI / 360) / HEIGHT;
+    for (size_t i = 0; i < film.size(); ++i) {
+        ASSERT_LE(glm::length(to_dvec3(got.second[i]) - view.look), 4 * FLOAT_U);
+        ASSERT_NEAR(got.third[i].x * pixel * pixel, 1, 16 * FLOAT_U) << "samples of a pixel over its area";
+        ASSERT_EQ(got.third[i].y, 1);
+        ASSERT_EQ(got.second[i].w, got.third[i].x);
+    }
+}
+
+TEST(Camera, APinholeHasNoLensToChooseFrom) {
+    const std::vector<vec4> film = film_positions(96, 64, 500);
+    std::vector<vec4> other = film;
+    for (vec4& f : other)
+        f.z = 1 - f.z, f.w = 1 - f.w;
+    const std::vector<vec4> distances(film.size(), {2, 0, 0, 0});
+    for (const Projection projection : projections()) {
+        const RenderParams params = camera_params(tilted_view(40), 96, 64, projection);
+        const std::vector<vec4> a = probe().run("project", Scene{}, params, film, distances).second,
+                                b = probe().run("project", Scene{}, params, other, distances).second;
+        for (size_t i = 0; i < film.size(); ++i)
+            ASSERT_EQ(to_dvec3(a[i]), to_dvec3(b[i]));
+    }
+}
+
+TEST(Camera, ACameraWithoutARowSeesNothing) {
+    RenderParams params = camera_params(tilted_view(40), 96, 64);
+    params.camera.projection = PROJECTION_COUNT;
+    const std::vector<vec4> film = film_positions(96, 64, 10);
+    for (const vec4& d : probe().run("project", Scene{}, params, film, {}).second)
+        EXPECT_EQ(to_dvec3(d), dvec3(0));
 }

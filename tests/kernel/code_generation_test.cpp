@@ -102,7 +102,7 @@ TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
                              include({"integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
         expect_clean_with_and_without_effects(
-            layout_name(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout)), "-DSAMPLES_AT_ONCE=4"});
+            name_of(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout)), "-DSAMPLES_AT_ONCE=4"});
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
@@ -129,7 +129,7 @@ TEST_F(CodeGeneration, OfTheProbesOfTestsAndClrtStability) {
     rays.effects = EFFECT_ALL;
     for (const BvhLayout layout : ALL_LAYOUTS) {
         rays.layout = layout;
-        expect_clean(fmt::format("rays through {}", layout_name(layout)), ray_probe(test_device(), rays));
+        expect_clean(fmt::format("rays through {}", name_of(layout)), ray_probe(test_device(), rays));
     }
     expect_clean("rays by Moeller and Trumbore's test",
                  ray_probe(test_device(), ray_options(Build::NAIVE, plain_triangles(test_device()))));

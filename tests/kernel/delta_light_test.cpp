@@ -4,6 +4,7 @@
 #include "scene/alias_table.h"
 #include "scene/environment.h"
 #include "scene/lights.h"
+#include "scene/sky_table.h"
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/statistics.h"
@@ -125,7 +126,8 @@ struct Everything {
             image.texels.push_back(
                 glm::vec3(float(random.unit()), float(random.unit()), float(random.between(0, 5))));
         NoticeList notices;
-        scene.environment = map_environment(image, 1, 0, SkySampling::BY_TABLE, notices);
+        scene.environment = map_environment(image, 1, 0, notices);
+        tabulate_sky(scene.environment, SkySampling::BY_TABLE);
         params.environment = {1, 1, 1, 0};
         params.environment_width = 8;
         params.environment_height = 4;

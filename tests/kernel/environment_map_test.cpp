@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights/environment.h: orientation, lookup and rotation of lat-long maps, and directions sampled by texels.
 #include "scene/environment.h"
+#include "scene/sky_table.h"
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/sphere_cells.h"
@@ -72,7 +73,9 @@ EnvironmentImage random_image(int width, int height) {
 Environment map_of(const EnvironmentImage& image, double factor = 1, double rotation = 0,
                    SkySampling sampling = SkySampling::BY_TABLE) {
     NoticeList notices;
-    return map_environment(image, factor, rotation, sampling, notices);
+    Environment map = map_environment(image, factor, rotation, notices);
+    tabulate_sky(map, sampling);
+    return map;
 }
 
 /// The definition: u = 0.5 + atan2(z, x) / (2 pi), v = angle from +Y over pi, after turning back about +Y.

@@ -119,7 +119,7 @@ KernelProbe& probe(bool splats, bool int64 = false) {
     DeviceInfo info = test_device().info;
     info.int64_atomics = int64;
     ProbeOptions options;
-    options.defines = film_defines(info, splats);
+    options.defines = film_defines(info, splats ? FilmAccess::SPLAT : FilmAccess::GATHER);
     options.defines.emplace_back("convert_real2=convert_float2");
     KernelProbe made(test_device(), {"film/splat.h"}, options);
     made.add_text(TEXT);

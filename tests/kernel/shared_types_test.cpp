@@ -71,11 +71,17 @@ const Layout ENVIRONMENT_TEXEL = {
     sizeof(EnvironmentTexel),
     {M(radiance), M(alias), M(threshold), M(unused0), M(unused1)}};
 #undef M
+#define M(name) MEMBER(CameraParams, name)
+const Layout CAMERA_PARAMS = {
+    "CameraParams",
+    sizeof(CameraParams),
+    {M(eye), M(film_dx), M(film_dy), M(look), M(projection), M(unused0), M(unused1), M(unused2)}};
+#undef M
 #define M(name) MEMBER(RenderParams, name)
 const Layout RENDER_PARAMS = {
     "RenderParams",
     sizeof(RenderParams),
-    {M(eye), M(film_dx), M(film_dy), M(look), M(environment), M(background), M(width), M(height),
+    {M(camera), M(environment), M(background), M(width), M(height),
      M(crop_x), M(crop_y), M(crop_width), M(crop_height), M(first_sample), M(sample_count), M(replicates), M(first_replicate),
      M(dealt_replicates),
      M(film_replicates), M(seed), M(max_depth), M(min_contribution), M(filter), M(filter_radius),
@@ -86,8 +92,8 @@ const Layout RENDER_PARAMS = {
 #undef M
 // clang-format on
 
-const std::vector<Layout> LAYOUTS = {TRIANGLE, MATERIAL,          TEXTURE,      EMITTER,
-                                     LIGHT,    ENVIRONMENT_TEXEL, RENDER_PARAMS};
+const std::vector<Layout> LAYOUTS = {TRIANGLE, MATERIAL,          TEXTURE,       EMITTER,
+                                     LIGHT,    ENVIRONMENT_TEXEL, CAMERA_PARAMS, RENDER_PARAMS};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.

@@ -61,7 +61,7 @@ void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays,
         if (all.empty())
             all = device.closest_of_all(rays);
         EXPECT_EQ(count_differences(device.closest(rays), all), 0u)
-            << "of " << rays.size() << " rays, " << layout_name(layout);
+            << "of " << rays.size() << " rays, " << name_of(layout);
     }
     EXPECT_GT(count_hits(all), rays.size() / 10);
 }
@@ -109,8 +109,7 @@ TEST(Traverse, CornersOfScatteredTrianglesAreFoundFromNearAndFar) {
             const RayDevice device(test_device(), scene, layout);
             if (all.empty())
                 all = device.closest_of_all(rays);
-            EXPECT_EQ(count_differences(device.closest(rays), all), 0u)
-                << size << ", " << layout_name(layout);
+            EXPECT_EQ(count_differences(device.closest(rays), all), 0u) << size << ", " << name_of(layout);
         }
         EXPECT_GT(count_hits(all), rays.size() / 20);
     }
@@ -144,7 +143,7 @@ TEST(Traverse, LayoutsGiveTheSameBits) {
     const std::vector<TestHit> wide = RayDevice(test_device(), soup, BvhLayout::BVH8).closest(rays);
     for (const BvhLayout layout : {BvhLayout::BVH2, BvhLayout::CWBVH})
         EXPECT_EQ(count_differences(RayDevice(test_device(), soup, layout).closest(rays), wide), 0u)
-            << layout_name(layout);
+            << name_of(layout);
     EXPECT_GT(count_hits(wide), rays.size() / 2);
 }
 
@@ -168,8 +167,8 @@ TEST(Traverse, SpatialSplitsChangeNoBit) {
                 high(test_device(), scene, {layout, BvhQuality::HIGH});
             EXPECT_GT(high.bvh().reference_count, fast.bvh().reference_count);
             const std::vector<TestHit> hits = fast.closest(rays);
-            EXPECT_EQ(count_differences(hits, high.closest(rays)), 0u) << layout_name(layout);
-            EXPECT_EQ(fast.any(rays), high.any(rays)) << layout_name(layout);
+            EXPECT_EQ(count_differences(hits, high.closest(rays)), 0u) << name_of(layout);
+            EXPECT_EQ(fast.any(rays), high.any(rays)) << name_of(layout);
             EXPECT_GT(count_hits(hits), rays.size() / 3);
         }
     }
@@ -183,10 +182,10 @@ TEST(Traverse, PartsOfNeedlesAreHitLikeTheWhole) {
         const RayDevice high(test_device(), scene, {layout, BvhQuality::HIGH});
         const double least_growth = layout == BvhLayout::BVH8 ? 1.05 : 1.005;
         EXPECT_GT(double(high.bvh().reference_count), least_growth * double(high.bvh().triangle_count))
-            << layout_name(layout);
+            << name_of(layout);
         if (all.empty())
             all = high.closest_of_all(rays);
-        EXPECT_EQ(count_differences(high.closest(rays), all), 0u) << layout_name(layout);
+        EXPECT_EQ(count_differences(high.closest(rays), all), 0u) << name_of(layout);
     }
 }
 
@@ -214,7 +213,7 @@ TEST(Traverse, ARayEndsAtItsLengthAndTheEndBelongsToIt) {
             wrong += before[i].triangle != NO_INDEX || any_before[i] != 0;
             wrong += any[i] != is_hit || any_at_end[i] != is_hit;
         }
-        EXPECT_EQ(wrong, 0u) << layout_name(layout);
+        EXPECT_EQ(wrong, 0u) << name_of(layout);
         EXPECT_GT(count_hits(hits), rays.size() / 2);
     }
 }
@@ -246,7 +245,7 @@ TEST(Traverse, TheNearerOfTwoCloseSquaresIsHit) {
                 size_t wrong = 0;
                 for (const TestHit& hit : RayDevice(test_device(), scene, layout).closest(rays))
                     wrong += hit.triangle != 2 && hit.triangle != 3;
-                EXPECT_EQ(wrong, 0u) << gap << " units at " << t << ", " << layout_name(layout);
+                EXPECT_EQ(wrong, 0u) << gap << " units at " << t << ", " << name_of(layout);
             }
         }
 }

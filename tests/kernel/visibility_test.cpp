@@ -76,7 +76,7 @@ TEST(Visibility, EveryLayerIsMetOnceAndInOrder) {
                 right = square_of(layers[i]) == i;
             wrong += !right;
         }
-        EXPECT_EQ(wrong, 0u) << layout_name(layout);
+        EXPECT_EQ(wrong, 0u) << name_of(layout);
     }
 }
 
@@ -105,10 +105,10 @@ TEST(Visibility, LayersOfASoupAreAllItsHits) {
                 taken.v1 = taken.v2 = taken.v0;
             }
         }
-        EXPECT_EQ(wrong, 0u) << layout_name(layout);
+        EXPECT_EQ(wrong, 0u) << name_of(layout);
         if (wide.empty())
             wide = layers;
-        EXPECT_EQ(layers, wide) << layout_name(layout);
+        EXPECT_EQ(layers, wide) << name_of(layout);
     }
 }
 
@@ -124,7 +124,7 @@ TEST(Visibility, AHitIsTheFirstLayerThatCovers) {
                  RayDevice(test_device(), make_layers(layers), layout, Precision::SINGLE, CUT_OUT)
                      .visible(rays))
                 wrong += covering < 5 ? square_of(found) != covering : found != NO_INDEX;
-            EXPECT_EQ(wrong, 0u) << covering << ", " << layout_name(layout);
+            EXPECT_EQ(wrong, 0u) << covering << ", " << name_of(layout);
         }
 }
 
@@ -137,7 +137,7 @@ TEST(Visibility, HitsFallToTheLayersByTheirCoverage) {
         for (const u32 found :
              RayDevice(test_device(), scene, layout, Precision::SINGLE, CUT_OUT).visible(rays))
             counts[found == NO_INDEX ? 4 : square_of(found)] += 1;
-        EXPECT_GT(chi_squared_test(counts, expected).p_value, SMALLEST_P) << layout_name(layout);
+        EXPECT_GT(chi_squared_test(counts, expected).p_value, SMALLEST_P) << name_of(layout);
     }
 }
 

@@ -52,7 +52,7 @@ TEST(CutOut, TheBackgroundShowsThroughInProportion) {
     for (const Integrator integrator : INTEGRATORS) {
         scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
-        SCOPED_TRACE(integrator_name(integrator));
+        SCOPED_TRACE(name_of(integrator));
         EXPECT_TRUE(agrees(film_estimate(film, 0), 0.25, 5e-3));
         EXPECT_TRUE(agrees(film_estimate(film, 1), 0.75 * 0.5, 5e-3));
         EXPECT_TRUE(agrees(film_estimate(film, 2), 0.75 * 0.5, 5e-3));
@@ -82,10 +82,10 @@ TEST(CutOut, AMaskCutsAlongItsPicture) {
     for (const Integrator integrator : INTEGRATORS) {
         scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
-        EXPECT_TRUE(agrees(film_estimate(film, 0, {0, 0, 6, 16}), 1, 1e-6)) << integrator_name(integrator);
-        EXPECT_EQ(film_estimate(film, 1, {0, 0, 6, 16}).mean, 0) << integrator_name(integrator);
-        EXPECT_EQ(film_estimate(film, 0, {10, 0, 16, 16}).mean, 0) << integrator_name(integrator);
-        EXPECT_TRUE(agrees(film_estimate(film, 1, {10, 0, 16, 16}), 1, 1e-6)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 0, {0, 0, 6, 16}), 1, 1e-6)) << name_of(integrator);
+        EXPECT_EQ(film_estimate(film, 1, {0, 0, 6, 16}).mean, 0) << name_of(integrator);
+        EXPECT_EQ(film_estimate(film, 0, {10, 0, 16, 16}).mean, 0) << name_of(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 1, {10, 0, 16, 16}), 1, 1e-6)) << name_of(integrator);
     }
 }
 
@@ -96,7 +96,7 @@ TEST(CutOut, ShadowsOfScreensLetTheirShareThrough) {
         for (const Integrator integrator : INTEGRATORS) {
             scene.options.transport.integrator = integrator;
             EXPECT_TRUE(agrees(film_estimate(scene.render().film), share * scene.unshaded(), 1e-4, 4e-5))
-                << keys << ", " << integrator_name(integrator);
+                << keys << ", " << name_of(integrator);
         }
     }
 }
@@ -117,7 +117,7 @@ TEST(CutOut, ALampGivesLightInProportionToItsCoverage) {
         scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film),
                            0.25 * 3 * 0.5 * polygon_irradiance({0, 0, 0}, UP, corners) / PI, 4e-3))
-            << integrator_name(integrator);
+            << name_of(integrator);
     }
 }
 

@@ -40,7 +40,7 @@ void expect_lamp_irradiance(FloorScene& scene, double irradiance) {
     for (const Integrator integrator : INTEGRATORS) {
         scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
-        SCOPED_TRACE(integrator_name(integrator));
+        SCOPED_TRACE(name_of(integrator));
         EXPECT_TRUE(agrees(film_estimate(film, 0), 3 * KD * irradiance / PI));
         EXPECT_TRUE(agrees(film_estimate(film, 2), 1 * KD * irradiance / PI));
     }
@@ -51,7 +51,7 @@ void expect_radiance(FloorScene& scene, double radiance, double sharpness = 1e-6
                      double rounding = RENDER_ROUNDING) {
     for (const Integrator integrator : INTEGRATORS) {
         scene.options.transport.integrator = integrator;
-        SCOPED_TRACE(integrator_name(integrator));
+        SCOPED_TRACE(name_of(integrator));
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), radiance, sharpness, rounding));
     }
 }
@@ -145,7 +145,7 @@ TEST(DirectLight, LampsShineOnTheirFrontOnlyUnlessToldOtherwise) {
     scene.look_at_point({3, 0.8, 0.4}, {0, 0, 0});
     for (const Integrator integrator : INTEGRATORS) {
         scene.options.transport.integrator = integrator;
-        EXPECT_EQ(film_estimate(scene.render().film).mean, 0) << integrator_name(integrator);
+        EXPECT_EQ(film_estimate(scene.render().film).mean, 0) << name_of(integrator);
     }
     scene.options.light.two_sided = true;
     expect_lamp_irradiance(scene, polygon_irradiance({0, 0, 0}, UP, corners));

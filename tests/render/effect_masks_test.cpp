@@ -61,7 +61,7 @@ void expect_same_bits(u32 effects) {
         EXPECT_EQ(needed, expected) << describe_effects(needed) << "\ninstead of "
                                     << describe_effects(expected);
         expect_same_bits(scene, small.options,
-                         std::string(integrator_name(integrator)) + ", " + describe_effects(effects));
+                         std::string(name_of(integrator)) + ", " + describe_effects(effects));
     }
 }
 
@@ -114,7 +114,7 @@ TEST(EffectMasks, EveryShippedSceneHasTheBitsOfTheFullProgram) {
                 options.transport.max_depth = std::min(options.transport.max_depth.value_or(10), 10);
             Progress progress(Toggle::OFF, true);
             expect_same_bits(load_scene(options, progress), options,
-                             path.string() + ", " + integrator_name(integrator));
+                             path.string() + ", " + name_of(integrator));
         }
 }
 

@@ -46,7 +46,7 @@ double square_irradiance(double a, double d) {
 
 TEST(FilmRange, AMappedLampOfHighGainRendersItsRadiance) {
     for (const Integrator integrator : INTEGRATORS) {
-        SCOPED_TRACE(integrator_name(integrator));
+        SCOPED_TRACE(name_of(integrator));
         const Render render = render_small_lamp("-mm 0 100000 lamp.exr", integrator);
         expect_no_bad_sample(render);
         EXPECT_TRUE(agrees(film_estimate(render.film, 0), 5e4));
@@ -65,7 +65,7 @@ TEST(FilmRange, TheBaseOfAMapCounts) {
 TEST(FilmRange, PointsBesideAWallLightItAsTheSolidAngleSays) {
     for (const double distance : {1e-4, 1e-5})
         for (const Integrator integrator : INTEGRATORS) {
-            SCOPED_TRACE(std::string(integrator_name(integrator)) + " at " + std::to_string(distance));
+            SCOPED_TRACE(std::string(name_of(integrator)) + " at " + std::to_string(distance));
             TestScene scene;
             scene.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(1);
             // Off the diagonal: points at the edges of triangles are kept a few offset bounds inside.
@@ -86,7 +86,7 @@ TEST(FilmRange, PointsBesideAWallLightItAsTheSolidAngleSays) {
 TEST(FilmRange, TheSmallestDiscOfASunLeavesTheQuantumFine) {
     constexpr double IRRADIANCE = 3, RADIUS = 1.01e-6;
     for (const Integrator integrator : INTEGRATORS) {
-        SCOPED_TRACE(integrator_name(integrator));
+        SCOPED_TRACE(name_of(integrator));
         TestScene scene;
         scene.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(1);
         scene.options.light.suns.push_back({{0.6, 0.8, 0}, {IRRADIANCE, 1, 1}, 2 * RADIUS * 180 / PI});

@@ -126,7 +126,7 @@ TEST(Furnace, TheOtherIntegratorsStopAfterOneBounce) {
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
         scene.options.transport.integrator = integrator;
-        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.75, 4e-3)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.75, 4e-3)) << name_of(integrator);
     }
 }
 
@@ -192,7 +192,7 @@ TEST(Furnace, LosslessBodiesReturnAllLight) {
             scene.options.scene.mtl = MtlReading::PLAIN; // Ni 1 is glass that bends nothing
             scene.look({3, 4, 5}, {0, 0, 0}, 10);
             EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-5))
-                << keys << ", " << integrator_name(integrator);
+                << keys << ", " << name_of(integrator);
         }
 }
 
@@ -283,7 +283,7 @@ TEST(Furnace, PhongsHighlightIsNormalisedForALookStraightDown) {
     for (const Integrator integrator : {Integrator::RAYCAST, Integrator::WHITTED}) {
         FloorUnderSky scene("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 7\nillum 2", 1);
         scene.options.transport.integrator = integrator;
-        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.8)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.8)) << name_of(integrator);
     }
 }
 

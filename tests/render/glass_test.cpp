@@ -46,7 +46,7 @@ TEST(Glass, ASlabHeadOnReflectsWhatItDoesNotTransmit) {
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
     for (const Integrator integrator : TREE_AND_PATH) {
         scene.options.transport.integrator = integrator;
-        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-6)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-6)) << name_of(integrator);
     }
 }
 
@@ -67,9 +67,9 @@ TEST(Glass, EveryCrossingTints) {
     for (const Integrator integrator : TREE_AND_PATH) {
         scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
-        EXPECT_TRUE(agrees(film_estimate(film, 0), 0.64 * 0.9230769)) << integrator_name(integrator);
-        EXPECT_TRUE(agrees(film_estimate(film, 1), 0.25 * 0.9230769)) << integrator_name(integrator);
-        EXPECT_TRUE(agrees(film_estimate(film, 2), 0.9230769)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 0), 0.64 * 0.9230769)) << name_of(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 1), 0.25 * 0.9230769)) << name_of(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 2), 0.9230769)) << name_of(integrator);
     }
 }
 
@@ -96,7 +96,7 @@ TEST(Glass, ACeilingOfWaterReflectsTotallyBeyondTheCriticalAngle) {
             scene.look_at_point({-std::sin(angle), -std::cos(angle), 0}, {0, 0, 0});
             scene.options.transport.integrator = integrator;
             const Film film = scene.render().film;
-            SCOPED_TRACE(std::to_string(degrees) + " degrees, " + integrator_name(integrator));
+            SCOPED_TRACE(std::to_string(degrees) + " degrees, " + name_of(integrator));
             EXPECT_TRUE(agrees(film_estimate(film, 0), (1 - f) * 2.25, 3e-3, 1e-4));
             EXPECT_TRUE(agrees(film_estimate(film, 1), f, 1e-2, 1e-4));
         }

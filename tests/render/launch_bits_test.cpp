@@ -49,9 +49,8 @@ public:
     std::vector<std::int64_t> sums(const std::vector<Launch>& launches) const {
         FilmBuffers film(test_device(), params_, 0);
         Launcher launcher(test_device(), prepared_.programs->picture,
-                          std::string("render_") +
-                              integrator_name(prepared_.planned->options.transport.integrator),
-                          params_, prepared_.buffers);
+                          integrator_kernel(prepared_.planned->options.transport.integrator), params_,
+                          prepared_.buffers);
         film.bind(launcher.kernel());
         for (const Launch& launch : launches)
             launcher.run(launch.first, launch.count, launch.tile, launch.end);
@@ -81,12 +80,12 @@ TEST(LaunchBits, DoNotDependOnTheSizesOrTheOrderOfLaunches) {
         for (u32 sample = 0; sample < SAMPLES; ++sample)
             for (u32 tile = 0; tile < tiles; ++tile)
                 singly.push_back({sample, 1, tile, tile + 1});
-        EXPECT_TRUE(scene.sums(singly) == at_once) << integrator_name(integrator);
+        EXPECT_TRUE(scene.sums(singly) == at_once) << name_of(integrator);
 
         for (u32 end = tiles; end > 0; end -= std::min(end, 7u))
             for (const auto& [first, count] : {std::pair{5u, 4u}, {0u, 1u}, {1u, 4u}})
                 backwards.push_back({first, count, end - std::min(end, 7u), end});
-        EXPECT_TRUE(scene.sums(backwards) == at_once) << integrator_name(integrator);
+        EXPECT_TRUE(scene.sums(backwards) == at_once) << name_of(integrator);
 
         singly.pop_back();
         EXPECT_FALSE(scene.sums(singly) == at_once) << "a sample less must show";

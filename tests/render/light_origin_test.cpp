@@ -140,8 +140,7 @@ TEST(LightOrigin, AllIntegratorsLightAMatteBallAlike) {
         EXPECT_TRUE(agree(scene.by_paths(one_technique().bsdf()), combined)) << segments;
         EXPECT_TRUE(agree(scene.by_paths(one_technique().light()), combined)) << segments;
         for (const Integrator integrator : {Integrator::RAYCAST, Integrator::WHITTED})
-            EXPECT_TRUE(agree(scene.by(integrator), combined))
-                << segments << ", " << integrator_name(integrator);
+            EXPECT_TRUE(agree(scene.by(integrator), combined)) << segments << ", " << name_of(integrator);
     }
 }
 

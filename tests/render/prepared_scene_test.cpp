@@ -49,7 +49,7 @@ std::vector<Plan> different_plans(const DeviceInfo& device) {
     std::vector<Plan> plans{plan_every_effect([](Options&) {}), plan_matte(),
                             plan_every_effect([](Options& options) {
                                 options.transport.integrator = Integrator::WHITTED;
-                                options.bvh.layout = BvhChoice::CWBVH;
+                                options.bvh.layout = BvhLayout::CWBVH;
                                 options.effects.off = EFFECT_SMOOTH_NORMALS;
                             })};
     if (device.fp64)
@@ -148,7 +148,7 @@ TEST(PreparedScene, PartsAreTakenOverWhereTheyFit) {
     EXPECT_EQ(prepare_scene(test_device(), plan).programs, nullptr) << "nothing is compiled";
 
     const Plan other = plan_matte();
-    other->options.bvh.layout = first.tree->bvh.layout == BvhLayout::BVH2 ? BvhChoice::BVH8 : BvhChoice::BVH2;
+    other->options.bvh.layout = first.tree->bvh.layout == BvhLayout::BVH2 ? BvhLayout::BVH8 : BvhLayout::BVH2;
     const PreparedScene in_other_layout = prepare_render(test_device(), other, {first.tree, nullptr});
     EXPECT_NE(in_other_layout.tree->bvh.layout, first.tree->bvh.layout);
     EXPECT_TRUE(sums(in_other_layout) == sums(first));

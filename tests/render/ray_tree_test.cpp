@@ -128,7 +128,7 @@ TEST(RayTree, EveryLightGetsOneShadowRay) {
     scene.options.light.environment = glm::dvec3(1);
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
         scene.options.transport.integrator = integrator;
-        EXPECT_EQ(scene.render().counts.shadow, 5 * samples(scene)) << integrator_name(integrator);
+        EXPECT_EQ(scene.render().counts.shadow, 5 * samples(scene)) << name_of(integrator);
     }
     scene.options.transport.integrator = Integrator::PATH;
     scene.options.transport.max_depth = 2;
@@ -185,8 +185,7 @@ TEST(RayTree, TheHighlightIsPhongs) {
         LitFloor scene("Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 20\nillum 2");
         scene.options.transport.integrator = integrator;
         const double straight = (0.3 / PI + 0.5 * 22 / (2 * PI)) * scene.irradiance();
-        EXPECT_TRUE(agrees(film_estimate(scene.render().film), straight, 1e-3, 1e-4))
-            << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), straight, 1e-3, 1e-4)) << name_of(integrator);
 
         // 20 degrees off: times cos^Ns.
         const double angle = 25 * PI / 180;
@@ -194,7 +193,7 @@ TEST(RayTree, TheHighlightIsPhongs) {
         const double lobe = 0.5 * 22 / (2 * PI) * std::pow(std::cos(20 * PI / 180), 20);
         EXPECT_TRUE(
             agrees(film_estimate(scene.render().film), (0.3 / PI + lobe) * scene.irradiance(), 1e-3, 1e-4))
-            << integrator_name(integrator);
+            << name_of(integrator);
     }
 }
 
@@ -215,8 +214,8 @@ TEST(RayTree, DepthOneSeesOnlyLamps) {
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::PATH}) {
         scene.options.transport.integrator = integrator;
         const Render render = scene.render();
-        EXPECT_TRUE(agrees(film_estimate(render.film), 0.25, 1e-6)) << integrator_name(integrator);
-        EXPECT_EQ(render.counts.shadow + render.counts.secondary, 0u) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(render.film), 0.25, 1e-6)) << name_of(integrator);
+        EXPECT_EQ(render.counts.shadow + render.counts.secondary, 0u) << name_of(integrator);
     }
 }
 

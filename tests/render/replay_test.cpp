@@ -152,7 +152,7 @@ TEST(Replay, ASampleAddsToTheFilmWhatTheRenderAdds) {
                 stage.options.sampling.first_sample = sample;
                 const std::vector<SampleTrace> traces = replay.run(stage.all_pixels(sample));
                 EXPECT_EQ(count_differences(stage.render(), traces), 0u)
-                    << integrator_name(integrator) << ' ' << sample;
+                    << name_of(integrator) << ' ' << sample;
             }
         }
 }
@@ -182,8 +182,8 @@ TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
         params.largest_contribution = 0x1p18f;
         const PreparedScene prepared = stage.with_programs();
         const FilmBuffers film(test_device(), params, stage.planned->effects.paths.layers.size());
-        Launcher launcher(test_device(), prepared.programs->picture,
-                          std::string("render_") + integrator_name(integrator), params, prepared.buffers);
+        Launcher launcher(test_device(), prepared.programs->picture, integrator_kernel(integrator), params,
+                          prepared.buffers);
         film.bind(launcher.kernel());
         launcher.run(5, 1, 0, params.tile_count);
         RenderProgress sums;
@@ -207,7 +207,7 @@ TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
                     value > 0x1p-20 ? sum * QUANTUM != value : std::abs(sum * QUANTUM - value) > QUANTUM;
             }
         }
-        EXPECT_EQ(different, 0u) << integrator_name(integrator);
+        EXPECT_EQ(different, 0u) << name_of(integrator);
         EXPECT_GT(lit, plane / 4);
     }
 }

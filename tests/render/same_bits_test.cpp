@@ -100,9 +100,8 @@ TEST(SameBits, AbsentEffectsChangeNothing) {
             const Effects effects = find_effects(scene.load(), scene.options);
             EXPECT_NE(effects.mask, u32(EFFECT_ALL)) << name;
             const Render needed = scene.render();
-            EXPECT_EQ(count_differences(all.film, needed.film), 0u)
-                << name << ", " << integrator_name(integrator);
-            EXPECT_EQ(all.counts.rays(), needed.counts.rays()) << name << ", " << integrator_name(integrator);
+            EXPECT_EQ(count_differences(all.film, needed.film), 0u) << name << ", " << name_of(integrator);
+            EXPECT_EQ(all.counts.rays(), needed.counts.rays()) << name << ", " << name_of(integrator);
             EXPECT_EQ(all.counts.bad(), 0u);
         }
 }
@@ -125,7 +124,7 @@ TEST(SameBits, AMapOfRoughnessDoesNotMakeSmoothGlassOrAMirrorRough) {
         scene.look({0, 2, 3}, {0, 0.4, 0}, 45);
         const Film full = scene.render().film;
         scene.options.effects.all = false;
-        EXPECT_EQ(count_differences(scene.render().film, full), 0u) << integrator_name(integrator);
+        EXPECT_EQ(count_differences(scene.render().film, full), 0u) << name_of(integrator);
     }
 }
 
@@ -184,10 +183,10 @@ TEST(SameBits, SamplesGoRoundTheReplicates) {
 TEST(SameBits, AllTreesFindTheSameHits) {
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
-        scene.options.bvh.layout = BvhChoice::BVH8;
+        scene.options.bvh.layout = BvhLayout::BVH8;
         const Render wide = scene.render();
-        for (const BvhChoice choice : {BvhChoice::BVH8, BvhChoice::BVH2, BvhChoice::CWBVH})
-            for (const QualityChoice quality : {QualityChoice::FAST, QualityChoice::HIGH}) {
+        for (const BvhLayout choice : ALL_LAYOUTS)
+            for (const BvhQuality quality : {BvhQuality::FAST, BvhQuality::HIGH}) {
                 scene.options.bvh.layout = choice;
                 scene.options.bvh.quality = quality;
                 const Render other = scene.render();

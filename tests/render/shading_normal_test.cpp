@@ -63,7 +63,7 @@ TEST(ShadingNormal, RedTiltsAlongUAndGreenAlongV) {
             red.texture("red.exr", 1, 1, 3, normal_texel({s, 0, c}));
             green.texture("green.exr", 1, 1, 3, normal_texel({0, s, c}));
             const double side = mirrored ? -1 : 1;
-            SCOPED_TRACE(std::string(integrator_name(integrator)) + (mirrored ? ", mirrored" : ""));
+            SCOPED_TRACE(std::string(name_of(integrator)) + (mirrored ? ", mirrored" : ""));
             EXPECT_NEAR(red.lit_from(EAST), 0.8 * c + side * 0.6 * s, 1e-5);
             EXPECT_NEAR(red.lit_from(WEST), 0.8 * c - side * 0.6 * s, 1e-5);
             EXPECT_NEAR(red.lit_from(NORTH), 0.8 * c, 1e-5);
@@ -126,8 +126,7 @@ TEST(ShadingNormal, GivenNormalsDecideWhichSideShines) {
         scene.look_at_point({3, 0.8, 0.4}, {0, 0, 0});
         for (const Integrator integrator : INTEGRATORS) {
             scene.options.transport.integrator = integrator;
-            EXPECT_EQ(film_estimate(scene.render().film).mean > 0, lit)
-                << normal << integrator_name(integrator);
+            EXPECT_EQ(film_estimate(scene.render().film).mean > 0, lit) << normal << name_of(integrator);
         }
     }
 }

@@ -82,7 +82,7 @@ public:
     void expect_irradiance(double irradiance, double sharpness) {
         for (const Integrator integrator : INTEGRATORS) {
             options.transport.integrator = integrator;
-            SCOPED_TRACE(integrator_name(integrator));
+            SCOPED_TRACE(name_of(integrator));
             EXPECT_TRUE(agrees(film_estimate(render().film), 0.5 * irradiance / PI, sharpness, 2e-5));
         }
     }
@@ -110,8 +110,8 @@ TEST(SkyLight, AConvexMatteBodyUnderAConstantSkyShowsItsReflectance) {
         scene.options.transport.integrator = integrator;
         scene.look({0, 0, 5}, {0, 0, 0}, 12);
         const Film film = scene.render().film;
-        EXPECT_TRUE(agrees(film_estimate(film, 0), 0.6, 1e-6)) << integrator_name(integrator);
-        EXPECT_TRUE(agrees(film_estimate(film, 1), 0.3, 1e-6)) << integrator_name(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 0), 0.6, 1e-6)) << name_of(integrator);
+        EXPECT_TRUE(agrees(film_estimate(film, 1), 0.3, 1e-6)) << name_of(integrator);
         EXPECT_EQ(film_estimate(film, 2).mean, 0);
     }
 }

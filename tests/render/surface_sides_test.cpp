@@ -102,7 +102,7 @@ TEST(SurfaceSides, AFlatWallWithRoundedNormalsIsDarkWhenLitFromBehind) {
                     LitWall behind(material, map, digits, false);
                     behind.options.transport.integrator = integrator;
                     EXPECT_EQ(count_lit(behind.render().film), 0)
-                        << map << ", " << material << ", " << digits << ", " << integrator_name(integrator);
+                        << map << ", " << material << ", " << digits << ", " << name_of(integrator);
                 }
 }
 
@@ -112,8 +112,7 @@ TEST(SurfaceSides, TheSameWallIsLitFromItsFront) {
             for (const int digits : {2, 4}) {
                 LitWall before(MATERIALS[0], map, digits, true);
                 before.options.transport.integrator = integrator;
-                EXPECT_GT(film_estimate(before.render().film).mean, 0.5)
-                    << map << integrator_name(integrator);
+                EXPECT_GT(film_estimate(before.render().film).mean, 0.5) << map << name_of(integrator);
             }
 }
 
@@ -144,7 +143,7 @@ TEST(SurfaceSides, AClosedRoomWithMappedWallsKeepsTheLightOut) {
                 room.options.film.size = {32, 32};
                 room.look(0.8 * ALONG_U, -ALONG_U + 0.2 * NORMAL, 100);
                 EXPECT_EQ(count_lit(room.render().film), 0)
-                    << material << ", " << digits << ", " << integrator_name(integrator);
+                    << material << ", " << digits << ", " << name_of(integrator);
             }
 }
 
@@ -165,7 +164,7 @@ TEST(SurfaceSides, ASmoothMappedBallKeepsItsLightInside) {
             scene.options.film.size = {32, 32};
             scene.options.transport.max_depth = 6;
             scene.look({0.3, 0.2, 5}, {0, 0, 0}, 30);
-            EXPECT_EQ(count_lit(scene.render().film), 0) << material << ", " << integrator_name(integrator);
+            EXPECT_EQ(count_lit(scene.render().film), 0) << material << ", " << name_of(integrator);
         }
 }
 
@@ -191,7 +190,7 @@ TEST(SurfaceSides, MappedGlassLosesAndGainsNothingByItsPlanesOwnNormals) {
             const double noise = std::hypot(found[0].error, found[1].error);
             EXPECT_LT(noise, 0.01 * found[0].mean);
             EXPECT_LT(std::abs(found[1].mean - found[0].mean), LARGEST_Z * noise)
-                << material << ", " << integrator_name(integrator) << ": " << found[0].mean << " without vn, "
+                << material << ", " << name_of(integrator) << ": " << found[0].mean << " without vn, "
                 << found[1].mean << " with";
             EXPECT_LT(found[1].mean, 1 + LARGEST_Z * noise);
         }
@@ -210,7 +209,7 @@ TEST(SurfaceSides, ABoxSeenAtItsOutlineKeepsItsLightInside) {
                 scene.options.transport.integrator = integrator;
                 scene.options.transport.max_depth = 4;
                 scene.look(eye, {1, 1, along}, 1e-5);
-                EXPECT_EQ(count_lit(scene.render().film), 0) << integrator_name(integrator) << ", " << along;
+                EXPECT_EQ(count_lit(scene.render().film), 0) << name_of(integrator) << ", " << along;
             }
 }
 

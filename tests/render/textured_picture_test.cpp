@@ -159,7 +159,7 @@ TEST(TexturedPicture, ALampWithAMapGivesTheLightOfItsTexels) {
     for (const Integrator integrator : INTEGRATORS) {
         scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.5 * irradiance / PI, 3e-3, 1e-4))
-            << integrator_name(integrator);
+            << name_of(integrator);
     }
 }
 

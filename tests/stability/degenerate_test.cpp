@@ -24,7 +24,7 @@ void expect_hits_of_all(const Scene& scene, const std::vector<TestRay>& rays, si
         const RayDevice device(test_device(), scene, layout);
         if (all.empty())
             all = device.closest_of_all(rays);
-        EXPECT_EQ(count_differences(device.closest(rays), all), 0u) << layout_name(layout);
+        EXPECT_EQ(count_differences(device.closest(rays), all), 0u) << name_of(layout);
     }
     EXPECT_GE(count_hits(all), least_hits);
 }
@@ -67,7 +67,7 @@ TEST(Degenerate, TrianglesThatAreNotFiniteChangeNoHit) {
         EXPECT_EQ(device.bvh().triangle_count, soup.triangles.size());
         EXPECT_EQ(
             count_differences(device.closest(rays), RayDevice(test_device(), soup, layout).closest(rays)), 0u)
-            << layout_name(layout);
+            << name_of(layout);
     }
 }
 
@@ -86,7 +86,7 @@ TEST(Degenerate, ADeepTreeOverflowsNoStack) {
         rays.push_back(i % 2 ? make_ray({0, 0, 0}, d) : make_ray(d * std::ldexp(1.0, 62), -d));
     }
     for (const BvhLayout layout : ALL_LAYOUTS)
-        EXPECT_GT(RayDevice(test_device(), scene, layout).bvh().depth, 40) << layout_name(layout);
+        EXPECT_GT(RayDevice(test_device(), scene, layout).bvh().depth, 40) << name_of(layout);
     expect_hits_of_all(scene, rays, rays.size() * 2 / 5);
 }
 
@@ -113,7 +113,7 @@ TEST(Degenerate, TinyTrianglesAndNeedlesHaveUnitNormals) {
         const std::vector<vec4> normals = RayDevice(test_device(), scene, layout).normals(rays, hits);
         for (size_t i = 0; i < normals.size(); ++i) {
             const glm::dvec3 n = to_dvec3(normals[i]);
-            EXPECT_NEAR(glm::length(n), 1, 4 * FLOAT_U) << "triangle " << i << ", " << layout_name(layout);
+            EXPECT_NEAR(glm::length(n), 1, 4 * FLOAT_U) << "triangle " << i << ", " << name_of(layout);
             EXPECT_LE(glm::dot(n, to_dvec3(rays[i].direction)), 1e-6) << i;
             if (i + 1 == normals.size())
                 break; // nobody can tell where the needle's normal points

@@ -180,13 +180,13 @@ TEST(Embree, GivesTheSameHitsOrIsWrong) {
             compare(scene, rays, RayDevice(test_device(), scene, layout).closest(rays), expected);
         std::printf("%s, %zu rays: lost %zu, by Embree %zu; twins %zu; differences %zu, wrong %zu, Embree "
                     "wrong %zu\n",
-                    layout_name(layout), rays.size(), v.lost, v.embree_lost, v.twins, v.differences, v.wrong,
+                    name_of(layout), rays.size(), v.lost, v.embree_lost, v.twins, v.differences, v.wrong,
                     v.embree_wrong);
-        EXPECT_EQ(v.lost, 0u) << layout_name(layout);
-        EXPECT_EQ(v.wrong, 0u) << layout_name(layout);
+        EXPECT_EQ(v.lost, 0u) << name_of(layout);
+        EXPECT_EQ(v.wrong, 0u) << name_of(layout);
         // Else one of the two scenes is not the other.
-        EXPECT_LE(v.differences, MOST_DIFFERENCES) << layout_name(layout);
-        EXPECT_LT(v.embree_lost, rays.size() / 100) << layout_name(layout);
+        EXPECT_LE(v.differences, MOST_DIFFERENCES) << name_of(layout);
+        EXPECT_LT(v.embree_lost, rays.size() / 100) << name_of(layout);
     }
 }
 

@@ -43,7 +43,7 @@ TEST(OddRays, AnInfiniteLengthIsAsGoodAsAFarOne) {
         size_t differences = 0;
         for (size_t i = 0; i < far.size(); ++i)
             differences += expected[i].triangle != NO_INDEX && expected[i] != found[i];
-        EXPECT_EQ(differences, 0u) << layout_name(layout);
+        EXPECT_EQ(differences, 0u) << name_of(layout);
     }
 }
 
@@ -67,7 +67,7 @@ TEST(OddRays, DirectionsOfAnyLengthGiveTheSameHits) {
                     found[i].t *= scale;
                 differences += found[i] != expected[i];
             }
-            EXPECT_EQ(differences, 0u) << exponent << ", " << layout_name(layout);
+            EXPECT_EQ(differences, 0u) << exponent << ", " << name_of(layout);
         }
     }
 }
@@ -90,7 +90,7 @@ TEST(OddRays, RaysFromAfarHitWhatAllTrianglesGive) {
             size_t differences = 0;
             for (size_t i = 0; i < rays.size(); ++i)
                 differences += found[i] != all[i];
-            EXPECT_EQ(differences, 0u) << distance << ", " << layout_name(layout);
+            EXPECT_EQ(differences, 0u) << distance << ", " << name_of(layout);
         }
         // A ray along an axis is exact at any distance.
         EXPECT_LE(count_misses(all), rays.size() / 2) << distance;

@@ -64,8 +64,7 @@ void expect_no_misses(const Scene& scene, double inner, const std::string& name)
                 options.quality = quality;
                 EXPECT_EQ(count_misses(RayDevice(test_device(), scene, options).closest(rays)), 0u)
                     << "of " << AIMED_RAYS << " rays at " << (aim == Aim::EDGE ? "edges" : "vertices") << ", "
-                    << name << ", " << layout_name(layout)
-                    << (quality == BvhQuality::HIGH ? ", high" : ", fast");
+                    << name << ", " << name_of(layout) << (quality == BvhQuality::HIGH ? ", high" : ", fast");
             }
     }
 }

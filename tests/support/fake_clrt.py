@@ -31,8 +31,18 @@ def calls_so_far():
         return file.tell()
 
 
+HELP = """Work:
+  -i, --integrator NAME  path (all light) or whitted (mirrors) (default path)
+      --precision NAME   single, double (slow) or fast (default single)
+      --sampler NAME     sobol or independent (default sobol)
+"""
+
+
 def main():
     begin = time.monotonic()
+    if "--help" in sys.argv:
+        print(HELP)
+        return
     width, height = map(int, option("-r", OWN_SIZE).split("x"))
     crop = option("--crop")
     x0, y0, x1, y1 = map(int, crop.split(",")) if crop else (0, 0, width, height)

@@ -117,7 +117,7 @@ Robustness compare_robustness(const Device& device, const BenchOptions& bench, c
         plan_scene(path.empty() ? make_rough_scene() : load_scene(options, progress), options);
     const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     result.scene = path.empty() ? "a rough torus in a ball" : path;
-    result.layout = layout_name(layout);
+    result.layout = name_of(layout);
     result.triangles = planned->scene.triangles.size();
 
     const KernelFiles files = all_kernel_files(bench.clrt.device.kernels_folder);

@@ -124,7 +124,7 @@ SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const 
     SceneSpeed result;
     result.path = path;
     result.triangles = clrt.bvh().triangle_count;
-    result.layout = fmt::format("{} {}", layout_name(clrt.bvh().layout), quality_name(clrt.bvh().quality));
+    result.layout = fmt::format("{} {}", name_of(clrt.bvh().layout), name_of(clrt.bvh().quality));
     result.sah_cost = clrt.bvh().sah_cost;
     result.clrt = {clrt.build_cost(), 4 * (clrt.bvh().nodes.size() + clrt.bvh().leaves.size())};
     result.embree = {embree.build_cost(), embree.bytes()};

@@ -6,8 +6,7 @@ import os
 from clrt_tools.help_page import CommandLine
 
 QUICK_SECONDS = 150  # of the 3 minutes that --help promises; the rest is for the page
-CHOICES = {"integrators": ("path", "whitted", "raycast"), "precisions": ("single", "double", "fast"),
-           "samplers": ("sobol", "independent")}
+NAMES_OF = {"integrators": "--integrator", "precisions": "--precision", "samplers": "--sampler"}  # of clrt
 LARGEST_COUNT = 2 ** 32 - 1  # of samples that clrt takes
 
 PURPOSE = """Measures what accuracy costs: renders a scene with every combination of integrator, precision, sampler and number of
@@ -22,14 +21,9 @@ EXIT_CODES = ((0, "the page and the table are written"),
               (130, "stopped by Ctrl-C; nothing is written"))
 
 
-def _names(kind):
-    """A parser of lists such as path,whitted."""
-    def parse(text):
-        values = text.split(",")
-        if not set(values) <= set(CHOICES[kind]) or len(set(values)) != len(values):
-            raise argparse.ArgumentTypeError(f"expected a list out of {', '.join(CHOICES[kind])}, found '{text}'")
-        return values
-    return parse
+def _names(text):
+    """The names in a list such as path,whitted; check_names() looks at them."""
+    return text.split(",")
 
 
 def _counts(text):
@@ -53,12 +47,10 @@ def _command_line():
     add("--quick", action="store_true",
         help="at most 3 minutes: measures the machine's speed first and chooses a smaller picture, samples and repeats that fit; "
              "only the default and one change at a time; what does not fit is dropped and named")
-    add("-i", "--integrators", type=_names("integrators"), metavar="LIST",
-        help="out of path, whitted, raycast (default path,whitted; quick: path)")
-    add("-p", "--precisions", type=_names("precisions"), default=list(CHOICES["precisions"]), metavar="LIST",
-        help="(default single,double,fast)")
-    add("--samplers", type=_names("samplers"), default=list(CHOICES["samplers"]), metavar="LIST",
-        help="(default sobol,independent)")
+    add("-i", "--integrators", type=_names, metavar="LIST",
+        help="those of clrt that are compared (default path,whitted; quick: path)")
+    add("-p", "--precisions", type=_names, metavar="LIST", help="likewise (default: all)")
+    add("--samplers", type=_names, metavar="LIST", help="likewise (default: all)")
     add("-s", "--spp", type=_counts, metavar="LIST",
         help="samples a pixel (default 4,16,64,256; quick: as many of 4,16,64,256 as fit)")
     add("--repeats", type=_count, metavar="N", help="runs of each combination, with seeds 1 to N (default 3; quick: 1 to 3)")
@@ -94,3 +86,14 @@ def parse_arguments(words):
     if not os.path.isfile(options.scene):
         line.error(f"{options.scene}: expected a scene, found no file")
     return options
+
+
+def check_names(options, choices):
+    """Says what is wrong with the lists of names, given those that clrt takes, or nothing; fills in lists that were not given."""
+    for kind, option in NAMES_OF.items():
+        known, given = choices.names(option), getattr(options, kind)
+        if given is None:
+            setattr(options, kind, known)
+        elif not set(given) <= set(known) or len(set(given)) != len(given):
+            return f"option --{kind}: expected a list out of {', '.join(known)}, found '{','.join(given)}'"
+    return ""

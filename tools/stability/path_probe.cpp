@@ -39,7 +39,7 @@ PROBE_PATHS(probe_whitted, whitted_radiance)
 
 /// The programs of the probe are compiled for one layout.
 std::shared_ptr<PlannedScene> plan_in_probed_layout(Scene scene, Options options) {
-    options.bvh.layout = BvhChoice::BVH8;
+    options.bvh.layout = BvhLayout::BVH8;
     return plan_scene(std::move(scene), std::move(options));
 }
 

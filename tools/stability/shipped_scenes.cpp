@@ -5,6 +5,7 @@
 #include "console/progress.h"
 #include "error.h"
 #include "scene/load_scene.h"
+#include "scene/sky_table.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -45,7 +46,9 @@ ShippedScene::ShippedScene(const std::string& name) {
 
 Scene ShippedScene::load() const {
     Progress progress(Toggle::OFF, true);
-    return load_scene(options, progress);
+    Scene scene = load_scene(options, progress);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
+    return scene;
 }
 
 } // namespace clrt

@@ -4,6 +4,7 @@
 
 #include "console/progress.h"
 #include "scene/load_scene.h"
+#include "scene/sky_table.h"
 
 #include <fmt/format.h>
 #include <OpenImageIO/imageio.h>
@@ -78,7 +79,9 @@ Scene ScratchScene::load() const {
     Options with_path = options;
     with_path.scene.path = folder.write("scene.obj", build.obj("scene.mtl", scale));
     Progress progress(Toggle::OFF, true);
-    return load_scene(with_path, progress);
+    Scene scene = load_scene(with_path, progress);
+    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
+    return scene;
 }
 
 Render ScratchScene::render(const ProbeDevice& device) const {

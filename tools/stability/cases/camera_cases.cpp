@@ -103,8 +103,8 @@ void look_along_up(CaseRun& run) {
             scene.camera = fit_camera(options.camera, options.film.size, scene,
                                       {glm::dvec3(-1), glm::dvec3(1)}, notices);
             const RenderParams params = make_render_params(scene, options, FilmScale());
-            const glm::dvec3 x = to_dvec3(params.film_dx) * 32.0, y = to_dvec3(params.film_dy) * 32.0,
-                             z = to_dvec3(params.look);
+            const glm::dvec3 x = to_dvec3(params.camera.film_dx) * 32.0,
+                             y = to_dvec3(params.camera.film_dy) * 32.0, z = to_dvec3(params.camera.look);
             for (const double departure :
                  {glm::dot(x, x) - 1, glm::dot(y, y) - 1, glm::dot(z, z) - 1, glm::dot(x, y), glm::dot(y, z),
                   glm::dot(z, x), glm::dot(glm::cross(x, y), z) - 1})

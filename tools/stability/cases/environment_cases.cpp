@@ -5,6 +5,7 @@
 #include "stability/path_probe.h"
 
 #include "scene/environment.h"
+#include "scene/sky_table.h"
 #include "support/random_inputs.h"
 #include "support/scene_probe.h"
 #include "support/sphere_cells.h"
@@ -24,7 +25,9 @@ EnvironmentImage even_image(int width, int height, float value) {
 
 Environment map_of(const EnvironmentImage& image) {
     NoticeList notices;
-    return map_environment(image, 1, 0, SkySampling::BY_TABLE_AND_BSDF, notices);
+    Environment map = map_environment(image, 1, 0, notices);
+    tabulate_sky(map, SkySampling::BY_TABLE_AND_BSDF);
+    return map;
 }
 
 /// A floor of reflectance 1/2 under a map.

@@ -37,12 +37,12 @@ void for_each_tree(Build build, const KernelVariant& naive,
                    const std::function<void(const RayDeviceOptions&, const std::string&)>& trace) {
     RayDeviceOptions options = ray_options(build, naive);
     if (build != Build::SINGLE)
-        return trace(options, layout_name(options.layout));
+        return trace(options, name_of(options.layout));
     for (const BvhLayout layout : ALL_LAYOUTS)
         for (const BvhQuality quality : {BvhQuality::FAST, BvhQuality::HIGH}) {
             options.layout = layout;
             options.quality = quality;
-            trace(options, std::string(layout_name(layout)) + (quality == BvhQuality::HIGH ? " high" : ""));
+            trace(options, std::string(name_of(layout)) + (quality == BvhQuality::HIGH ? " high" : ""));
         }
 }
 

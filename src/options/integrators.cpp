@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options/integrators.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace clrt {
+
+const IntegratorRow& integrator_row(Integrator integrator) {
+    return *std::find_if(std::begin(INTEGRATOR_ROWS), std::end(INTEGRATOR_ROWS),
+                         [&](const IntegratorRow& row) { return row.value == integrator; });
+}
+
+bool takes_option(Integrator integrator, IntegratorOption option) {
+    return (integrator_row(integrator).takes & option) != 0;
+}
+
+std::vector<std::string> integrators_with(IntegratorOption option) {
+    std::vector<std::string> names;
+    for (const IntegratorRow& row : INTEGRATOR_ROWS)
+        if (row.takes & option)
+            names.emplace_back(row.name);
+    return names;
+}
+
+std::string integrator_file(Integrator integrator) {
+    return std::string("integrators/") + name_of(integrator) + ".cl";
+}
+
+std::string integrator_kernel(Integrator integrator) {
+    return std::string("render_") + name_of(integrator);
+}
+
+} // namespace clrt

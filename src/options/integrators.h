@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The integrators, a row each. Command line, help, checks, blind spots, sky table, programs and reports read
+// the rows, so an integrator is added here and in kernels/integrators/NAME.cl.
+#pragma once
+
+#include "kernels/shared/render_types.h"
+#include "options/names.h"
+
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+enum class Integrator { RAYCAST, WHITTED, PATH };
+
+/// Options that only some integrators read; bits.
+enum IntegratorOption : unsigned {
+    TAKES_MAX_DEPTH = 1,
+    TAKES_ROULETTE_DEPTH = 2,
+    TAKES_MIN_CONTRIBUTION = 4,
+    TAKES_PATHS = 8, ///< tells paths apart by their automaton: --paths, --aov NAME=EXPR
+};
+
+template <>
+inline constexpr Named<IntegratorOption> NAMES<IntegratorOption>[] = {
+    {TAKES_MAX_DEPTH, "--max-depth"},
+    {TAKES_ROULETTE_DEPTH, "--roulette-depth"},
+    {TAKES_MIN_CONTRIBUTION, "--min-contribution"},
+    {TAKES_PATHS, "--paths"}};
+
+/// Paths in path notation (paths/path_expression.h): those that an integrator simulates, and those that its
+/// techniques find. What is simulated and not found is a blind spot (paths/blind_spots.h).
+struct SimulatedPaths {
+    const char* all;
+    const char* by_rays;       ///< found where a ray meets a light, which has an extent
+    const char* by_connection; ///< found by a connection to any light
+};
+
+/// Lengths of paths in segments.
+struct PathDepths {
+    int usual;   ///< without --max-depth
+    int longest; ///< that --max-depth may ask for
+};
+
+/// Which techniques find the sky: the table is all that does, or directions sampled by the BSDF do too, and
+/// multiple importance sampling weighs the two.
+enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
+
+/// Pixels that a work-item adds light to: its own, or any, by atomics.
+enum class FilmAccess { GATHER, SPLAT };
+
+/// An integrator. Its kernel is "render_" + name in kernels/integrators/NAME.cl.
+struct IntegratorRow {
+    Integrator value;
+    const char* name;    ///< as in --integrator NAME
+    const char* help;    ///< what it simulates, for --help
+    const char* omitted; ///< light that it never simulates, for the report; null: none
+    SimulatedPaths paths;
+    PathDepths depth;
+    SkySampling sky;
+    FilmAccess film;
+    unsigned takes; ///< IntegratorOption
+};
+
+/// No scene needs longer paths, and a pixel's loop stays bounded.
+constexpr int LARGEST_DEPTH = 65535;
+/// Russian roulette ends paths long before, and where nothing ends them, because surfaces reflect all light,
+/// this does within milliseconds.
+constexpr int USUAL_PATH_DEPTH = 4096;
+/// Trees can double with every segment.
+constexpr int USUAL_TREE_DEPTH = 10;
+/// The first hit and its connection to a light.
+constexpr int DIRECT_LIGHT_DEPTH = 2;
+
+/// From the fewest paths to all of them.
+inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
+    {Integrator::RAYCAST,
+     "raycast",
+     "first hit, shadows",
+     "all light but the direct one",
+     {"LD?E", "LE", "LDE"},
+     {DIRECT_LIGHT_DEPTH, DIRECT_LIGHT_DEPTH},
+     SkySampling::BY_TABLE,
+     FilmAccess::GATHER,
+     0},
+    {Integrator::WHITTED,
+     "whitted",
+     "mirrors, glass, shadows",
+     "all indirect light but that of mirrors and smooth glass",
+     {"LD?S*E", "LS*E", "LDS*E"},
+     {USUAL_TREE_DEPTH, WHITTED_MAX_DEPTH},
+     SkySampling::BY_TABLE,
+     FilmAccess::GATHER,
+     TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION},
+    {Integrator::PATH,
+     "path",
+     "global illumination",
+     nullptr,
+     {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E"},
+     {USUAL_PATH_DEPTH, LARGEST_DEPTH},
+     SkySampling::BY_TABLE_AND_BSDF,
+     FilmAccess::GATHER,
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS},
+};
+
+template <>
+inline constexpr auto& NAMES<Integrator> = INTEGRATOR_ROWS;
+
+/// The row of an integrator.
+const IntegratorRow& integrator_row(Integrator integrator);
+
+/// Whether the integrator reads the option.
+bool takes_option(Integrator integrator, IntegratorOption option);
+
+/// Names of the integrators that read the option.
+std::vector<std::string> integrators_with(IntegratorOption option);
+
+/// The integrator's kernel file below kernels/, "integrators/path.cl", and the name of its kernel in it.
+std::string integrator_file(Integrator integrator);
+std::string integrator_kernel(Integrator integrator);
+
+} // namespace clrt
