@@ -26,25 +26,35 @@ static inline bool sum_add_alone(global long* sum, long quanta)
     return *sum != LONG_MAX;
 }
 
-/* Adds 0 to 2^60 quanta to a sum that others add to at the same time. It is full from 2^63 on, which sets
-   its sign, and the host reads that as the largest value. Whatever the order, a sum gets there in steps of
-   less than 2^63, so that one of them sees it happen; who comes later adds nothing. False where it is full.
-   */
+/* Adds modulo 2^64 to a sum that others add to at the same time; the sum before, as this addition has met it (without
+   its high word, where that stays). */
+static inline ulong sum_add_modulo(global long* sum, ulong quanta)
+{
+#if FILM_INT64_ATOMICS
+    return (ulong)atom_add((global volatile long*)sum, (long)quanta);
+#else
+    global volatile uint* words = (global volatile uint*)sum;
+    const uint low = (uint)quanta;
+    const uint before = atomic_add(words, low);
+    const uint carry = before > UINT_MAX - low ? 1u : 0u;
+    const uint high = (uint)(quanta >> 32) + carry;
+    return upsample(high == 0u ? 0u : atomic_add(words + 1, high), before);
+#endif
+}
+
+/* Adds 0 to 2^60 quanta to a sum that others add to. It is full from 2^63 on, which sets its sign, and the host
+   reads that as the largest value. Whatever the order, a sum gets there in steps of less than 2^63, so that one
+   of them sees it happen; who comes later takes back what it adds. False where it is full. */
 static inline bool sum_add_shared(global long* sum, long quanta)
 {
-    global volatile uint* words = (global volatile uint*)sum;
     if (quanta == 0)
         return true;
-    if (words[1] >> 31)
+    const ulong before = sum_add_modulo(sum, (ulong)quanta);
+    if (before >> 63) {
+        sum_add_modulo(sum, 0ul - (ulong)quanta);
         return false;
-#if FILM_INT64_ATOMICS
-    return (((ulong)atom_add((global volatile long*)sum, quanta) + (ulong)quanta) >> 63) == 0ul;
-#else
-    const uint low = (uint)quanta;
-    const uint carry = atomic_add(words, low) > UINT_MAX - low ? 1u : 0u;
-    const uint high = (uint)(quanta >> 32) + carry;
-    return high == 0u || ((atomic_add(words + 1, high) + high) >> 31) == 0u;
-#endif
+    }
+    return ((before + (ulong)quanta) >> 63) == 0ul;
 }
 
 /* Adds to a sum of this build's film. */

@@ -4,7 +4,7 @@
 #ifndef CLRT_FILM_TILE_H
 #define CLRT_FILM_TILE_H
 
-#include "numerics/real.h"
+#include "numerics/sampler.h"
 #include "shared/render_types.h"
 
 typedef struct {
@@ -80,6 +80,18 @@ static inline void sample_counter_next(const RenderParams* params, SampleCounter
         ++counter->index;
     }
     counter->sample = counter->index * params->replicates + counter->replicate;
+}
+
+/* The number of the pixel (x, y) of the whole picture, by which its samples are addressed: row by row. */
+static inline uint tile_pixel_number(const RenderParams* params, uint x, uint y)
+{
+    return y * params->width + x;
+}
+
+/* The random numbers of the sample that a counter is at, of the pixel (x, y) of the whole picture. */
+static inline Sampler tile_sampler(const RenderParams* params, uint x, uint y, SampleCounter counter)
+{
+    return sampler_make(params->seed, tile_pixel_number(params, x, y), counter.replicate, counter.index);
 }
 
 /* The pixel of this work-item; false for padding. */

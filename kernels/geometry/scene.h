@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device's view of the scene: every kernel takes the buffers through SCENE_PARAMS, gathers them in a private Scene
-// and passes a pointer down.
+// The device's view of the scene: every kernel takes its heaps through SCENE_PARAMS, finds the arrays in them (SCENE_MAKE)
+// and passes a pointer to the private Scene down.
 #ifndef CLRT_GEOMETRY_SCENE_H
 #define CLRT_GEOMETRY_SCENE_H
 
-#include "shared/scene_types.h"
+#include "shared/scene_arrays.h"
 #include "shared/render_types.h"
-#include "shared/bvh_types.h"
 #include "shared/effects.h"
 #include "numerics/vector.h"
 #include "trace/trace.h"
@@ -16,18 +15,10 @@
 #endif
 
 typedef struct {
-    global const uint* restrict bvh_nodes;
-    global const uint* restrict bvh_leaves;
-    global const Triangle* restrict triangles;
-    global const float4* restrict positions;
-    global const float4* restrict normals;
-    global const float2* restrict uvs;
-    global const Material* restrict materials;
-    global const Texture* restrict textures;
-    global const uint* restrict texel_words;
-    global const Emitter* restrict emitters;
-    global const Light* restrict lights;
-    global const EnvironmentTexel* restrict environment;
+#define SCENE_ARRAY(type, name, member) global const type* restrict name;
+    BVH_ARRAYS(SCENE_ARRAY)
+    SCENE_ARRAYS(SCENE_ARRAY)
+#undef SCENE_ARRAY
 #ifdef CLRT_COUNT_VISITS
     uint* visits; /* of the rays so far: nodes, leaves, triangles; to be set by whoever counts */
 #endif
@@ -40,28 +31,40 @@ typedef struct {
 #ifdef CLRT_COUNT_VISITS
 #define SCENE_COUNT_NODE(scene) (++(scene)->visits[0])
 #define SCENE_COUNT_LEAF(scene, triangle_count) (++(scene)->visits[1], (scene)->visits[2] += (triangle_count))
-#define SCENE_NO_VISITS , 0
 #else
 #define SCENE_COUNT_NODE(scene)
 #define SCENE_COUNT_LEAF(scene, triangle_count)
-#define SCENE_NO_VISITS
+#endif
+
+/* A heap, in units of SCENE_ALIGNMENT bytes. */
+typedef global const ulong16* SceneHeap;
+
+/* The arguments by which every kernel takes the scene, and the Scene that they make. */
+#define SCENE_PARAMS                                                                                          \
+    SceneHeap restrict scene_heap0, SceneHeap restrict scene_heap1, SceneHeap restrict scene_heap2,           \
+        SceneHeap restrict scene_heap3, SceneHeap restrict scene_heap4, SceneHeap restrict scene_heap5,       \
+        SceneHeap restrict scene_heap6
+#define SCENE_MAKE                                                                                            \
+    scene_make(scene_heap0, scene_heap1, scene_heap2, scene_heap3, scene_heap4, scene_heap5, scene_heap6)
+
+static inline Scene scene_make(SceneHeap heap0, SceneHeap heap1, SceneHeap heap2, SceneHeap heap3, SceneHeap heap4,
+                               SceneHeap heap5, SceneHeap heap6)
+{
+    const SceneHeap heaps[SCENE_HEAPS] = {heap0, heap1, heap2, heap3, heap4, heap5, heap6};
+    global const ArrayPlaces* places = (global const ArrayPlaces*)heap0;
+    Scene scene;
+#define SCENE_ARRAY(type, name, member)                                                                       \
+    scene.name = (global const type*)(heaps[places->name.heap] + places->name.first);
+    BVH_ARRAYS(SCENE_ARRAY)
+    SCENE_ARRAYS(SCENE_ARRAY)
+#undef SCENE_ARRAY
+#ifdef CLRT_COUNT_VISITS
+    scene.visits = 0;
 #endif
 #ifdef CLRT_TRACE
-#define SCENE_NO_TRACE , 0
-#else
-#define SCENE_NO_TRACE
+    scene.trace = 0;
 #endif
-
-#define SCENE_PARAMS                                                                                          \
-    global const uint* restrict bvh_nodes, global const uint* restrict bvh_leaves,                            \
-        global const Triangle* restrict triangles, global const float4* restrict positions,                   \
-        global const float4* restrict normals, global const float2* restrict uvs,                             \
-        global const Material* restrict materials, global const Texture* restrict textures,                   \
-        global const uint* restrict texel_words, global const Emitter* restrict emitters,                     \
-        global const Light* restrict lights, global const EnvironmentTexel* restrict environment
-
-#define SCENE_MAKE                                                                                            \
-    {bvh_nodes, bvh_leaves,  triangles, positions, normals, uvs,                                              \
-     materials, textures, texel_words, emitters, lights, environment SCENE_NO_VISITS SCENE_NO_TRACE}
+    return scene;
+}
 
 #endif

@@ -11,19 +11,6 @@ typedef struct {
     uint words[AOV_WORDS];
 } AovSums;
 
-/* Reflectance of the surface seen along wo: reflection head-on and what of the matte colour it leaves; 1 for dielectrics. */
-static inline real3 aov_albedo(const Bsdf* bsdf)
-{
-    if (bsdf->lobes & LOBE_DIELECTRIC)
-        return (real3)(REAL(1.0));
-    real3 albedo = (bsdf->lobes & LOBE_MATTE) ? bsdf->matte : (real3)(REAL(0.0));
-    if (bsdf->flags & BSDF_COUPLED)
-        albedo *= (real3)(REAL(1.0)) - bsdf->specular;
-    if (bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR))
-        albedo += bsdf->specular;
-    return albedo;
-}
-
 /* In fixed point, rounded to nearest; 0 for what is no number. */
 static inline long aov_fixed(real x)
 {
@@ -42,15 +29,15 @@ static inline void aov_add(long* sums, real3 v)
 static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* params, uint x, uint y,
                                      SampleCounter counter, AovSums* sums)
 {
-    const Sampler sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
+    const Sampler sampler = tile_sampler(params, x, y, counter);
     const Ray ray = camera_ray(params, &sampler, x, y);
     Hit hit = visible_hit(scene, params, &sampler, 1u, &ray);
     if (hit.triangle == NO_INDEX)
         return;
     const real3 wo = -ray.direction;
     const Surface surface = visible_surface(scene, params, &ray, &hit);
-    const Bsdf bsdf = material_bsdf(scene, &surface, wo);
-    aov_add(sums->values + AOV_ALBEDO, aov_albedo(&bsdf));
+    const Bsdf bsdf = material_bsdf(scene, &surface, wo, TRANSPORT_RADIANCE);
+    aov_add(sums->values + AOV_ALBEDO, bsdf_albedo(&bsdf));
     aov_add(sums->values + AOV_NORMAL, bsdf.frame.z);
     aov_add(sums->values + AOV_POSITION, surface.position);
     if (sums->words[AOV_HITS]++ == 0u) {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Local illumination after Appel (1968) and Whitted (1980): one shadow ray to every light; matte reflection and Phong's
-// highlight. All emissive triangles together are one light, the environment is one, each point light and sun is one.
+// Local illumination after Appel (1968) and Whitted (1980): one shadow ray to every light; matte reflection
+// and Phong's highlight. All emissive triangles together are one light, the environment is one, each point
+// light and sun is one.
 #ifndef CLRT_INTEGRATORS_DIRECT_H
 #define CLRT_INTEGRATORS_DIRECT_H
 
 #include "film/film.h"
-#include "lights/lights.h"
 #include "numerics/real_functions.h"
-#include "path/nan.h"
-#include "path/visibility.h"
-#include "trace/vertex.h"
+#include "path/vertex.h"
 
 /* Matte reflection plus the highlight Ks (Ns + 2) / (2 pi) cos^Ns(r, wi), times cos_i. */
 static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight)
@@ -31,10 +29,11 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
 
 /* What one sampled light sends towards the eye by way of the surface. */
 static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                       const Bsdf* bsdf, bool highlight, const LightSample* light, PixelRays* rays)
+                                       const Bsdf* bsdf, bool highlight, const LightSample* light,
+                                       PixelRays* rays)
 {
     real3 nothing = (real3)(REAL(0.0));
-    TRACE_LIGHT(scene, light);
+    light_record(scene, light);
     if (nan_carry(scene, nan_of_vector(light->wi), &nothing) || light->pdf_w == REAL(0.0))
         return nothing;
     const real3 value = direct_eval(bsdf, light->wi, highlight);
@@ -46,14 +45,14 @@ static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* p
     const Ray shadow = light_shadow_ray(surface, light);
     ++rays->shadow;
     const real share = visible_share(scene, params, &shadow);
-    TRACE_VISIBILITY(scene, share);
     TRACE_VECTOR(scene, TRACE_CONNECTION, contribution * (share / light->pdf_w));
     return contribution * (share / light->pdf_w);
 }
 
 /* Sums over all lights; `node` addresses the random numbers of this surface. */
-static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint node,
-                                        const Surface* surface, const Bsdf* bsdf, bool highlight, PixelRays* rays)
+static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* params,
+                                        const Sampler* sampler, uint node, const Surface* surface,
+                                        const Bsdf* bsdf, bool highlight, PixelRays* rays)
 {
     const real3 from = surface_lifted(surface);
     real3 radiance = (real3)(REAL(0.0));
@@ -73,8 +72,8 @@ static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* 
     if (!HAS(EFFECT_DELTA_LIGHT))
         return radiance;
     for (uint i = 0; i < params->light_count; ++i) {
-        const LightSample light =
-            delta_light_sample(scene, i, from, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION));
+        const LightSample light = delta_light_sample(
+            scene, i, from, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION));
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     return radiance;

@@ -12,7 +12,6 @@
 #include "film/tile.h"
 #include "geometry/scene.h"
 #include "path/layers.h"
-#include "trace/vertex.h"
 
 /* Samples of a pixel that are simulated side by side. Their arithmetic does not depend on each other, so a processor that works
    ahead fills the waits of one with the others: four give a seventh more samples a second than one on a CPU. The host sets 1
@@ -39,7 +38,7 @@ static CLRT_NOINLINE void pixel_aim(const RenderParams* params, global long* fil
                                     SampleCounter counter, CameraSample* samples, uint count)
 {
     for (uint k = 0; k < count; ++k, sample_counter_next(params, &counter)) {
-        samples[k].sampler = sampler_make(params->seed, y * params->width + x, counter.replicate, counter.index);
+        samples[k].sampler = tile_sampler(params, x, y, counter);
         samples[k].ray = camera_ray(params, &samples[k].sampler, x, y);
         samples[k].radiance = (real3)(REAL(0.0));
         layers_begin(&samples[k].layers);
@@ -79,7 +78,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
                                     SampleCounter* counter, global long* film, global uint* pixel_rays,
                                     global volatile uint* counters)
 {
-    const uint pixel = (params->crop_y + place.y) * params->width + params->crop_x + place.x;
+    const uint pixel = tile_pixel_number(params, params->crop_x + place.x, params->crop_y + place.y);
     for (uint k = 0; k < count; ++k, sample_counter_next(params, counter)) {
         uint fault = film_fault(params, samples[k].radiance);
         if (fault == COUNT_WORDS) {

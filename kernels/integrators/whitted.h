@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recursive ray tracing (Whitted 1980): I = I_direct + k_s I_reflected + k_t I_refracted over a tree of rays, here with
-// a stack. Simulates L(D|G)?S*E. The tree ends at surfaces that only scatter diffusely, at max_depth segments, at weights
-// below min_contribution, and outside the scene.
+// Recursive ray tracing (Whitted 1980): I = I_direct + k_s I_reflected + k_t I_refracted over a tree of rays,
+// here with a stack. Simulates L(D|G)?S*E. The tree ends at surfaces that only scatter diffusely, at
+// max_depth segments, at weights below min_contribution, and outside the scene.
 #ifndef CLRT_INTEGRATORS_WHITTED_H
 #define CLRT_INTEGRATORS_WHITTED_H
 
 #include "direct.h"
-#include "path/nan.h"
 #include "pixel.h"
 
-/* Levels whose rays are numbered one by one: a random number's address has room for 2^28 of them (sampler_address). */
+/* Levels whose rays are numbered one by one: a random number's address has room for 2^28 of them
+   (sampler_address). */
 #define WHITTED_NUMBERED_LEVELS 28u
 #define WHITTED_FIRST_HASHED (1u << (WHITTED_NUMBERED_LEVELS - 1u))
 
@@ -20,9 +20,9 @@ typedef struct {
     uint node;    /* number of the ray in the tree, whitted_node */
 } WhittedRay;
 
-/* The number of a ray's reflected (which = 0) or refracted (1) child, by which its random numbers are addressed. The first is
-   1; children of n are 2n and 2n + 1 down to the last numbered level, then a hash of them on that level: a number that
-   overflows would be the same for all deeper rays. */
+/* The number of a ray's reflected (which = 0) or refracted (1) child, by which its random numbers are
+   addressed. The first is 1; children of n are 2n and 2n + 1 down to the last numbered level, then a hash of
+   them on that level: a number that overflows would be the same for all deeper rays. */
 static inline uint whitted_node(uint parent, uint which)
 {
     const uint node = 2u * parent + which;
@@ -32,8 +32,8 @@ static inline uint whitted_node(uint parent, uint which)
 }
 
 /* The child of a ray: same tree, one segment on. */
-static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* surface, real3 wi, real3 weight,
-                                       uint which)
+static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* surface, real3 wi,
+                                       real3 weight, uint which)
 {
     WhittedRay child;
     child.ray = surface_ray(surface, which == 0u, wi);
@@ -53,8 +53,9 @@ static inline uint whitted_push(const RenderParams* params, WhittedRay child, Wh
 }
 
 /* Spawns the reflected and the refracted ray; gives the new stack size. */
-static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* parent, const Surface* surface,
-                                 const Bsdf* bsdf, real3 wo_world, WhittedRay* stack, uint top)
+static inline uint whitted_spawn_children(const RenderParams* params, const WhittedRay* parent,
+                                          const Surface* surface, const Bsdf* bsdf, real3 wo_world,
+                                          WhittedRay* stack, uint top)
 {
     const bool dielectric = HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC);
     const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
@@ -68,19 +69,90 @@ static inline uint whitted_spawn(const RenderParams* params, const WhittedRay* p
     const real3 reflected = REAL(2.0) * cos_o * n - wo_world;
     if (surface_reflects(surface, reflected)) {
         const real3 color = dielectric ? bsdf->specular * f : bsdf_reflection_color(bsdf, cos_o);
-        top = whitted_push(params, whitted_child(parent, surface, reflected, parent->weight * color, 0u), stack, top);
+        top = whitted_push(params, whitted_child(parent, surface, reflected, parent->weight * color, 0u),
+                           stack, top);
     }
     if (f >= REAL(1.0)) /* a mirror, or total reflection */
         return top;
     const real3 refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
     if (surface_reflects(surface, refracted))
         return top;
-    const real3 color = bsdf->transmission * ((REAL(1.0) - f) * bsdf->eta * bsdf->eta);
-    return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack, top);
+    const real3 color = bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
+    return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack,
+                        top);
 }
 
-static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                          Ray ray, PixelRays* rays)
+/* The same for a surface that is lit; the rays that wait then are part of the record. */
+static inline uint whitted_spawn(const Scene* scene, const RenderParams* params, const WhittedRay* parent,
+                                 const Surface* surface, const Bsdf* bsdf, WhittedRay* stack, uint top)
+{
+    const uint waiting =
+        whitted_spawn_children(params, parent, surface, bsdf, -parent->ray.direction, stack, top);
+    TRACE_CHOICE(scene, TRACE_WAITING, waiting);
+    return waiting;
+}
+
+/* Finds where a ray of the tree ends. */
+static inline Hit whitted_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                              const WhittedRay* current, real3* radiance)
+{
+    const Hit hit = vertex_hit(scene, params, sampler, current->segment, current->node, &current->ray);
+    TRACE_VECTOR(scene, TRACE_THROUGHPUT, current->weight);
+    nan_carry(scene, nan_of_vector(current->weight), radiance);
+    return hit;
+}
+
+/* Adds the light from outside the scene. */
+static inline void whitted_escape(const Scene* scene, const RenderParams* params, const WhittedRay* current,
+                                  const Hit* hit, real3* radiance, PixelRays* rays)
+{
+    rays->missed += current->segment == 1u ? 1u : 0u;
+    if (nan_carry(scene, nan_of_miss(hit), radiance))
+        return;
+    const real3 sky = vertex_sky(scene, params, current->segment, &current->ray, REAL(0.0), KINDS_ALL);
+    vertex_add(scene, current->weight * sky, radiance);
+}
+
+/* Counts a ray that max_depth ends: its surface would have been lit, at least. */
+static inline void whitted_cut(const Scene* scene, const WhittedRay* current, const Surface* surface,
+                               PixelRays* rays)
+{
+    if (scene->materials[surface->material].lobes == 0u)
+        return;
+    film_count_cut(current->weight, rays);
+    TRACE_CHOICE(scene, TRACE_CUT, 1u);
+}
+
+/* Handles the end of a ray: adds the light there, and puts the rays that reflection and refraction send on
+   upon the stack; gives its new size. */
+static inline uint whitted_vertex(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                  const WhittedRay* current, WhittedRay* stack, uint top, real3* radiance,
+                                  PixelRays* rays)
+{
+    Hit hit = whitted_hit(scene, params, sampler, current, radiance);
+    if (hit.triangle == NO_INDEX) {
+        whitted_escape(scene, params, current, &hit, radiance, rays);
+        return top;
+    }
+    const real3 wo = -current->ray.direction;
+    const Surface surface = visible_surface(scene, params, &current->ray, &hit);
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+        vertex_add(scene, current->weight * material_emitted(scene, &surface), radiance);
+    if (current->segment >= params->max_depth) {
+        whitted_cut(scene, current, &surface, rays);
+        return top;
+    }
+    const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
+    nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), radiance);
+    const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
+    const real3 direct =
+        direct_light(scene, params, sampler, current->node, &surface, &bsdf, highlight, rays);
+    vertex_add(scene, current->weight * direct, radiance);
+    return whitted_spawn(scene, params, current, &surface, &bsdf, stack, top);
+}
+
+static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams* params,
+                                          const Sampler* sampler, Ray ray, PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
     WhittedRay stack[WHITTED_MAX_DEPTH + 1];
@@ -91,59 +163,14 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
     stack[0].node = 1u;
     while (top != 0u) {
         const WhittedRay current = stack[--top];
-        const real3 wo = -current.ray.direction;
-        if (current.segment > 1u)
-            ++rays->secondary;
-
-        /* Find the surface, or the light outside the scene. */
-        Hit hit = visible_hit(scene, params, sampler, current.node, &current.ray);
-        TRACE_HIT(scene, current.segment, current.node, &current.ray, &hit);
-        TRACE_VECTOR(scene, TRACE_THROUGHPUT, current.weight);
-        nan_carry(scene, nan_of_vector(current.weight), &radiance);
-        if (hit.triangle == NO_INDEX) {
-            rays->missed += current.segment == 1u ? 1u : 0u;
-            if (nan_carry(scene, nan_of_miss(&hit), &radiance))
-                continue;
-            const real3 sky =
-                lights_outside(scene, params, current.segment, current.ray.direction, REAL(0.0), KINDS_ALL);
-            radiance += current.weight * sky;
-            TRACE_VECTOR(scene, TRACE_SKY, sky);
-            TRACE_VECTOR(scene, TRACE_ADDED, current.weight * sky);
-            continue;
-        }
-        const Surface surface = visible_surface(scene, params, &current.ray, &hit);
-        TRACE_SURFACE(scene, &surface);
-        if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
-            const real3 emitted = material_emitted(scene, &surface);
-            radiance += current.weight * emitted;
-            TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
-            TRACE_VECTOR(scene, TRACE_ADDED, current.weight * emitted);
-        }
-        if (current.segment >= params->max_depth) {
-            /* It would have been lit, at least. */
-            if (scene->materials[surface.material].lobes != 0u) {
-                film_count_cut(current.weight, rays);
-                TRACE_CHOICE(scene, TRACE_CUT, 1u);
-            }
-            continue;
-        }
-
-        /* Light it, then follow reflection and refraction. */
-        const Bsdf bsdf = material_bsdf(scene, &surface, wo);
-        TRACE_VECTOR(scene, TRACE_NORMAL_S, bsdf.frame.z);
-        nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
-        const bool highlight = !(bsdf.flags & MATERIAL_WHITTED_MIRROR);
-        const real3 direct = direct_light(scene, params, sampler, current.node, &surface, &bsdf, highlight, rays);
-        radiance += current.weight * direct;
-        TRACE_VECTOR(scene, TRACE_ADDED, current.weight * direct);
-        top = whitted_spawn(params, &current, &surface, &bsdf, wo, stack, top);
-        TRACE_CHOICE(scene, TRACE_WAITING, top);
+        rays->secondary += current.segment > 1u ? 1u : 0u;
+        top = whitted_vertex(scene, params, sampler, &current, stack, top, &radiance, rays);
     }
     return radiance;
 }
 
-static inline void whitted_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples, uint count,
-                                    PixelRays* rays)
+static inline void whitted_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples,
+                                    uint count, PixelRays* rays)
 {
     for (uint k = 0; k < count; ++k)
         samples[k].radiance = whitted_sample(scene, params, &samples[k].sampler, samples[k].ray, rays);

@@ -35,6 +35,17 @@ static inline LightSample light_sample_none(void)
     return sample;
 }
 
+/* Writes a sampled light into a replay's record. */
+static inline void light_record(const Scene* scene, const LightSample* sample)
+{
+    TRACE_CHOICE(scene, TRACE_LIGHT_KIND, sample->pdf_w == REAL(0.0) ? 0u : sample->kind);
+    if (sample->pdf_w == REAL(0.0))
+        return;
+    TRACE_VECTOR(scene, TRACE_LIGHT_DIRECTION, sample->wi);
+    TRACE_VECTOR(scene, TRACE_LIGHT_RADIANCE, sample->radiance);
+    TRACE_NUMBER(scene, TRACE_LIGHT_PDF, sample->pdf_w);
+}
+
 /* How often denser per steradian a density on a light of this normal (any length) is where it is `way` away than where it is
    `other_way` away: by d^2 / cos_l. Not positive, or not finite, where the two do not see the same face. */
 static inline real light_density_ratio(real3 way, real3 other_way, real3 normal)

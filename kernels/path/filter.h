@@ -1,107 +1,81 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the automaton makes of a BSDF. A lobe whose letter leads nowhere is taken away, and with it its share of the density;
-// what is left is sampled and weighted like any other BSDF.
+// What the automaton makes of a BSDF. A lobe whose letter leads nowhere is taken away, and with it its share
+// of the density; what is left is sampled and weighted like any other BSDF.
 //
-// One direction can be scattered by the matte and by the glossy lobe. Where the automaton treats them alike, the event has no
-// class and nothing changes. Where it does not, write f = f_D + f_G for the BSDF times cosine and p for the density of the
-// mixture. Light sampling adds f_c L w_light / p_light for each class c that accepts the light: both parts, no choice. The
-// sampled direction goes on as one class, chosen with probability P_c = |f_c| / (|f_D| + |f_G|) and divided by it: its
-// throughput is f_c / (p P_c), whose mean over the choice is f_c / p for either class. The density of the direction is p
-// whatever the class, so the weights of light sampling and BSDF sampling, which only know p and p_light, sum to 1 for each
-// class, and the sum over the classes is the whole integral.
+// One direction can be scattered by the matte and by the glossy lobe. Where the automaton treats them alike,
+// the event has no class and nothing changes. Where it does not, write f = f_D + f_G for the BSDF times
+// cosine and p for the density of the mixture. Light sampling adds f_c L w_light / p_light for each class c
+// that accepts the light: both parts, no choice. The sampled direction goes on as one class, chosen with
+// probability P_c = |f_c| / (|f_D| + |f_G|) and divided by it: its throughput is f_c / (p P_c), whose mean
+// over the choice is f_c / p for either class. The density of the direction is p whatever the class, so the
+// weights of light sampling and BSDF sampling, which only know p and p_light, sum to 1 for each class, and
+// the sum over the classes is the whole integral.
 #ifndef CLRT_PATH_FILTER_H
 #define CLRT_PATH_FILTER_H
 
 #include "automaton.h"
 #include "scattering/bsdf.h"
 
-/* True for a dielectric whose both ways are delta functions. */
-static inline bool filter_is_smooth_glass(const Bsdf* bsdf)
-{
-    return (bsdf->lobes & LOBE_DIELECTRIC) && bsdf_dielectric_is_smooth(bsdf);
-}
+/* The lobes that write D or G where they have a density; of all others the letter is that of a delta
+   function. */
+#define FILTER_LETTERS (LETTER_BIT(LETTER_MATTE) | LETTER_BIT(LETTER_GLOSSY))
 
-/* Takes away the lobes that lead to a dead state. */
+/* Takes away the lobes that lead to a dead state, and the ways of a smooth dielectric that do. */
 static inline void filter_lobes(const AutomatonStep* step, Bsdf* bsdf)
 {
-    uint dead = 0u;
-    if (step->matte == STATE_DEAD)
-        dead |= LOBE_MATTE;
-    if (step->mirror == STATE_DEAD)
-        dead |= LOBE_MIRROR;
-    if (step->glossy == STATE_DEAD)
-        dead |= filter_is_smooth_glass(bsdf) ? LOBE_GLOSSY : LOBE_GLOSSY | LOBE_DIELECTRIC;
-    if (filter_is_smooth_glass(bsdf)) {
-        bsdf->flags |= step->mirror == STATE_DEAD ? BSDF_NO_REFLECTION : 0u;
-        bsdf->flags |= step->refraction == STATE_DEAD ? BSDF_NO_REFRACTION : 0u;
-        if (step->mirror == STATE_DEAD && step->refraction == STATE_DEAD)
-            dead |= LOBE_DIELECTRIC;
+    const uint open = automaton_open(step);
+    const uint left = bsdf_lobes_of(bsdf, open);
+    if ((bsdf->lobes & LOBE_DIELECTRIC) && bsdf_dielectric_is_delta(bsdf)) {
+        bsdf->flags |= (open & LETTER_BIT(LETTER_MIRROR)) ? 0u : BSDF_NO_REFLECTION;
+        bsdf->flags |= (open & LETTER_BIT(LETTER_REFRACTION)) ? 0u : BSDF_NO_REFRACTION;
     }
-    if ((bsdf->lobes & dead) == 0u)
+    if (left == bsdf->lobes)
         return;
-    bsdf->lobes &= ~dead;
+    bsdf->lobes = left;
     bsdf_choose_lobes(bsdf);
 }
 
-/* Samples no lobe behind which a ray finds nothing; false if there is no other. Only lights that light sampling alone can
-   find end a path there, so the density of BSDF sampling weighs against nothing. */
+/* Samples no lobe behind which a ray finds nothing; false if there is no other. Only lights that light
+   sampling alone can find end a path there, so the density of BSDF sampling weighs against nothing. */
 static inline bool filter_continues(const AutomatonStep* step, Bsdf* bsdf)
 {
-    const bool has_matte = (bsdf->lobes & LOBE_MATTE) != 0u;
-    const bool matte = has_matte && automaton_continues(step->matte);
-    if ((bsdf->lobes & ~LOBE_MATTE) == 0u)
-        return matte;
-    bool rest = automaton_continues(step->glossy);
-    if (bsdf->lobes & LOBE_MIRROR)
-        rest = automaton_continues(step->mirror);
-    else if (filter_is_smooth_glass(bsdf)) /* what is left of it after filter_lobes */
-        rest = automaton_continues(step->mirror) || automaton_continues(step->refraction);
-    if (has_matte && matte != rest) {
-        const real left = matte ? REAL(0.0) : REAL(1.0) - bsdf->choose_matte;
-        bsdf->choose_matte = matte ? REAL(1.0) : REAL(0.0);
-        bsdf->choose_multiple = left > REAL(0.0) ? bsdf->choose_multiple / left : REAL(0.0);
-        bsdf->choose_glossy =
-            rest && (bsdf->lobes & LOBE_GLOSSY) ? REAL(1.0) - bsdf->choose_multiple : REAL(0.0);
-    }
-    return matte || rest;
+    const uint lobes = bsdf_lobes_of(bsdf, automaton_continuing(step));
+    if (lobes != 0u && lobes != bsdf->lobes)
+        bsdf_choose_among(bsdf, lobes);
+    return lobes != 0u;
 }
 
 /* Lobes that write a letter of their own for the same direction. */
 static inline bool filter_is_ambiguous(const AutomatonStep* step, const Bsdf* bsdf)
 {
-    const uint both = LOBE_MATTE | LOBE_GLOSSY;
-    return (bsdf->lobes & both) == both && step->matte != step->glossy;
+    return bsdf_smooth_letters(bsdf) == FILTER_LETTERS &&
+           step->next[LETTER_MATTE] != step->next[LETTER_GLOSSY];
 }
 
-/* The matte part of the BSDF times cosine. */
-static inline real3 filter_matte_part(const Bsdf* bsdf, real3 wi_world)
+/* The part of the BSDF times cosine whose lobes write a letter where they have a density. */
+static inline real3 filter_part(const Bsdf* bsdf, uint letter, real3 wi_world)
 {
-    return bsdf_matte_eval(bsdf, frame_to_local(&bsdf->frame, wi_world));
+    const uint lobes = bsdf_lobes_of(bsdf, LETTER_BIT(letter));
+    return bsdf_eval_lobes(bsdf, lobes, frame_to_local(&bsdf->frame, wi_world)).value;
 }
 
-/* The glossy part. */
-static inline real3 filter_glossy_part(const Bsdf* bsdf, real3 wi_world)
+/* What is left of the BSDF's whole value towards a light when only some classes accept it. Where the whole is
+   nothing, because the light is on the other side, so are its parts. */
+static inline real3 filter_value(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world, uint kind,
+                                 real3 whole)
 {
-    return bsdf_glossy_eval(bsdf, frame_to_local(&bsdf->frame, wi_world)).value;
-}
-
-/* What is left of the BSDF's whole value towards a light when only some classes accept it. Where the whole is nothing, because
-   the light is on the other side, so are its parts. */
-static inline real3 filter_value(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world, uint kind, real3 whole)
-{
-    const bool matte = (bsdf->lobes & LOBE_MATTE) && automaton_accepts(step->matte, kind);
-    const bool glossy = (bsdf->lobes & (LOBE_GLOSSY | LOBE_DIELECTRIC)) && automaton_accepts(step->glossy, kind);
-    if (filter_is_ambiguous(step, bsdf) && matte != glossy && !vector_is_black(whole))
-        return matte ? filter_matte_part(bsdf, wi_world) : filter_glossy_part(bsdf, wi_world);
-    return matte || glossy ? whole : (real3)(REAL(0.0));
+    const uint accepting = bsdf_smooth_letters(bsdf) & automaton_accepting(step, kind);
+    if (accepting == 0u)
+        return (real3)(REAL(0.0));
+    if (!filter_is_ambiguous(step, bsdf) || accepting == FILTER_LETTERS || vector_is_black(whole))
+        return whole;
+    return filter_part(bsdf, (accepting & LETTER_BIT(LETTER_MATTE)) ? LETTER_MATTE : LETTER_GLOSSY, wi_world);
 }
 
 /* True if some light may end a path behind this vertex: else light sampling is useless here. */
 static inline bool filter_wants_light(const AutomatonStep* step, const Bsdf* bsdf)
 {
-    if ((bsdf->lobes & LOBE_MATTE) && automaton_accepts(step->matte, KINDS_ALL))
-        return true;
-    return (bsdf->lobes & (LOBE_GLOSSY | LOBE_DIELECTRIC)) && automaton_accepts(step->glossy, KINDS_ALL);
+    return (bsdf_smooth_letters(bsdf) & automaton_accepting(step, KINDS_ALL)) != 0u;
 }
 
 /* A component of f_c / (f P_c). */
@@ -110,37 +84,35 @@ static inline real filter_share_component(real part, real rest, real chance)
     return part == REAL(0.0) ? REAL(0.0) : part / ((part + rest) * chance);
 }
 
-/* Chooses the class of a sampled direction that both lobes scatter: true for matte. Gives its share of the value over the
-   probability of the choice. A class whose ray finds nothing is not chosen. */
-static CLRT_NOINLINE bool filter_choose_matte(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world, real u,
-                                              real3* share)
+/* Chooses the class of a sampled direction that both lobes scatter: its letter. Gives its share of the value
+   over the probability of the choice. A class whose ray finds nothing is not chosen. */
+static CLRT_NOINLINE uint filter_choose_letter(const AutomatonStep* step, const Bsdf* bsdf, real3 wi_world,
+                                               real u, real3* share)
 {
-    const real3 matte = filter_matte_part(bsdf, wi_world);
-    const real3 glossy = filter_glossy_part(bsdf, wi_world);
+    const real3 matte = filter_part(bsdf, LETTER_MATTE, wi_world);
+    const real3 glossy = filter_part(bsdf, LETTER_GLOSSY, wi_world);
     const real size = vector_color_size(matte) + vector_color_size(glossy);
     real chance = size > REAL(0.0) ? vector_color_size(matte) / size : REAL(0.5);
-    if (!automaton_continues(step->glossy))
+    if (!automaton_continues(step->next[LETTER_GLOSSY]))
         chance = REAL(1.0);
-    if (!automaton_continues(step->matte))
+    if (!automaton_continues(step->next[LETTER_MATTE]))
         chance = REAL(0.0);
     const bool is_matte = u < chance;
     const real3 part = is_matte ? matte : glossy;
     const real3 rest = is_matte ? glossy : matte;
     const real taken = is_matte ? chance : REAL(1.0) - chance;
-    *share = vector_make(filter_share_component(part.x, rest.x, taken), filter_share_component(part.y, rest.y, taken),
+    *share = vector_make(filter_share_component(part.x, rest.x, taken),
+                         filter_share_component(part.y, rest.y, taken),
                          filter_share_component(part.z, rest.z, taken));
-    return is_matte;
+    return is_matte ? LETTER_MATTE : LETTER_GLOSSY;
 }
 
-/* The state behind a sampled direction that is not ambiguous. */
-static inline uint filter_state(const AutomatonStep* step, const Bsdf* bsdf, const BsdfSample* sample)
+/* The letter of a sampled direction that is not ambiguous. */
+static inline uint filter_letter(const Bsdf* bsdf, const BsdfSample* sample)
 {
-    if (sample->pdf_w == REAL(0.0)) {
-        /* Refraction changes the index; without a difference of indices there is no reflection. */
-        const bool glass = (bsdf->lobes & LOBE_DIELECTRIC) != 0u;
-        return glass && (sample->eta != REAL(1.0) || bsdf->eta == REAL(1.0)) ? step->refraction : step->mirror;
-    }
-    return (bsdf->lobes & LOBE_MATTE) ? step->matte : step->glossy;
+    if (sample->pdf_w == REAL(0.0))
+        return sample->reflects ? LETTER_MIRROR : LETTER_REFRACTION;
+    return (bsdf_smooth_letters(bsdf) & LETTER_BIT(LETTER_MATTE)) ? LETTER_MATTE : LETTER_GLOSSY;
 }
 
 #endif

@@ -17,16 +17,17 @@ static inline real visibility_coverage(const Scene* scene, const Hit* hit)
     float2 uv = (float2)(0.0f);
     if (triangle->t0 != NO_INDEX) {
         const float2 t0 = scene->uvs[triangle->t0];
-        uv = t0 + (float)hit->b1 * (scene->uvs[triangle->t1] - t0) + (float)hit->b2 * (scene->uvs[triangle->t2] - t0);
+        uv = t0 + (float)hit->b1 * (scene->uvs[triangle->t1] - t0) +
+             (float)hit->b2 * (scene->uvs[triangle->t2] - t0);
     }
     return material_coverage(scene, material, uv);
 }
 
-/* The first hit that is not passed: a surface of coverage c is passed with probability 1 - c. The search goes on behind the
-   passed hit in the order of hits, so no layer is missed or met twice. Where a coverage is a NaN, so is the distance of the
-   miss that it gives. */
-static inline Hit visible_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler, uint bounce,
-                              const Ray* ray)
+/* The first hit that is not passed: a surface of coverage c is passed with probability 1 - c. The search goes
+   on behind the passed hit in the order of hits, so no layer is missed or met twice. Where a coverage is a
+   NaN, so is the distance of the miss that it gives. */
+static inline Hit visible_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                              uint bounce, const Ray* ray)
 {
     Hit after = hit_none(REAL(0.0));
     Hit hit = scene_closest_hit(scene, params, ray, &after);
@@ -47,14 +48,14 @@ static inline Hit visible_hit(const Scene* scene, const RenderParams* params, co
     return hit;
 }
 
-/* Looks again at a hit near an edge, whose point, off its wall by the error bound, is `point`. There the ray meets two walls at
-   one distance but for roundings, which may call the far one first: the one that is seen from behind, at the outline of a
-   solid. Its point, drawn in from the edge, lies behind the near wall, so the same ray shifted to that point meets the near
-   wall before it. True if so; `hit` is then there. */
-static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderParams* params, real3 point, const Ray* ray,
-                                            Hit* hit)
+/* Looks again at a hit near an edge, whose point, off its wall by the error bound, is `point`. There the ray
+   meets two walls at one distance but for roundings, which may call the far one first: the one that is seen
+   from behind, at the outline of a solid. Its point, drawn in from the edge, lies behind the near wall, so
+   the same ray shifted to that point meets the near wall before it. True if so; `hit` is then there. */
+static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderParams* params, real3 point,
+                                            const Ray* ray, Hit* hit)
 {
-    /* Half of the ray: a wall that it grazes is far before the point, and its start may lie on a wall, too. */
+    /* Half of the ray: a wall that it grazes is far before the point, and it may start on a wall, too. */
     const real reach = REAL(0.5) * hit->t;
     Ray shifted = ray_make(point - ray->direction * reach, ray->direction, ray_time(ray));
     shifted.t_max = reach;
@@ -74,7 +75,8 @@ static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderPara
 #define VISIBLE_CORNER_WALLS 4
 
 /* The surface at a hit of a ray. */
-static inline Surface visible_surface(const Scene* scene, const RenderParams* params, const Ray* ray, Hit* hit)
+static inline Surface visible_surface(const Scene* scene, const RenderParams* params, const Ray* ray,
+                                      Hit* hit)
 {
     Surface surface = surface_at(scene, hit, ray);
     for (int i = 1; i < VISIBLE_CORNER_WALLS && surface.is_near_edge; ++i) {
@@ -82,17 +84,16 @@ static inline Surface visible_surface(const Scene* scene, const RenderParams* pa
             break;
         surface = surface_at(scene, hit, ray);
     }
+    TRACE_CHOICE(scene, TRACE_FRONT, surface.front ? 1u : 0u);
+    TRACE_VECTOR(scene, TRACE_POSITION, surface.position);
+    TRACE_VECTOR(scene, TRACE_NORMAL_G, surface.normal_g);
+    TRACE_NUMBER(scene, TRACE_OFFSET, surface.offset);
     return surface;
 }
 
-/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass; a NaN for a ray that is not
-   finite. */
-static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+/* What cut-outs let pass of the light to the ray's end. */
+static inline real visible_share_of_cut_outs(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
-    if (!vector_is_finite(ray->origin) || !vector_is_finite(ray->direction))
-        return REAL_NAN;
-    if (!HAS(EFFECT_CUT_OUT))
-        return scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
     real share = REAL(1.0);
     Hit after = hit_none(REAL(0.0));
     while (share > REAL(0.0)) {
@@ -102,6 +103,22 @@ static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* 
         share *= REAL(1.0) - visibility_coverage(scene, &hit);
         after = hit;
     }
+    return share;
+}
+
+/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass; a NaN for
+   a ray that is not finite. */
+static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+{
+    real share = REAL_NAN;
+    if (vector_is_finite(ray->origin) && vector_is_finite(ray->direction)) {
+        if (HAS(EFFECT_CUT_OUT))
+            share = visible_share_of_cut_outs(scene, params, ray);
+        else
+            share = scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
+    }
+    TRACE_CHOICE(scene, TRACE_VISIBLE, share > REAL(0.0) ? 1u : 0u);
+    TRACE_NUMBER(scene, TRACE_SHARE, share);
     return share;
 }
 

@@ -1,20 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
-// The BSDF of a material: the sum of its lobes. Lobes are chosen by their weight; where lobes overlap, the density is
-// that of the mixture. Nothing passes where the shading normal and the surface disagree about the side.
+// The BSDF of a material: the sum of its lobes, which are rows of one table (shared/lobes.h). Lobes are
+// chosen by their weight; where lobes overlap, the density is that of the mixture. Nothing passes where the
+// shading normal and the surface disagree about the side.
 #ifndef CLRT_SCATTERING_BSDF_H
 #define CLRT_SCATTERING_BSDF_H
 
 #include "bsdf_dielectric.h"
 #include "bsdf_glossy.h"
 #include "bsdf_matte.h"
+#include "bsdf_mirror.h"
 #include "geometry/surface.h"
 
-/* True if some lobe is no delta function, so that connecting to a light can succeed. */
-static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf)
+/* True where a set of lobes has one, in builds that know it. */
+#define BSDF_HAS(lobes, NAME, effect) (HAS(effect) && ((lobes) & LOBE_##NAME) != 0u)
+
+/* True where a set of lobes has none behind this one in the table. */
+#define BSDF_IS_LAST(lobes, NAME) ((lobes) < 2u * LOBE_##NAME)
+
+/* Letters of the path notation (bits LETTER_BIT) that some of the lobes write where they have a density. */
+static inline uint bsdf_smooth_letters(const Bsdf* bsdf)
 {
-    if (bsdf->lobes & (LOBE_MATTE | LOBE_GLOSSY))
-        return true;
-    return (bsdf->lobes & LOBE_DIELECTRIC) && !bsdf_dielectric_is_smooth(bsdf);
+    uint found = 0u;
+#define ADD_LETTERS(NAME, name, effect, letters, delta_letters, absent)                                      \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect) && !bsdf_##name##_is_delta(bsdf))                                \
+        found |= letters;
+    LOBE_TABLE(ADD_LETTERS)
+#undef ADD_LETTERS
+    return found;
+}
+
+/* True if some lobe is no delta function, so that connecting to a light can succeed. */
+static inline bool bsdf_has_smooth_lobe(const Bsdf* bsdf) { return bsdf_smooth_letters(bsdf) != 0u; }
+
+/* Lobes that may write one of these letters, with a density or as delta functions. */
+static inline uint bsdf_lobes_of(const Bsdf* bsdf, uint wanted)
+{
+    uint found = 0u;
+#define ADD_LOBE(NAME, name, effect, letters, delta_letters, absent)                                         \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect) &&                                                               \
+        (wanted & (bsdf_##name##_is_delta(bsdf) ? delta_letters : letters)))                                 \
+        found |= LOBE_##NAME;
+    LOBE_TABLE(ADD_LOBE)
+#undef ADD_LOBE
+    return found;
+}
+
+/* Reflectance head-on: the sum of the lobes' albedos. */
+static inline real3 bsdf_albedo(const Bsdf* bsdf)
+{
+    real3 albedo = (real3)(REAL(0.0));
+#define ADD_ALBEDO(NAME, name, effect, letters, delta_letters, absent)                                       \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect))                                                                 \
+        albedo += bsdf_##name##_albedo(bsdf);
+    LOBE_TABLE(ADD_ALBEDO)
+#undef ADD_ALBEDO
+    return albedo;
 }
 
 /* True if a world direction is on wo's side of the surface. */
@@ -23,78 +63,126 @@ static inline bool bsdf_reflects(const Bsdf* bsdf, real3 wi_world)
     return surface_side(bsdf->normal_g, bsdf->normal_s, bsdf->is_curved, wi_world);
 }
 
-/* True if a world direction is on the side of the surface that its local form is on in the frame, which a map may tilt. */
+/* True if a world direction is on the side of the surface that its local form is on in the frame, which a map
+   may tilt. */
 static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
 {
     return bsdf_reflects(bsdf, wi_world) == (wi.z > REAL(0.0));
 }
 
-/* Sum of the lobes and density of the mixture; wi local, sides already compared. */
-static inline BsdfValue bsdf_eval_local(const Bsdf* bsdf, real3 wi)
+/* Sum of some of the lobes and their share of the mixture's density; wi local, sides already compared. */
+static inline BsdfValue bsdf_eval_lobes(const Bsdf* bsdf, uint lobes, real3 wi)
 {
-    BsdfValue sum;
-    sum.value = (real3)(REAL(0.0));
-    sum.pdf_w = REAL(0.0);
-    if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE)) {
-        sum.value = bsdf_matte_eval(bsdf, wi);
-        sum.pdf_w = bsdf->choose_matte * bsdf_matte_pdf_w(wi);
-    }
-    if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY)) {
-        const BsdfValue glossy = bsdf_glossy_eval(bsdf, wi);
-        sum.value += glossy.value;
-        sum.pdf_w += glossy.pdf_w;
-    }
-    if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC))
-        sum = bsdf_dielectric_eval(bsdf, wi);
+    BsdfValue sum = bsdf_value_none();
+#define ADD_VALUE(NAME, name, effect, letters, delta_letters, absent)                                        \
+    if (BSDF_HAS(lobes, NAME, effect))                                                                       \
+        bsdf_##name##_add(bsdf, wi, &sum);
+    LOBE_TABLE(ADD_VALUE)
+#undef ADD_VALUE
     return sum;
 }
 
-/* The same for a world direction. */
+/* What a shading normal that is not the surface's makes of importance (Veach 1997, sec. 5.3): cosines to the
+   light's side are those of n_s in radiance, so they must be in importance, whose beams spread by those of
+   n_g. Not bounded. This is its one place; wi is local. */
+static inline real bsdf_shading_factor(const Bsdf* bsdf, real3 wi_world, real3 wi)
+{
+    const real3 wo_world = frame_to_world(&bsdf->frame, bsdf->wo);
+    const real below = fabs(vector_dot(wo_world, bsdf->normal_g) * wi.z);
+    /* Along the plane nothing arrives, along the horizon nothing leaves. */
+    return below == REAL(0.0) ? REAL(0.0) : fabs(bsdf->wo.z * vector_dot(wi_world, bsdf->normal_g)) / below;
+}
+
+/* Sum of all lobes for a world direction. */
 static inline BsdfValue bsdf_eval(const Bsdf* bsdf, real3 wi_world)
 {
     const real3 wi = frame_to_local(&bsdf->frame, wi_world);
-    if (bsdf_sides_agree(bsdf, wi_world, wi))
-        return bsdf_eval_local(bsdf, wi);
-    BsdfValue none;
-    none.value = (real3)(REAL(0.0));
-    none.pdf_w = REAL(0.0);
-    return none;
+    if (!bsdf_sides_agree(bsdf, wi_world, wi))
+        return bsdf_value_none();
+    BsdfValue sum = bsdf_eval_lobes(bsdf, bsdf->lobes, wi);
+    if (bsdf->flags & TRANSPORT_IMPORTANCE)
+        sum.value *= bsdf_shading_factor(bsdf, wi_world, wi);
+    return sum;
 }
 
-/* Sets the lobes' probabilities by how much each reflects towards wo. */
+/* Sets `choose` to the sizes of what the lobes reflect towards wo, and gives their sum with that of the light
+   of more than one facet. */
+static inline real bsdf_sizes(Bsdf* bsdf, real multiple)
+{
+    real sum = multiple;
+#define SET_SIZE(NAME, name, effect, letters, delta_letters, absent)                                         \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                               \
+        bsdf->choose[LOBE_ROW_##NAME] = bsdf_##name##_size(bsdf);                                            \
+        sum += bsdf->choose[LOBE_ROW_##NAME];                                                                \
+    }
+    LOBE_TABLE(SET_SIZE)
+#undef SET_SIZE
+    if (sum != REAL(0.0))
+        return sum;
+    /* Where nothing is reflected, the matte lobe stands for nothing as well as the others. */
+    bsdf->choose[LOBE_ROW_MATTE] = (bsdf->lobes & LOBE_MATTE) ? REAL(1.0) : REAL(0.0);
+    return REAL(1.0);
+}
+
+/* Sets the lobes' probabilities by how much each reflects towards wo. The last one gets what the others
+   leave. */
 static inline void bsdf_choose_lobes(Bsdf* bsdf)
 {
-    bsdf->choose_matte = (bsdf->lobes == LOBE_MATTE) ? REAL(1.0) : REAL(0.0);
-    bsdf->choose_glossy = REAL(0.0);
-    bsdf->choose_multiple = REAL(0.0);
-    if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC))
-        bsdf->choose_multiple = bsdf->multiple_size;
-    if (!HAS(EFFECT_GLOSSY | EFFECT_MIRROR) || !(bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
-        return;
-    const bool glossy = HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY);
-    const real matte = (bsdf->lobes & LOBE_MATTE) ? bsdf->matte_size : REAL(0.0);
-    const real multiple = glossy ? bsdf->multiple_size : REAL(0.0);
-    const real sum = matte + multiple + vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
-    /* Where nothing is reflected, the matte lobe stands for nothing as well as the others. */
-    const bool is_dark = sum == REAL(0.0);
-    bsdf->choose_matte = !is_dark ? matte / sum : (bsdf->lobes & LOBE_MATTE) ? REAL(1.0) : REAL(0.0);
-    bsdf->choose_multiple = !is_dark ? multiple / sum : REAL(0.0);
-    bsdf->choose_glossy = glossy ? REAL(1.0) - bsdf->choose_matte - bsdf->choose_multiple : REAL(0.0);
+    const real multiple = (bsdf->lobes & LOBES_ROUGH) ? bsdf->multiple_size : REAL(0.0);
+    const bool is_alone = (bsdf->lobes & (bsdf->lobes - 1u)) == 0u && multiple == REAL(0.0);
+    for (uint row = 0u; row < LOBE_COUNT; ++row)
+        bsdf->choose[row] = REAL(0.0);
+    const real sum = is_alone ? REAL(1.0) : bsdf_sizes(bsdf, multiple);
+    bsdf->choose_multiple = multiple / sum;
+    real left = REAL(1.0);
+#define SET_SHARE(NAME, name, effect, letters, delta_letters, absent)                                        \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                               \
+        bsdf->choose[LOBE_ROW_##NAME] =                                                                      \
+            BSDF_IS_LAST(bsdf->lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / sum;                    \
+        left -= bsdf->choose[LOBE_ROW_##NAME];                                                               \
+    }
+    LOBE_TABLE(SET_SHARE)
+#undef SET_SHARE
 }
 
-/* Completes a sample of the matte or the glossy lobe: density and weight of the mixture. */
-static inline void bsdf_complete(const Bsdf* bsdf, real3 wi, BsdfSample* sample)
+/* Leaves the sampling of directions to some of the lobes, which share it as before among each other. The
+   value stays that of all. */
+static inline void bsdf_choose_among(Bsdf* bsdf, uint lobes)
 {
-    /* Alone, Lambert's lobe is sampled exactly. */
-    if (bsdf->lobes == LOBE_MATTE) {
-        sample->pdf_w = bsdf_matte_pdf_w(wi);
-        /* Along the horizon there is no sample: a density of 0 would say that the lobe is a delta function. */
-        sample->weight = sample->pdf_w > REAL(0.0) ? bsdf_matte_weight(bsdf, wi) : (real3)(REAL(0.0));
-        return;
+    real whole = REAL(1.0);
+#define TAKE_SHARE(NAME, name, effect, letters, delta_letters, absent)                                       \
+    if (BSDF_HAS(bsdf->lobes & ~lobes, NAME, effect)) {                                                      \
+        whole -= bsdf->choose[LOBE_ROW_##NAME];                                                              \
+        bsdf->choose[LOBE_ROW_##NAME] = REAL(0.0);                                                           \
     }
-    const BsdfValue eval = bsdf_eval_local(bsdf, wi);
-    sample->pdf_w = eval.pdf_w;
-    sample->weight = eval.pdf_w == REAL(0.0) ? (real3)(REAL(0.0)) : eval.value / eval.pdf_w;
+    LOBE_TABLE(TAKE_SHARE)
+#undef TAKE_SHARE
+    bsdf->choose_multiple =
+        (lobes & LOBES_ROUGH) && whole > REAL(0.0) ? bsdf->choose_multiple / whole : REAL(0.0);
+    real left = REAL(1.0);
+#define GROW_SHARE(NAME, name, effect, letters, delta_letters, absent)                                       \
+    if (BSDF_HAS(bsdf->lobes & lobes, NAME, effect)) {                                                       \
+        bsdf->choose[LOBE_ROW_##NAME] =                                                                      \
+            BSDF_IS_LAST(lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / whole;                        \
+        left -= bsdf->choose[LOBE_ROW_##NAME];                                                               \
+    }
+    LOBE_TABLE(GROW_SHARE)
+#undef GROW_SHARE
+}
+
+/* The lobe (LOBE_*) that a number in (0, 1) chooses, and the probability of those before it. */
+static inline uint bsdf_choose(const Bsdf* bsdf, BsdfChoice* choice)
+{
+    choice->before = REAL(0.0);
+#define CHOOSE(NAME, name, effect, letters, delta_letters, absent)                                           \
+    if (BSDF_HAS(bsdf->lobes, NAME, effect)) {                                                               \
+        if (BSDF_IS_LAST(bsdf->lobes, NAME) || choice->u < choice->before + bsdf->choose[LOBE_ROW_##NAME])   \
+            return LOBE_##NAME;                                                                              \
+        choice->before += bsdf->choose[LOBE_ROW_##NAME];                                                     \
+    }
+    LOBE_TABLE(CHOOSE)
+#undef CHOOSE
+    return 0u;
 }
 
 /* Samples a direction. u_lobe chooses the lobe, u the direction. */
@@ -104,25 +192,25 @@ static CLRT_NOINLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2
     sample.pdf_w = REAL(0.0);
     sample.eta = REAL(1.0);
     sample.weight = (real3)(REAL(0.0));
+    sample.is_weighted = false;
     TRACE_SET(sample.lobe, 0u);
+    BsdfChoice choice;
+    choice.u = u_lobe;
+    const uint lobe = bsdf_choose(bsdf, &choice);
     real3 wi = (real3)(REAL(0.0));
-    if (HAS(EFFECT_MATTE) && u_lobe < bsdf->choose_matte) {
-        TRACE_SET(sample.lobe, LOBE_MATTE);
-        wi = bsdf_matte_sample(u);
-        bsdf_complete(bsdf, wi, &sample);
-    } else if (HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY)) {
-        TRACE_SET(sample.lobe, LOBE_GLOSSY);
-        wi = u_lobe < bsdf->choose_matte + bsdf->choose_multiple ? bsdf_energy_multiple_sample(u)
-                                                                 : bsdf_glossy_sample(bsdf, u);
-        bsdf_complete(bsdf, wi, &sample);
-    } else if (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) {
-        wi = bsdf_dielectric_sample(bsdf, u_lobe, u, &sample);
-    } else if (HAS(EFFECT_MIRROR) && (bsdf->lobes & LOBE_MIRROR)) {
-        TRACE_SET(sample.lobe, LOBE_MIRROR);
-        wi = vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z);
-        sample.weight = bsdf_reflection_color(bsdf, bsdf->wo.z) / (REAL(1.0) - bsdf->choose_matte);
+#define SAMPLE(NAME, name, effect, letters, delta_letters, absent)                                           \
+    if (BSDF_HAS(lobe, NAME, effect))                                                                        \
+        wi = bsdf_##name##_sample(bsdf, choice, u, &sample);
+    LOBE_TABLE(SAMPLE)
+#undef SAMPLE
+    if (!sample.is_weighted) {
+        const BsdfValue eval = bsdf_eval_lobes(bsdf, bsdf->lobes, wi);
+        sample.pdf_w = eval.pdf_w;
+        sample.weight = eval.pdf_w == REAL(0.0) ? (real3)(REAL(0.0)) : eval.value / eval.pdf_w;
     }
     sample.wi = frame_to_world(&bsdf->frame, wi);
+    if (bsdf->flags & TRANSPORT_IMPORTANCE)
+        sample.weight *= bsdf_shading_factor(bsdf, sample.wi, wi);
     sample.reflects = bsdf_reflects(bsdf, sample.wi);
     sample.is_valid = !vector_is_black(sample.weight) && sample.reflects == (wi.z > REAL(0.0));
     return sample;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What keeps the lobes of a BSDF from losing and from creating light. All of it is reciprocal and built from directional
-// albedos (albedo.h); a white surface under a white sky is white.
+// What keeps the lobes of a BSDF from losing and from creating light. All of it is reciprocal and built from
+// directional albedos (albedo.h); a white surface under a white sky is white.
 //
-// Between rough facets light is reflected more than once. What the first facet does not send on, the loss L(wo), leaves with the
-// cosine lobe L(wo) L(wi) / (pi mean(L)), times the colour that it takes on the way (Kelemen and Szirmay-Kalos 2001; Kulla and
-// Conty 2017). At a dielectric it leaves on both sides.
+// Between rough facets light is reflected more than once. What the first facet does not send on, the loss
+// L(wo), leaves with the cosine lobe L(wo) L(wi) / (pi mean(L)), times the colour that it takes on the way
+// (Kelemen and Szirmay-Kalos 2001; Kulla and Conty 2017). At a dielectric it leaves on both sides.
 //
-// Below a reflection by Schlick's Fresnel lies the matte lobe. It gets what the reflection does not take and gives it back the
-// same way: f_matte = Kd/pi (1 - E(wo)) (1 - E(wi)) / (1 - mean(E)) with the reflection's albedo E. Every 1 - E has the factor
-// 1 - F0: 1 - E = (1 - F0) g, g(w) = 1 - B(w) + c L(w), c = (F0 - F_ms) / (1 - F0), so F0 = 1 needs no care.
+// Below a reflection by Schlick's Fresnel lies the matte lobe. It gets what the reflection does not take and
+// gives it back the same way: f_matte = Kd/pi (1 - E(wo)) (1 - E(wi)) / (1 - mean(E)) with the reflection's
+// albedo E. Every 1 - E has the factor 1 - F0: 1 - E = (1 - F0) g, g(w) = 1 - B(w) + c L(w), c = (F0 - F_ms)
+// / (1 - F0), so F0 = 1 needs no care.
 //
 // A stretched rough dielectric has no table and loses what it lost.
 #ifndef CLRT_SCATTERING_BSDF_ENERGY_H
@@ -18,6 +19,12 @@
 #include "bsdf_types.h"
 #include "fresnel.h"
 #include "numerics/warp.h"
+
+/* The colour of a reflection whose half vector meets the directions at this cosine. */
+static inline real3 bsdf_reflection_color(const Bsdf* bsdf, real cos_h)
+{
+    return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
+}
 
 /* The facets' reflectance in light from everywhere. */
 static inline real3 bsdf_energy_facet_mean(const Bsdf* bsdf)
@@ -65,14 +72,14 @@ static inline real3 bsdf_energy_multiple(const Bsdf* bsdf, real3 wi)
     return (wi.z > REAL(0.0) ? bsdf->multiple : bsdf->multiple_through) * (loss * cos_i * REAL_INVERSE_PI);
 }
 
-/* Samples it: L(wi) cos_i is flat for rough facets and highest near the horizon for smooth ones, so all directions of the side
-   are alike. A cosine lobe would meet weights of 1 / alpha^2 there. */
+/* Samples it: L(wi) cos_i is flat for rough facets and highest near the horizon for smooth ones, so all
+   directions of the side are alike. A cosine lobe would meet weights of 1 / alpha^2 there. */
 static inline real3 bsdf_energy_multiple_sample(real2 u) { return warp_hemisphere(u); }
 
 static inline real bsdf_energy_multiple_pdf_w(void) { return warp_hemisphere_pdf_w(); }
 
-/* Of the reflection lobes: the colour of what is reflected more than once, F_avg^2 (1 - l) / (1 - F_avg l) with the mean loss l
-   (Kulla and Conty 2017), and the matte lobe's coupling. */
+/* Of the reflection lobes: the colour of what is reflected more than once, F_avg^2 (1 - l) / (1 - F_avg l)
+   with the mean loss l (Kulla and Conty 2017), and the matte lobe's coupling. */
 static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
 {
     const bool is_glossy = HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY);
@@ -99,14 +106,15 @@ static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
     bsdf->flags |= BSDF_COUPLED;
     /* c with its factor 1 - F0 cancelled: (1 - F_ms) / (1 - F0) - 1. */
     const real seen = REAL(1.0) - mean.loss;
-    bsdf->passing_loss = (REAL(1.0) - FRESNEL_SCHLICK_MEAN) * (one + facet * seen) / (one - facet * mean.loss) - one;
+    bsdf->passing_loss =
+        (REAL(1.0) - FRESNEL_SCHLICK_MEAN) * (one + facet * seen) / (one - facet * mean.loss) - one;
     const real3 albedo_left = (one - bsdf->specular) * bsdf_energy_passing(bsdf, albedo);
     bsdf->passing = albedo_left / bsdf_energy_passing(bsdf, mean);
     bsdf->matte_size = vector_color_size(bsdf->matte * albedo_left);
 }
 
-/* Of a rough dielectric. The share of what is lost that crosses is 1 - F_avg where both sides lose alike, less on the side that
-   loses more: then f / eta^2 is the same in both directions. */
+/* Of a rough dielectric. The share of what is lost that crosses is 1 - F_avg where both sides lose alike,
+   less on the side that loses more: then f / eta^2 is the same in both directions. */
 static inline void bsdf_energy_set_dielectric(Bsdf* bsdf)
 {
     bsdf->rough = albedo_roughness(bsdf->alpha_x, bsdf->alpha_y);
@@ -116,7 +124,7 @@ static inline void bsdf_energy_set_dielectric(Bsdf* bsdf)
     const real crossing = (REAL(1.0) - fresnel_dielectric_mean(bsdf->eta)) / fmax(here, there);
     const real crosses = crossing * there;
     bsdf->multiple = bsdf->specular * ((REAL(1.0) - crosses) * loss / here);
-    bsdf->multiple_through = bsdf->transmission * (crossing * loss * bsdf->eta * bsdf->eta);
+    bsdf->multiple_through = bsdf->transmission * bsdf_cross(bsdf, crossing * loss);
     bsdf->multiple_size = loss;
     bsdf->multiple_reflects = REAL(1.0) - crosses;
 }

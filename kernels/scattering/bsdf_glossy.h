@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rough reflection by GGX microfacets: by one facet, sampled by visible normals, and by more (bsdf_energy.h). Local directions,
-// z is the normal.
+// Rough reflection by GGX microfacets: by one facet, sampled by visible normals, and by more (bsdf_energy.h).
+// Local directions, z is the normal.
 #ifndef CLRT_SCATTERING_BSDF_GLOSSY_H
 #define CLRT_SCATTERING_BSDF_GLOSSY_H
 
 #include "bsdf_energy.h"
 #include "microfacet.h"
 
-/* The colour of a reflection whose half vector meets the directions at this cosine. */
-static inline real3 bsdf_reflection_color(const Bsdf* bsdf, real cos_h)
+static inline bool bsdf_glossy_is_delta(const Bsdf* bsdf) { return false; }
+
+/* Of one facet: that of more is added apart (bsdf_choose_lobes). */
+static inline real bsdf_glossy_size(const Bsdf* bsdf)
 {
-    return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
+    return vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
 }
 
-/* One facet: BSDF times cos_i (Walter et al. 2007, eq. 20) and the density of sampling wi by visible normals. */
+static inline real3 bsdf_glossy_albedo(const Bsdf* bsdf) { return bsdf->specular; }
+
+/* One facet: BSDF times cos_i (Walter et al. 2007, eq. 20) and its density. */
 static inline BsdfValue bsdf_glossy_eval_single(const Bsdf* bsdf, real3 wi)
 {
     BsdfValue result;
@@ -33,23 +37,30 @@ static inline BsdfValue bsdf_glossy_eval_single(const Bsdf* bsdf, real3 wi)
     return result;
 }
 
-/* All of it, and the density of the glossy lobe's share of the mixture. */
-static inline BsdfValue bsdf_glossy_eval(const Bsdf* bsdf, real3 wi)
+static inline void bsdf_glossy_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
 {
-    BsdfValue result = bsdf_glossy_eval_single(bsdf, wi);
-    result.pdf_w *= bsdf->choose_glossy;
-    if (!(wi.z > REAL(0.0)))
-        return result;
-    result.value += bsdf_energy_multiple(bsdf, wi);
-    result.pdf_w = fma(bsdf->choose_multiple, bsdf_energy_multiple_pdf_w(), result.pdf_w);
-    return result;
+    BsdfValue lobe = bsdf_glossy_eval_single(bsdf, wi);
+    lobe.pdf_w *= bsdf->choose[LOBE_ROW_GLOSSY] - bsdf->choose_multiple;
+    if (wi.z > REAL(0.0)) {
+        lobe.value += bsdf_energy_multiple(bsdf, wi);
+        lobe.pdf_w = fma(bsdf->choose_multiple, bsdf_energy_multiple_pdf_w(), lobe.pdf_w);
+    }
+    sum->value += lobe.value;
+    sum->pdf_w += lobe.pdf_w;
 }
 
 /* A direction reflected by one facet; z <= 0 means that none was found. */
-static inline real3 bsdf_glossy_sample(const Bsdf* bsdf, real2 u)
+static inline real3 bsdf_glossy_sample_single(const Bsdf* bsdf, real2 u)
 {
     const real3 h = microfacet_sample(bsdf->wo, bsdf->alpha_x, bsdf->alpha_y, u);
     return REAL(2.0) * vector_dot(bsdf->wo, h) * h - bsdf->wo;
+}
+
+static inline real3 bsdf_glossy_sample(const Bsdf* bsdf, BsdfChoice choice, real2 u, BsdfSample* sample)
+{
+    TRACE_SET(sample->lobe, LOBE_GLOSSY);
+    return choice.u < choice.before + bsdf->choose_multiple ? bsdf_energy_multiple_sample(u)
+                                                            : bsdf_glossy_sample_single(bsdf, u);
 }
 
 #endif

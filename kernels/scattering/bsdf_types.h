@@ -9,6 +9,11 @@
 #include "shared/scene_types.h"
 #include "trace/trace.h"
 
+/* What a BSDF carries from wi to wo: radiance, on paths from the eye, or importance, on paths from lights. A
+   flag of it. */
+#define TRANSPORT_RADIANCE 0u
+#define TRANSPORT_IMPORTANCE 0x80000u
+
 /* Ways of a smooth dielectric that a path must not go (path/filter.h), beside MATERIAL_*. */
 #define BSDF_NO_REFLECTION 0x10000u
 #define BSDF_NO_REFRACTION 0x20000u
@@ -26,21 +31,21 @@ typedef struct {
     real3 specular;     /* reflection colour, or F0 */
     real3 transmission; /* tint of a crossing */
     real alpha_x, alpha_y;
-    real eta;           /* index on wo's side over index on the other side */
-    real exponent;      /* of Phong's highlight; 0: none */
-    uint lobes;         /* LOBE_* */
-    uint fresnel;       /* FRESNEL_* */
-    uint flags;         /* MATERIAL_*, BSDF_* */
-    AlbedoRoughness rough;  /* alpha 0: nothing rough */
-    real3 passing;          /* coupling of the matte lobe but for what depends on wi */
-    real3 passing_loss;     /* how it grows with what rough facets lose */
-    real3 multiple;         /* light of more than one facet but for what depends on wi: reflected */
-    real3 multiple_through; /* and refracted, with the squared index ratio */
-    real multiple_reflects; /* the reflected share of it */
-    real matte_size, multiple_size; /* of the albedos of the matte lobe and of the light of more than one facet */
-    /* Probabilities of the matte lobe, of the glossy lobe's or the dielectric's part for one facet and for more; the rest is
-       the mirror. */
-    real choose_matte, choose_glossy, choose_multiple;
+    real eta;                /* index on wo's side over index on the other side */
+    real exponent;           /* of Phong's highlight; 0: none */
+    uint lobes;              /* LOBE_* */
+    uint fresnel;            /* FRESNEL_* */
+    uint flags;              /* MATERIAL_*, BSDF_*, TRANSPORT_* */
+    AlbedoRoughness rough;   /* alpha 0: nothing rough */
+    real3 passing;           /* coupling of the matte lobe but for what depends on wi */
+    real3 passing_loss;      /* how it grows with what rough facets lose */
+    real3 multiple;          /* light of more than one facet but for what depends on wi: reflected */
+    real3 multiple_through;  /* and refracted, with the squared index ratio */
+    real multiple_reflects;  /* the reflected share of it */
+    real matte_size;         /* of the albedo of the matte lobe, */
+    real multiple_size;      /* and of that of the light of more than one facet */
+    real choose[LOBE_COUNT]; /* probabilities of the lobes, by LOBE_ROW_*; 0 where it has none */
+    real choose_multiple;    /* the part of the rough lobe's that goes to the light of more than one facet */
 } Bsdf;
 
 /* All lobes that are no delta functions, for one direction. */
@@ -49,15 +54,48 @@ typedef struct {
     real pdf_w;  /* of sampling it, per steradian */
 } BsdfValue;
 
+static inline BsdfValue bsdf_value_none(void)
+{
+    BsdfValue none;
+    none.value = (real3)(REAL(0.0));
+    none.pdf_w = REAL(0.0);
+    return none;
+}
+
 /* A sampled direction. */
 typedef struct {
-    real3 wi;      /* world */
-    real3 weight;  /* BSDF times |cos_i| over pdf, all factors inside */
-    real pdf_w;    /* per steradian; 0 for a delta lobe */
-    real eta;      /* relative index crossed; 1 for reflection */
-    bool reflects; /* wi is on wo's side of the surface */
-    bool is_valid; /* false: no direction, the path ends */
+    real3 wi;               /* world */
+    real3 weight;           /* BSDF times |cos_i| over pdf, all factors inside */
+    real pdf_w;             /* per steradian; 0 for a delta lobe */
+    real eta;               /* relative index crossed; 1 for reflection */
+    bool reflects;          /* wi is on wo's side of the surface */
+    bool is_valid;          /* false: no direction, the path ends */
+    bool is_weighted;       /* by the lobe that was sampled; else weight and density are those of the sum */
     TRACE_MEMBER(uint lobe) /* chosen */
 } BsdfSample;
+
+/* The number that chooses a lobe, and how much of it went to the lobes before. */
+typedef struct {
+    real u;
+    real before; /* sum of their probabilities */
+} BsdfChoice;
+
+/* What every lobe of the table (shared/lobes.h) defines, for local directions:
+   - bool bsdf_<name>_is_delta(bsdf);
+   - real bsdf_<name>_size(bsdf): size of what it reflects towards wo, by which it is chosen beside others;
+   - real3 bsdf_<name>_albedo(bsdf): head-on, for the albedo layer;
+   - void bsdf_<name>_add(bsdf, wi, sum): adds its value and its share of the mixture's density;
+   - real3 bsdf_<name>_sample(bsdf, choice, u, sample): a direction, with weight and density where it knows
+   them (is_weighted).
+
+   Densities of the reverse direction, sampling wo from wi, are those of the surface seen from wi
+   (bsdf_reverse.h). */
+
+/* The squared index ratio, which scales radiance where it crosses a boundary, but not importance (Veach 1997,
+   sec. 5.2), times x. This is its one place. */
+static inline real bsdf_cross(const Bsdf* bsdf, real x)
+{
+    return (bsdf->flags & TRANSPORT_IMPORTANCE) ? x : x * bsdf->eta * bsdf->eta;
+}
 
 #endif

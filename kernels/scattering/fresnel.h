@@ -73,13 +73,6 @@ static inline real3 fresnel_schlick(real3 f0, real cos_i)
 
 static inline real3 fresnel_schlick_mean(real3 f0) { return f0 + ((real3)(REAL(1.0)) - f0) * FRESNEL_SCHLICK_MEAN; }
 
-/* Reflectance head-on between media whose indices have this ratio. */
-static inline real fresnel_head_on(real index)
-{
-    const real r = (index - REAL(1.0)) / (index + REAL(1.0));
-    return r * r;
-}
-
 /* The refracted direction of wo about the normal n on wo's side; cos_t as given by fresnel_dielectric. */
 static inline real3 fresnel_refract(real3 wo, real3 n, real cos_i, real cos_t, real eta)
 {

@@ -7,8 +7,8 @@
 #include "geometry/surface.h"
 #include "geometry/texture.h"
 
-/* Smallest cosine between wo and a shading normal: an interpolated or mapped normal that wo does not see is bent
-   towards wo until it does, by an angle that no picture shows. */
+/* Smallest cosine between wo and a shading normal: an interpolated or mapped normal that wo does not see is
+   bent towards wo until it does, by an angle that no picture shows. */
 #define MATERIAL_SMALLEST_COS REAL(1e-3)
 
 /* Below this a mapped alpha is raised: the microfacet formulas keep seven digits down to it. */
@@ -38,16 +38,19 @@ static inline bool material_emits(global const Material* material, bool front)
     return front || (material->flags & MATERIAL_EMITS_BOTH_SIDES);
 }
 
-/* Below this a map is stretched so far that its slope no longer matters; keeps the step to the next texel finite. */
+/* Below this a map is stretched so far that its slope no longer matters; keeps the step to the next texel
+   finite. */
 #define MATERIAL_SMALLEST_MAP_SCALE 1e-6f
 
 /* The normal of a bump map (Blinn 1978): heights at the point and one texel further along u and v. */
-static inline real3 material_bump_normal(const Scene* scene, global const Material* material, const Surface* surface,
-                                         real3 n)
+static inline real3 material_bump_normal(const Scene* scene, global const Material* material,
+                                         const Surface* surface, real3 n)
 {
     global const Texture* texture = scene->textures + material->map_bump;
-    const float du = 1.0f / ((float)texture->width * fmax(fabs(texture->scale_u), MATERIAL_SMALLEST_MAP_SCALE));
-    const float dv = 1.0f / ((float)texture->height * fmax(fabs(texture->scale_v), MATERIAL_SMALLEST_MAP_SCALE));
+    const float du =
+        1.0f / ((float)texture->width * fmax(fabs(texture->scale_u), MATERIAL_SMALLEST_MAP_SCALE));
+    const float dv =
+        1.0f / ((float)texture->height * fmax(fabs(texture->scale_v), MATERIAL_SMALLEST_MAP_SCALE));
     const float2 uv = surface->uv;
     const real height = texture_scalar(scene, material->map_bump, uv);
     const real along_u = texture_scalar(scene, material->map_bump, (float2)(uv.x + du, uv.y));
@@ -66,8 +69,8 @@ static inline real3 material_bump_normal(const Scene* scene, global const Materi
 }
 
 /* The normal of a tangent-space normal map. */
-static inline real3 material_mapped_normal(const Scene* scene, global const Material* material, const Surface* surface,
-                                           real3 n)
+static inline real3 material_mapped_normal(const Scene* scene, global const Material* material,
+                                           const Surface* surface, real3 n)
 {
     const real3 rgb = convert_real3(texture_lookup(scene, material->map_normal, surface->uv).xyz);
     const real3 m = REAL(2.0) * rgb - (real3)(REAL(1.0));
@@ -81,7 +84,8 @@ static inline real3 material_mapped_normal(const Scene* scene, global const Mate
 }
 
 /* The shading normal: interpolated, mapped, and bent where wo would see its back. */
-static inline real3 material_normal(const Scene* scene, global const Material* material, const Surface* surface, real3 wo)
+static inline real3 material_normal(const Scene* scene, global const Material* material,
+                                    const Surface* surface, real3 wo)
 {
     real3 n = surface->normal_s;
     const bool has_tangent = !vector_is_zero(surface->tangent);
@@ -101,8 +105,8 @@ static inline real3 material_normal(const Scene* scene, global const Material* m
     return n;
 }
 
-/* A map's reflectance at the surface point: of a picture, or of the triangle's vertices. Pictures with values above 1, and -mm,
-   could make a surface reflect more than it gets; a NaN stays one. */
+/* A map's reflectance at the surface point: of a picture, or of the triangle's vertices. Pictures with values
+   above 1, and -mm, could make a surface reflect more than it gets; a NaN stays one. */
 static inline real3 material_reflectance(const Scene* scene, uint map, const Surface* surface)
 {
     if (scene->textures[map].format == TEXEL_VERTEX)
@@ -112,8 +116,8 @@ static inline real3 material_reflectance(const Scene* scene, uint map, const Sur
 }
 
 /* Reads colours and roughness, maps included. */
-static inline void material_parameters(const Scene* scene, global const Material* material, const Surface* surface,
-                                       Bsdf* bsdf)
+static inline void material_parameters(const Scene* scene, global const Material* material,
+                                       const Surface* surface, Bsdf* bsdf)
 {
     real metallic = (real)material->emission.w;
     real roughness = REAL(1.0);
@@ -144,12 +148,15 @@ static inline void material_parameters(const Scene* scene, global const Material
 static inline real3 material_emitted(const Scene* scene, const Surface* surface)
 {
     global const Material* material = scene->materials + surface->material;
-    return material_emits(material, surface->front) ? material_emission(scene, material, surface->uv)
-                                                    : (real3)(REAL(0.0));
+    const real3 emitted = material_emits(material, surface->front)
+                              ? material_emission(scene, material, surface->uv)
+                              : (real3)(REAL(0.0));
+    TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
+    return emitted;
 }
 
-/* Builds the BSDF of a surface point as wo sees it. */
-static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo)
+/* Builds the BSDF of a surface point as wo sees it, for radiance or importance (TRANSPORT_*). */
+static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo, uint transport)
 {
     global const Material* material = scene->materials + surface->material;
     Bsdf bsdf;
@@ -161,7 +168,7 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     bsdf.exponent = (real)material->specular.w;
     bsdf.lobes = material->lobes;
     bsdf.fresnel = material->fresnel;
-    bsdf.flags = material->flags;
+    bsdf.flags = material->flags | transport;
     bsdf.normal_g = surface->normal_g;
     bsdf.normal_s = surface->normal_s;
     bsdf.is_curved = surface->is_curved;

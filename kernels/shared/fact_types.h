@@ -33,6 +33,5 @@
 #define FACT_RULE_INFINITE 2u   /* dividing by zero gives infinity, infinity minus itself NaN */
 #define FACT_RULE_ZERO 4u       /* -0 keeps its sign */
 #define FACT_RULE_CONVERSION 8u /* to integers towards zero, from integers to nearest even */
-#define FACT_RULES_ALL 15u
 
 #endif

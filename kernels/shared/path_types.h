@@ -12,6 +12,7 @@
 #define LETTER_MIRROR 2u     /* R: delta reflection, total reflection too */
 #define LETTER_REFRACTION 3u /* T: delta refraction */
 #define LETTER_COUNT 4u
+#define LETTER_BIT(letter) (1u << (letter)) /* in a set of letters */
 
 /* Where light comes from: bits, because a letter of the notation may mean several. */
 #define KIND_AREA 1u         /* La: emissive triangles */

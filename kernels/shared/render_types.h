@@ -72,7 +72,7 @@ ASSERT_SIZE(RenderParams, 256);
 #define CUT_WEIGHT_UNITS 1048576
 #define CUT_WEIGHT_LARGEST 65536
 
-/* Behind them, the samples of an adaptive launch: two u32 a tile. Kernels have no argument to spare. */
+/* Behind them, the samples of an adaptive launch: two u32 a tile. */
 #define TILE_RANGE_WORDS 2
 #define TILE_RANGE_FIRST 0
 #define TILE_RANGE_COUNT 1

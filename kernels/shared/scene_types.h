@@ -4,6 +4,7 @@
 #ifndef CLRT_SHARED_SCENE_TYPES_H
 #define CLRT_SHARED_SCENE_TYPES_H
 
+#include "lobes.h"
 #include "types.h"
 
 SHARED_BEGIN
@@ -19,12 +20,6 @@ typedef struct {
     u32 object;  /* index of the `o` or `g` statement, for the objectId layer */
 } Triangle;
 ASSERT_SIZE(Triangle, 48);
-
-/* Lobes of a material: the BSDF is their sum. */
-#define LOBE_MATTE 1u      /* Lambert, reflectance `matte` */
-#define LOBE_GLOSSY 2u     /* GGX reflection, colour `specular`, alpha_x, alpha_y > 0 */
-#define LOBE_MIRROR 4u     /* delta reflection, colour `specular` */
-#define LOBE_DIELECTRIC 8u /* reflection and refraction with exact Fresnel, smooth when alpha_x = 0; alone */
 
 /* What scales LOBE_GLOSSY and LOBE_MIRROR. */
 #define FRESNEL_NONE 0u    /* colour `specular` at every angle */

@@ -10,7 +10,7 @@
 #define TRACE_VERTEX 1u        /* a vertex begins: bounce from 1, number of its ray in whitted's tree (0 elsewhere) */
 #define TRACE_TRIANGLE 2u      /* hit; NO_INDEX: none */
 #define TRACE_FRONT 3u         /* 1: seen from the front */
-#define TRACE_LOBE 4u          /* chosen: TRACE_LOBE_* */
+#define TRACE_LOBE 4u          /* chosen: LOBE_*, TRACE_LOBE_REFRACTS */
 #define TRACE_CONTINUES 5u     /* 1: the sampled direction is worth a ray */
 #define TRACE_STATE 6u         /* of the automaton of --paths behind the event */
 #define TRACE_SURVIVES 7u      /* 1: Russian roulette goes on */
@@ -51,8 +51,8 @@
 #define TRACE_LAYER 42u        /* of one layer of paths */
 #define TRACE_QUANTITIES 43u
 
-/* Values of TRACE_LOBE: those of LOBE_* but for the two ways of a dielectric. */
-#define TRACE_LOBE_REFRACTION 16u
+/* Values of TRACE_LOBE: those of LOBE_*, with this bit where the lobe refracts. */
+#define TRACE_LOBE_REFRACTS 0x10000u
 
 /* A record: a head of words, then events. Words are 64 bits wide, so that a double fits; a float lies in the low half. */
 #define TRACE_HEAD_WORDS 8u

@@ -8,6 +8,7 @@
 #ifndef __cplusplus
 
 typedef float4 vec4;
+typedef float2 vec2;
 typedef uint u32;
 typedef int i32;
 #define SHARED_BEGIN
@@ -30,6 +31,11 @@ using i32 = std::int32_t;
 /// Four floats aligned like OpenCL C's float4.
 struct alignas(16) vec4 {
     float x, y, z, w;
+};
+
+/// Two floats aligned like OpenCL C's float2.
+struct alignas(8) vec2 {
+    float x, y;
 };
 
 } // namespace clrt

@@ -4,6 +4,7 @@
 #include "error.h"
 #include "kernels/shared/path_types.h"
 #include "paths/path_expression.h"
+#include "render/layer_table.h"
 
 #include <algorithm>
 #include <vector>
@@ -14,24 +15,17 @@ namespace {
 
 constexpr size_t LARGEST_LAYER_NAME = 60;
 
-const std::vector<std::string>& fixed_layers() {
-    static const std::vector<std::string> layers = {
-        "albedo", "N", "Z", "P", "objectId", "materialId", "variance", "samples", "badSamples", "alpha"};
-    return layers;
-}
-
 /// A layer NAME=EXPR of paths.
 void add_path_layer(Options& o, const OptionValue& v, const std::string& name,
                     const std::string& expression) {
     static const std::string LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz",
                              REST = "0123456789_-";
-    const std::vector<std::string>& fixed = fixed_layers();
     const bool is_name = !name.empty() && name.size() <= LARGEST_LAYER_NAME &&
                          LETTERS.find(name[0]) != std::string::npos &&
                          name.find_first_not_of(LETTERS + REST) == std::string::npos;
-    const bool is_taken = std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
-                          std::any_of(o.output.path_layers.begin(), o.output.path_layers.end(),
-                                      [&](const auto& l) { return l.name == name; });
+    const bool is_taken =
+        find_layer(name) || std::any_of(o.output.path_layers.begin(), o.output.path_layers.end(),
+                                        [&](const auto& l) { return l.name == name; });
     if (!is_name || is_taken)
         reject_value(v,
                      "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");
@@ -52,7 +46,6 @@ void check_paths(const OptionValue& v, const std::string& expression) {
 }
 
 void apply_aov(Options& o, const OptionValue& v) {
-    const std::vector<std::string>& fixed = fixed_layers();
     const bool is_first = !o.output.aovs;
     if (is_first)
         o.output.aovs.emplace();
@@ -63,13 +56,11 @@ void apply_aov(Options& o, const OptionValue& v) {
             add_path_layer(o, v, layer.substr(0, equals), layer.substr(equals + 1));
             continue;
         }
-        const bool known = std::find(fixed.begin(), fixed.end(), layer) != fixed.end();
         const bool repeated =
             std::find(o.output.aovs->begin(), o.output.aovs->end(), layer) != o.output.aovs->end();
-        if (!known || repeated)
-            reject_value(
-                v, "none or a list such as albedo,N of different layers out of albedo, N, Z, P, objectId, "
-                   "materialId, variance, samples, badSamples, alpha, and NAME=EXPR");
+        if (!find_layer(layer) || repeated)
+            reject_value(v, "none or a list such as albedo,N of different layers out of " +
+                                layer_names(", ") + ", and NAME=EXPR");
         o.output.aovs->push_back(layer);
     }
 }

@@ -5,6 +5,7 @@
 #include "app/option_rows.h"
 #include "output/file_name.h"
 #include "output/image.h"
+#include "render/layer_table.h"
 
 namespace clrt {
 
@@ -38,6 +39,10 @@ void apply_output(Options& o, const OptionValue& v) {
 } // namespace
 
 std::vector<OptionSpec> picture_options() {
+    static const std::string aov_help =
+        "layers of EXR files, such as albedo,N or none: " + layer_names(" ") +
+        ", and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: all but "
+        "alpha, badSamples where there are any)";
     const char* const group = "Picture";
     return {
         {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",
@@ -62,11 +67,7 @@ std::vector<OptionSpec> picture_options() {
          "box, tent or gaussian; radius in pixels (default box; radius 0.5, 1 or 1.5)", apply_filter},
         {group, "", "--exposure", "auto|EV", EXPOSURE_HELP, apply_exposure},
         {group, "", "--tonemap", "NAME", TONEMAP_HELP, apply_tonemap},
-        {group, "", "--aov", "LIST",
-         "layers of EXR files, such as albedo,N or none: albedo N Z P objectId materialId variance samples "
-         "badSamples alpha, and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable "
-         "(default: all but alpha, badSamples where there are any)",
-         apply_aov, REPEATABLE},
+        {group, "", "--aov", "LIST", aov_help.c_str(), apply_aov, REPEATABLE},
     };
 }
 

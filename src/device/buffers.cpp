@@ -56,7 +56,8 @@ void CL_CALLBACK free_memory(cl_mem, void* memory) {
 /// A buffer on a CPU whose memory we allocate, on huge pages where the system has them: rays visit a large
 /// tree in no order, and with ordinary pages most visits would first look up the page. Null if the memory is
 /// not to be had.
-cl::Buffer upload_on_huge_pages(const Device& device, const char* name, const void* data, size_t bytes) {
+cl::Buffer upload_on_huge_pages(const Device& device, const char* name,
+                                const std::vector<BufferPiece>& pieces, size_t bytes) {
     const size_t whole_pages = (bytes + HUGE_PAGE_BYTES - 1) / HUGE_PAGE_BYTES * HUGE_PAGE_BYTES;
     std::unique_ptr<void, decltype(&std::free)> memory(std::aligned_alloc(HUGE_PAGE_BYTES, whole_pages),
                                                        &std::free);
@@ -65,7 +66,8 @@ cl::Buffer upload_on_huge_pages(const Device& device, const char* name, const vo
 #ifdef MADV_HUGEPAGE
     madvise(memory.get(), whole_pages, MADV_HUGEPAGE); // a wish; without it the buffer is only slower
 #endif
-    std::memcpy(memory.get(), data, bytes);
+    for (const BufferPiece& piece : pieces)
+        std::memcpy(static_cast<char*>(memory.get()) + piece.offset, piece.data, piece.bytes);
     return check_opencl(making(name, bytes), [&] {
         cl::Buffer buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, memory.get());
         buffer.setDestructorCallback(free_memory, memory.get());
@@ -76,19 +78,23 @@ cl::Buffer upload_on_huge_pages(const Device& device, const char* name, const vo
 
 } // namespace
 
-cl::Buffer upload_buffer(const Device& device, const char* name, const void* data, size_t bytes) {
-    if (bytes == 0)
+cl::Buffer upload_pieces(const Device& device, const char* name, const std::vector<BufferPiece>& pieces) {
+    if (pieces.empty())
         return create_buffer(device, name, 0);
+    size_t bytes = 0;
+    for (const BufferPiece& piece : pieces)
+        bytes = std::max(bytes, piece.offset + piece.bytes);
     check_size(device.info, name, bytes, SMALLER_SCENE);
     if (device.info.type == "CPU" && bytes >= HUGE_PAGES_FROM_BYTES) {
-        const cl::Buffer buffer = upload_on_huge_pages(device, name, data, bytes);
+        const cl::Buffer buffer = upload_on_huge_pages(device, name, pieces, bytes);
         if (buffer())
             return buffer;
     }
     return check_opencl(making(name, bytes), [&] {
-        // OpenCL takes the host pointer as non-const, though COPY_HOST_PTR only reads.
-        return cl::Buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes,
-                          const_cast<void*>(data));
+        cl::Buffer buffer(device.context, CL_MEM_READ_ONLY, bytes);
+        for (const BufferPiece& piece : pieces)
+            device.queue.enqueueWriteBuffer(buffer, CL_TRUE, piece.offset, piece.bytes, piece.data);
+        return buffer;
     });
 }
 

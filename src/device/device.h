@@ -72,18 +72,28 @@ struct Device {
 /// Opens a device. Throws DeviceError.
 Device open_device(const DeviceInfo& info);
 
-/// Makes a read-only buffer of `bytes` and fills it. `name` is how an error names it. Zero bytes give a
-/// buffer of one dummy element (OpenCL has no empty buffers). Throws DeviceError naming the buffer, its size
-/// and the limit when it exceeds the device's largest allocation or memory.
-cl::Buffer upload_buffer(const Device& device, const char* name, const void* data, size_t bytes);
+/// Bytes of a buffer from `offset` on, and whence they come.
+struct BufferPiece {
+    size_t offset = 0;
+    const void* data = nullptr;
+    size_t bytes = 0;
+};
+
+/// Makes a read-only buffer of these pieces, none of which is empty; what lies between them is undefined.
+/// `name` is how an error names it. No piece gives a buffer of one dummy element (OpenCL has no empty
+/// buffers). Throws DeviceError naming the buffer, its size and the limit when it exceeds the device's
+/// largest allocation or memory.
+cl::Buffer upload_pieces(const Device& device, const char* name, const std::vector<BufferPiece>& pieces);
 
 /// The same for a vector.
 template <class T>
 cl::Buffer upload_buffer(const Device& device, const char* name, const std::vector<T>& data) {
-    return upload_buffer(device, name, data.data(), data.size() * sizeof(T));
+    if (data.empty())
+        return upload_pieces(device, name, {});
+    return upload_pieces(device, name, {{0, data.data(), data.size() * sizeof(T)}});
 }
 
-/// Makes a zeroed read-write buffer; errors as in upload_buffer.
+/// Makes a zeroed read-write buffer; errors as in upload_pieces.
 cl::Buffer create_buffer(const Device& device, const char* name, size_t bytes);
 
 } // namespace clrt

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects/effect_table.h"
 
+#include "scene/lobes.h"
+
 #include <algorithm>
 
 namespace clrt {
 
 namespace {
 
-constexpr u32 LOBES = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_REFRACTION;
 /// What a map can be of; all others are not loaded.
 constexpr u32 MAPPED = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION |
                        EFFECT_AREA_LIGHT | EFFECT_CUT_OUT | EFFECT_NORMAL_MAP;
@@ -37,7 +38,8 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_CUT_OUT, "cut-outs", 0, 0, "surfaces are opaque"},
         {EFFECT_FILTER, "pixel filter", 0, 0, "a box of one pixel"},
         {EFFECT_PATH_FILTER, "path filter", 0, 0, "all paths, and no layers of paths"},
-        {EFFECT_INTERREFLECTION, "interreflection", 0, LOBES, "direct light only: paths of two segments"},
+        {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
+         "direct light only: paths of two segments"},
     };
     return table;
 }
@@ -58,13 +60,6 @@ u32 without_effects(u32 effects, u32 taken) {
         if ((effects & effect.bit) && !(with_implied(effect.bit) & taken))
             left |= effect.bit;
     return left;
-}
-
-bool is_permitted(u32 effects) {
-    for (const EffectSpec& effect : effect_table())
-        if ((effects & effect.bit) && effect.one_of && !(effects & effect.one_of))
-            return false;
-    return with_implied(effects) == effects;
 }
 
 std::optional<u32> effect_by_name(const std::string& name) {

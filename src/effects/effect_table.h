@@ -37,9 +37,6 @@ u32 with_implied(u32 effects);
 /// Takes effects away, and those that imply them.
 u32 without_effects(u32 effects, u32 taken);
 
-/// True if every effect has those that it cannot be without: some scene calls for exactly these.
-bool is_permitted(u32 effects);
-
 /// The bit of an effect by its name, blanks or hyphens between its words; nothing if there is none of this
 /// name.
 std::optional<u32> effect_by_name(const std::string& name);

@@ -3,6 +3,7 @@
 
 #include "colour.h"
 #include "paths/path_report.h"
+#include "scene/lobes.h"
 #include "scene/material_override.h"
 #include "scene/material_table.h"
 
@@ -153,14 +154,9 @@ void find_material_effects(const Options& options, EffectFinder& finder) {
     const std::string by = replacement ? fmt::format(", by {} {}", describe_option(options, "--material"),
                                                      name_of(replacement->which))
                                        : "";
-    const auto lobe = [&](u32 bit, u32 lobe_bit, const std::string& absent) {
-        finder.material(bit, absent + by,
-                        [lobe_bit](const Material& m) { return (m.lobes & lobe_bit) != 0; });
-    };
-    lobe(EFFECT_MATTE, LOBE_MATTE, "no material has Kd above 0");
-    lobe(EFFECT_GLOSSY, LOBE_GLOSSY, "no material reflects roughly");
-    lobe(EFFECT_MIRROR, LOBE_MIRROR, "no material is a mirror");
-    lobe(EFFECT_REFRACTION, LOBE_DIELECTRIC, "no material is a dielectric");
+    for (const LobeSpec& lobe : LOBE_SPECS)
+        finder.material(lobe.effect, lobe.absent + by,
+                        [&](const Material& m) { return (m.lobes & lobe.bit) != 0; });
     finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough" + by,
                     [](const Material& m) { return (m.lobes & LOBE_DIELECTRIC) && m.alpha_x > 0; });
     finder.map(EFFECT_TEXTURES, "no material has a map" + by, [](const Material& m) {

@@ -3,6 +3,7 @@
 
 #include "effects/effect_table.h"
 #include "scene/emission.h"
+#include "scene/lobes.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -122,13 +123,9 @@ void take_out_lights(u32 effects, Scene& scene) {
 }
 
 void take_out_lobes(u32 effects, Scene& scene) {
-    const std::pair<u32, u32> lobes[] = {{EFFECT_MATTE, LOBE_MATTE},
-                                         {EFFECT_GLOSSY, LOBE_GLOSSY},
-                                         {EFFECT_MIRROR, LOBE_MIRROR},
-                                         {EFFECT_REFRACTION, LOBE_DIELECTRIC}};
-    for (const auto& [effect, lobe] : lobes)
-        if (effects & effect)
-            take_out_lobe(lobe, scene);
+    for (const LobeSpec& lobe : LOBE_SPECS)
+        if (effects & lobe.effect)
+            take_out_lobe(lobe.bit, scene);
     if (effects & EFFECT_ROUGH_REFRACTION)
         take_out_rough_refraction(scene);
 }

@@ -3,7 +3,8 @@
 
 #include "device/kernel_source.h"
 #include "film/whole_numbers.h"
-#include "render/kernels.h"
+#include "kernels/shared/scene_arrays.h"
+#include "options/integrators.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -39,6 +40,35 @@ public:
         number(v.y);
         number(v.z);
     }
+
+    // Each takes its struct apart by all of its members, so that a new one does not compile before it is
+    // hashed or left out here.
+    void add(const Camera& camera) {
+        const auto& [eye, at, up, fov_degrees, projection, ortho_height] = camera;
+        vector(eye);
+        vector(at);
+        vector(up);
+        number(fov_degrees);
+        number(projection);
+        number(ortho_height);
+    }
+    void add(const Environment& environment) {
+        const auto& [radiance, width, height, texels, rotation_degrees, mean_radiance, sampling] =
+            environment;
+        (void)texels;        // one of SCENE_ARRAYS
+        (void)mean_radiance; // of the others
+        (void)sampling;      // the texels tell
+        vector(radiance);
+        number(width);
+        number(height);
+        number(rotation_degrees);
+    }
+    void add(const Normalisation& normalisation) {
+        const auto& [centre, scale] = normalisation;
+        vector(centre);
+        number(scale);
+    }
+
     std::string text() const {
         const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
         return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
@@ -72,28 +102,12 @@ std::string kernels_hash(const Options& options) {
 
 std::string scene_hash(const Scene& scene) {
     Hash hash;
-    hash.array(scene.positions);
-    hash.array(scene.normals);
-    hash.array(scene.uvs);
-    hash.array(scene.triangles);
-    hash.array(scene.materials);
-    hash.array(scene.textures);
-    hash.array(scene.texel_words);
-    hash.array(scene.emitters);
-    hash.array(scene.lights);
-    hash.array(scene.environment.texels);
-    hash.vector(scene.environment.radiance);
-    hash.number(scene.environment.width);
-    hash.number(scene.environment.height);
-    hash.number(scene.environment.rotation_degrees);
-    hash.vector(scene.camera.eye);
-    hash.vector(scene.camera.at);
-    hash.vector(scene.camera.up);
-    hash.number(scene.camera.fov_degrees);
-    hash.number(scene.camera.projection);
-    hash.number(scene.camera.ortho_height);
-    hash.vector(scene.normalisation.centre);
-    hash.number(scene.normalisation.scale);
+#define HASH_ARRAY(type, name, member) hash.array(scene.member);
+    SCENE_ARRAYS(HASH_ARRAY)
+#undef HASH_ARRAY
+    hash.add(scene.environment);
+    hash.add(scene.camera);
+    hash.add(scene.normalisation);
     return hash.text();
 }
 

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/hit_sums.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clrt {
-
-namespace {
-
-glm::dvec3 vector_at(const double* values) {
-    return {values[0], values[1], values[2]};
-}
-
-} // namespace
 
 bool has_all_samples(const HitSums& hits, const Film& film) {
     return is_adaptive(film) ? hits.tile_samples == film.tile_samples : hits.samples == film_samples(film);
@@ -20,29 +13,23 @@ bool has_all_samples(const HitSums& hits, const Film& film) {
 PixelHits pixel_hits(const HitSums& hits, const Film& film, size_t pixel) {
     const bool has_halves = !hits.tile_samples[0].empty();
     PixelHits result;
-    double means[AOV_SUMS] = {};
     for (size_t half = 0; half < (has_halves ? 2 : 1); ++half) {
         const double samples =
             has_halves ? hits.tile_samples[half][film_tile(film, pixel)] : double(hits.samples);
         const u32* words = &hits.words[half][AOV_WORDS * pixel];
         if (words[AOV_HITS] == 0)
             continue;
-        if (result.share == 0) {
-            result.object = words[AOV_OBJECT];
-            result.material = words[AOV_MATERIAL];
-        }
+        if (result.share == 0)
+            std::copy_n(words, AOV_WORDS, result.first.begin());
         const double weight = has_halves ? 0.5 : 1;
         result.share += weight * (words[AOV_HITS] / samples);
         for (size_t i = 0; i < AOV_SUMS; ++i)
-            means[i] += weight * (double(hits.values[half][AOV_SUMS * pixel + i]) / samples);
+            result.means[i] += weight * (double(hits.values[half][AOV_SUMS * pixel + i]) / samples);
     }
     if (result.share == 0)
         return result;
-    for (double& mean : means)
+    for (double& mean : result.means)
         mean = std::ldexp(mean / result.share, -AOV_BITS);
-    result.albedo = vector_at(means + AOV_ALBEDO);
-    result.normal = vector_at(means + AOV_NORMAL);
-    result.position = vector_at(means + AOV_POSITION);
     return result;
 }
 

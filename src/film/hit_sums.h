@@ -29,10 +29,11 @@ bool has_all_samples(const HitSums& hits, const Film& film);
 
 /// What the samples of a pixel see first, on average over those that hit something.
 struct PixelHits {
-    double share = 0; ///< of the samples that hit something
-    glm::dvec3 albedo{0}, normal{0};
-    glm::dvec3 position{0};       ///< normalised frame
-    u32 object = 0, material = 0; ///< of the first hit
+    double share = 0;                        ///< of the samples that hit something
+    std::array<double, AOV_SUMS> means = {}; ///< in the order of the sums
+    std::array<u32, AOV_WORDS> first = {};   ///< words of the first hit
+    /// The mean of a vector such as AOV_NORMAL.
+    glm::dvec3 mean(size_t vector) const { return {means[vector], means[vector + 1], means[vector + 2]}; }
 };
 
 /// The averages of a pixel; each half weighs as much as it does in the film's picture.

@@ -2,6 +2,7 @@
 #include "paths/path_plan.h"
 
 #include "colour.h"
+#include "scene/lobes.h"
 #include "scene/material_table.h"
 
 #include <algorithm>
@@ -31,16 +32,31 @@ PathLetter find_material(const char* symbol, const Scene& scene,
     return {symbol, "", {}};
 }
 
-bool is_dielectric(const Material& m) {
-    return (m.lobes & LOBE_DIELECTRIC) != 0;
-}
-/// A map can make any dielectric rough.
+/// A map can make any lobe rough that can be a delta function.
 bool can_be_rough(const Material& m) {
     return m.alpha_x > 0 || m.map_roughness != NO_INDEX;
 }
 /// Without a change of index there is nothing to refract at, rough or not.
 bool can_be_smooth(const Material& m) {
     return m.alpha_x == 0 || m.transmission.w == 1.0f;
+}
+
+/// Letters (bits LETTER_BIT) that a material may write.
+unsigned letters_of(const Material& m) {
+    unsigned letters = 0;
+    for (const LobeSpec& lobe : LOBE_SPECS) {
+        if (!(m.lobes & lobe.bit))
+            continue;
+        const bool has_choice = lobe.letters && lobe.delta_letters;
+        letters |= !has_choice || can_be_rough(m) ? lobe.letters : 0u;
+        letters |= !has_choice || can_be_smooth(m) ? lobe.delta_letters : 0u;
+    }
+    return letters;
+}
+
+PathLetter find_letter(const char* symbol, const Scene& scene, unsigned letter) {
+    return find_material(symbol, scene,
+                         [letter](const Material& m) { return (letters_of(m) & LETTER_BIT(letter)) != 0; });
 }
 
 PathLetter find_light(const char* symbol, const Scene& scene, u32 kind, const char* option) {
@@ -60,16 +76,10 @@ std::vector<PathLetter> find_letters(const Scene& scene) {
     const bool is_bright = largest_component(scene.environment.radiance) > 0;
     const bool is_backdrop = scene.background && largest_component(*scene.background) > 0;
     return {
-        find_material("D", scene, [](const Material& m) { return (m.lobes & LOBE_MATTE) != 0; }),
-        find_material("G", scene,
-                      [](const Material& m) {
-                          return (m.lobes & LOBE_GLOSSY) || (is_dielectric(m) && can_be_rough(m));
-                      }),
-        find_material("R", scene,
-                      [](const Material& m) {
-                          return (m.lobes & LOBE_MIRROR) || (is_dielectric(m) && can_be_smooth(m));
-                      }),
-        find_material("T", scene, [](const Material& m) { return is_dielectric(m) && can_be_smooth(m); }),
+        find_letter("D", scene, LETTER_MATTE),
+        find_letter("G", scene, LETTER_GLOSSY),
+        find_letter("R", scene, LETTER_MIRROR),
+        find_letter("T", scene, LETTER_REFRACTION),
         find_lamp(scene),
         find_light("Lp", scene, LIGHT_POINT, "--point"),
         find_light("Ld", scene, LIGHT_SUN, "--sun"),

@@ -2,6 +2,7 @@
 #include "render/film_picture.h"
 
 #include "render/error_report.h"
+#include "render/layer_table.h"
 
 #include <fmt/format.h>
 
@@ -35,8 +36,8 @@ Picture film_picture(const FilmFile& file) {
         picture.layers.push_back(
             {layer_names[i], {"R", "G", "B"}, film_mean(file.render.path_layers[i]), false});
     if (std::vector<float> variance = film_variance(film); !variance.empty())
-        picture.layers.push_back({"variance", {"R", "G", "B"}, std::move(variance), false});
-    picture.layers.push_back({"", {"samples"}, film_pixel_samples(film), false});
+        picture.layers.push_back(make_layer(*find_layer("variance"), std::move(variance)));
+    picture.layers.push_back(make_layer(*find_layer("samples"), film_pixel_samples(film)));
 
     for (const auto& [name, value] : file.identity.items())
         picture.metadata.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());

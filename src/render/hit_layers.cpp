@@ -161,8 +161,9 @@ void HitLayers::add_launch(size_t half, u32 first_tile, u32 end_tile) {
                 continue;
             u32* sum_words = &sums_.words[half][pixel * AOV_WORDS];
             if (sum_words[AOV_HITS] == 0)
-                std::copy_n(words + AOV_OBJECT, 2, sum_words + AOV_OBJECT);
-            sum_words[AOV_HITS] += words[AOV_HITS];
+                std::copy_n(words, AOV_WORDS, sum_words);
+            else
+                sum_words[AOV_HITS] += words[AOV_HITS];
             for (size_t k = 0; k < AOV_SUMS; ++k)
                 sums_.values[half][pixel * AOV_SUMS + k] += read_values_[slot * AOV_SUMS + k];
         }

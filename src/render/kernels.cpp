@@ -4,6 +4,7 @@
 #include "device/kernel_source.h"
 #include "film/film_buffers.h"
 #include "output/image.h"
+#include "render/layer_table.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,16 +17,8 @@ namespace {
 /// The program of the layers of hits, and what tells the program of a replay from the picture's.
 const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay";
 
-/// Layers that come from the primary hits; the others are made from the film.
-bool is_hit_layer(const std::string& name) {
-    return name != "variance" && name != "samples" && name != "alpha" && name != "badSamples";
-}
-
-/// Samples of a pixel that a work-item simulates side by side (kernels/integrators/pixel.h): a CPU's core
-/// fills the waits of one with the others, a GPU has other work-items for that.
-int samples_at_once(const DeviceInfo& device) {
-    return device.type == "CPU" ? 4 : 1;
-}
+/// For programs that do not simulate several samples of a pixel side by side (kernels/integrators/pixel.h).
+const std::string ONE_SAMPLE_AT_ONCE = "SAMPLES_AT_ONCE=1";
 
 KernelFiles kernel_files(const Options& options) {
     return options.device.kernels_folder.empty() ? embedded_kernel_files()
@@ -38,12 +31,12 @@ void append(std::vector<std::string>& defines, const std::vector<std::string>& m
 
 /// What every program of integrators/NAME.cl is built with.
 ProgramRequest make_request(const KernelFiles& files, const std::string& name, const Options& options,
-                            u32 effects, BvhLayout layout, int samples) {
+                            u32 effects, BvhLayout layout) {
     ProgramRequest request;
     request.name = name;
     request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
-    request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects), fmt::format("BVH_LAYOUT={}", int(layout)),
-                       fmt::format("SAMPLES_AT_ONCE={}", samples)};
+    request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", effects),
+                       fmt::format("BVH_LAYOUT={}", int(layout))};
     if (options.sampling.sampler == SamplerChoice::INDEPENDENT)
         request.defines.push_back("CLRT_SAMPLER=SAMPLER_INDEPENDENT");
     request.precision = options.device.precision;
@@ -68,7 +61,7 @@ bool wants_layers(const Options& options) {
     if (!has_exr || !options.output.aovs)
         return has_exr;
     return std::any_of(options.output.aovs->begin(), options.output.aovs->end(),
-                       [](const std::string& name) { return is_hit_layer(name) || name == "alpha"; });
+                       [](const std::string& name) { return find_layer(name)->is_from_hits; });
 }
 
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
@@ -76,8 +69,10 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     const auto start = std::chrono::steady_clock::now();
     const KernelFiles files = kernel_files(options);
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
-        ProgramRequest request =
-            make_request(files, name, options, effects, layout, samples_at_once(device.info));
+        ProgramRequest request = make_request(files, name, options, effects, layout);
+        // A CPU's core fills the waits of one with the others, a GPU has other work-items for that.
+        if (device.info.type != "CPU")
+            request.defines.push_back(ONE_SAMPLE_AT_ONCE);
         append(request.defines, defines);
         return build_program(device, request);
     };
@@ -93,8 +88,9 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
-    ProgramRequest request = make_request(kernel_files(options), name_of(options.transport.integrator),
-                                          options, effects, layout, 1);
+    ProgramRequest request =
+        make_request(kernel_files(options), name_of(options.transport.integrator), options, effects, layout);
+    request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     request.name += REPLAY_ENDING;
     request.precision = precision;
     request.defines.emplace_back("CLRT_TRACE=1");

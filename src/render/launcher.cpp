@@ -15,6 +15,17 @@ constexpr u32 GRID_COLUMNS = 2048;
 
 } // namespace
 
+void run_groups(const Device& device, const Kernel& kernel, u32 groups, const std::string& doing) {
+    const u32 columns = std::clamp(groups, 1u, GRID_COLUMNS);
+    const u32 rows = std::max((groups + columns - 1) / columns, 1u);
+    check_opencl(doing, [&] {
+        device.queue.enqueueNDRangeKernel(kernel.handle(), cl::NullRange,
+                                          cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
+                                          cl::NDRange(TILE_SIZE, TILE_SIZE));
+        device.queue.finish();
+    });
+}
+
 Launcher::Launcher(const Device& device, const Program& program, const std::string& name,
                    const RenderParams& params, const SceneBuffers& buffers)
     : device_(device), kernel_(program, name), params_(params) {
@@ -39,15 +50,7 @@ void Launcher::launch(RenderParams params, u32 first_tile, u32 end_tile) {
     params.first_tile = first_tile;
     params.end_tile = end_tile;
     kernel_.set("params", params);
-    const u32 groups = std::max(end_tile - first_tile, 1u);
-    const u32 columns = std::min(groups, GRID_COLUMNS);
-    const u32 rows = (groups + columns - 1) / columns;
-    check_opencl("rendering", [&] {
-        device_.queue.enqueueNDRangeKernel(kernel_.handle(), cl::NullRange,
-                                           cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
-                                           cl::NDRange(TILE_SIZE, TILE_SIZE));
-        device_.queue.finish();
-    });
+    run_groups(device_, kernel_, end_tile - first_tile, "rendering");
 }
 
 } // namespace clrt

@@ -12,6 +12,9 @@
 
 namespace clrt {
 
+/// Launches work-groups of 8 x 8 work-items, at least one, and waits; `doing` is how an error names that.
+void run_groups(const Device& device, const Kernel& kernel, u32 groups, const std::string& doing);
+
 /// One kernel with its parameters; launches tiles and samples of them.
 class Launcher {
 public:

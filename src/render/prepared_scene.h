@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene on a device, ready for kernels: the one place where plan, tree, buffers and programs come together.
 //
-//     const auto planned = plan_scene(load_scene(options, progress), options);    // no device yet
-//     const PreparedScene prepared = prepare_render(device, planned);             // tree and programs at
-//     once const Render first = render(prepared, progress); planned->scene.camera = other; // nothing is made
-//     anew const Render second = render(prepared, progress); const PreparedScene there =
-//     prepare_render(second_device, planned);         // beside the first Replay replay(prepared,
-//     Precision::DOUBLE);                                 // its own program, same tree
+//     const auto planned = plan_scene(load_scene(options, progress), options); // no device yet
+//     const PreparedScene prepared = prepare_render(device, planned); // tree and programs side by side
+//     const Render first = render(prepared, progress);
+//     planned->scene.camera = other; // nothing is made anew
+//     const Render second = render(prepared, progress);
+//     Replay replay(prepared, Precision::DOUBLE); // a program of its own, the same tree
+//     const PreparedScene there = prepare_render(other_device, planned, {prepared.tree, nullptr});
 #pragma once
 
 #include "effects/planned_scene.h"

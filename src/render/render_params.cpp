@@ -2,6 +2,7 @@
 #include "render/render_params.h"
 
 #include "scene/camera_params.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -15,10 +16,6 @@ namespace clrt {
 namespace {
 
 constexpr double RADIANS = 3.14159265358979323846 / 180;
-
-vec4 to_vec4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0.0f};
-}
 
 /// Shares next-event estimation evenly between the kinds of light that it can find. A constant sky is left to
 /// BSDF sampling, which follows its only feature, the cosine.

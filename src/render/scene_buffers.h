@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene's arrays on the device, bound to kernel arguments by name.
+// The scene's arrays on the device, in the heaps that kernels take.
 #pragma once
 
 #include "bvh/bvh.h"
 #include "device/program.h"
+#include "kernels/shared/scene_arrays.h"
 #include "scene/scene.h"
 
-#include <utility>
-#include <vector>
+#include <array>
 
 namespace clrt {
 
-/// Buffers by argument name (SCENE_PARAMS in kernels/geometry/scene.h).
+/// What SCENE_PARAMS of kernels/geometry/scene.h takes.
 struct SceneBuffers {
-    std::vector<std::pair<std::string, cl::Buffer>> buffers;
+    std::array<cl::Buffer, SCENE_HEAPS> heaps;
 };
 
-/// Uploads a scene. Throws DeviceError naming the buffer that does not fit.
+/// Uploads a scene. Throws DeviceError naming the arrays of the buffer that does not fit.
 SceneBuffers upload_scene(const Device& device, const Scene& scene, const Bvh& bvh);
+
+/// True for a kernel that takes a scene.
+bool takes_scene(const Kernel& kernel);
 
 /// Sets every scene argument of a kernel.
 void bind_scene(const SceneBuffers& scene, Kernel& kernel);

@@ -2,6 +2,7 @@
 #include "replay/replay_values.h"
 
 #include "kernels/shared/path_types.h"
+#include "scene/lobes.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -22,23 +23,18 @@ std::string triangle_text(std::uint64_t index, const Scene& scene) {
                        name(scene.material_names, triangle.material));
 }
 
-std::string lobe_text(std::uint64_t lobe) {
-    switch (lobe) {
-    case LOBE_MATTE:
-        return "matte";
-    case LOBE_GLOSSY:
-        return "glossy";
-    case LOBE_MIRROR:
-        return "mirror";
-    case LOBE_DIELECTRIC:
-        return "dielectric, reflected";
-    case TRACE_LOBE_REFRACTION:
-        return "dielectric, refracted";
-    case 0:
-        return "none";
-    default: // a lobe without a name of its own
-        return fmt::format("lobe {}", lobe);
+/// The name of a lobe; of one that reflects and refracts, with the way that was taken.
+std::string lobe_text(std::uint64_t recorded) {
+    const bool refracts = (recorded & TRACE_LOBE_REFRACTS) != 0;
+    const std::uint64_t lobe = recorded & ~std::uint64_t(TRACE_LOBE_REFRACTS);
+    for (const LobeSpec& row : LOBE_SPECS) {
+        if (lobe != row.bit)
+            continue;
+        if (row.delta_letters & LETTER_BIT(LETTER_REFRACTION))
+            return fmt::format("{}, {}", row.name, refracts ? "refracted" : "reflected");
+        return row.name;
     }
+    return lobe == 0 ? "none" : fmt::format("lobe {}", lobe); // one without a name of its own
 }
 
 std::string light_text(std::uint64_t kind) {

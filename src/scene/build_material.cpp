@@ -11,10 +11,6 @@
 namespace clrt {
 namespace {
 
-vec4 to_vec4(const glm::dvec3& v, double w) {
-    return {float(v.x), float(v.y), float(v.z), float(w)};
-}
-
 bool is_positive(double value) {
     return value > 0;
 }

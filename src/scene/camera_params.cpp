@@ -15,10 +15,6 @@ bool is_parallel(const Camera& camera) {
     return camera.projection == PROJECTION_ORTHOGRAPHIC;
 }
 
-vec4 film_vector(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0.0f};
-}
-
 } // namespace
 
 double shown_height(const Camera& camera, double distance) {
@@ -30,10 +26,10 @@ CameraParams make_camera_params(const Camera& camera, const Normalisation& frame
     const PictureAxes axes = picture_axes(camera.at - camera.eye, camera.up);
     const double pixel = shown_height(camera, 1) * (is_parallel(camera) ? frame.scale : 1) / size.y;
     CameraParams params{};
-    params.eye = film_vector(to_normalised(frame, camera.eye));
-    params.film_dx = film_vector(axes.right * pixel);
-    params.film_dy = film_vector(axes.up * -pixel);
-    params.look = film_vector(axes.look);
+    params.eye = to_vec4(to_normalised(frame, camera.eye));
+    params.film_dx = to_vec4(axes.right * pixel);
+    params.film_dy = to_vec4(axes.up * -pixel);
+    params.look = to_vec4(axes.look);
     params.projection = u32(camera.projection);
     return params;
 }

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "scene/read_image.h"
 #include "scene/sky_table.h"
+#include "scene/vectors.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -15,10 +15,6 @@
 namespace clrt {
 namespace {
 
-vec4 to_vec4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0};
-}
-
 void check_colour(const glm::dvec3& colour, const char* option, const char* what) {
     if (!is_finite(colour) || colour.x < 0 || colour.y < 0 || colour.z < 0)
         throw UsageError(fmt::format("{}: expected {} of finite numbers not below 0, found {},{},{}", option,

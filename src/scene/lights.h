@@ -2,7 +2,7 @@
 // Emissive triangles, point lights and suns, each with the table that chooses among them by power.
 #pragma once
 
-#include "options/options.h"
+#include "options/light_options.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 

@@ -8,6 +8,7 @@
 #include "scene/camera_fit.h"
 #include "scene/cut_vast.h"
 #include "scene/emission.h"
+#include "scene/environment.h"
 #include "scene/far_notices.h"
 #include "scene/ground.h"
 #include "scene/lights.h"

@@ -5,7 +5,7 @@
 // bit.
 #pragma once
 
-#include "options/options.h"
+#include "options/light_options.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 

@@ -19,6 +19,11 @@ inline glm::dvec3 to_dvec3(const vec4& v) {
     return {v.x, v.y, v.z};
 }
 
+/// A shared vector: rounded to nearest, and w.
+inline vec4 to_vec4(const glm::dvec3& v, double w = 0) {
+    return {float(v.x), float(v.y), float(v.z), float(w)};
+}
+
 /// True if no component is infinite or NaN.
 inline bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

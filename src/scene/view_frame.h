@@ -3,7 +3,7 @@
 // the scene's own up.
 #pragma once
 
-#include "options/options.h"
+#include "options/camera_options.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>

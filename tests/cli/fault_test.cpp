@@ -280,7 +280,7 @@ TEST_F(Fault, AMeshThatTheMemoryCannotHoldIsAnErrorWhereverItRunsOut) {
     };
     for (const size_t room : {bytes / 2, bytes, 2 * bytes, 4 * bytes})
         EXPECT_FALSE(succeeds(room)) << room << " bytes more than the program itself needs";
-    if (!is_long) {
+    if (!tests_are_long()) {
         const bool with_six = succeeds(6 * bytes), with_eight = succeeds(8 * bytes);
         EXPECT_TRUE(with_eight || !with_six) << "more memory, less success";
         EXPECT_TRUE(succeeds(16 * bytes));

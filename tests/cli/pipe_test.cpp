@@ -111,6 +111,20 @@ TEST_F(Pipe, TheSceneComesFromTheStandardInput) {
     EXPECT_EQ(shell("clrt ./- -o a.png < /dev/null").exit_code, 0);
 }
 
+TEST_F(Pipe, AnStlOnTheStandardInputIsKnownByItsBytes) {
+    folder.write("a.stl",
+                 "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                 "endloop\nendfacet\nendsolid a\n");
+    ASSERT_EQ(shell("clrt a.stl").exit_code, 0);
+    const CommandResult result = shell("clrt - < a.stl");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(holds(result.err, {"stdin: z is taken as up, --up z, since it is an STL file"}));
+    EXPECT_TRUE(ReadPicture(folder.file("stdin.png")).values == ReadPicture(folder.file("a.png")).values);
+    const CommandResult cut = shell("head -c 60 a.stl | clrt -");
+    EXPECT_EQ(cut.exit_code, 1);
+    EXPECT_TRUE(holds(cut.err, {"clrt: error: stdin:5: expected a number, found the end of the file"}));
+}
+
 TEST_F(Pipe, WhatIsWrongWithTheStandardInputIsSaid) {
     for (const auto& [line, part] : {std::pair{"printf 'v 0 0 0\\nv 0 zero 0\\n' | clrt -", "stdin:2: "},
                                      {"clrt - < /dev/null", "stdin: "},

@@ -97,13 +97,13 @@ TEST_F(ReplayCommand, APlantedFaultIsReportedWithItsCauseAndTheCommandThatReplay
     write_room();
     std::filesystem::copy(CLRT_KERNELS_FOLDER, folder.file("kernels"),
                           std::filesystem::copy_options::recursive);
-    const std::string from = "    const Bsdf bsdf = material_bsdf(scene, &surface, wo);\n";
+    const std::string from = "    const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);\n";
     std::string text = folder.read("kernels/integrators/raycast.h");
     const size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos);
     // The colour of the wall, seen by sample 5 (number 1 of replicate 1 of 4) of pixel (6, 8).
     text.replace(at, from.size(),
-                 "    Bsdf bsdf = material_bsdf(scene, &surface, wo);\n"
+                 "    Bsdf bsdf = vertex_bsdf(scene, &surface, wo);\n"
                  "    if (sampler->word_key == sampler_make(params->seed, 8u * 16u + 6u, 1u, 1u).word_key)\n"
                  "        bsdf.matte.x = -1.0f;\n");
     folder.write("kernels/integrators/raycast.h", text);

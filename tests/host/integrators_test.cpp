@@ -93,10 +93,12 @@ TEST(Integrators, HelpSaysWhatEachSimulatesAndTakes) {
     const std::string page = on_one_line(help_text(100));
     for (const IntegratorRow& row : INTEGRATOR_ROWS) {
         EXPECT_TRUE(holds(page, std::string(row.name) + " (" + row.help + ")")) << row.name;
-        EXPECT_TRUE(holds(page, std::to_string(row.depth.usual))) << row.name;
+        const char* const always = takes_option(row.value, TAKES_MAX_DEPTH) ? " " : " always ";
+        const bool is_default = row.value == TransportOptions{}.integrator;
+        const std::string depth = std::to_string(row.depth.usual);
+        EXPECT_TRUE(holds(page, is_default ? "(default " + depth : row.name + (always + depth))) << row.name;
     }
     EXPECT_TRUE(holds(page, "(default path)"));
-    EXPECT_TRUE(holds(page, "(default 4096, whitted 10, raycast always 2)"));
     EXPECT_TRUE(holds(page, "--roulette-depth N path: first segment"));
     EXPECT_TRUE(
         holds(page, "--min-contribution X whitted: smallest weight worth a ray, also in % (default 0.002)"));

@@ -51,8 +51,8 @@ real3 furnace_albedo(const Bsdf* bsdf, uint count)
 {
     const bool is_glass = (bsdf->lobes & LOBE_DIELECTRIC) != 0u;
     const real multiple = bsdf->choose_multiple;
-    const real a = is_glass ? multiple * bsdf->multiple_reflects : bsdf->choose_matte;
-    const real b = is_glass ? multiple : bsdf->choose_matte + multiple;
+    const real a = is_glass ? multiple * bsdf->multiple_reflects : bsdf->choose[LOBE_ROW_MATTE];
+    const real b = is_glass ? multiple : bsdf->choose[LOBE_ROW_MATTE] + multiple;
     real3 sum = (real3)(REAL(0.0));
     for (uint k = 1u; k <= count; ++k) {
         sum += furnace_part(bsdf, REAL(0.0), a, 1u, k) + furnace_part(bsdf, a, b, 1u, k) +
@@ -71,7 +71,7 @@ SceneProbe& probe() {
             "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; hit.triangle = as_uint(a.z);"
             "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
             "const Surface surface = surface_at(scene, &hit, &ray_there);"
-            "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b));"
+            "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b), TRANSPORT_RADIANCE);"
             "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)), REAL(0.0));");
         return made;
     }();

@@ -26,13 +26,13 @@ constexpr double RESOLVED_PITCH = 2.4e-7;    // radians between pixels whose ray
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made(test_device(), {"geometry/scene.h", "camera/camera.h"});
+        SceneProbe made(test_device(), {"geometry/scene.h", "camera/camera.h", "film/tile.h"});
         made.add("filter", "first = (vec4)(camera_filter_sample(params, (real2)(a.x, a.y)), 0.0f, 0.0f);");
         made.add("tent", "first.x = camera_tent(a.x);");
         // a: pixel x, y, sample
         made.add("ray",
                  "const uint x = as_uint(a.x), y = as_uint(a.y);"
-                 "const Sampler s = sampler_make(params->seed, y * params->width + x, 0u, as_uint(a.z));"
+                 "const Sampler s = sampler_make(params->seed, tile_pixel_number(params, x, y), 0u, as_uint(a.z));"
                  "const Ray ray = camera_ray(params, &s, x, y);"
                  "first = probe_vec4(ray.direction, ray.t_max); second = probe_vec4(ray.origin, REAL(0.0));"
                  "const real2 u = sampler_pair(&s, 0u, SAMPLE_FILM);"
@@ -48,6 +48,10 @@ SceneProbe& probe() {
             const CameraPdf pdf = camera_pdf(&params->camera, ray.direction);
             third = (vec4)(pdf.pdf_a, pdf.pdf_w, as_float(camera_pixel(params, got.film)),
                            camera_project(&params->camera, ray.origin - ray.direction * (real)b.x, (real2)(a.z, a.w)).pdf_a);)");
+        // a: film position
+        made.add("start",
+                 "const Ray ray = camera_generate(&params->camera, (real2)(a.x, a.y), (real2)(0.5f), "
+                 "REAL(0.0)); first = probe_vec4(ray.origin, REAL(0.0));");
         // a: a point
         made.add("see", "const CameraConnection got = camera_project(&params->camera, vector_from(a), "
                         "(real2)(0.5f, 0.5f));"
@@ -431,13 +435,13 @@ TEST(Camera, TheDensityAtAPointIsThatOfItsFilmPositions) {
         for (const double fov : {10.0, 40.0, 120.0}) {
             const RenderParams params = camera_params(tilted_view(fov), WIDTH, HEIGHT, projection);
             const SceneProbe::Outputs at = probe().run("project", Scene{}, params, film, distances);
+            const std::vector<vec4> starts = probe().run("start", Scene{}, params, film).first;
             std::vector<vec4> points;
             std::vector<double> sides;
             for (size_t i = 0; i < film.size(); ++i) {
-                const FilmRay ray = film_ray(params.camera, {film[i].x, film[i].y});
-                const dvec3 d = glm::normalize(ray.direction);
+                const dvec3 d = glm::normalize(to_dvec3(at.second[i])),
+                            point = to_dvec3(starts[i]) + d * double(distances[i].x);
                 const dvec3 x = glm::normalize(glm::cross(d, dvec3(0.1, 1, 0.3))), y = glm::cross(d, x);
-                const dvec3 point = ray.origin + d * double(distances[i].x);
                 // A side of about a pixel.
                 const double side = 1 / std::sqrt(double(at.first[i].z));
                 sides.push_back(side);

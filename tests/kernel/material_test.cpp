@@ -22,7 +22,7 @@ SceneProbe& probe() {
             "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
             "const Surface surface = surface_at(scene, &hit, &ray_there);";
         const std::string bsdf =
-            surface + "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b));";
+            surface + "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b), TRANSPORT_RADIANCE);";
         SceneProbe made(test_device(), {"scattering/material.h"});
         made.add("colors", bsdf + "first = probe_vec4(bsdf.matte, bsdf.alpha_x); second = "
                                   "probe_vec4(bsdf.specular, bsdf.alpha_y);"
@@ -34,7 +34,7 @@ SceneProbe& probe() {
         made.add("labels",
                  bsdf +
                      "first = (vec4)(as_float(bsdf.lobes), as_float(bsdf.fresnel), as_float(bsdf.flags), 0);"
-                     "second = (vec4)(bsdf.choose_matte, bsdf.choose_glossy + bsdf.choose_multiple, 0, 0);");
+                     "second = (vec4)(bsdf.choose[LOBE_ROW_MATTE], bsdf.choose[LOBE_ROW_GLOSSY], 0, 0);");
         made.add("light", surface +
                               "first = probe_vec4(material_emitted(scene, &surface), "
                               "material_coverage(scene, scene->materials + surface.material, surface.uv));");

@@ -62,10 +62,8 @@ Bsdf probe_bsdf(uint lobes, real eta)
 AutomatonStep probe_step(uint word)
 {
     AutomatonStep step;
-    step.matte = word & 0xffu;
-    step.glossy = (word >> 8) & 0xffu;
-    step.mirror = (word >> 16) & 0xffu;
-    step.refraction = word >> 24;
+    for (uint letter = 0u; letter < LETTER_COUNT; ++letter)
+        step.next[letter] = (word >> (8u * letter)) & 0xffu;
     return step;
 }
 )";
@@ -85,17 +83,18 @@ KernelProbe& probe() {
         made.add<vec4(u32, u32, float)>(
             "continues", "Bsdf bsdf = probe_bsdf(b, (real)c); const AutomatonStep step = probe_step(a); "
                          "filter_lobes(&step, &bsdf); const bool goes = filter_continues(&step, &bsdf); "
-                         "out = (vec4)(goes ? 1.0f : 0.0f, (float)bsdf.choose_matte, "
-                         "(float)(bsdf.choose_glossy + bsdf.choose_multiple), 0.0f);");
+                         "out = (vec4)(goes ? 1.0f : 0.0f, (float)bsdf.choose[LOBE_ROW_MATTE], "
+                         "(float)bsdf.choose[LOBE_ROW_GLOSSY], (float)bsdf.choose[LOBE_ROW_MIRROR]);");
         made.add<vec4(u32, vec4, float)>(
             "share",
             "const Bsdf bsdf = probe_bsdf(LOBE_MATTE | LOBE_GLOSSY, REAL(1.5)); const AutomatonStep step = "
-            "probe_step(a); real3 share; const bool matte = filter_choose_matte(&step, &bsdf, "
+            "probe_step(a); real3 share; const bool matte = LETTER_MATTE == filter_choose_letter(&step, "
+            "&bsdf, "
             "frame_to_world(&bsdf.frame, vector_from(b)), (real)c, &share); "
             "out = (vec4)(convert_float3(share), matte ? 1.0f : 0.0f);");
         made.add<vec4(vec4)>("parts", "const Bsdf bsdf = probe_bsdf(LOBE_MATTE | LOBE_GLOSSY, REAL(1.5)); "
                                       "const real3 wi = frame_to_world(&bsdf.frame, vector_from(a)); "
-                                      "out = (vec4)(convert_float3(filter_matte_part(&bsdf, wi) / "
+                                      "out = (vec4)(convert_float3(filter_part(&bsdf, LETTER_MATTE, wi) / "
                                       "bsdf_eval(&bsdf, wi).value), 0.0f);");
         made.add<vec4(u32, u32, vec4)>(
             "value",
@@ -109,7 +108,7 @@ KernelProbe& probe() {
             "filter_lobes(&step, &bsdf); const BsdfSample s = bsdf_sample(&bsdf, (real)c, "
             "(real2)(REAL(0.3))); "
             "out = (vec4)((float)s.weight.x, (float)s.weight.y, s.is_valid ? 1.0f : 0.0f, "
-            "(float)filter_state(&step, &bsdf, &s));");
+            "(float)step.next[filter_letter(&bsdf, &s)]);");
         made.add<vec4(float)>("fresnel", "real t; const Bsdf bsdf = probe_bsdf(LOBE_DIELECTRIC, (real)a); "
                                          "out = (vec4)((float)fresnel_dielectric(bsdf.wo.z, (real)a, &t));");
         return made;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
 #include "kernels/shared/render_types.h"
-#include "kernels/shared/scene_types.h"
+#include "kernels/shared/scene_arrays.h"
 #include "support/kernel_probe.h"
 #include "support/test_device.h"
 
@@ -90,10 +90,23 @@ const Layout RENDER_PARAMS = {
      M(roulette_depth), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
      M(tile_stride), M(first_tile), M(end_tile)}};
 #undef M
+#define M(name) MEMBER(ArrayPlace, name)
+const Layout ARRAY_PLACE_LAYOUT = {
+    "ArrayPlace",
+    sizeof(ArrayPlace),
+    {M(heap), M(first), M(unused0), M(unused1)}};
+#undef M
+#define M(type, name, member) MEMBER(ArrayPlaces, name),
+const Layout ARRAY_PLACES = {
+    "ArrayPlaces",
+    sizeof(ArrayPlaces),
+    {BVH_ARRAYS(M) SCENE_ARRAYS(M)}};
+#undef M
 // clang-format on
 
-const std::vector<Layout> LAYOUTS = {TRIANGLE, MATERIAL,          TEXTURE,       EMITTER,
-                                     LIGHT,    ENVIRONMENT_TEXEL, CAMERA_PARAMS, RENDER_PARAMS};
+const std::vector<Layout> LAYOUTS = {
+    TRIANGLE,      MATERIAL,           TEXTURE,     EMITTER, LIGHT, ENVIRONMENT_TEXEL, CAMERA_PARAMS,
+    RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.
@@ -110,7 +123,7 @@ std::string layout_kernel(const Layout& layout) {
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
-        KernelProbe made(test_device(), {"shared/scene_types.h", "shared/render_types.h"});
+        KernelProbe made(test_device(), {"shared/scene_arrays.h", "shared/render_types.h"});
         for (const Layout& layout : LAYOUTS)
             made.add_text(layout_kernel(layout));
         made.add_text(

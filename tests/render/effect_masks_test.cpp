@@ -160,7 +160,7 @@ TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
     for (int round = 0; round < 2; ++round)
         for (const u32 effects : sets) {
             SceneOfEffects small(effects);
-            const Film plain = small.render().film;
+            const Film plain = small.render(test_device()).film;
             small.options.device.cache = Toggle::ON;
             small.options.device.cache_folder = fs::path(cache.file("any")).parent_path().string();
             bool from_cache = false;

@@ -106,8 +106,8 @@ TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
     for (size_t pixel = 0; pixel < film_plane(film_) / 3; ++pixel) {
         const PixelHits a = pixel_hits(halves, film_, pixel), b = pixel_hits(whole, equal, pixel);
         ASSERT_NEAR(a.share, b.share, 1e-15);
-        ASSERT_NEAR(a.albedo.x, b.albedo.x, 1e-14);
-        ASSERT_NEAR(a.position.z, b.position.z, 1e-14);
+        ASSERT_NEAR(a.mean(AOV_ALBEDO).x, b.mean(AOV_ALBEDO).x, 1e-14);
+        ASSERT_NEAR(a.mean(AOV_POSITION).z, b.mean(AOV_POSITION).z, 1e-14);
     }
 }
 
@@ -122,9 +122,9 @@ TEST_F(HitLayersTest, SumsOfManySamplesLoseNothing) {
     const HitSums hits = sums({{{0, samples}}});
     const PixelHits middle = pixel_hits(hits, film_, 13);
     EXPECT_EQ(middle.share, 1);
-    EXPECT_EQ(float(middle.albedo.x), 0.7f);
-    EXPECT_EQ(float(middle.albedo.z), 0.1f);
-    EXPECT_EQ(middle.normal, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(float(middle.mean(AOV_ALBEDO).x), 0.7f);
+    EXPECT_EQ(float(middle.mean(AOV_ALBEDO).z), 0.1f);
+    EXPECT_EQ(middle.mean(AOV_NORMAL), glm::dvec3(0, 1, 0));
 }
 
 TEST_F(HitLayersTest, ASignalEndsWhatTakesLong) {

@@ -44,11 +44,11 @@ public:
 private:
     void write(KernelFiles files, const std::string& name, const std::string& hit, const std::string& hit_by,
                const std::string& connection, const std::string& connection_by) {
-        std::string& path = files.at("integrators/path.h");
+        std::string& path = files.at("path/connect.h");
         for (const auto& [from, to] : {std::pair{hit, hit_by}, {connection, connection_by}}) {
             const size_t at = path.find(from);
             if (at == std::string::npos)
-                throw std::runtime_error("not in integrators/path.h: " + from);
+                throw std::runtime_error("not in path/connect.h: " + from);
             path.replace(at, from.size(), to);
         }
         for (const auto& [file, text] : files) {

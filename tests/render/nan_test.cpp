@@ -44,7 +44,7 @@ std::vector<Place> path_places() {
         {file, "const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);",
          surface_values()},
         {file,
-         "Bsdf bsdf = material_bsdf(scene, &surface, wo);",
+         "Bsdf bsdf = vertex_bsdf(scene, &surface, wo);",
          {{"bsdf.wo.z", {"glossy", "mirror", "glass", "rough glass"}},
           {"bsdf.frame.z.y"},
           {"bsdf.matte.x", {"matte", "glossy"}},
@@ -52,17 +52,18 @@ std::vector<Place> path_places() {
           {"bsdf.alpha_x", {"glossy", "rough glass"}},
           {"bsdf.eta", {"glass", "rough glass"}}}},
         {file,
-         "const BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);",
-         {{"next.wi.x"}}},
+         "const real3 wo = -path->ray.direction;",
+         {{"path->numbers.direction.x", {"matte", "glossy", "rough glass"}}}},
         {file,
-         "if (!next.is_valid || !continues)\n        return;",
-         {{"path->throughput.y"}},
+         "const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, path);",
+         {{"next.wi.x"}},
          Reached::IF_CONTINUED},
-        {file,
-         "path->ray = surface_ray(&surface, next.reflects, next.wi);",
+        {"path/walk.h", "path->throughput *= next->weight;", {{"path->throughput.y"}}, Reached::IF_CONTINUED},
+        {"path/walk.h",
+         "path->ray = surface_ray(surface, next->reflects, next->wi);",
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
-        {file,
+        {"path/connect.h",
          "const LightSample light =\n        lights_sample(scene, params, surface, bsdf->frame.z, "
          "path->numbers.light, path->numbers.alias);",
          light_values(), Reached::IF_LIT},
@@ -79,7 +80,7 @@ std::vector<Place> direct_places(const char* file, const char* first) {
          light_values(), Reached::IF_LIT},
         {file, first, surface_values()},
         {file,
-         "const Bsdf bsdf = material_bsdf(scene, &surface, wo);",
+         "const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);",
          {{"bsdf.wo.z"},
           {"bsdf.frame.z.y", {"matte", "glossy"}},
           {"bsdf.matte.x", {"matte", "glossy"}},
@@ -89,7 +90,7 @@ std::vector<Place> direct_places(const char* file, const char* first) {
 std::vector<Place> whitted_places() {
     std::vector<Place> places =
         direct_places("integrators/whitted.h",
-                      "const Surface surface = visible_surface(scene, params, &current.ray, &hit);");
+                      "const Surface surface = visible_surface(scene, params, &current->ray, &hit);");
     places.push_back(
         {"integrators/whitted.h",
          "uint whitted_push(const RenderParams* params, WhittedRay child, WhittedRay* stack, uint top)\n{",

@@ -99,38 +99,44 @@ FlipStatistics flips_of(const TestScene& scene) {
     return find_flips(Stage(scene.load(), scene.options).prepared);
 }
 
-/// A change to integrators/path.h that spoils one sample, and what it is to be reported as.
+/// A change to a kernel file that spoils one sample, and what it is to be reported as.
 struct Fault {
     const char* name;
+    const char* file;
     std::string from, to;
     u32 kind, quantity, bounce;
 };
 
 /// Faults in sample 6 of pixel (3, 2): number 1 of replicate 2 of 4.
 std::vector<Fault> planted_faults() {
-    const std::string here =
-        "(sample->sampler.word_key == sampler_make(params->seed, 2u * 16u + 3u, 2u, 1u).word_key)";
+    const std::string planted = "sampler_make(0u, 2u * 16u + 3u, 2u, 1u)";
+    const std::string vertex = "    const real3 wo = -path->ray.direction;\n";
     const std::string sampled =
-        "const BsdfSample next = bsdf_sample(&bsdf, path->numbers.lobe, path->numbers.direction);";
-    const std::string at = "if (" + here + " && segment == ";
-    const std::string not_const = sampled.substr(6);
+        "const BsdfSample next = bsdf_sample(bsdf, path->numbers.lobe, path->numbers.direction);";
+    const auto spoil_sample = [&](const char* bounce, const char* what) {
+        return "const Sampler planted = " + planted + ";\n    " + sampled.substr(6) +
+               "\n    if (path->numbers.lobe == sampler_number(&planted, " + bounce +
+               ", SAMPLE_LOBE)) next." + what;
+    };
     const std::string light =
         "const LightSample light =\n        lights_sample(scene, params, surface, bsdf->frame.z, "
         "path->numbers.light, path->numbers.alias);";
+    const char* const walk = "path/walk.h";
     return {
-        {"NaN weight at bounce 2", sampled, not_const + at + "2u) next.weight.y = as_float(0x7fc00000u);",
+        {"NaN weight at bounce 2", walk, sampled, spoil_sample("2u", "weight.y = as_float(0x7fc00000u);"),
          COUNT_NAN, TRACE_WEIGHT, 2},
-        {"infinite weight at bounce 1", sampled,
-         not_const + at + "1u) next.weight.x = as_float(0x7f800000u);", COUNT_INFINITE, TRACE_WEIGHT, 1},
-        {"negative throughput", "path->throughput *= next.weight;",
-         "path->throughput *= next.weight; " + at + "1u) path->throughput *= REAL(-100.0);", COUNT_NEGATIVE,
-         TRACE_THROUGHPUT, 1},
-        {"overflow in the sum", "    const real3 wo = -path->ray.direction;\n",
-         "    const real3 wo = -path->ray.direction;\n    " + at + "1u) sample->radiance.x = REAL(1e30);\n",
+        {"infinite weight at bounce 1", walk, sampled,
+         spoil_sample("1u", "weight.x = as_float(0x7f800000u);"), COUNT_INFINITE, TRACE_WEIGHT, 1},
+        {"negative throughput", walk, "path->throughput *= next->weight;",
+         "path->throughput *= next->weight; if (segment == 1u && sampler->word_key == " + planted +
+             ".word_key) path->throughput *= REAL(-100.0);",
+         COUNT_NEGATIVE, TRACE_THROUGHPUT, 1},
+        {"overflow in the sum", "integrators/path.h", vertex,
+         vertex + "    if (segment == 1u && sample->sampler.word_key == " + planted +
+             ".word_key) sample->radiance.x = REAL(1e30);\n",
          COUNT_OVERFLOW, 0, 0},
-        {"NaN density of the light at bounce 2", light,
-         "const Sampler planted = sampler_make(params->seed, 2u * 16u + 3u, 2u, 1u);\n    " +
-             light.substr(6) +
+        {"NaN density of the light at bounce 2", "path/connect.h", light,
+         "const Sampler planted = " + planted + ";\n    " + light.substr(6) +
              "\n    if (path->numbers.alias == sampler_word(&planted, 2u, SAMPLE_LIGHT_ALIAS)) light.pdf_w = "
              "as_float(0x7fc00000u);",
          COUNT_NAN, TRACE_LIGHT_PDF, 2},
@@ -242,7 +248,7 @@ TEST(Replay, LongPathsAreRecordedWhole) {
 TEST(Replay, PlantedFaultsAreFoundWhereTheyArePlanted) {
     for (const Fault& fault : planted_faults()) {
         PlantedKernels kernels;
-        kernels.replace("integrators/path.h", fault.from, fault.to);
+        kernels.replace(fault.file, fault.from, fault.to);
         TestScene room;
         make_white_room(room);
         room.options.sampling.replicates = 4;
@@ -276,7 +282,7 @@ TEST(Replay, ADecisionThatDoubleMakesDifferentlyIsFound) {
         GTEST_SKIP() << "the device has no fp64";
     PlantedKernels kernels;
     // In double, Russian roulette ends what it would let live at bounce 2 in one pixel of three.
-    kernels.replace("integrators/path.h",
+    kernels.replace("path/walk.h",
                     "const bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);",
                     "bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);\n"
                     "#ifdef REAL_IS_DOUBLE\n    if (segment == 2u && sampler->key % 3u == 0u) survives = "

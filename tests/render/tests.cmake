@@ -35,6 +35,7 @@ set_tests_properties(render.seeded_faults PROPERTIES TIMEOUT 3600) # CLRT_TEST_L
 clrt_test(render scarce_memory_test)
 clrt_test(render shading_normal_test)
 clrt_test(render sky_light_test)
+clrt_test(render splat_render_test)
 clrt_test(render studio_picture_test)
 clrt_test(render surface_sides_test)
 clrt_test(render textured_picture_test)

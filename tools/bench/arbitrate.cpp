@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/arbitrate.h"
 
+#include "scene/vectors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -17,10 +19,6 @@ constexpr double FLOAT_U = 5.9604644775390625e-8;
 
 /// Error of a distance, as a share of the largest depth of a corner, beside that of its place.
 constexpr double DISTANCE_ERROR = 16 * FLOAT_U;
-
-glm::dvec3 to_dvec3(const vec4& v) {
-    return {v.x, v.y, v.z};
-}
 
 /// A ray in double with two directions across it.
 struct ExactRay {

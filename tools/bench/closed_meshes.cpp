@@ -2,6 +2,7 @@
 #include "bench/closed_meshes.h"
 
 #include "scene/normalise.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,18 +15,8 @@ namespace clrt {
 
 namespace {
 
-constexpr double PI = 3.14159265358979323846;
-
 /// Where distant meshes are: no axis is special there.
 const glm::dvec3 AWAY = glm::normalize(glm::dvec3(148376, 1234, -223423));
-
-glm::dvec3 to_dvec3(const vec4& v) {
-    return {v.x, v.y, v.z};
-}
-
-vec4 to_vec4(const glm::dvec3& v, double w = 0) {
-    return {float(v.x), float(v.y), float(v.z), float(w)};
-}
 
 ClosedMesh make_mesh(const std::string& name) {
     ClosedMesh mesh;

@@ -2,6 +2,7 @@
 #include "bench/clrt_side.h"
 
 #include "device/opencl_error.h"
+#include "render/launcher.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,9 +10,6 @@
 namespace clrt {
 
 namespace {
-
-/// Work-groups a row of the launch grid, as in the renderer.
-constexpr u32 GRID_COLUMNS = 2048;
 
 /// Measures the building of the tree; compiles none of the renderer's programs.
 PreparedScene prepare_measured(const Device& device, const std::shared_ptr<const PlannedScene>& planned,
@@ -80,7 +78,7 @@ ClrtSide::ClrtSide(const Device& device, const KernelFiles& files,
 
 Kernel ClrtSide::make_kernel(const Program& program, const std::string& name) const {
     Kernel kernel(program, name);
-    if (kernel.has("bvh_nodes"))
+    if (takes_scene(kernel))
         bind_scene(prepared_.buffers, kernel);
     kernel.set("params", params_);
     return kernel;
@@ -93,15 +91,8 @@ const Program& ClrtSide::ray_maker() {
 }
 
 void ClrtSide::launch(Kernel& kernel, u32 count) {
-    const u32 groups = std::max((count + RAYS_PER_BLOCK - 1) / RAYS_PER_BLOCK, 1u);
-    const u32 columns = std::min(groups, GRID_COLUMNS);
-    const u32 rows = (groups + columns - 1) / columns;
-    check_opencl("running the kernel " + kernel.name(), [&] {
-        device_.queue.enqueueNDRangeKernel(kernel.handle(), cl::NullRange,
-                                           cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
-                                           cl::NDRange(TILE_SIZE, TILE_SIZE));
-        device_.queue.finish();
-    });
+    run_groups(device_, kernel, (count + RAYS_PER_BLOCK - 1) / RAYS_PER_BLOCK,
+               "running the kernel " + kernel.name());
 }
 
 std::vector<BenchRay> ClrtSide::primary_rays(u32 sample) {

@@ -6,6 +6,7 @@
 #include "device/program.h"
 #include "kernels/shared/effects.h"
 #include "kernels/shared/render_types.h"
+#include "render/launcher.h"
 #include "render/scene_buffers.h"
 
 #include <algorithm>
@@ -54,12 +55,7 @@ public:
 
     void launch(u32 seed, u32 groups) {
         kernel_.set("seed", seed);
-        check_opencl("tracing aimed rays", [&] {
-            device_.queue.enqueueNDRangeKernel(kernel_.handle(), cl::NullRange,
-                                               cl::NDRange(groups * TILE_SIZE, TILE_SIZE),
-                                               cl::NDRange(TILE_SIZE, TILE_SIZE));
-            device_.queue.finish();
-        });
+        run_groups(device_, kernel_, groups, "tracing aimed rays");
     }
 
     /// Adds what was found so far.

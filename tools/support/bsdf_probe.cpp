@@ -10,8 +10,8 @@ namespace {
 
 const char* const TEXT = R"(
 #define PROBE_BSDF const vec4 matte, const vec4 specular, const vec4 transmission, const vec4 shape, \
-                   const vec4 normal_g, const u32 lobes, const u32 fresnel
-#define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, lobes, fresnel
+                   const vec4 normal_g, const u32 lobes, const u32 fresnel, const u32 transport
+#define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, lobes, fresnel, transport
 
 Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
 {
@@ -30,7 +30,7 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     bsdf.exponent = REAL(0.0);
     bsdf.lobes = lobes;
     bsdf.fresnel = fresnel;
-    bsdf.flags = 0u;
+    bsdf.flags = transport != 0u ? TRANSPORT_IMPORTANCE : TRANSPORT_RADIANCE;
     bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
@@ -43,9 +43,10 @@ kernel void probe_eval(PROBE_BSDF, global const vec4* in_a, global const vec4* i
     if (i >= count)
         return;
     const Bsdf bsdf = probe_bsdf(PROBE_BSDF_ARGUMENTS, in_a[i]);
-    const BsdfValue eval = bsdf_eval(&bsdf, frame_to_world(&bsdf.frame, vector_from(in_b[i])));
+    const real3 wi = frame_to_world(&bsdf.frame, vector_from(in_b[i]));
+    const BsdfValue eval = bsdf_eval(&bsdf, wi);
     out_first[i] = (vec4)(convert_float3(eval.value), (float)eval.pdf_w);
-    out_second[i] = (vec4)(bsdf_has_smooth_lobe(&bsdf) ? 1.0f : 0.0f);
+    out_second[i] = (vec4)(bsdf_has_smooth_lobe(&bsdf) ? 1.0f : 0.0f, (float)bsdf_pdf_w_reverse(&bsdf, wi), 0.0f, 0.0f);
 }
 
 kernel void probe_sample(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
@@ -146,7 +147,7 @@ LobeSet lobe_set(const std::string& name) {
     throw std::logic_error("there is no lobe set \"" + name + "\"");
 }
 
-BsdfProbe::BsdfProbe(const ProbeDevice& device) : device_(device), probe_(device, {"scattering/bsdf.h"}) {
+BsdfProbe::BsdfProbe(const ProbeDevice& device) : device_(device), probe_(device, {"scattering/bsdf_reverse.h"}) {
     probe_.add_text(TEXT);
     probe_.add_text(ALBEDO_TEXT);
 }
@@ -163,6 +164,7 @@ Kernel BsdfProbe::prepare(const char* name, const LobeSet& set, const std::vecto
     kernel.set("normal_g", to_vec4(normal_g));
     kernel.set("lobes", set.lobes);
     kernel.set("fresnel", set.fresnel);
+    kernel.set("transport", u32(set.is_importance));
     kernel.set("in_a", probe_.upload(to_vec4s(a)));
     kernel.set("in_b", probe_.upload(to_vec4s(b)));
     kernel.set("count", u32(a.size()));
@@ -182,6 +184,8 @@ BsdfValues BsdfProbe::eval(const LobeSet& set, const std::vector<glm::dvec3>& wo
         values.value.push_back(to_dvec3(v));
         values.pdf_w.push_back(v.w);
     }
+    for (const vec4& v : probe_.read<vec4>(second, wo.size()))
+        values.pdf_w_reverse.push_back(v.y);
     return values;
 }
 

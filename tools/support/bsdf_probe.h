@@ -18,6 +18,7 @@ struct LobeSet {
     glm::dvec3 matte{0}, specular{0}, transmission{0};
     double alpha_x = 0, alpha_y = 0, eta = 1;
     u32 fresnel = FRESNEL_NONE;
+    bool is_importance = false; ///< carried; else radiance
 };
 
 /// All lobe sets that material rules make: matte, glossy with and without Fresnel, mirrors, dielectrics from
@@ -29,7 +30,7 @@ LobeSet lobe_set(const std::string& name);
 
 struct BsdfValues {
     std::vector<glm::dvec3> value; ///< BSDF times |cos_i|
-    std::vector<double> pdf_w;
+    std::vector<double> pdf_w, pdf_w_reverse;
 };
 
 struct BsdfSamples {

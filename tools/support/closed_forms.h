@@ -2,13 +2,13 @@
 // Radiometry in double precision, to compare pictures with.
 #pragma once
 
+#include "scene/vectors.h"
+
 #include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
 namespace clrt {
-
-constexpr double PI = 3.14159265358979323846;
 
 /// Irradiance at a point with normal n from a polygon of radiance 1 that is seen as a whole; what lies below
 /// the horizon is cut off (Lambert 1760; Arvo 1995, eq. 2.1). The same for both windings.

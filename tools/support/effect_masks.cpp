@@ -9,6 +9,13 @@
 
 namespace clrt {
 
+bool is_permitted(u32 effects) {
+    for (const EffectSpec& effect : effect_table())
+        if ((effects & effect.bit) && effect.one_of && !(effects & effect.one_of))
+            return false;
+    return with_implied(effects) == effects;
+}
+
 namespace {
 
 /// The set with what it cannot be without; matte where any lobe would do.

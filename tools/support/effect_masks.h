@@ -10,6 +10,9 @@
 
 namespace clrt {
 
+/// True if every effect has those that it cannot be without: some scene calls for exactly these.
+bool is_permitted(u32 effects);
+
 /// Every effect with just those that it cannot be without.
 std::vector<u32> single_effects();
 

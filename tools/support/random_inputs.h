@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/shared/types.h"
+#include "scene/vectors.h"
 #include "support/closed_forms.h"
 
 #include <algorithm>
@@ -16,14 +17,6 @@ namespace clrt {
 
 /// u of a float: half a unit in the last place of 1.
 constexpr double FLOAT_U = 5.9604644775390625e-8;
-
-inline vec4 to_vec4(const glm::dvec3& v, double w = 0) {
-    return {float(v.x), float(v.y), float(v.z), float(w)};
-}
-
-inline glm::dvec3 to_dvec3(const vec4& v) {
-    return {v.x, v.y, v.z};
-}
 
 inline float bits_to_float(u32 bits) {
     float value;

@@ -31,8 +31,8 @@ struct LitSquare : ScratchScene {
 
 /// Next-event estimation alone: no weights, and paths that hit a light by chance count nothing.
 const std::vector<KernelPatch> LIGHT_SAMPLING_ONLY = {
-    {"integrators/path.h", "light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w)", "REAL(1.0)"},
-    {"integrators/path.h", "return emitted * mis_weight(pdf_w, light_pdf_w);",
+    {"path/connect.h", "light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w)", "REAL(1.0)"},
+    {"path/connect.h", "return emitted * mis_weight(pdf_w, light_pdf_w);",
      "return emitted * REAL(0.0) * light_pdf_w;"}};
 
 /// The largest of single samples over their mean.

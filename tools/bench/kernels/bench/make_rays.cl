@@ -18,7 +18,8 @@ CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void 
     TilePixel place;
     if (!tile_pixel(&params, &place))
         return;
-    const Sampler sampler = sampler_make(params.seed, place.y * params.width + place.x, 0u, params.first_sample);
+    const SampleCounter counter = {0u, 0u, params.first_sample};
+    const Sampler sampler = tile_sampler(&params, place.x, place.y, counter);
     const Ray ray = camera_ray(&params, &sampler, place.x, place.y);
     bench_ray_store(rays, bench_index(), &ray);
 }

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Next-event estimation: a vertex is connected to a point on a light, and emission that the path meets by
+// itself is weighted against that (multiple importance sampling, Veach 1997).
+#ifndef CLRT_PATH_CONNECT_H
+#define CLRT_PATH_CONNECT_H
+
+#include "walk.h"
+
+/* Emission of the surface that was hit, weighted against the light sampling at the vertex before that could
+   have found it. */
+static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                  const Path* path, real3 wo)
+{
+    const real3 emitted = material_emitted(scene, surface);
+    const real pdf_w = path->pdf_w;
+    if (pdf_w == REAL(0.0))
+        return emitted;
+    const real t = path->hit.t;
+    const real point_pdf_w =
+        HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
+            ? emitter_crossed_pdf_w(scene, surface, path->from, t, wo)
+            : emitter_hit_pdf_w(scene, surface, path->from, t, wo);
+    const real light_pdf_w = (real)params->choose_emitter * point_pdf_w;
+    TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
+    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, mis_weight(pdf_w, light_pdf_w));
+    return emitted * mis_weight(pdf_w, light_pdf_w);
+}
+
+/* The same connection for the layers, class by class of the event; `factor` is all that arrives over the
+   BSDF's value. */
+static inline void path_connect_layers(const Bsdf* bsdf, const AutomatonStep* step, const LightSample* light,
+                                       real3 factor, Path* path)
+{
+#if PATH_LAYERS > 0
+    path->layers.kind = light->kind;
+    path->layers.matte_state = step->next[LETTER_MATTE];
+    path->layers.glossy_state = step->next[LETTER_GLOSSY];
+    const real3 shared = factor * path->layers.share;
+    path->layers.matte = path->layers.glossy = (real3)(REAL(0.0));
+    if (filter_is_ambiguous(step, bsdf)) {
+        path->layers.matte = shared * filter_part(bsdf, LETTER_MATTE, light->wi);
+        path->layers.glossy = shared * filter_part(bsdf, LETTER_GLOSSY, light->wi);
+    } else if (bsdf_smooth_letters(bsdf) & LETTER_BIT(LETTER_MATTE))
+        path->layers.matte = path->connection * path->layers.share;
+    else
+        path->layers.glossy = path->connection * path->layers.share;
+#endif
+}
+
+/* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling.
+   Nothing where delta lobes or the automaton keep a light from being found so. */
+static inline void path_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                const Bsdf* bsdf, const AutomatonStep* step, Path* path)
+{
+    if (!bsdf_has_smooth_lobe(bsdf))
+        return;
+    if (HAS(EFFECT_PATH_FILTER) && !filter_wants_light(step, bsdf))
+        return;
+    const LightSample light =
+        lights_sample(scene, params, surface, bsdf->frame.z, path->numbers.light, path->numbers.alias);
+    light_record(scene, &light);
+    nan_watch(scene, light.wi, &path->watched);
+    if (light.pdf_w == REAL(0.0))
+        return;
+    BsdfValue eval = bsdf_eval(bsdf, light.wi);
+    if (HAS(EFFECT_PATH_FILTER))
+        eval.value = filter_value(step, bsdf, light.wi, light.kind, eval.value);
+    const real3 arriving = eval.value * light.radiance;
+    TRACE_VECTOR(scene, TRACE_LIGHT_BSDF, eval.value);
+    TRACE_NUMBER(scene, TRACE_LIGHT_BSDF_PDF, eval.pdf_w);
+    TRACE_CHOICE(scene, TRACE_CONNECTS, vector_is_black(arriving) ? 0u : 1u);
+    if (vector_is_black(arriving))
+        return;
+    const real weight = light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w);
+    path->connection = path->throughput * arriving * (weight / light.pdf_w);
+    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, weight);
+    TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
+    path->shadow = light_shadow_ray(surface, &light);
+    path->is_connected = true;
+    path_connect_layers(bsdf, step, &light, path->throughput * light.radiance * (weight / light.pdf_w), path);
+}
+
+/* Adds the share of the connection that arrives. */
+static inline void path_add_connection(const Scene* scene, const Path* path, real share, real3* radiance,
+                                       LayerSums* layers)
+{
+    vertex_add(scene, path->connection * share, radiance);
+#if PATH_LAYERS > 0
+    layers_add(path->layers.matte_state, path->layers.kind, path->layers.matte * share, layers);
+    layers_add(path->layers.glossy_state, path->layers.kind, path->layers.glossy * share, layers);
+#endif
+}
+
+#endif

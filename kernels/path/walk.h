@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path on its way from the eye: what it carries from vertex to vertex, and how it goes on.
+#ifndef CLRT_PATH_WALK_H
+#define CLRT_PATH_WALK_H
+
+#include "filter.h"
+#include "layers.h"
+#include "vertex.h"
+
+/* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
+#define PATH_SMALLEST_SURVIVAL REAL(0.05)
+
+/* The random numbers of one vertex. They are drawn before the ray is traced: they do not wait for the hit, so
+   a processor that works ahead hides their long chain of multiplications. */
+typedef struct {
+    uint2 light;
+    uint alias;
+    real lobe;
+    real2 direction;
+} PathNumbers;
+
+static inline PathNumbers path_numbers(const Sampler* sampler, uint segment)
+{
+    PathNumbers numbers;
+    numbers.light = sampler_pair_words(sampler, segment, SAMPLE_LIGHT);
+    numbers.alias = sampler_word(sampler, segment, SAMPLE_LIGHT_ALIAS);
+    numbers.lobe = sampler_number(sampler, segment, SAMPLE_LOBE);
+    numbers.direction = sampler_pair(sampler, segment, SAMPLE_DIRECTION);
+    return numbers;
+}
+
+/* A path on its way. */
+typedef struct {
+    Ray ray;                 /* the segment to trace */
+    Hit hit;                 /* where it ended */
+    PathNumbers numbers;     /* of the vertex there */
+    real3 from;              /* whence the surface that it left looked at lights; unused for camera rays */
+    bool has_crossed_curved; /* it did not start there but at the plane below */
+    real3 throughput;        /* of the path so far: product of BSDF times cosine over pdf */
+    real eta_squared;        /* product of the squared index ratios crossed */
+    real pdf_w;              /* of the ray's direction; 0 for camera rays and delta lobes */
+    Ray shadow;              /* from the vertex to a light, */
+    real3 connection;        /* and what arrives if nothing is in between */
+    real3 watched;           /* sum of directions and normals, for NaNs among them */
+    uint state;              /* of the automaton, behind all vertices so far */
+    LayerPath layers;
+    bool is_alive, is_connected;
+} Path;
+
+static inline void path_begin(Path* path, const Ray* ray)
+{
+    path->ray = *ray;
+    path->from = ray->origin;
+    path->has_crossed_curved = false;
+    path->throughput = (real3)(REAL(1.0));
+    path->watched = (real3)(REAL(0.0));
+    path->eta_squared = REAL(1.0);
+    path->pdf_w = REAL(0.0);
+    path->state = STATE_START;
+    layers_begin_path(&path->layers);
+    path->is_alive = true;
+}
+
+/* The kinds of light whose emission the path may add. */
+static inline uint path_accepted(const Path* path)
+{
+    return HAS(EFFECT_PATH_FILTER) ? AUTOMATON_STATES[path->state] & STATE_KINDS_MASK : KINDS_ALL;
+}
+
+/* Adds light of one kind that the path has met to the layers. */
+static inline void path_add_layers(const Path* path, uint kind, real3 radiance, LayerSums* layers)
+{
+#if PATH_LAYERS > 0
+    layers_add(path->state, kind, path->throughput * path->layers.share * radiance, layers);
+#endif
+}
+
+/* Samples the next direction. `continues`: whether a ray by any lobe can find light (filter_continues). */
+static inline BsdfSample path_sample(const Scene* scene, const Surface* surface, const Bsdf* bsdf,
+                                     bool continues, Path* path)
+{
+    const BsdfSample next = bsdf_sample(bsdf, path->numbers.lobe, path->numbers.direction);
+    TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
+    TRACE_VECTOR(scene, TRACE_WI, next.wi);
+    TRACE_VECTOR(scene, TRACE_WEIGHT, next.weight);
+    TRACE_NUMBER(scene, TRACE_PDF, next.pdf_w);
+    TRACE_NUMBER(scene, TRACE_ETA, next.eta);
+    TRACE_CHOICE(scene, TRACE_CONTINUES, next.is_valid && continues ? 1u : 0u);
+    nan_watch(scene, surface->normal_g + bsdf->wo + next.wi, &path->watched);
+    return next;
+}
+
+/* Moves the automaton along a sampled direction; false if a ray would find nothing there. */
+static inline bool path_follow(const Scene* scene, const Sampler* sampler, uint segment, const Bsdf* bsdf,
+                               const AutomatonStep* step, const BsdfSample* next, Path* path)
+{
+    if (!filter_is_ambiguous(step, bsdf) || next->pdf_w == REAL(0.0)) {
+        path->state = step->next[filter_letter(bsdf, next)];
+        if (!automaton_continues(path->state))
+            return false;
+    } else {
+        real3 share;
+        const real u = sampler_number(sampler, segment, SAMPLE_CLASS);
+        const uint letter = filter_choose_letter(step, bsdf, next->wi, u, &share);
+        if (automaton_splits(path->state))
+            path->throughput *= share;
+#if PATH_LAYERS > 0
+        else
+            path->layers.share *= share;
+#endif
+        path->state = step->next[letter];
+    }
+    TRACE_CHOICE(scene, TRACE_STATE, path->state);
+    return true;
+}
+
+/* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios
+   crossed so far are taken out: light inside glass is not lost, only compressed. */
+static inline bool path_survives(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                 uint segment, Path* path)
+{
+    if (segment < params->roulette_depth)
+        return true;
+    const real survival =
+        clamp(vector_max_component(path->throughput) / path->eta_squared, PATH_SMALLEST_SURVIVAL, REAL(1.0));
+    const bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);
+    TRACE_NUMBER(scene, TRACE_SURVIVAL, survival);
+    TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
+    if (!survives)
+        return false;
+    path->throughput /= survival;
+    return true;
+}
+
+/* Leaves a vertex in a sampled direction, unless nothing can be found there or Russian roulette ends the
+   path. */
+static inline void path_leave(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                              uint segment, const Surface* surface, const Bsdf* bsdf,
+                              const AutomatonStep* step, const BsdfSample* next, Path* path)
+{
+    path->throughput *= next->weight;
+    if (HAS(EFFECT_PATH_FILTER) && !path_follow(scene, sampler, segment, bsdf, step, next, path))
+        return;
+    TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->throughput);
+    path->pdf_w = next->pdf_w;
+    path->eta_squared *= next->eta * next->eta;
+    path->is_alive = path_survives(scene, params, sampler, segment, path);
+    path->ray = surface_ray(surface, next->reflects, next->wi);
+    path->from = surface_lifted(surface);
+    path->has_crossed_curved = surface->is_curved && !next->reflects;
+}
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Densities of the reverse direction, which methods that build paths from both ends weigh with: that of
+// sampling wo where light is looked at from wi. What a BSDF says of directions depends on whence it is seen
+// (the lobes' probabilities, the index ratio, the side), so it is set once more for wi; that serves every
+// lobe, and any mixture.
+#ifndef CLRT_SCATTERING_BSDF_REVERSE_H
+#define CLRT_SCATTERING_BSDF_REVERSE_H
+
+#include "bsdf.h"
+
+/* The same point of the surface as seen from a local direction. The lobes must be those of the material: a
+   path filter's BSDF (path/filter.h) no longer knows what lay above the matte lobe. */
+static CLRT_NOINLINE Bsdf bsdf_reversed(const Bsdf* bsdf, real3 wi)
+{
+    Bsdf reversed = *bsdf;
+    reversed.wo = wi;
+    if (wi.z < REAL(0.0)) {
+        /* Half a turn about x takes the normal to wi's side. A surface that bulges there is hollow here. */
+        reversed.frame.y = -bsdf->frame.y;
+        reversed.frame.z = -bsdf->frame.z;
+        reversed.wo = vector_make(wi.x, -wi.y, -wi.z);
+        reversed.normal_g = -bsdf->normal_g;
+        reversed.normal_s = -bsdf->normal_s;
+        reversed.is_curved = false;
+        reversed.eta = REAL(1.0) / bsdf->eta;
+    }
+    bsdf_energy_set(&reversed);
+    bsdf_choose_lobes(&reversed);
+    return reversed;
+}
+
+/* Density per steradian of sampling wo from a world direction wi; 0 for delta lobes. */
+static inline real bsdf_pdf_w_reverse(const Bsdf* bsdf, real3 wi_world)
+{
+    const Bsdf reversed = bsdf_reversed(bsdf, frame_to_local(&bsdf->frame, wi_world));
+    return bsdf_eval(&reversed, frame_to_world(&bsdf->frame, bsdf->wo)).pdf_w;
+}
+
+#endif

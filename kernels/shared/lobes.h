@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lobes of surfaces, one row each: all that host and kernels know of a lobe by its name. A BSDF is the sum of its lobes.
+#ifndef CLRT_SHARED_LOBES_H
+#define CLRT_SHARED_LOBES_H
+
+#include "effects.h"
+#include "path_types.h"
+
+/* Bits of the lobes of a material; bit i is row i of the table. */
+#define LOBE_MATTE 1u      /* Lambert, reflectance `matte` */
+#define LOBE_GLOSSY 2u     /* GGX reflection, colour `specular`, alpha_x, alpha_y > 0 */
+#define LOBE_MIRROR 4u     /* delta reflection, colour `specular` */
+#define LOBE_DIELECTRIC 8u /* reflection and refraction with exact Fresnel, smooth when alpha_x = 0; alone */
+
+/* Lobes of microfacets, which reflect light more than once (scattering/bsdf_energy.h). */
+#define LOBES_ROUGH (LOBE_GLOSSY | LOBE_DIELECTRIC)
+
+/* The table, in the order in which lobes are chosen and summed; ROW(NAME, name, EFFECT, letters, delta_letters, absent):
+   - LOBE_NAME is the bit, LOBE_ROW_NAME its number;
+   - name: in reports, and of its functions, bsdf_<name>_* in scattering/bsdf_<name>.h;
+   - EFFECT_* that compiles it in;
+   - letters of the path notation (bits LETTER_BIT) that it writes where it has a density: 0: nowhere;
+   - and where it is a delta function, reflected or refracted;
+   - absent: what --explain says where no material has it. */
+#define LOBE_TABLE(ROW)                                                                                       \
+    ROW(MATTE, matte, EFFECT_MATTE, LETTER_BIT(LETTER_MATTE), 0u, "no material has Kd above 0")               \
+    ROW(GLOSSY, glossy, EFFECT_GLOSSY, LETTER_BIT(LETTER_GLOSSY), 0u, "no material reflects roughly")         \
+    ROW(MIRROR, mirror, EFFECT_MIRROR, 0u, LETTER_BIT(LETTER_MIRROR), "no material is a mirror")              \
+    ROW(DIELECTRIC, dielectric, EFFECT_REFRACTION, LETTER_BIT(LETTER_GLOSSY),                                 \
+        LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION), "no material is a dielectric")
+
+#define LOBE_NUMBER(NAME, name, effect, letters, delta_letters, absent) LOBE_ROW_##NAME,
+enum { LOBE_TABLE(LOBE_NUMBER) LOBE_COUNT };
+#undef LOBE_NUMBER
+
+#endif

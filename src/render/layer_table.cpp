@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/layer_table.h"
+
+#include "render/render.h"
+#include "render/render_params.h"
+#include "scene/normalise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace clrt {
+
+namespace {
+
+void append_value(std::vector<float>& values, double x) {
+    values.push_back(float(x));
+}
+
+void append_value(std::vector<float>& values, const glm::dvec3& v) {
+    for (int c = 0; c < 3; ++c)
+        values.push_back(float(v[c]));
+}
+
+/// A value or a vector of each pixel's primary hits.
+template <class Function>
+std::vector<float> from_hits(const LayerSources& from, Function&& value_of) {
+    using Value = decltype(value_of(PixelHits()));
+    std::vector<float> values;
+    if (from.render.hits.empty())
+        return values;
+    const Film& film = from.render.film;
+    const size_t pixels = film_plane(film) / 3;
+    values.reserve(pixels * (sizeof(Value) / sizeof(double)));
+    for (size_t pixel = 0; pixel < pixels; ++pixel)
+        append_value(values, value_of(pixel_hits(from.render.hits, film, pixel)));
+    return values;
+}
+
+/// The mean position in world units.
+glm::dvec3 world_position(const PixelHits& hits, const Normalisation& frame) {
+    return hits.mean(AOV_POSITION) / frame.scale + frame.centre;
+}
+
+/// Reflectance; 0 where nothing was hit.
+std::vector<float> make_albedo(const LayerSources& from) {
+    return from_hits(from, [](const PixelHits& hits) { return hits.mean(AOV_ALBEDO); });
+}
+
+/// Mean shading normal, unit length.
+std::vector<float> make_normal(const LayerSources& from) {
+    return from_hits(from, [](const PixelHits& hits) {
+        const glm::dvec3 normal = hits.mean(AOV_NORMAL);
+        const double length = glm::length(normal);
+        return length > 0 ? normal / length : normal;
+    });
+}
+
+/// Mean distance along the look vector, world units; infinite where nothing was hit.
+std::vector<float> make_depth(const LayerSources& from) {
+    const Camera& camera = from.scene.camera;
+    const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
+    return from_hits(from, [&](const PixelHits& hits) {
+        return hits.share > 0 ? glm::dot(world_position(hits, from.scene.normalisation) - camera.eye, look)
+                              : INFINITY;
+    });
+}
+
+/// Mean position in world units, from position_origin().
+std::vector<float> make_position(const LayerSources& from) {
+    const Normalisation& frame = from.scene.normalisation;
+    return from_hits(from, [&](const PixelHits& hits) {
+        return hits.share > 0 ? world_position(hits, frame) - position_origin(frame) : glm::dvec3(0);
+    });
+}
+
+/// The index that a word of the first hit says plus 1; 0 where nothing was hit.
+template <u32 word>
+std::vector<float> make_id(const LayerSources& from) {
+    return from_hits(from, [](const PixelHits& hits) { return hits.share > 0 ? hits.first[word] + 1.0 : 0; });
+}
+
+std::vector<float> make_alpha(const LayerSources& from) {
+    return from_hits(from, [](const PixelHits& hits) { return hits.share; });
+}
+
+std::vector<float> make_variance(const LayerSources& from) {
+    return film_variance(from.render.film);
+}
+
+std::vector<float> make_samples(const LayerSources& from) {
+    return film_pixel_samples(from.render.film);
+}
+
+/// How many bad samples each pixel has.
+std::vector<float> make_bad_samples(const LayerSources& from) {
+    const Film& film = from.render.film;
+    const Crop window = render_window(from.options.film);
+    const int full_width = from.options.film.size.x;
+    std::vector<float> values(size_t(film.width) * size_t(film.height));
+    for (const auto& [pixel, count] : from.render.counts.bad_pixels) {
+        const int x = int(pixel) % full_width - window.x0, y = int(pixel) / full_width - window.y0;
+        if (x >= 0 && y >= 0 && x < film.width && y < film.height)
+            values[size_t(y) * size_t(film.width) + size_t(x)] = float(count);
+    }
+    return values;
+}
+
+} // namespace
+
+const std::vector<LayerRow>& layer_table() {
+    using Default = LayerDefault;
+    static const std::vector<LayerRow> rows = {
+        {"albedo", {"R", "G", "B"}, Default::SHOWN, true, false, make_albedo},
+        {"N", {"X", "Y", "Z"}, Default::SHOWN, true, false, make_normal},
+        {"Z", {"Z"}, Default::SHOWN, true, false, make_depth},
+        {"P", {"X", "Y", "Z"}, Default::SHOWN, true, false, make_position},
+        {"objectId", {"objectId"}, Default::SHOWN, true, true, make_id<AOV_OBJECT>},
+        {"materialId", {"materialId"}, Default::SHOWN, true, true, make_id<AOV_MATERIAL>},
+        {"variance", {"R", "G", "B"}, Default::SHOWN, false, false, make_variance},
+        {"samples", {"samples"}, Default::SHOWN, false, false, make_samples},
+        {"badSamples", {"badSamples"}, Default::SHOWN_WHERE_BAD, false, true, make_bad_samples},
+        {ALPHA_LAYER, {"A"}, Default::HIDDEN, true, false, make_alpha},
+    };
+    return rows;
+}
+
+const LayerRow* find_layer(const std::string& name) {
+    const std::vector<LayerRow>& rows = layer_table();
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const LayerRow& row) { return row.name == name; });
+    return found == rows.end() ? nullptr : &*found;
+}
+
+Layer make_layer(const LayerRow& row, std::vector<float> values) {
+    return {row.channels.size() > 1 ? row.name : "", row.channels, std::move(values), row.is_id};
+}
+
+std::string layer_names(const char* separator) {
+    std::vector<std::string> names;
+    for (const LayerRow& row : layer_table())
+        names.push_back(row.name);
+    return fmt::format("{}", fmt::join(names, separator));
+}
+
+} // namespace clrt
