@@ -7,13 +7,13 @@
 #include "console/signals.h"
 #include "device/device.h"
 #include "device/device_facts.h"
-#include "effects/effects.h"
 #include "effects/explain.h"
-#include "effects/take_out.h"
+#include "effects/planned_scene.h"
 #include "exit_code.h"
 #include "output/file_name.h"
 #include "output/image.h"
 #include "render/ledger.h"
+#include "render/prepared_scene.h"
 #include "replay/replay_pixel.h"
 #include "run/render_command.h"
 #include "run/run_files.h"
@@ -22,24 +22,18 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace clrt {
 
 namespace {
 
-/// Prints what would be rendered and why.
+/// Prints what would be rendered and why: materials as they are, paths as they would be rendered.
 int run_explain(const Options& options) {
     Progress progress(options.run.progress, options.run.verbosity < 0);
     const Scene scene = load_scene(options, progress);
     progress.finish();
-    Effects effects = find_effects(scene, options);
-    if (effects.left_out) { // materials and effects as they are, paths as they would be rendered
-        Scene reduced = scene;
-        Options reduced_options = options;
-        take_out_effects(effects.left_out, reduced, reduced_options);
-        effects.paths = plan_paths(reduced, reduced_options);
-    }
-    fmt::print("{}", explain(scene, effects, options));
+    fmt::print("{}", explain(scene, plan_scene(scene, options)->effects, options));
     return EXIT_DONE;
 }
 
@@ -68,7 +62,8 @@ int run_replay(const Options& options) {
     Scene scene = load_for_run(options, progress);
     if (options.run.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
-    const PixelReplay replay = replay_pixel(device, std::move(scene), options);
+    const PreparedScene prepared = prepare_scene(device, plan_scene(std::move(scene), options));
+    const PixelReplay replay = replay_pixel(prepared);
     print_report(options, replay.text);
     write_statistics(options, replay.json);
     return EXIT_DONE;

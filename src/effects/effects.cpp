@@ -238,12 +238,6 @@ Effects find_effects(const Scene& scene, const Options& options) {
     const u32 chosen = chosen_effects(options, effects.needed);
     effects.mask = chosen & EFFECT_ALL;
     effects.left_out = effects.needed & ~chosen;
-    if (effects.left_out & EFFECT_PATH_FILTER) {
-        Options every = options;
-        every.transport.paths.clear();
-        every.output.path_layers.clear();
-        effects.paths = plan_paths(scene, every);
-    }
     return effects;
 }
 

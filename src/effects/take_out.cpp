@@ -156,4 +156,8 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
         options.transport.max_depth = std::min(effective_max_depth(options.transport), 2);
 }
 
+bool turns_triangles(u32 effects) {
+    return (effects & EFFECT_SMOOTH_NORMALS) != 0; // take_out_smooth_normals
+}
+
 } // namespace clrt

@@ -12,4 +12,8 @@ namespace clrt {
 /// `effects` and for those that imply one of them.
 void take_out_effects(u32 effects, Scene& scene, Options& options);
 
+/// Whether taking these effects out may turn triangles round, so that a tree over the scene as it was is none
+/// over what is left.
+bool turns_triangles(u32 effects);
+
 } // namespace clrt

@@ -77,7 +77,6 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
         return build_program(device, request);
     };
     RenderPrograms programs;
-    programs.paths = paths;
     std::vector<std::string> of_picture = path_defines(paths);
     append(of_picture, film_defines(device.info, integrator_row(options.transport.integrator).film));
     programs.picture = build(name_of(options.transport.integrator), of_picture);

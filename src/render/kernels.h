@@ -15,7 +15,6 @@ namespace clrt {
 struct RenderPrograms {
     Program picture;
     std::optional<Program> layers; ///< auxiliary layers, when a file wants them
-    PathPlan paths;                ///< what the picture's program was built for
     double seconds = 0;            ///< wall time of building both
 };
 

@@ -43,18 +43,23 @@ double mean_luminance(const Film& film) {
 struct Variant {
     std::string effect; ///< that is left out; empty: none
     Options options;
-    u32 mask = 0, left_out = 0;
-    RenderPrograms programs;
+    u32 mask = 0;
+    PreparedParts parts; ///< made once
     double compile_seconds = 0;
     std::vector<double> seconds, light; ///< a round; seconds of one sample a pixel
 };
 
-/// Renders variants.
+/// Renders variants, all of them with the tree of the picture as asked for.
 class Bench {
 public:
-    Bench(const Device& device, const Scene& scene, BvhLayout layout)
-        : device_(device), scene_(scene), layout_(layout),
-          bvh_(build_bvh(scene.positions, scene.triangles, layout)) {}
+    Bench(const Device& device, const Scene& scene, const Options& options) : device_(device), scene_(scene) {
+        const auto picture = plan_scene(scene, options);
+        options_ = picture->options;
+        is_turned_ = turns_triangles(picture->effects.left_out);
+        tree_ = plan_tree(device.info, *picture);
+    }
+
+    const SceneTree& tree() const { return *tree_; }
 
     bool is_processor_time() const { return device_.info.type == "CPU"; }
 
@@ -63,49 +68,51 @@ public:
         return is_processor_time() ? double(std::max(device_.info.compute_units, 1u)) : 1;
     }
 
-    /// Compiles a variant's programs and lets the driver finish them. Compilers work on one thread. Returns
-    /// what it took by the wall clock.
+    /// Makes a variant's tree and programs and lets the driver finish them. Compilers work on one thread, and
+    /// alone: their seconds are counted. Returns what it took by the wall clock.
     VariantSeconds compile(Variant& variant) const {
         const auto begun = Clock::now();
-        const Effects effects = find_effects(scene_, variant.options);
-        variant.mask = effects.mask;
-        variant.left_out = effects.left_out;
-        const double start = processor_seconds();
-        variant.programs =
-            build_render_programs(device_, variant.options, variant.mask, layout_, effects.paths);
-        const double built = processor_seconds() - start;
         variant.options.sampling.spp = 1;
+        const auto planned = plan_scene(scene_, variant.options);
+        variant.mask = planned->effects.mask;
+        variant.parts.tree = tree_of(*planned);
+        const double start = processor_seconds();
+        variant.parts.programs = plan_programs(device_, *planned);
+        const double built = processor_seconds() - start;
         const auto rendered = Clock::now();
-        const Render render = run(variant, nullptr);
+        const Render render = run(planned, variant.parts, nullptr);
         const double launched = render.first_launch_seconds;
-        variant.compile_seconds = (is_processor_time() ? built : variant.programs.seconds) + launched;
+        variant.compile_seconds = (is_processor_time() ? built : variant.parts.programs->seconds) + launched;
         const double run_seconds = seconds_since(rendered) - launched - render.run_seconds;
         return {seconds_since(begun) - run_seconds - render.run_seconds, run_seconds, render.run_seconds};
     }
 
     /// Renders a variant; adds the seconds of one sample a pixel and the light to it.
     void measure(Variant& variant, int round, std::uint32_t samples) const {
-        variant.options.sampling.seed += u32(round);
-        variant.options.sampling.spp = samples;
+        Options options = variant.options;
+        options.sampling.seed += u32(round);
+        options.sampling.spp = samples;
         double seconds = 0;
-        const Render render = run(variant, &seconds);
-        variant.options.sampling.seed -= u32(round);
+        const Render render = run(plan_scene(scene_, std::move(options)), variant.parts, &seconds);
         variant.seconds.push_back(seconds / double(samples));
         variant.light.push_back(mean_luminance(render.film));
     }
 
 private:
-    /// The scene is reduced and uploaded for every run, so that only one of them is in memory at a time.
-    Render run(const Variant& variant, double* seconds) const {
-        Scene scene = scene_;
-        Options options = variant.options;
-        take_out_effects(variant.left_out, scene, options);
-        const bool same_triangles = !(variant.left_out & EFFECT_SMOOTH_NORMALS);
-        const SceneBuffers buffers = upload_scene(
-            device_, scene, same_triangles ? bvh_ : build_bvh(scene.positions, scene.triangles, layout_));
+    /// The tree of the picture, or another by the same rule where triangles are turned round.
+    std::shared_ptr<const SceneTree> tree_of(const PlannedScene& planned) const {
+        if (turns_triangles(planned.effects.left_out) == is_turned_)
+            return tree_;
+        return std::make_shared<SceneTree>(build_scene_tree(planned.scene, options_, tree_->bvh.layout));
+    }
+
+    /// The scene is planned and uploaded for every run, so that only one of them is in memory at a time.
+    Render run(const std::shared_ptr<const PlannedScene>& planned, const PreparedParts& parts,
+               double* seconds) const {
+        const PreparedScene prepared = prepare_render(device_, planned, parts);
         Progress silent(Toggle::OFF, true);
         const double start = processor_seconds();
-        Render result = render(device_, variant.programs, buffers, scene, options, silent);
+        Render result = render(prepared, silent);
         if (seconds)
             *seconds = is_processor_time() ? processor_seconds() - start : result.seconds;
         if (stop_signal())
@@ -115,8 +122,9 @@ private:
 
     const Device& device_;
     const Scene& scene_;
-    const BvhLayout layout_;
-    const Bvh bvh_;
+    Options options_;        ///< of the picture as asked for, --time and --spp included
+    bool is_turned_ = false; ///< its triangles
+    std::shared_ptr<const SceneTree> tree_;
 };
 
 /// The picture as asked for, the full program, and the picture without each effect that it shows.
@@ -245,7 +253,7 @@ std::uint32_t take_turns(const Bench& bench, Clock::time_point start, std::vecto
 
 Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress) {
     const auto start = Clock::now();
-    const Bench bench(device, scene, choose_layout(options.bvh.layout, device.info));
+    const Bench bench(device, scene, options);
     std::vector<Variant> variants = make_variants(scene, options);
     LedgerPlan plan(options.sampling.time_seconds, options.sampling.spp);
     Ledger ledger;
@@ -259,6 +267,8 @@ Ledger make_ledger(const Device& device, const Scene& scene, const Options& opti
     ledger.width = options.film.crop ? options.film.crop->x1 - options.film.crop->x0 : options.film.size.x;
     ledger.height = options.film.crop ? options.film.crop->y1 - options.film.crop->y0 : options.film.size.y;
     ledger.is_processor_time = bench.is_processor_time();
+    ledger.bvh_quality = bench.tree().bvh.quality;
+    ledger.bvh_reason = bench.tree().reason;
     ledger.specialised = {picture.compile_seconds, ledger_value(picture.seconds)};
     ledger.full = {full.compile_seconds, ledger_value(full.seconds)};
     ledger.full_extra_share =

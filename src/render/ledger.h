@@ -3,6 +3,7 @@
 // pays.
 #pragma once
 
+#include "bvh/bvh.h"
 #include "console/progress.h"
 #include "device/device.h"
 #include "effects/effects.h"
@@ -45,6 +46,8 @@ struct LedgerRow {
 
 struct Ledger {
     int width = 0, height = 0;
+    BvhQuality bvh_quality = BvhQuality::FAST; ///< of the tree: what the picture itself would get
+    std::string bvh_reason;
     std::uint32_t samples = 0;       ///< a pixel and round, in the round with the fewest
     bool is_processor_time = false;  ///< seconds are those of all threads together, else of the wall clock
     LedgerProgram specialised, full; ///< --effects auto (or as given), and all
@@ -60,8 +63,9 @@ struct Ledger {
 
 /// Renders the scene in rounds: each round once with all that it calls for, once by the full program, and
 /// once without each effect, in turning order and with the same random numbers, at least one sample a pixel
-/// and round. --time bounds all of it, compiling included: what does not fit is not measured. Without it all
-/// effects are compiled and the rounds take a minute. Says beforehand what it will take.
+/// and round; with the tree that rendering by the same options would build. --time bounds all of it,
+/// compiling included: what does not fit is not measured. Without it all effects are compiled and the rounds
+/// take a minute. Says beforehand what it will take.
 Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress);
 
 /// The table.

@@ -81,6 +81,7 @@ std::string ledger_json(const Ledger& ledger, const Options& options, const Devi
     root["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
     root["width"] = ledger.width;
     root["height"] = ledger.height;
+    root["bvh"] = {{"quality", name_of(ledger.bvh_quality)}, {"reason", ledger.bvh_reason}};
     root["seconds"] = ledger.seconds;
     root["compile_seconds"] = ledger.compile_seconds;
     root["not_measured"] = ledger.not_measured;

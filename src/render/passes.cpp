@@ -29,22 +29,22 @@ constexpr double LARGEST_SLOWDOWN = 4;
 
 } // namespace
 
-Passes::Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
-               const Options& options, const RenderParams& params, Progress& progress,
+Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progress& progress,
                const RenderHooks& hooks, Render& result)
-    : device_(device), programs_(programs), scene_buffers_(buffers), options_(options), params_(params),
-      progress_(progress), hooks_(hooks), result_(result),
-      film_buffers_(device, params, programs.paths.layers.size()),
-      launcher_(device, programs.picture, integrator_kernel(options.transport.integrator), params, buffers),
-      rules_(options.sampling, film_limit(result.film, options)),
-      picture_reminder_(options.output.save_every_seconds),
-      film_reminder_(options.film_file.checkpoint_path.empty()
+    : prepared_(prepared), options_(prepared.planned->options), params_(params), progress_(progress),
+      hooks_(hooks), result_(result),
+      film_buffers_(prepared.device, params, prepared.planned->effects.paths.layers.size()),
+      launcher_(prepared.device, prepared.programs->picture, integrator_kernel(options_.transport.integrator),
+                params, prepared.buffers),
+      rules_(options_.sampling, film_limit(result.film, options_)),
+      picture_reminder_(options_.output.save_every_seconds),
+      film_reminder_(options_.film_file.checkpoint_path.empty()
                          ? std::nullopt
-                         : std::optional(options.film_file.checkpoint_seconds)),
-      launch_size_(device.info.compute_units) {
+                         : std::optional(options_.film_file.checkpoint_seconds)),
+      launch_size_(prepared.device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
     take_host_memory();
-    first_ = options.sampling.first_sample;
+    first_ = options_.sampling.first_sample;
     if (!result.film.ranges.empty()) {
         film_buffers_.write_sums(result);
         first_ = result.film.ranges.back().end;
@@ -65,18 +65,18 @@ Passes::Passes(const Device& device, const RenderPrograms& programs, const Scene
 void Passes::take_host_memory() {
     Film& film = result_.film;
     film.sums.resize(size_t(film.replicates) * film_plane(film));
-    result_.path_layers.resize(programs_.paths.layers.size());
+    result_.path_layers.resize(prepared_.planned->effects.paths.layers.size());
     for (Film& layer : result_.path_layers)
         layer.sums.resize(film_plane(film));
 }
 
 /// Takes the memory of the layers of hits. Without them the picture is rendered all the same.
 void Passes::begin_hits() {
-    if (!programs_.layers)
+    if (!prepared_.programs->layers)
         return;
     try {
-        hit_layers_.emplace(device_, *programs_.layers, params_, options_.sampling.adaptive, scene_buffers_,
-                            film_buffers_, result_.hits);
+        hit_layers_.emplace(prepared_.device, *prepared_.programs->layers, params_,
+                            options_.sampling.adaptive, prepared_.buffers, film_buffers_, result_.hits);
     } catch (const DeviceError& error) {
         give_up_hits(error);
     }

@@ -20,9 +20,8 @@ class Passes {
 public:
     /// Takes all memory that the render will need, and lets the driver finish its compilation. Goes on from
     /// the film in `result`. Throws DeviceError.
-    Passes(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
-           const Options& options, const RenderParams& params, Progress& progress, const RenderHooks& hooks,
-           Render& result);
+    Passes(const PreparedScene& prepared, const RenderParams& params, Progress& progress,
+           const RenderHooks& hooks, Render& result);
 
     /// Runs passes until a rule ends them, then reads everything back. A pass that --time or a signal
     /// interrupts is dropped: the result is that of the passes before it, to the last bit.
@@ -55,9 +54,7 @@ private:
     double seconds() const;
     double samples_of_run(double samples) const;
 
-    const Device& device_;
-    const RenderPrograms& programs_;
-    const SceneBuffers& scene_buffers_;
+    const PreparedScene& prepared_;
     const Options& options_;
     const RenderParams params_;
     Progress& progress_;

@@ -12,18 +12,18 @@
 
 namespace clrt {
 
-Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
-              const Scene& scene, const Options& options, Progress& progress, const RenderHooks& hooks) {
+Render render(const PreparedScene& prepared, Progress& progress, const RenderHooks& hooks) {
+    const PlannedScene& planned = *prepared.planned;
+    const Options& options = planned.options;
     Render result;
     if (hooks.resume)
         static_cast<RenderProgress&>(result) = *hooks.resume;
     Film& film = result.film;
-    film.scale = film_scale(scene);
-    RenderParams params = make_render_params(scene, options, film.scale);
-    restrict_lights(programs.paths, params);
+    film.scale = film_scale(planned.scene);
+    RenderParams params = launch_params(planned);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
-    const int fitting = fitting_replicates(device, params, programs.paths.layers.size());
+    const int fitting = fitting_replicates(prepared.device, params, planned.effects.paths.layers.size());
     if (!hooks.resume) {
         film.replicates = fitting;
         film.shown.assign(film_plane(film) / 3, 0);
@@ -38,16 +38,17 @@ Render render(const Device& device, const RenderPrograms& programs, const SceneB
                         options.sampling.replicates, film.replicates));
 
     progress.update({"compile", -1, 0, -1, -1});
-    Passes passes(device, programs, buffers, options, params, progress, hooks, result);
+    Passes passes(prepared, params, progress, hooks, result);
     passes.run();
     return result;
 }
 
-Render render_nothing(const Scene& scene, const Options& options) {
+Render render_nothing(const PlannedScene& planned) {
+    const Options& options = planned.options;
     const Crop window = render_window(options.film);
     Render result;
     Film& film = result.film;
-    film.scale = film_scale(scene);
+    film.scale = film_scale(planned.scene);
     film.width = window.x1 - window.x0;
     film.height = window.y1 - window.y0;
     film.sums.resize(film_plane(film));

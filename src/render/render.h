@@ -5,8 +5,7 @@
 #include "console/progress.h"
 #include "film/hit_sums.h"
 #include "film/render_progress.h"
-#include "render/kernels.h"
-#include "render/scene_buffers.h"
+#include "render/prepared_scene.h"
 #include "render/stop_rules.h"
 
 #include <cstdint>
@@ -40,11 +39,11 @@ struct RenderHooks {
 };
 
 /// Renders until samples, time, error or a signal end it (stop_rules.h); always ends at a whole pass (one
-/// sample a pixel). Throws DeviceError, and UsageError for more samples than the film can hold.
-Render render(const Device& device, const RenderPrograms& programs, const SceneBuffers& buffers,
-              const Scene& scene, const Options& options, Progress& progress, const RenderHooks& hooks = {});
+/// sample a pixel). The scene is prepared with programs. Throws DeviceError, and UsageError for more samples
+/// than the film can hold.
+Render render(const PreparedScene& prepared, Progress& progress, const RenderHooks& hooks = {});
 
 /// A render without a launch: the black picture of a scene in which no path is accepted.
-Render render_nothing(const Scene& scene, const Options& options);
+Render render_nothing(const PlannedScene& planned);
 
 } // namespace clrt

@@ -127,14 +127,12 @@ std::vector<CauseCount> count_causes(const std::vector<SampleTrace>& traces, con
     return causes;
 }
 
-std::vector<CauseCount> find_causes(const Device& device, const Scene& scene, const Options& options,
-                                    const Effects& effects, BvhLayout layout, const SceneBuffers& buffers,
-                                    const RenderCounts& counts) {
-    Replay replay(device, scene, options, options.device.precision, effects, layout, buffers);
+std::vector<CauseCount> find_causes(const PreparedScene& prepared, const RenderCounts& counts) {
+    Replay replay(prepared, prepared.planned->options.device.precision);
     std::vector<SampleAddress> addresses;
     for (const auto& [pixel, sample] : counts.bad_samples)
         addresses.push_back({pixel, sample});
-    return count_causes(replay.run(addresses), scene, replay.largest());
+    return count_causes(replay.run(addresses), prepared.planned->scene, replay.largest());
 }
 
 std::uint64_t replayed_samples(const std::vector<CauseCount>& causes) {

@@ -37,9 +37,7 @@ std::vector<CauseCount> count_causes(const std::vector<SampleTrace>& traces, con
                                      double largest);
 
 /// Replays the bad samples of a render. Throws what Replay throws.
-std::vector<CauseCount> find_causes(const Device& device, const Scene& scene, const Options& options,
-                                    const Effects& effects, BvhLayout layout, const SceneBuffers& buffers,
-                                    const RenderCounts& counts);
+std::vector<CauseCount> find_causes(const PreparedScene& prepared, const RenderCounts& counts);
 
 /// "NaN", "infinite", "negative", "overflow".
 const char* fault_name(u32 kind);

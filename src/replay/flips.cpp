@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/flips.h"
 
-#include "bvh/bvh.h"
 #include "render/render_params.h"
 
 #include <algorithm>
@@ -50,16 +49,11 @@ std::map<std::pair<std::string, u32>, std::uint64_t> FlipStatistics::counts() co
     return result;
 }
 
-FlipStatistics find_flips(const Device& device, const Scene& scene, const Options& options) {
-    const Effects effects = find_effects(scene, options);
-    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
-    const SceneBuffers buffers =
-        upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout));
-    Replay single(device, scene, options, Precision::SINGLE, effects, layout, buffers);
-    Replay in_double(device, scene, options, Precision::DOUBLE, effects, layout, buffers);
+FlipStatistics find_flips(const PreparedScene& prepared) {
+    Replay single(prepared, Precision::SINGLE), in_double(prepared, Precision::DOUBLE);
 
     // Compare hashes, then replay what differs.
-    const std::vector<SampleAddress> addresses = all_samples(options);
+    const std::vector<SampleAddress> addresses = all_samples(prepared.planned->options);
     const std::vector<SampleTrace> a = single.run(addresses, TraceEvents::NONE);
     const std::vector<SampleTrace> b = in_double.run(addresses, TraceEvents::NONE);
     std::vector<SampleAddress> differing;

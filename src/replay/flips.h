@@ -27,9 +27,9 @@ struct FlipStatistics {
 };
 
 /// Runs samples first_sample .. first_sample + spp - 1 of every pixel of the options' window in both
-/// precisions, compares a hash of the decisions, and replays those that differ. Throws DeviceError where the
-/// device has no fp64.
-FlipStatistics find_flips(const Device& device, const Scene& scene, const Options& options);
+/// precisions, compares a hash of the decisions, and replays those that differ. The scene may be prepared
+/// without programs. Throws DeviceError where the device has no fp64.
+FlipStatistics find_flips(const PreparedScene& prepared);
 
 /// A table: share of samples that flip, by decision and bounce.
 std::string format_flips(const FlipStatistics& flips);

@@ -2,8 +2,6 @@
 #include "replay/replay.h"
 
 #include "device/opencl_error.h"
-#include "film/film.h"
-#include "render/render_params.h"
 
 #include <algorithm>
 #include <cstring>
@@ -19,12 +17,6 @@ constexpr size_t LAUNCH_SAMPLES = size_t(1) << 16;
 
 size_t record_words(u32 capacity) {
     return TRACE_HEAD_WORDS + size_t(TRACE_EVENT_WORDS) * capacity;
-}
-
-RenderParams replay_params(const Scene& scene, const Options& options, const Effects& effects) {
-    RenderParams params = make_render_params(scene, options, film_scale(scene));
-    restrict_lights(effects.paths, params);
-    return params;
 }
 
 SampleTrace read_record(const std::uint64_t* words, u32 capacity, const SampleAddress& address,
@@ -71,12 +63,10 @@ u32 trace_bounce(const SampleTrace& trace, size_t index) {
     return 0;
 }
 
-Replay::Replay(const Device& device, const Scene& scene, const Options& options, Precision precision,
-               const Effects& effects, BvhLayout layout, const SceneBuffers& buffers)
-    : device_(device), precision_(precision), params_(replay_params(scene, options, effects)),
-      program_(build_replay_program(device, options, precision, effects.mask, layout, effects.paths)),
-      kernel_(program_, "replay_samples") {
-    bind_scene(buffers, kernel_);
+Replay::Replay(const PreparedScene& prepared, Precision precision)
+    : device_(prepared.device), precision_(precision), params_(launch_params(*prepared.planned)),
+      program_(build_replay_program(prepared, precision)), kernel_(program_, "replay_samples") {
+    bind_scene(prepared.buffers, kernel_);
     kernel_.set("params", params_);
 }
 

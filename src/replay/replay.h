@@ -3,10 +3,8 @@
 // code on the same random numbers, so the same bits.
 #pragma once
 
-#include "effects/effects.h"
 #include "kernels/shared/render_types.h"
-#include "render/kernels.h"
-#include "render/scene_buffers.h"
+#include "render/prepared_scene.h"
 #include "replay/quantities.h"
 
 #include <array>
@@ -48,12 +46,12 @@ u32 trace_bounce(const SampleTrace& trace, size_t index);
 /// Which events a replay brings back.
 enum class TraceEvents { NONE, ALL };
 
-/// Replays samples of one picture in one precision. Keeps references to its arguments.
+/// Replays samples of one picture in one precision.
 class Replay {
 public:
-    /// Compiles the kernel. Throws DeviceError and KernelBuildError.
-    Replay(const Device& device, const Scene& scene, const Options& options, Precision precision,
-           const Effects& effects, BvhLayout layout, const SceneBuffers& buffers);
+    /// Compiles the kernel; the scene may be prepared without programs. Keeps a reference to its device.
+    /// Throws DeviceError and KernelBuildError.
+    Replay(const PreparedScene& prepared, Precision precision);
 
     /// The records of samples, in their order.
     std::vector<SampleTrace> run(const std::vector<SampleAddress>& addresses,

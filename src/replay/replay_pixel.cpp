@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/replay_pixel.h"
 
-#include "bvh/bvh.h"
-#include "effects/take_out.h"
 #include "paths/path_report.h"
 #include "replay/replay_report.h"
 
@@ -10,28 +8,22 @@
 
 namespace clrt {
 
-PixelReplay replay_pixel(const Device& device, Scene scene, Options options) {
-    Effects effects = find_effects(scene, options);
-    take_out_effects(effects.left_out, scene, options);
-    if (effects.left_out)
-        effects.paths = plan_paths(scene, options);
-    if (effects.paths.is_empty)
-        spdlog::warn("{}", path_summary(effects.paths));
-
-    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
-    const SceneBuffers buffers =
-        upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout));
+PixelReplay replay_pixel(const PreparedScene& prepared) {
+    const Options& options = prepared.planned->options;
+    if (prepared.planned->effects.paths.is_empty)
+        spdlog::warn("{}", path_summary(prepared.planned->effects.paths));
     const SampleAddress address{
         u32(options.run.pixel->y) * u32(options.film.size.x) + u32(options.run.pixel->x), options.run.sample};
     double quantum = 1;
     const auto trace = [&](Precision precision) {
-        Replay replay(device, scene, options, precision, effects, layout, buffers);
+        Replay replay(prepared, precision);
         quantum = replay.quantum();
         return replay.run({address}).front();
     };
     const Precision first = options.device.precision == Precision::FAST ? Precision::FAST : Precision::SINGLE;
-    ReplayReport report{options, scene, device.info, 1, trace(first), std::nullopt};
-    if (device.info.fp64 || options.device.precision == Precision::DOUBLE)
+    const DeviceInfo& device = prepared.device.info;
+    ReplayReport report{options, prepared.planned->scene, device, 1, trace(first), std::nullopt};
+    if (device.fp64 || options.device.precision == Precision::DOUBLE)
         report.twin = trace(Precision::DOUBLE);
     report.quantum = quantum;
     return {format_replay(report, options.run.verbosity > 0), replay_json(report)};

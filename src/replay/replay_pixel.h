@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// --pixel x,y --sample n: everything from the scene to the text.
+// --pixel x,y --sample n: the record of one sample as text.
 #pragma once
 
-#include "device/device.h"
-#include "options/options.h"
-#include "scene/scene.h"
+#include "render/prepared_scene.h"
 
 #include <string>
 
@@ -16,8 +14,8 @@ struct PixelReplay {
 };
 
 /// Replays the sample that the options name, as they would render it, in single precision (in relaxed maths
-/// where these are asked for) and, where the device has fp64, in double. Throws DeviceError and
-/// KernelBuildError.
-PixelReplay replay_pixel(const Device& device, Scene scene, Options options);
+/// where these are asked for) and, where the device has fp64, in double. The scene may be prepared without
+/// programs. Throws DeviceError and KernelBuildError.
+PixelReplay replay_pixel(const PreparedScene& prepared);
 
 } // namespace clrt

@@ -2,8 +2,6 @@
 #include "run/render_command.h"
 
 #include "console/progress.h"
-#include "effects/effects.h"
-#include "effects/take_out.h"
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/render_params.h"
@@ -16,9 +14,10 @@
 #include "seconds.h"
 
 #include <chrono>
-#include <fmt/format.h>
+#include <memory>
 #include <optional>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace clrt {
 
@@ -50,32 +49,44 @@ int finish(const Report& report) {
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;
 }
 
-/// What a picture needs, loaded and proved.
+/// A scene to be rendered, once or turning.
 struct Job {
     std::chrono::steady_clock::time_point start;
     const Device& device;
-    Scene scene;
-    Effects effects;
+    std::shared_ptr<PlannedScene> planned;
     double load_seconds;
 };
 
-/// Renders, or renders again with the tree and the program that are there.
-void simulate_job(const Job& job, const Options& options, Progress& progress, const RenderHooks& hooks,
-                  std::optional<Simulation>& done) {
-    if (job.effects.paths.is_empty)
-        done = simulate_nothing(job.scene, job.effects, options);
-    else if (!done)
-        done = simulate(job.device, job.scene, job.effects, options, progress, hooks);
-    else
-        simulate_again(job.device, job.scene, job.effects, options, progress, hooks, *done);
+/// The report of a render, to which writing the pictures adds the exposure.
+Report make_report(const Job& job, const Simulation& done, const SceneTree& tree) {
+    const auto& [scene, options, effects] = *job.planned;
+    const Crop window = render_window(options.film);
+    const BiasSources bias = bias_sources(scene, effects.paths, done.render);
+    return {options,
+            scene,
+            effects,
+            job.device.info,
+            done.facts,
+            tree.bvh,
+            done.render,
+            make_error_report(done.render, bias, window.x0, window.y0),
+            tree.reason,
+            done.causes,
+            job.load_seconds,
+            done.prepared ? done.prepared->programs->seconds : 0,
+            seconds_since(job.start),
+            0,
+            explain_empty_picture(scene, options, done.render)};
 }
 
-/// One picture with its files and its report.
-int render_picture(const Job& job, const Options& options, Progress& progress,
-                   std::optional<Simulation>& done) {
-    const DeviceInfo& device = job.device.info;
-    const Saving saving(job.scene, job.effects.paths, options, device, progress);
-    simulate_job(job, options, progress, saving.hooks, done);
+/// One picture with its files and its report; prepares the scene for the first.
+int render_picture(const Job& job, Progress& progress, std::optional<Simulation>& done) {
+    const Options& options = job.planned->options;
+    const Saving saving(job.planned->scene, job.planned->effects.paths, options, job.device.info, progress);
+    if (!done)
+        done.emplace(simulate(job.device, job.planned, progress, saving.hooks));
+    else
+        simulate_again(progress, saving.hooks, *done);
     progress.finish();
     const Render& render = done->render;
     if (render.stop_signal && film_samples(render.film) == 0) {
@@ -86,23 +97,8 @@ int render_picture(const Job& job, const Options& options, Progress& progress,
     if (saving.needs_film(render))
         files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
 
-    const Crop window = render_window(options.film);
-    Report report{
-        options,
-        job.scene,
-        job.effects,
-        device,
-        done->facts,
-        done->bvh,
-        render,
-        make_error_report(render, bias_sources(job.scene, job.effects.paths, render), window.x0, window.y0),
-        done->bvh_reason,
-        done->causes,
-        job.load_seconds,
-        done->compile_seconds,
-        seconds_since(job.start),
-        0,
-        explain_empty_picture(job.scene, options, render)};
+    const SceneTree no_tree;
+    Report report = make_report(job, *done, done->prepared ? *done->prepared->tree : no_tree);
     write_outputs(report, files);
     files.finish();
     const bool is_frame = options.camera.frame > 0 && options.run.verbosity == 0;
@@ -113,46 +109,48 @@ int render_picture(const Job& job, const Options& options, Progress& progress,
     return finish(report);
 }
 
-/// The pictures of --frames. The scene is loaded once, tree and program are made once.
-int render_turn(Job& job, Options options, Progress& progress) {
-    const Camera camera = job.scene.camera;
+/// The pictures of --frames. The scene is loaded and prepared once.
+int render_turn(const Job& job, Progress& progress) {
+    const Camera camera = job.planned->scene.camera;
+    CameraOptions& options = job.planned->options.camera;
     std::optional<Simulation> done;
     int exit_code = EXIT_DONE;
-    for (options.camera.frame = 1; options.camera.frame <= *options.camera.frames; ++options.camera.frame) {
-        job.scene.camera = turned_camera(camera, options.camera.frame, *options.camera.frames);
-        exit_code = graver_exit(exit_code, render_picture(job, options, progress, done));
+    for (options.frame = 1; options.frame <= *options.frames; ++options.frame) {
+        job.planned->scene.camera = turned_camera(camera, options.frame, *options.frames);
+        exit_code = graver_exit(exit_code, render_picture(job, progress, done));
         if (done->render.stop_signal)
             break;
     }
     return exit_code;
 }
 
+/// Says what the user should know before it is rendered.
+void announce(const PlannedScene& planned) {
+    for (const std::string& notice : planned.scene.notices)
+        spdlog::info("{}", notice);
+    for (const std::string& line : describe_left_out(planned.effects))
+        spdlog::warn("{}", line);
+    for (const BlindSpot& spot : planned.effects.paths.blind_spots)
+        spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
+                     "with a diameter",
+                     name_of(planned.options.transport.integrator), spot.paths, spot.cause);
+}
+
 } // namespace
 
-int run_render(Options options) {
+int run_render(const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     check_checkpoint(options);
     const Device device = open_chosen_device(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
-    for (const std::string& notice : scene.notices)
-        spdlog::info("{}", notice);
-    Effects effects = find_effects(scene, options);
-    for (const std::string& line : describe_left_out(effects))
-        spdlog::warn("{}", line);
-    take_out_effects(effects.left_out, scene, options);
-    if (effects.left_out)
-        effects.paths = plan_paths(scene, options);
-    for (const BlindSpot& spot : effects.paths.blind_spots)
-        spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
-                     "with a diameter",
-                     name_of(options.transport.integrator), spot.paths, spot.cause);
-    Job job{start, device, std::move(scene), std::move(effects), load_seconds};
+    const Job job{start, device, plan_scene(std::move(scene), options), load_seconds};
+    announce(*job.planned);
     if (options.camera.frames)
-        return render_turn(job, options, progress);
+        return render_turn(job, progress);
     std::optional<Simulation> done;
-    return render_picture(job, options, progress, done);
+    return render_picture(job, progress, done);
 }
 
 } // namespace clrt

@@ -1,45 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a scene to radiance: the tree and the program, side by side, then the passes.
+// From a planned scene to radiance: prepared once, rendered for every picture.
 #pragma once
 
-#include "bvh/bvh.h"
 #include "console/progress.h"
 #include "device/device_facts.h"
-#include "effects/effects.h"
-#include "render/kernels.h"
+#include "render/prepared_scene.h"
 #include "render/render.h"
-#include "render/scene_buffers.h"
 #include "replay/causes.h"
 
+#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace clrt {
 
-/// What tree, program and passes give.
+/// What preparing and rendering give.
 struct Simulation {
+    std::optional<PreparedScene> prepared; ///< none where no path of the scene is asked for
     std::optional<DeviceFacts> facts;
-    Bvh bvh;
-    std::string bvh_reason; ///< why the tree has its quality
-    Render render;
-    double compile_seconds = 0;
-    std::vector<CauseCount> causes; ///< of bad samples
-    /// On the device, for further renders; empty where nothing was simulated.
-    std::optional<RenderPrograms> programs;
-    std::optional<SceneBuffers> buffers;
+    Render render;                  ///< the last
+    std::vector<CauseCount> causes; ///< of its bad samples
 };
 
-/// Renders. What cannot be told about the device or about bad samples is only said. Throws DeviceError.
-Simulation simulate(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
+/// Prepares a scene and renders it. What cannot be told about the device or about bad samples is only said.
+/// Where no path is asked for this is the black picture, and nothing is prepared. Throws DeviceError.
+Simulation simulate(const Device& device, const std::shared_ptr<const PlannedScene>& planned,
                     Progress& progress, const RenderHooks& hooks);
 
-/// Renders again with the tree and the program of an earlier render of the scene, from which only the camera
-/// may differ. Replaces render and causes. Throws DeviceError.
-void simulate_again(const Device& device, const Scene& scene, const Effects& effects, const Options& options,
-                    Progress& progress, const RenderHooks& hooks, Simulation& done);
-
-/// The black picture, when no path of the scene is asked for.
-Simulation simulate_nothing(const Scene& scene, const Effects& effects, const Options& options);
+/// Renders again what is prepared, as its plan now is (PreparedScene says what may change in it). Replaces
+/// render and causes. Throws DeviceError.
+void simulate_again(Progress& progress, const RenderHooks& hooks, Simulation& done);
 
 } // namespace clrt

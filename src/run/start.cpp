@@ -4,7 +4,6 @@
 #include "device/program_cache.h"
 #include "run/run_files.h"
 #include "scene/load_scene.h"
-#include "scene/sky_table.h"
 
 #include <spdlog/spdlog.h>
 #include <string>
@@ -33,7 +32,6 @@ Device open_chosen_device(const Options& options) {
 
 Scene load_for_run(const Options& options, Progress& progress) {
     Scene scene = load_scene(options, progress);
-    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
     progress.finish();
     check_run_files(options, scene);
     return scene;

@@ -13,6 +13,7 @@ namespace {
 Ledger example() {
     Ledger ledger;
     ledger.width = 40, ledger.height = 30, ledger.samples = 4;
+    ledger.bvh_quality = BvhQuality::HIGH, ledger.bvh_reason = "as chosen";
     ledger.specialised = {0.8, {0.1, 0.09, 0.11}};
     ledger.full = {1.2, {0.12, 0.11, 0.13}};
     ledger.full_extra_share = {0.2, 0.1, 0.3};
@@ -45,6 +46,8 @@ TEST(Ledger, TheTableHoldsEveryFigure) {
 TEST(Ledger, TheJsonHoldsTheSame) {
     const auto json = nlohmann::json::parse(ledger_json(example(), {}, {}));
     EXPECT_EQ(json["rounds"], LEDGER_ROUNDS);
+    EXPECT_EQ(json["bvh"]["quality"], "high");
+    EXPECT_EQ(json["bvh"]["reason"], "as chosen");
     EXPECT_EQ(json["effects"][0]["name"], "refraction");
     EXPECT_EQ(json["effects"][0]["light_share"]["high"], 0.3);
     EXPECT_EQ(json["effects"][0]["without"]["compile_seconds"], 0.5);

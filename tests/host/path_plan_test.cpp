@@ -18,9 +18,9 @@ namespace clrt {
 namespace {
 
 /// A matte quad and a lamp; tests add what they are about.
-class PlannedScene : public TestScene {
+class LampScene : public TestScene {
 public:
-    PlannedScene() {
+    LampScene() {
         options.effects.all = false;
         build.material("thing", "Kd 0.5 0.5 0.5").material("lamp", "Kd 0 0 0\nKe 1 1 1");
         quad("thing");
@@ -48,7 +48,7 @@ bool has_define(const PathPlan& plan, const std::string& define) {
 } // namespace
 
 TEST(PathPlan, EveryLetterOfTheSceneHasItsWitness) {
-    PlannedScene scene;
+    LampScene scene;
     scene.build.material("unused", "illum 7\nNi 1.5").material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3");
     scene.build.material("frosted", "illum 7\nNi 1.5\nPr 0.5").material("flat", "illum 7\nNi 1");
     scene.options.scene.mtl = MtlReading::PLAIN; // "flat" is glass that bends nothing
@@ -75,7 +75,7 @@ TEST(PathPlan, EveryLetterOfTheSceneHasItsWitness) {
 }
 
 TEST(PathPlan, WithoutAnExpressionNothingIsAsked) {
-    PlannedScene scene;
+    LampScene scene;
     const PathPlan plan = scene.plan("");
     EXPECT_FALSE(plan.is_asked || plan.is_filter || plan.is_empty);
     EXPECT_TRUE(path_defines(plan).empty());
@@ -85,7 +85,7 @@ TEST(PathPlan, WithoutAnExpressionNothingIsAsked) {
 }
 
 TEST(PathPlan, ALanguageThatHoldsAllPathsOfTheSceneIsNoFilter) {
-    PlannedScene scene;
+    LampScene scene;
     for (const char* all : {"L(D|S)*E", "L.*E", "LaD*E", "ED*L", "LE|LD+E"}) {
         EXPECT_FALSE(scene.plan(all).is_filter) << all;
         EXPECT_EQ(find_effects(scene.load(), scene.options).mask & EFFECT_PATH_FILTER, 0u) << all;
@@ -96,7 +96,7 @@ TEST(PathPlan, ALanguageThatHoldsAllPathsOfTheSceneIsNoFilter) {
 }
 
 TEST(PathPlan, SaysWhenNoPathIsLeft) {
-    PlannedScene scene;
+    LampScene scene;
     PathPlan plan = scene.plan("LS+DE");
     EXPECT_TRUE(plan.is_empty);
     EXPECT_NE(path_summary(plan).find("no path of this scene matches (surfaces: D; lights: La)"),
@@ -111,12 +111,12 @@ TEST(PathPlan, SaysWhenNoPathIsLeft) {
 }
 
 TEST(PathPlan, PathsStartInAStateOfTheTableEvenIfItIsDead) {
-    PlannedScene scene;
+    LampScene scene;
     EXPECT_TRUE(has_define(scene.plan("LSE"), "PATH_NEXT=0x0u,0x0u"));
 }
 
 TEST(PathPlan, AFiniteLanguageBoundsTheLoop) {
-    PlannedScene scene;
+    LampScene scene;
     EXPECT_TRUE(has_define(scene.plan("LDE"), "PATH_SEGMENTS=2u"));
     EXPECT_TRUE(has_define(scene.plan("LD?D?E"), "PATH_SEGMENTS=3u"));
     EXPECT_TRUE(has_define(scene.plan("LD?S*E"), "PATH_SEGMENTS=2u")) << "nothing is specular";
@@ -126,7 +126,7 @@ TEST(PathPlan, AFiniteLanguageBoundsTheLoop) {
 }
 
 TEST(PathPlan, TheTablesHoldSuccessorsLightsAndDistances) {
-    PlannedScene scene;
+    LampScene scene;
     const PathPlan plan = scene.plan("LDE");
     EXPECT_TRUE(has_define(plan, "PATH_NEXT=0x0u,0x2u,0x0u")) << "from the start D leads to state 2";
     const u32 start = STATE_CONTINUES | STATE_SPLITS | 1u << STATE_DISTANCE_SHIFT,
@@ -141,7 +141,7 @@ TEST(PathPlan, TheTablesHoldSuccessorsLightsAndDistances) {
 }
 
 TEST(PathPlan, LightSamplingLeavesLightsAloneThatEndNoPath) {
-    PlannedScene scene;
+    LampScene scene;
     scene.options.light.points.push_back({{0, 1, 0}, glm::dvec3(1)});
     const auto params = [&](const char* paths) {
         const PathPlan plan = scene.plan(paths);
@@ -157,7 +157,7 @@ TEST(PathPlan, LightSamplingLeavesLightsAloneThatEndNoPath) {
 }
 
 TEST(PathPlan, LayersAreTold) {
-    PlannedScene scene;
+    LampScene scene;
     scene.options.output.path_layers = {{"direct", "LDE"}, {"lamp", "LE"}};
     const PathPlan plan = scene.plan("");
     EXPECT_TRUE(plan.is_filter);
@@ -170,7 +170,7 @@ TEST(PathPlan, LayersAreTold) {
 }
 
 TEST(PathPlan, TheStatesAreExplained) {
-    PlannedScene scene;
+    LampScene scene;
     const std::string text = format_paths(scene.plan("LDE"));
     EXPECT_NE(text.find("  absent  T"), std::string::npos) << text;
     EXPECT_NE(text.find("\n      1  -          2    -    -    -\n      2  La         -    -    -    -\n"),

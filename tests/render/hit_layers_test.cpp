@@ -3,16 +3,13 @@
 // by a signal.
 #include "render/hit_layers.h"
 
-#include "bvh/bvh.h"
 #include "console/signals.h"
-#include "effects/effects.h"
-#include "render/kernels.h"
-#include "render/render_params.h"
 #include "support/kernel_probe.h"
 #include "support/render_scene.h"
 
 #include <csignal>
 #include <gtest/gtest.h>
+#include <optional>
 
 namespace clrt {
 
@@ -32,14 +29,8 @@ protected:
         options.film.size = {27, 21}; // tiles at the edges are not whole
         options.sampling.replicates = 4;
         options.output.files = {"a.exr"};
-        options.device.kernels_folder = test_kernels_folder();
-        const Scene scene = test_.load();
-        const Effects effects = find_effects(scene, options);
-        const BvhLayout layout = choose_layout(options.bvh.layout, test_device().info);
-        programs_ = build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
-        buffers_ = upload_scene(test_device(), scene,
-                                build_bvh(scene.positions, scene.triangles, layout, BvhQuality::FAST));
-        params_ = make_render_params(scene, options, film_scale(scene));
+        prepared_.emplace(prepare_loaded(test_device(), test_.load(), options));
+        params_ = launch_params(*prepared_->planned);
         film_.width = options.film.size.x;
         film_.height = options.film.size.y;
         film_.replicates = options.sampling.replicates;
@@ -49,7 +40,8 @@ protected:
     HitSums sums(const std::vector<std::vector<SampleRange>>& films) {
         HitSums sums;
         FilmBuffers film_buffers(test_device(), params_, 0);
-        HitLayers layers(test_device(), *programs_.layers, params_, false, buffers_, film_buffers, sums);
+        HitLayers layers(test_device(), *prepared_->programs->layers, params_, false, prepared_->buffers,
+                         film_buffers, sums);
         for (const std::vector<SampleRange>& ranges : films) {
             film_.ranges = ranges;
             layers.advance(film_, [](double) {});
@@ -60,7 +52,8 @@ protected:
     HitSums tile_sums(const std::vector<u32>& samples) {
         HitSums sums;
         FilmBuffers film_buffers(test_device(), params_, 0);
-        HitLayers layers(test_device(), *programs_.layers, params_, true, buffers_, film_buffers, sums);
+        HitLayers layers(test_device(), *prepared_->programs->layers, params_, true, prepared_->buffers,
+                         film_buffers, sums);
         film_.ranges = {{0, 1}};
         for (const u32 count : samples) {
             for (u32 half = 0; half < 2; ++half) {
@@ -77,8 +70,7 @@ protected:
     }
 
     TestScene test_;
-    RenderPrograms programs_;
-    SceneBuffers buffers_;
+    std::optional<PreparedScene> prepared_;
     RenderParams params_{};
     Film film_;
 };
@@ -101,7 +93,8 @@ TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
     const HitSums whole = sums({{{0, 16}}});
     HitSums halves;
     FilmBuffers film_buffers(test_device(), params_, 0);
-    HitLayers layers(test_device(), *programs_.layers, params_, true, buffers_, film_buffers, halves);
+    HitLayers layers(test_device(), *prepared_->programs->layers, params_, true, prepared_->buffers,
+                     film_buffers, halves);
     for (size_t half = 0; half < 2; ++half)
         film_.tile_samples[half].assign(film_tiles(film_), 8);
     layers.advance(film_, [](double) {});
@@ -141,7 +134,8 @@ TEST_F(HitLayersTest, ASignalEndsWhatTakesLong) {
     std::vector<double> reported;
     HitSums hits;
     FilmBuffers film_buffers(test_device(), params_, 0);
-    HitLayers layers(test_device(), *programs_.layers, params_, false, buffers_, film_buffers, hits);
+    HitLayers layers(test_device(), *prepared_->programs->layers, params_, false, prepared_->buffers,
+                     film_buffers, hits);
     film_.ranges = {{0, all}};
     layers.advance(film_, [&](double share) { reported.push_back(share); });
     EXPECT_GT(hits.samples, 0u) << "a whole pass at least";

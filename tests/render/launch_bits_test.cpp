@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film does not depend on how its samples are dealt out to launches: at once, one by one, tiles last to
 // first.
-#include "bvh/bvh.h"
-#include "effects/effects.h"
 #include "film/film_buffers.h"
-#include "render/kernels.h"
 #include "render/launcher.h"
-#include "render/render_params.h"
 #include "support/kernel_probe.h"
 #include "support/render_scene.h"
 
@@ -24,7 +20,8 @@ struct Launch {
 };
 
 /// Glass, a rough ball, a sky and a lamp: all kinds of light, long and short paths side by side.
-void make_scene(TestScene& scene) {
+PreparedScene make_scene(Integrator integrator) {
+    TestScene scene;
     scene.build.material("white", "Kd 0.7 0.7 0.7").material("glass", "Ni 1.5\nillum 7");
     scene.build.material("rough", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2")
         .material("lamp", "Ke 8 7 5");
@@ -36,32 +33,24 @@ void make_scene(TestScene& scene) {
     scene.options.film.filter = Filter::GAUSSIAN;
     scene.options.film.size = {44, 29}; // tiles at the edges are not whole
     scene.options.sampling.replicates = 4;
+    scene.options.transport.integrator = integrator;
     scene.look({0, 1.5, 3}, {0, 0.4, 0}, 45);
+    return prepare_loaded(test_device(), scene.load(), scene.options);
 }
 
-/// One scene, its buffers and program, and the films that launches leave.
+/// A prepared scene and the films that launches leave.
 class LaunchedScene {
 public:
-    explicit LaunchedScene(Integrator integrator) {
-        make_scene(test_);
-        Options& options = test_.options;
-        options.transport.integrator = integrator;
-        const Scene scene = test_.load();
-        const Effects effects = find_effects(scene, options);
-        const BvhLayout layout = choose_layout(options.bvh.layout, test_device().info);
-        programs_ = build_render_programs(test_device(), options, effects.mask, layout, effects.paths);
-        const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout, BvhQuality::FAST);
-        buffers_ = upload_scene(test_device(), scene, bvh);
-        params_ = make_render_params(scene, options, film_scale(scene));
-        params_.film_replicates = params_.replicates;
-    }
+    explicit LaunchedScene(Integrator integrator)
+        : prepared_(make_scene(integrator)), params_(launch_params(*prepared_.planned)) {}
 
     u32 tiles() const { return params_.tile_count; }
 
     std::vector<std::int64_t> sums(const std::vector<Launch>& launches) const {
         FilmBuffers film(test_device(), params_, 0);
-        Launcher launcher(test_device(), programs_.picture,
-                          integrator_kernel(test_.options.transport.integrator), params_, buffers_);
+        Launcher launcher(test_device(), prepared_.programs->picture,
+                          integrator_kernel(prepared_.planned->options.transport.integrator), params_,
+                          prepared_.buffers);
         film.bind(launcher.kernel());
         for (const Launch& launch : launches)
             launcher.run(launch.first, launch.count, launch.tile, launch.end);
@@ -74,10 +63,8 @@ public:
     }
 
 private:
-    TestScene test_;
-    RenderPrograms programs_;
-    SceneBuffers buffers_;
-    RenderParams params_{};
+    PreparedScene prepared_;
+    RenderParams params_;
 };
 
 } // namespace

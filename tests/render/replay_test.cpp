@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A replayed sample has the bits of the rendered one; a planted fault is found where it was planted, and so
 // is a decision that is made differently in double precision.
-#include "bvh/bvh.h"
-#include "console/progress.h"
 #include "film/film_buffers.h"
 #include "render/launcher.h"
-#include "render/render_params.h"
 #include "replay/causes.h"
 #include "replay/flips.h"
 #include "support/effect_masks.h"
@@ -24,22 +21,15 @@ namespace {
 
 constexpr Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
 
-/// A loaded scene on the device.
+/// A loaded scene on the test device, without programs. Its options may change where their programs do.
 struct Stage {
-    const Device& device = test_device();
-    Scene scene;
-    Options options;
-    Effects effects;
-    BvhLayout layout;
-    SceneBuffers buffers;
+    std::shared_ptr<PlannedScene> planned;
+    PreparedScene prepared;
+    Options& options = planned->options;
 
-    Stage(Scene loaded, Options given)
-        : scene(std::move(loaded)), options(std::move(given)), effects(find_effects(scene, options)),
-          layout(choose_layout(options.bvh.layout, device.info)),
-          buffers(upload_scene(device, scene, build_bvh(scene.positions, scene.triangles, layout))) {
-        if (options.device.kernels_folder.empty())
-            options.device.kernels_folder = test_kernels_folder();
-    }
+    Stage(Scene scene, Options given)
+        : planned(plan_loaded(test_device(), std::move(scene), std::move(given))),
+          prepared(prepare_scene(test_device(), planned)) {}
 
     std::vector<SampleAddress> all_pixels(u32 sample) const {
         std::vector<SampleAddress> addresses;
@@ -47,15 +37,11 @@ struct Stage {
             addresses.push_back({pixel, sample});
         return addresses;
     }
-    Render render() const {
-        Progress silent(Toggle::OFF, true);
-        return clrt::render(device,
-                            build_render_programs(device, options, effects.mask, layout, effects.paths),
-                            buffers, scene, options, silent);
+    PreparedScene with_programs() const {
+        return prepare_render(test_device(), planned, {prepared.tree, {}});
     }
-    Replay replay(Precision precision) const {
-        return Replay(device, scene, options, precision, effects, layout, buffers);
-    }
+    Render render() const { return render_silently(with_programs()); }
+    Replay replay(Precision precision) const { return Replay(prepared, precision); }
 };
 
 /// How many of the film's sums are not those of the replayed samples.
@@ -107,6 +93,10 @@ void make_white_room(TestScene& room) {
     room.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     room.look({0, 0, 0.9}, {0, 0, -1}, 60);
     room.options.effects.all = false;
+}
+
+FlipStatistics flips_of(const TestScene& scene) {
+    return find_flips(Stage(scene.load(), scene.options).prepared);
 }
 
 /// A change to a kernel file that spoils one sample, and what it is to be reported as.
@@ -192,16 +182,14 @@ TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
     constexpr double QUANTUM = 0x1p-44;
     for (const Integrator integrator : {Integrator::PATH, Integrator::RAYCAST}) {
         const Stage stage = every_effect(integrator);
-        RenderParams params = make_render_params(stage.scene, stage.options, film_scale(stage.scene));
-        restrict_lights(stage.effects.paths, params);
+        RenderParams params = launch_params(*stage.planned);
         params.quantum = float(QUANTUM);
         params.inverse_quantum = float(1 / QUANTUM);
         params.largest_contribution = 0x1p18f;
-        const RenderPrograms programs = build_render_programs(stage.device, stage.options, stage.effects.mask,
-                                                              stage.layout, stage.effects.paths);
-        const FilmBuffers film(stage.device, params, programs.paths.layers.size());
-        Launcher launcher(stage.device, programs.picture, integrator_kernel(integrator), params,
-                          stage.buffers);
+        const PreparedScene prepared = stage.with_programs();
+        const FilmBuffers film(test_device(), params, stage.planned->effects.paths.layers.size());
+        Launcher launcher(test_device(), prepared.programs->picture, integrator_kernel(integrator), params,
+                          prepared.buffers);
         film.bind(launcher.kernel());
         launcher.run(5, 1, 0, params.tile_count);
         RenderProgress sums;
@@ -277,15 +265,14 @@ TEST(Replay, PlantedFaultsAreFoundWhereTheyArePlanted) {
         EXPECT_EQ(counts.bad_samples[0], std::pair(2u * 16u + 3u, 6u)) << fault.name;
         EXPECT_EQ(counts.bad_pixels, (std::map<u32, std::uint64_t>{{2u * 16u + 3u, 1u}})) << fault.name;
 
-        const std::vector<CauseCount> causes = find_causes(
-            stage.device, stage.scene, stage.options, stage.effects, stage.layout, stage.buffers, counts);
+        const std::vector<CauseCount> causes = find_causes(stage.prepared, counts);
         ASSERT_EQ(causes.size(), 1u) << fault.name;
         EXPECT_EQ(causes[0].cause.kind, fault.kind) << fault.name;
         EXPECT_EQ(causes[0].cause.quantity, fault.quantity) << fault.name;
         EXPECT_EQ(causes[0].cause.bounce, fault.bounce) << fault.name;
         EXPECT_EQ(causes[0].count, 1u) << fault.name;
         EXPECT_EQ(causes[0].cause.material,
-                  fault.quantity != 0 ? stage.scene.triangles[0].material : NO_INDEX)
+                  fault.quantity != 0 ? stage.planned->scene.triangles[0].material : NO_INDEX)
             << fault.name;
     }
 }
@@ -305,11 +292,11 @@ TEST(Replay, ADecisionThatDoubleMakesDifferentlyIsFound) {
     room.options.sampling.spp = 4;
     room.options.transport.roulette_depth = 2;
     room.options.device.kernels_folder = test_kernels_folder();
-    const FlipStatistics clean = find_flips(test_device(), room.load(), room.options);
+    const FlipStatistics clean = flips_of(room);
     EXPECT_EQ(clean.samples, 16u * 16u * 4u);
     EXPECT_LE(clean.flips.size(), 1u) << "1e-5 of the samples of a matte room flip (flips_test)";
     room.options.device.kernels_folder = kernels.path();
-    const FlipStatistics flips = find_flips(test_device(), room.load(), room.options);
+    const FlipStatistics flips = flips_of(room);
     const std::uint64_t planted = flips.counts()[{"roulette", 2u}];
     // A third of 1024 keys that a hash deals out, within three standard errors.
     EXPECT_NEAR(double(planted) / double(flips.samples), 1.0 / 3, 0.045);

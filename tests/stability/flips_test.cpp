@@ -7,7 +7,6 @@
 #include "replay/flips.h"
 #include "replay/quantities.h"
 #include "scene/load_scene.h"
-#include "scene/sky_table.h"
 #include "support/kernel_probe.h"
 #include "support/test_device.h"
 
@@ -54,9 +53,7 @@ FlipStatistics flips_of(const std::string& name, Integrator integrator) {
     options.film.size = {64, 64};
     options.sampling.spp = tests_are_long() ? 256 : 16;
     Progress silent(Toggle::OFF, true);
-    Scene scene = load_scene(options, silent);
-    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
-    return find_flips(test_device(), scene, options);
+    return find_flips(prepare_scene(test_device(), plan_scene(load_scene(options, silent), options)));
 }
 
 } // namespace

@@ -224,7 +224,8 @@ Options scene_options(const BenchOptions& bench, const std::string& scene) {
     options.light.studio = false; // its ground is not of the scene
     options.device.name = bench.clrt.device.name;
     options.bvh.layout = bench.clrt.bvh.layout;
-    options.bvh.quality = bench.clrt.bvh.quality;
+    // The fast tree, as clrt builds it for most renders, unless the other is asked for.
+    options.bvh.quality = bench.clrt.bvh.quality.value_or(BvhQuality::FAST);
     options.device.threads = bench.clrt.device.threads;
     options.device.kernels_folder = bench.clrt.device.kernels_folder;
     options.device.precision = Precision::SINGLE;

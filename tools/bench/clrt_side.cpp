@@ -2,11 +2,7 @@
 #include "bench/clrt_side.h"
 
 #include "device/opencl_error.h"
-#include "effects/effects.h"
-#include "film/film.h"
-#include "render/kernels.h"
 #include "render/launcher.h"
-#include "render/render_params.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,25 +11,26 @@ namespace clrt {
 
 namespace {
 
-/// The fast tree, as clrt builds it for most renders, unless the options want the other.
-Bvh build_tree(const Scene& scene, const Options& options, BvhLayout layout, Cost& cost) {
-    const BvhQuality quality = options.bvh.quality.value_or(BvhQuality::FAST);
-    Bvh bvh;
-    cost = measure([&] { bvh = build_bvh(scene.positions, scene.triangles, layout, quality); });
-    return bvh;
+/// Measures the building of the tree; compiles none of the renderer's programs.
+PreparedScene prepare_measured(const Device& device, const std::shared_ptr<const PlannedScene>& planned,
+                               Cost& cost) {
+    PreparedParts parts;
+    cost = measure([&] { parts.tree = plan_tree(device.info, *planned); });
+    return prepare_scene(device, planned, parts);
 }
 
-Program build(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene,
-              BvhLayout layout, const std::string& name, const std::vector<std::string>& defines = {}) {
+Program build(const PreparedScene& prepared, const KernelFiles& files, const std::string& name,
+              const std::vector<std::string>& defines = {}) {
+    const DeviceOptions& options = prepared.planned->options.device;
     ProgramRequest request;
     request.name = name;
     request.source = expand_kernel_source(files, "bench/" + name + ".cl");
-    request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", find_effects(scene, options).mask),
-                       fmt::format("BVH_LAYOUT={}", int(layout))};
+    request.defines = {fmt::format("CLRT_EFFECTS={:#x}u", prepared.planned->effects.mask),
+                       fmt::format("BVH_LAYOUT={}", int(prepared.tree->bvh.layout))};
     request.defines.insert(request.defines.end(), defines.begin(), defines.end());
-    request.dump_folder = options.device.dump_folder;
-    request.cache = {options.device.cache, options.device.cache_folder};
-    return build_program(device, request);
+    request.dump_folder = options.dump_folder;
+    request.cache = {options.cache, options.cache_folder};
+    return build_program(prepared.device, request);
 }
 
 template <class T>
@@ -70,12 +67,10 @@ const char* ray_kind_name(RayKind kind) {
     return "mirror";
 }
 
-ClrtSide::ClrtSide(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene)
-    : device_(device), files_(files), options_(options), scene_(scene),
-      bvh_(build_tree(scene, options, choose_layout(options.bvh.layout, device.info), build_cost_)),
-      buffers_(upload_scene(device, scene, bvh_)),
-      params_(make_render_params(scene, options, film_scale(scene))),
-      trace_(build(device, files, options, scene, bvh_.layout, "trace")),
+ClrtSide::ClrtSide(const Device& device, const KernelFiles& files,
+                   const std::shared_ptr<const PlannedScene>& planned)
+    : device_(device), files_(files), prepared_(prepare_measured(device, planned, build_cost_)),
+      params_(launch_params(*planned)), trace_(build(prepared_, files, "trace")),
       closest_(make_kernel(trace_, "trace_closest")), any_(make_kernel(trace_, "trace_any")) {
     params_.end_tile = params_.tile_count;
     params_.sample_count = 1;
@@ -84,14 +79,14 @@ ClrtSide::ClrtSide(const Device& device, const KernelFiles& files, const Options
 Kernel ClrtSide::make_kernel(const Program& program, const std::string& name) const {
     Kernel kernel(program, name);
     if (takes_scene(kernel))
-        bind_scene(buffers_, kernel);
+        bind_scene(prepared_.buffers, kernel);
     kernel.set("params", params_);
     return kernel;
 }
 
 const Program& ClrtSide::ray_maker() {
     if (!ray_maker_)
-        ray_maker_ = build(device_, files_, options_, scene_, bvh_.layout, "make_rays");
+        ray_maker_ = build(prepared_, files_, "make_rays");
     return *ray_maker_;
 }
 
@@ -143,7 +138,7 @@ void ClrtSide::trace(bool any_hit, const DeviceRays& rays) {
 
 Visits ClrtSide::count_visits(bool any_hit, const DeviceRays& rays) {
     if (!visits_)
-        visits_ = build(device_, files_, options_, scene_, bvh_.layout, "visits", {"CLRT_COUNT_VISITS=1"});
+        visits_ = build(prepared_, files_, "visits", {"CLRT_COUNT_VISITS=1"});
     Kernel kernel = make_kernel(*visits_, any_hit ? "visits_any" : "visits_closest");
     launch_over(kernel, rays);
     struct Counts {

@@ -6,14 +6,9 @@
 #include "bench/bench_kernels.h"
 #include "bench/bench_rays.h"
 #include "bench/measure.h"
-#include "bvh/bvh.h"
-#include "device/device.h"
-#include "device/program.h"
-#include "kernels/shared/render_types.h"
-#include "options/options.h"
-#include "render/scene_buffers.h"
-#include "scene/scene.h"
+#include "render/prepared_scene.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,9 +27,9 @@ struct Visits {
 
 class ClrtSide {
 public:
-    /// Builds the tree, compiles what traces from `files`, and uploads. The device and the scene must outlive
-    /// this object.
-    ClrtSide(const Device& device, const KernelFiles& files, const Options& options, const Scene& scene);
+    /// Builds the tree, compiles what traces from `files`, and uploads. The device must outlive this object.
+    ClrtSide(const Device& device, const KernelFiles& files,
+             const std::shared_ptr<const PlannedScene>& planned);
 
     /// A ray for each pixel, in the order of the renderer's tiles; `sample` chooses the place within the
     /// pixel.
@@ -58,8 +53,8 @@ public:
 
     /// Of building the tree.
     Cost build_cost() const { return build_cost_; }
-    const Bvh& bvh() const { return bvh_; }
-    const Scene& scene() const { return scene_; }
+    const Bvh& bvh() const { return prepared_.tree->bvh; }
+    const Scene& scene() const { return prepared_.planned->scene; }
 
 private:
     Kernel make_kernel(const Program& program, const std::string& name) const;
@@ -69,11 +64,8 @@ private:
 
     const Device& device_;
     const KernelFiles files_;
-    const Options options_;
-    const Scene& scene_;
     Cost build_cost_;
-    Bvh bvh_;
-    SceneBuffers buffers_;
+    const PreparedScene prepared_;
     RenderParams params_;
     Program trace_;
     std::optional<Program> ray_maker_, visits_; ///< built when first asked for

@@ -8,7 +8,6 @@
 #include "bench/watertight.h"
 #include "render/kernels.h"
 #include "scene/load_scene.h"
-#include "scene/sky_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -79,12 +78,12 @@ std::vector<TimedSet> timed_sets(ClrtSide& robust, size_t rays, size_t variants)
 /// Times the variants in turns and counts their wrong hits; where a variant differs from the robust one, all
 /// triangles in double decide.
 void time_variants(const Device& device, const BenchOptions& bench, const KernelFiles& files,
-                   const Scene& scene, const Options& options, Progress& progress,
+                   const std::shared_ptr<const PlannedScene>& planned, Progress& progress,
                    std::vector<Variant>& variants) {
     std::vector<std::unique_ptr<ClrtSide>> sides;
     for (const Variant& variant : variants)
         sides.push_back(std::make_unique<ClrtSide>(
-            device, with_naive(files, variant.plain_triangle, variant.plain_box), options, scene));
+            device, with_naive(files, variant.plain_triangle, variant.plain_box), planned));
     std::vector<TimedSet> sets = timed_sets(*sides[0], bench.rays, variants.size());
     for (u32 round = 0; round < bench.rounds; ++round) {
         progress.update({"rounds", double(round) / bench.rounds});
@@ -100,7 +99,7 @@ void time_variants(const Device& device, const BenchOptions& bench, const Kernel
         for (size_t i = 0; i < variants.size(); ++i) {
             VariantKind kind = set.result(i);
             // The robust variant is judged beside the plainest.
-            const Verdict verdict = arbitrate(scene, bound, wants_any_hit(kind.kind), set.set.rays,
+            const Verdict verdict = arbitrate(planned->scene, bound, wants_any_hit(kind.kind), set.set.rays,
                                               set.hits[i], i == 0 ? set.hits.back() : set.hits[0]);
             kind.wrong = verdict.clrt_wrong;
             variants[i].kinds.push_back(kind);
@@ -114,15 +113,15 @@ Robustness compare_robustness(const Device& device, const BenchOptions& bench, c
     Robustness result;
     result.variants = make_variants();
     const Options options = scene_options(bench, path);
-    Scene scene = path.empty() ? make_rough_scene() : load_scene(options, progress);
-    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
+    const std::shared_ptr<const PlannedScene> planned =
+        plan_scene(path.empty() ? make_rough_scene() : load_scene(options, progress), options);
     const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
     result.scene = path.empty() ? "a rough torus in a ball" : path;
     result.layout = name_of(layout);
-    result.triangles = scene.triangles.size();
+    result.triangles = planned->scene.triangles.size();
 
     const KernelFiles files = all_kernel_files(bench.clrt.device.kernels_folder);
-    time_variants(device, bench, files, scene, options, progress, result.variants);
+    time_variants(device, bench, files, planned, progress, result.variants);
     for (size_t i = 0; i < result.variants.size(); ++i) {
         Variant& variant = result.variants[i];
         WatertightRequest request;

@@ -4,7 +4,6 @@
 #include "bench/embree_side.h"
 #include "bench/ray_sets.h"
 #include "scene/load_scene.h"
-#include "scene/sky_table.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -100,12 +99,11 @@ bool is_wrong(const SceneSpeed& scene) {
 SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const std::string& path,
                          Progress& progress) {
     const Options options = scene_options(bench, path);
-    Scene scene = load_scene(options, progress);
-    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
+    const std::shared_ptr<const PlannedScene> planned = plan_scene(load_scene(options, progress), options);
     progress.update({"trees and rays"});
-    ClrtSide clrt(device, all_kernel_files(bench.clrt.device.kernels_folder), options, scene);
-    const EmbreeSide embree(scene, /*robust=*/false, bench.clrt.device.threads),
-        robust(scene, /*robust=*/true, bench.clrt.device.threads);
+    ClrtSide clrt(device, all_kernel_files(bench.clrt.device.kernels_folder), planned);
+    const EmbreeSide embree(planned->scene, /*robust=*/false, bench.clrt.device.threads),
+        robust(planned->scene, /*robust=*/true, bench.clrt.device.threads);
     const std::vector<RaySet> sets = make_ray_sets(clrt, bench.rays);
 
     // Round 0 warms up: the driver finishes compiling, pages are touched.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/path_probe.h"
 
-#include "film/film.h"
 #include "kernels/shared/effects.h"
-#include "render/render_params.h"
 #include "stability/probe_set.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace clrt {
 
@@ -38,6 +37,12 @@ PROBE_PATHS(probe_path, path_radiance)
 PROBE_PATHS(probe_whitted, whitted_radiance)
 )";
 
+/// The programs of the probe are compiled for one layout.
+std::shared_ptr<PlannedScene> plan_in_probed_layout(Scene scene, Options options) {
+    options.bvh.layout = BvhLayout::BVH8;
+    return plan_scene(std::move(scene), std::move(options));
+}
+
 } // namespace
 
 KernelProbe& path_probe(const ProbeDevice& device, Build build) {
@@ -52,15 +57,15 @@ KernelProbe& path_probe(const ProbeDevice& device, Build build) {
     });
 }
 
-PathProbe::PathProbe(const ProbeDevice& device, Scene scene, const Options& options)
-    : device_(device), scene_(std::move(scene)) {
-    params = make_render_params(scene_, options, film_scale(scene_));
-    buffers_ = upload_scene(device, scene_, build_bvh(scene_.positions, scene_.triangles, BvhLayout::BVH8));
+PathProbe::PathProbe(const ProbeDevice& device, Scene scene, Options options)
+    : device_(device),
+      prepared_(prepare_scene(device, plan_in_probed_layout(std::move(scene), std::move(options)))) {
+    params = launch_params(*prepared_.planned);
 }
 
 TestRay PathProbe::ray(const glm::dvec3& origin, const glm::dvec3& at) const {
-    return make_ray_to((origin - scene_.normalisation.centre) * scene_.normalisation.scale,
-                       (at - scene_.normalisation.centre) * scene_.normalisation.scale);
+    const Normalisation& frame = scene().normalisation;
+    return make_ray_to((origin - frame.centre) * frame.scale, (at - frame.centre) * frame.scale);
 }
 
 std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator,
@@ -73,13 +78,13 @@ std::vector<glm::dvec3> PathProbe::radiance(Build build, Integrator integrator,
         words.push_back(ray.origin);
         words.push_back(ray.direction);
     }
-    bind_scene(buffers_, kernel);
+    bind_scene(prepared_.buffers, kernel);
     kernel.set("params", params);
     kernel.set("rays", probe.upload(words));
     kernel.set("count", u32(count));
     kernel.set("samples", u32(samples));
     const cl::Buffer out = create_buffer(
-        device_, "radiance", 3 * count * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
+        prepared_.device, "radiance", 3 * count * (build == Build::DOUBLE ? sizeof(double) : sizeof(float)));
     kernel.set("out_values", out);
     probe.launch(kernel, count);
     std::vector<glm::dvec3> result(count);

@@ -3,8 +3,7 @@
 // whose rounding would hide the last digits.
 #pragma once
 
-#include "bvh/bvh.h"
-#include "render/scene_buffers.h"
+#include "render/prepared_scene.h"
 #include "stability/stability_case.h"
 #include "support/ray_device.h"
 #include "support/scratch_scene.h"
@@ -23,11 +22,11 @@ public:
     /// Loads the scene; its camera is not used. Its options give depth, roulette and seed.
     PathProbe(const ProbeDevice& device, const ScratchScene& scene)
         : PathProbe(device, scene.load(), scene.options) {}
-    PathProbe(const ProbeDevice& device, Scene scene, const Options& options);
+    PathProbe(const ProbeDevice& device, Scene scene, Options options);
 
     /// What the integrators get; a case may change it.
     RenderParams params{};
-    const Scene& scene() const { return scene_; }
+    const Scene& scene() const { return prepared_.planned->scene; }
 
     /// The ray from one point towards another, both in the scene's units.
     TestRay ray(const glm::dvec3& origin, const glm::dvec3& at) const;
@@ -38,8 +37,7 @@ public:
 
 private:
     const ProbeDevice& device_;
-    Scene scene_;
-    SceneBuffers buffers_;
+    PreparedScene prepared_;
 };
 
 /// The builds that PathProbe has: single and double. FAST is left out: it would cost the seconds of a program

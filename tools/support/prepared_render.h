@@ -6,6 +6,7 @@
 #include "support/scratch_scene.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clrt {
@@ -30,20 +31,13 @@ private:
 class PreparedRender {
 public:
     /// Takes the kernels of options.device.kernels_folder, else the device's. The device must outlive it.
-    PreparedRender(const ProbeDevice& device, Scene scene, Options options);
+    PreparedRender(const ProbeDevice& device, Scene scene, Options options)
+        : prepared_(prepare_loaded(device, std::move(scene), std::move(options))) {}
 
-    Render run() const;
-    /// Seconds that compiling took.
-    double build_seconds() const { return programs_.seconds; }
+    Render run() const { return render_silently(prepared_); }
 
 private:
-    const Device& device_;
-    Scene scene_;
-    Options options_;
-    Effects effects_;
-    RenderPrograms programs_;
-    Bvh bvh_;
-    SceneBuffers buffers_;
+    PreparedScene prepared_;
 };
 
 } // namespace clrt

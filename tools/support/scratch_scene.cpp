@@ -2,18 +2,14 @@
 // Scene text -> files in a scratch folder -> film.
 #include "support/scratch_scene.h"
 
-#include "bvh/bvh.h"
 #include "console/progress.h"
-#include "effects/take_out.h"
-#include "render/bvh_quality.h"
-#include "render/kernels.h"
-#include "render/scene_buffers.h"
 #include "scene/load_scene.h"
 #include "scene/sky_table.h"
 
 #include <fmt/format.h>
 #include <OpenImageIO/imageio.h>
 #include <stdexcept>
+#include <utility>
 
 namespace clrt {
 
@@ -33,30 +29,16 @@ void write_texture(const std::string& path, int width, int height, int channels,
         throw std::runtime_error("cannot write the texture " + path);
 }
 
-/// The programs of options that name their kernels.
-const RenderPrograms& programs_for(const ProbeDevice& device, const Options& options, const Effects& effects,
-                                   BvhLayout layout) {
+/// The programs of a plan, compiled once a device.
+std::shared_ptr<const RenderPrograms> programs_for(const ProbeDevice& device, const PlannedScene& planned) {
+    const Options& options = planned.options;
     const std::string key =
-        fmt::format("render: {} {} {} {:#x} {} {} {}", int(options.transport.integrator),
-                    int(options.device.precision), int(options.sampling.sampler), effects.mask, int(layout),
-                    fmt::join(path_defines(effects.paths), " "), options.device.kernels_folder);
-    return device.once<RenderPrograms>(
-        key, [&] { return build_render_programs(device, options, effects.mask, layout, effects.paths); });
-}
-
-/// Takes out what the options leave out and renders; `programs(effects, layout)` gives the programs.
-template <typename Programs>
-Render render_by(const ProbeDevice& device, Scene& scene, Options& options, const Programs& programs) {
-    options = with_kernels_of(device, options);
-    tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
-    const Effects effects = find_effects(scene, options);
-    take_out_effects(effects.left_out, scene, options);
-    const BvhLayout layout = choose_layout(options.bvh.layout, device.info);
-    const Bvh bvh = build_bvh(scene.positions, scene.triangles, layout,
-                              choose_bvh_quality(options, scene.triangles.size()).quality);
-    const SceneBuffers buffers = upload_scene(device, scene, bvh);
-    Progress progress(Toggle::OFF, true);
-    return render(device, programs(effects, layout), buffers, scene, options, progress);
+        fmt::format("render: {} {} {} {:#x} {} {} {} {}", int(options.transport.integrator),
+                    int(options.device.precision), int(options.sampling.sampler), planned.effects.mask,
+                    int(choose_layout(options.bvh.layout, device.info)), wants_layers(options),
+                    fmt::join(path_defines(planned.effects.paths), " "), options.device.kernels_folder);
+    return device.once<std::shared_ptr<const RenderPrograms>>(key,
+                                                              [&] { return plan_programs(device, planned); });
 }
 
 } // namespace
@@ -106,25 +88,30 @@ Render ScratchScene::render(const ProbeDevice& device) const {
     return render_loaded(device, load(), options);
 }
 
-Options with_kernels_of(const ProbeDevice& device, Options options) {
+std::shared_ptr<PlannedScene> plan_loaded(const ProbeDevice& device, Scene scene, Options options) {
     if (options.device.kernels_folder.empty())
         options.device.kernels_folder = device.kernels_folder();
-    return options;
+    return plan_scene(std::move(scene), std::move(options));
+}
+
+PreparedScene prepare_loaded(const ProbeDevice& device, Scene scene, Options options) {
+    return prepare_render(device, plan_loaded(device, std::move(scene), std::move(options)));
+}
+
+Render render_silently(const PreparedScene& prepared) {
+    Progress silent(Toggle::OFF, true);
+    return render(prepared, silent);
 }
 
 Render render_loaded(const ProbeDevice& device, Scene scene, Options options) {
-    return render_by(device, scene, options,
-                     [&](const Effects& effects, BvhLayout layout) -> const RenderPrograms& {
-                         return programs_for(device, options, effects, layout);
-                     });
+    const auto planned = plan_loaded(device, std::move(scene), std::move(options));
+    return render_silently(prepare_render(device, planned, {nullptr, programs_for(device, *planned)}));
 }
 
 Render render_afresh(const ProbeDevice& device, Scene scene, Options options, bool* from_cache) {
-    return render_by(device, scene, options, [&](const Effects& effects, BvhLayout layout) {
-        RenderPrograms programs = build_render_programs(device, options, effects.mask, layout, effects.paths);
-        *from_cache = programs.picture.from_cache;
-        return programs;
-    });
+    const PreparedScene prepared = prepare_loaded(device, std::move(scene), std::move(options));
+    *from_cache = prepared.programs->picture.from_cache;
+    return render_silently(prepared);
 }
 
 } // namespace clrt

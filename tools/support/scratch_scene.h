@@ -2,8 +2,8 @@
 // Small scenes that are written where they are used, and their renders in process.
 #pragma once
 
-#include "effects/effects.h"
 #include "options/options.h"
+#include "render/prepared_scene.h"
 #include "render/render.h"
 #include "scene/scene.h"
 #include "support/probe_device.h"
@@ -11,6 +11,7 @@
 #include "support/scratch_folder.h"
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,17 @@ public:
     double scale = 1; ///< of positions in the OBJ file
 };
 
-/// The options by the device's kernels, unless they name a folder of kernels themselves.
-Options with_kernels_of(const ProbeDevice& device, Options options);
+/// The plan of a scene, by the device's kernels unless the options name a folder of kernels themselves.
+std::shared_ptr<PlannedScene> plan_loaded(const ProbeDevice& device, Scene scene, Options options);
+
+/// The same on the device, with programs of its own.
+PreparedScene prepare_loaded(const ProbeDevice& device, Scene scene, Options options);
+
+/// Renders without a progress line.
+Render render_silently(const PreparedScene& prepared);
 
 /// Renders a loaded scene as the options' effects want it. Programs are compiled once a device for each
-/// integrator, mask, layout, precision and sampler.
+/// integrator, mask, layout, precision, sampler and automaton.
 Render render_loaded(const ProbeDevice& device, Scene scene, Options options);
 
 /// The same by a program that is built for this call, with the options' program cache; says whether it came

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effects/planned_scene.h"
+
+#include "effects/take_out.h"
+#include "scene/sky_table.h"
+
+#include <utility>
+
+namespace clrt {
+
+std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
+    auto planned = std::make_shared<PlannedScene>();
+    planned->scene = std::move(scene);
+    planned->options = std::move(options);
+    tabulate_sky(planned->scene.environment, integrator_row(planned->options.transport.integrator).sky);
+    planned->effects = find_effects(planned->scene, planned->options);
+    if (planned->effects.left_out) {
+        take_out_effects(planned->effects.left_out, planned->scene, planned->options);
+        planned->effects.paths = plan_paths(planned->scene, planned->options);
+    }
+    return planned;
+}
+
+} // namespace clrt

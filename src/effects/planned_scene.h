@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene as it is to be rendered: effects proved, what is not wanted taken out, paths planned. No device is
+// needed.
+#pragma once
+
+#include "effects/effects.h"
+#include "options/options.h"
+#include "scene/scene.h"
+
+#include <memory>
+
+namespace clrt {
+
+/// What a scene and its options come to. Several prepared scenes may share one (render/prepared_scene.h).
+struct PlannedScene {
+    Scene scene;     ///< without the effects that --effects leaves out,
+    Options options; ///< and so are the options
+    /// As the scene was given, witnesses included; but `paths` are planned for the scene as it is rendered.
+    Effects effects;
+};
+
+/// Tabulates the sky as the integrator samples it, finds the effects, takes out those that are not wanted,
+/// and plans the paths of what is left: the one order of these. Throws UsageError for path expressions that
+/// are wrong or too large.
+std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
+
+} // namespace clrt

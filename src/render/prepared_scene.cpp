@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/prepared_scene.h"
+
+#include "render/render_params.h"
+
+#include <future>
+#include <utility>
+
+namespace clrt {
+
+namespace {
+
+BvhLayout layout_of(const DeviceInfo& device, const PlannedScene& planned) {
+    return choose_layout(planned.options.bvh.layout, device);
+}
+
+/// The parts with a tree in the layout of this device.
+PreparedParts with_tree(const DeviceInfo& device, const PlannedScene& planned, PreparedParts parts) {
+    if (!parts.tree || parts.tree->bvh.layout != layout_of(device, planned))
+        parts.tree = plan_tree(device, planned);
+    return parts;
+}
+
+} // namespace
+
+std::shared_ptr<const SceneTree> plan_tree(const DeviceInfo& device, const PlannedScene& planned) {
+    return std::make_shared<SceneTree>(
+        build_scene_tree(planned.scene, planned.options, layout_of(device, planned)));
+}
+
+std::shared_ptr<const RenderPrograms> plan_programs(const Device& device, const PlannedScene& planned) {
+    return std::make_shared<RenderPrograms>(
+        build_render_programs(device, planned.options, planned.effects.mask, layout_of(device.info, planned),
+                              planned.effects.paths));
+}
+
+PreparedScene prepare_scene(const Device& device, std::shared_ptr<const PlannedScene> planned,
+                            PreparedParts parts) {
+    parts = with_tree(device.info, *planned, std::move(parts));
+    SceneBuffers buffers = upload_scene(device, planned->scene, parts.tree->bvh);
+    return {device, std::move(planned), std::move(parts.tree), std::move(buffers), std::move(parts.programs)};
+}
+
+PreparedScene prepare_render(const Device& device, std::shared_ptr<const PlannedScene> planned,
+                             PreparedParts parts) {
+    if (parts.programs)
+        return prepare_scene(device, std::move(planned), std::move(parts));
+    auto compiling = std::async(std::launch::async, [&] { return plan_programs(device, *planned); });
+    parts = with_tree(device.info, *planned, std::move(parts));
+    parts.programs = compiling.get(); // before anything takes memory on the device
+    return prepare_scene(device, std::move(planned), std::move(parts));
+}
+
+Program build_replay_program(const PreparedScene& prepared, Precision precision) {
+    const PlannedScene& planned = *prepared.planned;
+    return build_replay_program(prepared.device, planned.options, precision, planned.effects.mask,
+                                prepared.tree->bvh.layout, planned.effects.paths);
+}
+
+RenderParams launch_params(const PlannedScene& planned) {
+    RenderParams params = make_render_params(planned.scene, planned.options, film_scale(planned.scene));
+    restrict_lights(planned.effects.paths, params);
+    return params;
+}
+
+} // namespace clrt

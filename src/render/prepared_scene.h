@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene on a device, ready for kernels: the one place where plan, tree, buffers and programs come together.
+//
+//     const auto planned = plan_scene(load_scene(options, progress), options); // no device yet
+//     const PreparedScene prepared = prepare_render(device, planned); // tree and programs side by side
+//     const Render first = render(prepared, progress);
+//     planned->scene.camera = other; // nothing is made anew
+//     const Render second = render(prepared, progress);
+//     Replay replay(prepared, Precision::DOUBLE); // a program of its own, the same tree
+//     const PreparedScene there = prepare_render(other_device, planned, {prepared.tree, nullptr});
+#pragma once
+
+#include "effects/planned_scene.h"
+#include "kernels/shared/render_types.h"
+#include "render/kernels.h"
+#include "render/scene_buffers.h"
+#include "render/scene_tree.h"
+
+#include <memory>
+
+namespace clrt {
+
+/// A scene on a device. Its parts may be shared with other prepared scenes and none of them is global:
+/// several may be alive, on one device or many, each used by a thread of its own.
+///
+/// Whoever made the plan may change its camera, window, seed and samples between renders; what tree, buffers
+/// and programs are made from must stay.
+struct PreparedScene {
+    const Device& device; ///< must outlive it
+    std::shared_ptr<const PlannedScene> planned;
+    std::shared_ptr<const SceneTree> tree;
+    SceneBuffers buffers;
+    std::shared_ptr<const RenderPrograms> programs; ///< null: for kernels of one's own, such as a replay's
+};
+
+/// What is there already and need not be made again.
+struct PreparedParts {
+    std::shared_ptr<const SceneTree> tree; ///< over the same triangles; in another layout it is not taken
+    std::shared_ptr<const RenderPrograms> programs; ///< for the same device, effects, paths and tree's layout
+};
+
+/// The tree of a plan in the layout that its options name, or that is the device's own.
+std::shared_ptr<const SceneTree> plan_tree(const DeviceInfo& device, const PlannedScene& planned);
+
+/// Compiles what renders a plan: for its effects, its paths and the layout of its tree.
+std::shared_ptr<const RenderPrograms> plan_programs(const Device& device, const PlannedScene& planned);
+
+/// Builds the tree, if it is not there, and uploads; compiles nothing. Throws SceneError and DeviceError.
+PreparedScene prepare_scene(const Device& device, std::shared_ptr<const PlannedScene> planned,
+                            PreparedParts parts = {});
+
+/// The same with the programs of the picture, which are compiled while the tree is built. Throws what
+/// prepare_scene throws, and KernelBuildError.
+PreparedScene prepare_render(const Device& device, std::shared_ptr<const PlannedScene> planned,
+                             PreparedParts parts = {});
+
+/// Compiles the same integrator so that it records what single samples do, in a precision of its own.
+Program build_replay_program(const PreparedScene& prepared, Precision precision);
+
+/// The constants of a launch of the whole picture in all its replicates.
+RenderParams launch_params(const PlannedScene& planned);
+
+} // namespace clrt
