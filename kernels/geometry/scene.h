@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device's view of the scene: every kernel takes its heaps through SCENE_PARAMS, finds the arrays in them (SCENE_MAKE)
-// and passes a pointer to the private Scene down.
+// The device's view of the scene: every kernel takes its heaps through SCENE_PARAMS, finds the arrays in them
+// (SCENE_MAKE) and passes a pointer to the private Scene down.
 #ifndef CLRT_GEOMETRY_SCENE_H
 #define CLRT_GEOMETRY_SCENE_H
 
@@ -40,20 +40,20 @@ typedef struct {
 typedef global const ulong16* SceneHeap;
 
 /* The arguments by which every kernel takes the scene, and the Scene that they make. */
-#define SCENE_PARAMS                                                                                          \
-    SceneHeap restrict scene_heap0, SceneHeap restrict scene_heap1, SceneHeap restrict scene_heap2,           \
-        SceneHeap restrict scene_heap3, SceneHeap restrict scene_heap4, SceneHeap restrict scene_heap5,       \
+#define SCENE_PARAMS                                                                                         \
+    SceneHeap restrict scene_heap0, SceneHeap restrict scene_heap1, SceneHeap restrict scene_heap2,          \
+        SceneHeap restrict scene_heap3, SceneHeap restrict scene_heap4, SceneHeap restrict scene_heap5,      \
         SceneHeap restrict scene_heap6
-#define SCENE_MAKE                                                                                            \
+#define SCENE_MAKE                                                                                           \
     scene_make(scene_heap0, scene_heap1, scene_heap2, scene_heap3, scene_heap4, scene_heap5, scene_heap6)
 
-static inline Scene scene_make(SceneHeap heap0, SceneHeap heap1, SceneHeap heap2, SceneHeap heap3, SceneHeap heap4,
-                               SceneHeap heap5, SceneHeap heap6)
+static inline Scene scene_make(SceneHeap heap0, SceneHeap heap1, SceneHeap heap2, SceneHeap heap3,
+                               SceneHeap heap4, SceneHeap heap5, SceneHeap heap6)
 {
     const SceneHeap heaps[SCENE_HEAPS] = {heap0, heap1, heap2, heap3, heap4, heap5, heap6};
     global const ArrayPlaces* places = (global const ArrayPlaces*)heap0;
     Scene scene;
-#define SCENE_ARRAY(type, name, member)                                                                       \
+#define SCENE_ARRAY(type, name, member)                                                                      \
     scene.name = (global const type*)(heaps[places->name.heap] + places->name.first);
     BVH_ARRAYS(SCENE_ARRAY)
     SCENE_ARRAYS(SCENE_ARRAY)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the sums over the primary hits of a pixel lie: kernels/integrators/aov.cl makes them, src/render/hit_layers.cpp adds
-// them up.
+// How the sums over the primary hits of a pixel lie: kernels/integrators/aov.cl makes them,
+// src/render/hit_layers.cpp adds them up.
 #ifndef CLRT_SHARED_AOV_TYPES_H
 #define CLRT_SHARED_AOV_TYPES_H
 
@@ -20,8 +20,8 @@ SHARED_BEGIN
 #define AOV_MATERIAL 2u
 #define AOV_WORDS 3u
 
-/* One in fixed point is 2^AOV_BITS: floats from 2^-7 on are exact. Values are below 64, so that 2^26 samples fit, more than
-   a film of 64 replicates holds. */
+/* One in fixed point is 2^AOV_BITS: floats from 2^-7 on are exact. Values are below 64, so that 2^26 samples
+   fit, more than a film of 64 replicates holds. */
 #define AOV_BITS 31
 #define AOV_LARGEST 64
 

@@ -39,19 +39,20 @@
 #define BVH2_COUNT_WORD 14
 #define BVH2_LEAF_TRIANGLES 4 /* most triangles a leaf holds */
 
-/* Leaf triangle of bvh2 and cwbvh: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz, 0. */
+/* Leaf triangle of bvh2 and cwbvh: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz,
+   0. */
 #define LEAF_TRIANGLE_WORDS 12
 
 /* cwbvh node: 20 words, in parts of which bytes stand in the order of memory.
    Words 0..2: origin of the node's lattice (floats).
-   Word 3: by byte, exponents of the lattice's steps along x, y, z plus CWBVH_EXPONENT_BIAS; a mask of the slots that hold
-   inner nodes.
-   Words 4, 5: index of the first child that is an inner node, the others follow by ascending slot; of the first leaf
-   triangle of this node.
-   Words 6, 7: a byte a slot. Inner node: CWBVH_INNER_META | slot. Leaf of n triangles: 2^n - 1 in the upper three bits, the
-   place of the first, counted from the node's first, in the lower five. Empty: 0.
-   Words 8..19: planes as multiples of the step from the origin, a byte a slot: lower x, lower y, lower z, upper x, upper y,
-   upper z. */
+   Word 3: by byte, exponents of the lattice's steps along x, y, z plus CWBVH_EXPONENT_BIAS; a mask of the
+   slots that hold inner nodes.
+   Words 4, 5: index of the first child that is an inner node, the others follow by ascending slot; of the
+   first leaf triangle of this node.
+   Words 6, 7: a byte a slot. Inner node: CWBVH_INNER_META | slot. Leaf of n triangles: 2^n - 1 in the upper
+   three bits, the place of the first, counted from the node's first, in the lower five. Empty: 0.
+   Words 8..19: planes as multiples of the step from the origin, a byte a slot: lower x, lower y, lower z,
+   upper x, upper y, upper z. */
 #define CWBVH_NODE_WORDS 20
 #define CWBVH_EXPONENT_WORD 3
 #define CWBVH_CHILD_WORD 4
@@ -65,7 +66,8 @@
 #define CWBVH_COUNT_SHIFT 5
 #define CWBVH_LEAF_TRIANGLES 3 /* most triangles a leaf holds: 24 in all have a bit of a word */
 
-/* Levels of wide nodes; the collapse guarantees it. BVH_MAX_DEPTH - 1 levels of inner binary nodes, three by three. */
+/* Levels of wide nodes; the collapse guarantees it. BVH_MAX_DEPTH - 1 levels of inner binary nodes, three by
+   three. */
 #define CWBVH_MAX_LEVELS ((BVH_MAX_DEPTH + 1) / 3)
 
 #endif

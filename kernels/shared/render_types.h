@@ -12,7 +12,8 @@ SHARED_BEGIN
 #define FILTER_TENT 1u
 #define FILTER_GAUSSIAN 2u
 
-/* The deepest tree of `whitted`; every level leaves at most one ray waiting on its stack. The command line refuses more. */
+/* The deepest tree of `whitted`; every level leaves at most one ray waiting on its stack. The command line
+   refuses more. */
 #define WHITTED_MAX_DEPTH 64
 
 typedef struct {
@@ -67,8 +68,9 @@ ASSERT_SIZE(RenderParams, 256);
 #define PIXEL_CUT_WEIGHT_HIGH 5
 #define PIXEL_SHOWN 6           /* 1 once a camera ray has hit the scene */
 
-/* Weights of paths that max_depth cuts are summed in units of 2^-20, each rounded up: the sum is a bound, and the same in any
-   order. Larger weights count as the largest, so that 2^27 of them fit the 64 bits of a pixel. */
+/* Weights of paths that max_depth cuts are summed in units of 2^-20, each rounded up: the sum is a bound, and
+   the same in any order. Larger weights count as the largest, so that 2^27 of them fit the 64 bits of a
+   pixel. */
 #define CUT_WEIGHT_UNITS 1048576
 #define CUT_WEIGHT_LARGEST 65536
 

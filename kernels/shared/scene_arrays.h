@@ -1,38 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arrays of a scene, a row each. From the rows follow the kernels' Scene (kernels/geometry/scene.h), the upload
-// (src/render/scene_buffers.cpp) and the hash of the scene in a film's identity (src/film/film_identity.cpp).
+// The arrays of a scene, a row each. From the rows follow the kernels' Scene (kernels/geometry/scene.h), the
+// upload (src/render/scene_buffers.cpp) and the hash of the scene in a film's identity
+// (src/film/film_identity.cpp).
 #ifndef CLRT_SHARED_SCENE_ARRAYS_H
 #define CLRT_SHARED_SCENE_ARRAYS_H
 
 #include "bvh_types.h"
 #include "scene_types.h"
 
-/* ROW(type of an element, name in the kernels, member of the host's Bvh). How these are laid out changes no bit of a picture. */
-#define BVH_ARRAYS(ROW)                                                                                       \
-    ROW(u32, bvh_nodes, nodes)                                                                                \
+/* ROW(type of an element, name in the kernels, member of the host's Bvh). How these are laid out changes no
+   bit of a picture. */
+#define BVH_ARRAYS(ROW)                                                                                      \
+    ROW(u32, bvh_nodes, nodes)                                                                               \
     ROW(u32, bvh_leaves, leaves)
 
-/* ROW(type of an element, name in the kernels, member of the host's Scene), in the order in which they are hashed. */
-#define SCENE_ARRAYS(ROW)                                                                                     \
-    ROW(vec4, positions, positions)                                                                           \
-    ROW(vec4, normals, normals)                                                                               \
-    ROW(vec2, uvs, uvs)                                                                                       \
-    ROW(Triangle, triangles, triangles)                                                                       \
-    ROW(Material, materials, materials)                                                                       \
-    ROW(Texture, textures, textures)                                                                          \
-    ROW(u32, texel_words, texel_words)                                                                        \
-    ROW(Emitter, emitters, emitters)                                                                          \
-    ROW(Light, lights, lights)                                                                                \
+/* ROW(type of an element, name in the kernels, member of the host's Scene), in the order in which they are
+   hashed. */
+#define SCENE_ARRAYS(ROW)                                                                                    \
+    ROW(vec4, positions, positions)                                                                          \
+    ROW(vec4, normals, normals)                                                                              \
+    ROW(vec2, uvs, uvs)                                                                                      \
+    ROW(Triangle, triangles, triangles)                                                                      \
+    ROW(Material, materials, materials)                                                                      \
+    ROW(Texture, textures, textures)                                                                         \
+    ROW(u32, texel_words, texel_words)                                                                       \
+    ROW(Emitter, emitters, emitters)                                                                         \
+    ROW(Light, lights, lights)                                                                               \
     ROW(EnvironmentTexel, environment, environment.texels)
 
-/* The arrays lie in a few buffers, the heaps, so that kernels do not get an argument more for every array. A device promises
-   buffers of a quarter of its memory. Where each array goes to the emptiest heap, the largest first, seven such heaps hold
-   whatever the memory holds: if one finds no place, all seven are fuller than 1 - x, where x is its share of a heap. For
-   x <= 1/2 that makes more than 7 (1 - x) + x >= 4 heaps in all; for x > 1/2 each heap holds an array that is no smaller,
-   which makes eight of more than half a heap. */
+/* The arrays lie in a few buffers, the heaps, so that kernels do not get an argument more for every array. A
+   device promises buffers of a quarter of its memory. Where each array goes to the emptiest heap, the largest
+   first, seven such heaps hold whatever the memory holds: if one finds no place that needs the share x of a
+   heap, all seven are fuller than 1 - x. For x <= 1/2 that makes more than 7 (1 - x) + x >= 4 heaps in all;
+   for x > 1/2 each heap holds an array that is no smaller, which makes eight of more than half a heap. */
 #define SCENE_HEAPS 7
 
-/* An array begins at a multiple of this many bytes: the size of a ulong16, to which OpenCL aligns every buffer. */
+/* An array begins at a multiple of this many bytes: the size of a ulong16, to which OpenCL aligns every
+   buffer. */
 #define SCENE_ALIGNMENT 128
 
 SHARED_BEGIN

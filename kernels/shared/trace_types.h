@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The record of one sample: events in the order of evaluation, each a quantity and up to three values. Kernels built with
-// -DCLRT_TRACE write it (kernels/trace), src/replay reads it.
+// The record of one sample: events in the order of evaluation, each a quantity and up to three values.
+// Kernels built with -DCLRT_TRACE write it (kernels/trace), src/replay reads it.
 #ifndef CLRT_SHARED_TRACE_TYPES_H
 #define CLRT_SHARED_TRACE_TYPES_H
 
@@ -54,7 +54,8 @@
 /* Values of TRACE_LOBE: those of LOBE_*, with this bit where the lobe refracts. */
 #define TRACE_LOBE_REFRACTS 0x10000u
 
-/* A record: a head of words, then events. Words are 64 bits wide, so that a double fits; a float lies in the low half. */
+/* A record: a head of words, then events. Words are 64 bits wide, so that a double fits; a float lies in the
+   low half. */
 #define TRACE_HEAD_WORDS 8u
 #define TRACE_HEAD_COUNT 0u     /* events of the sample; more than fit are only counted */
 #define TRACE_HEAD_DECISIONS 1u /* hash of all choices */
