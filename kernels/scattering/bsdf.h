@@ -143,9 +143,9 @@ static inline void bsdf_choose_lobes(Bsdf* bsdf)
     bsdf->choose_multiple = multiple / sum;
     real left = REAL(1.0);
 #define SET_SHARE(NAME, name, effect, letters, delta_letters, absent)                                        \
-    if (BSDF_HAS(lobes, NAME, effect)) {                                                               \
+    if (BSDF_HAS(lobes, NAME, effect)) {                                                                     \
         bsdf->choose[LOBE_ROW_##NAME] =                                                                      \
-            BSDF_IS_LAST(lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / sum;                    \
+            BSDF_IS_LAST(lobes, NAME) ? left : bsdf->choose[LOBE_ROW_##NAME] / sum;                          \
         left -= bsdf->choose[LOBE_ROW_##NAME];                                                               \
     }
     LOBE_TABLE(SET_SHARE)
