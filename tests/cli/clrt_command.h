@@ -2,8 +2,8 @@
 // Runs the built clrt in a folder of the test's own.
 #pragma once
 
+#include "probes/scratch_folder.h"
 #include "support/run_command.h"
-#include "support/scratch_folder.h"
 #include "support/test_device.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // and libFuzzer.
 #pragma once
 
-#include "support/scratch_folder.h"
+#include "probes/scratch_folder.h"
 
 #include <cstdint>
 #include <cstdio>

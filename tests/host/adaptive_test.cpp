@@ -2,7 +2,7 @@
 // Adaptive rounds: where samples go, and that it does not bias the picture.
 #include "film/adaptive.h"
 
-#include "support/statistics.h"
+#include "probes/statistics.h"
 
 #include <cmath>
 #include <cstdio>

@@ -2,8 +2,8 @@
 // The judge of clrt-bench finds every wrong hit that is planted, on the side where it is planted, and no
 // other.
 #include "bench/arbitrate.h"
-#include "support/meshes.h"
-#include "support/random_inputs.h"
+#include "probes/meshes.h"
+#include "probes/random_inputs.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

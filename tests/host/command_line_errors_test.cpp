@@ -3,7 +3,7 @@
 #include "app/option_table.h"
 #include "app/peer_names.h"
 #include "host/command_line_support.h"
-#include "support/scratch_folder.h"
+#include "probes/scratch_folder.h"
 
 #include <gtest/gtest.h>
 #include <regex>

@@ -8,8 +8,8 @@
 #include "effects/effect_table.h"
 #include "error.h"
 #include "host/command_line_support.h"
+#include "probes/scratch_folder.h"
 #include "scene/camera_params.h"
-#include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 #include <map>

@@ -2,8 +2,8 @@
 // Vast triangles are cut near what is small, and nothing else about a scene changes.
 #include "scene/cut_vast.h"
 
-#include "support/meshes.h"
-#include "support/scene_builder.h"
+#include "probes/meshes.h"
+#include "probes/scene_builder.h"
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "effects/effects.h"
 #include "effects/take_out.h"
-#include "support/effect_masks.h"
+#include "probes/effect_masks.h"
 
 #include <algorithm>
 #include <cstring>

@@ -2,8 +2,8 @@
 // Whether the interval holds the picture's own error: films of known distributions, many seeds each.
 #include "film/film_error.h"
 
+#include "probes/statistics.h"
 #include "support/noise_film.h"
-#include "support/statistics.h"
 
 #include <cmath>
 #include <functional>

@@ -5,8 +5,8 @@
 #include "film/error_slope.h"
 #include "film/error_spread.h"
 #include "film/f_distribution.h"
+#include "probes/statistics.h"
 #include "support/noise_film.h"
-#include "support/statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 #include "film/film_file.h"
 
 #include "error.h"
+#include "probes/scratch_folder.h"
 #include "support/file_size_limit.h"
 #include "support/noise_film.h"
-#include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Pictures and variances from made-up sums, against direct computation.
 #include "film/film_error.h"
 
+#include "probes/statistics.h"
 #include "support/noise_film.h"
-#include "support/statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // Reading kernel files and expanding their includes.
 #include "device/kernel_source.h"
 #include "error.h"
-#include "support/scratch_folder.h"
+#include "probes/scratch_folder.h"
 
 #include <filesystem>
 #include <fstream>

@@ -3,7 +3,7 @@
 #include "app/command_line.h"
 #include "app/option_table.h"
 #include "error.h"
-#include "support/scratch_folder.h"
+#include "probes/scratch_folder.h"
 
 #include <gtest/gtest.h>
 

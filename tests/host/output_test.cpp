@@ -5,8 +5,8 @@
 #include "error.h"
 #include "output/atomic_file.h"
 #include "output/tonemap.h"
+#include "probes/scratch_folder.h"
 #include "support/file_size_limit.h"
-#include "support/scratch_folder.h"
 
 #include <cmath>
 #include <csignal>

@@ -4,7 +4,7 @@
 
 #include "effects/effect_table.h"
 #include "effects/take_out.h"
-#include "support/effect_masks.h"
+#include "probes/effect_masks.h"
 #include "support/render_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cache of compiled programs: sound entries are found, everything else is a miss.
 #include "device/program_cache.h"
+#include "probes/kernel_probe.h"
+#include "probes/scratch_folder.h"
 #include "support/file_size_limit.h"
-#include "support/kernel_probe.h"
-#include "support/scratch_folder.h"
 #include "support/test_device.h"
 
 #include <chrono>

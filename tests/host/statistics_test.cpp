@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The statistics that other tests rely on, against published values.
-#include "support/statistics.h"
+#include "probes/statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/albedo.h: the tables, between their nodes, against integrals in double precision. They stand on
 // the side on which nothing made from them adds light.
-#include "support/bsdf_probe.h"
-#include "support/closed_forms.h"
+#include "probes/bsdf_probe.h"
+#include "probes/closed_forms.h"
 #include "support/test_device.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/bsdf_energy.h: every material that the table of rules makes, in a white furnace. A surface under
 // light from everywhere never shines brighter than the light, and as bright where nothing is absorbed.
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
 #include "support/mtl_material.h"
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
 #include "support/test_device.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/bsdf.h: sampled directions against their density, over all sets of lobes that have one.
-#include "support/bsdf_probe.h"
-#include "support/sphere_cells.h"
-#include "support/statistics.h"
+#include "probes/bsdf_probe.h"
+#include "probes/sphere_cells.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/bsdf.h and the lobes below it: formulas in double precision, sample against eval, reciprocity,
 // energy.
-#include "support/bsdf_probe.h"
+#include "probes/bsdf_probe.h"
+#include "probes/reference.h"
+#include "probes/sphere_cells.h"
+#include "probes/statistics.h"
 #include "support/bsdf_reference.h"
-#include "support/reference.h"
-#include "support/sphere_cells.h"
-#include "support/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

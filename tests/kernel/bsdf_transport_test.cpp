@@ -2,9 +2,9 @@
 // What methods ask of a BSDF that build paths from both ends (scattering/bsdf_reverse.h and the transport
 // mode of scattering/bsdf.h): the density of the reverse direction, and importance as the adjoint of
 // radiance.
+#include "probes/bsdf_probe.h"
+#include "probes/reference.h"
 #include "scene/lobes.h"
-#include "support/bsdf_probe.h"
-#include "support/reference.h"
 #include "support/test_device.h"
 
 #include <algorithm>

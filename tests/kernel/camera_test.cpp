@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // camera/camera.h: pixel filters by their distributions, rays against double precision.
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
+#include "probes/sphere_cells.h"
+#include "probes/statistics.h"
 #include "render/render_params.h"
 #include "scene/camera_fit.h"
 #include "scene/camera_params.h"
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
-#include "support/sphere_cells.h"
-#include "support/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>
@@ -30,13 +30,14 @@ SceneProbe& probe() {
         made.add("filter", "first = (vec4)(camera_filter_sample(params, (real2)(a.x, a.y)), 0.0f, 0.0f);");
         made.add("tent", "first.x = camera_tent(a.x);");
         // a: pixel x, y, sample
-        made.add("ray",
-                 "const uint x = as_uint(a.x), y = as_uint(a.y);"
-                 "const Sampler s = sampler_make(params->seed, tile_pixel_number(params, x, y), 0u, as_uint(a.z));"
-                 "const Ray ray = camera_ray(params, &s, x, y);"
-                 "first = probe_vec4(ray.direction, ray.t_max); second = probe_vec4(ray.origin, REAL(0.0));"
-                 "const real2 u = sampler_pair(&s, 0u, SAMPLE_FILM);"
-                 "third = (vec4)(u.x, u.y, 0.0f, 0.0f);");
+        made.add(
+            "ray",
+            "const uint x = as_uint(a.x), y = as_uint(a.y);"
+            "const Sampler s = sampler_make(params->seed, tile_pixel_number(params, x, y), 0u, as_uint(a.z));"
+            "const Ray ray = camera_ray(params, &s, x, y);"
+            "first = probe_vec4(ray.direction, ray.t_max); second = probe_vec4(ray.origin, REAL(0.0));"
+            "const real2 u = sampler_pair(&s, 0u, SAMPLE_FILM);"
+            "third = (vec4)(u.x, u.y, 0.0f, 0.0f);");
         // a: film position, lens numbers; b.x: how far from the lens; c: film position to project to
         made.add("project", R"(
             const Ray ray = camera_generate(&params->camera, (real2)(a.x, a.y), (real2)(a.z, a.w), REAL(0.0));

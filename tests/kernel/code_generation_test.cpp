@@ -5,13 +5,13 @@
 #include "bvh/bvh.h"
 #include "clang_complaints.h"
 #include "kernels/shared/effects.h"
+#include "probes/bsdf_probe.h"
+#include "probes/ray_device.h"
+#include "probes/scratch_folder.h"
 #include "stability/bsdf_set.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/film_bench.h"
 #include "stability/path_probe.h"
-#include "support/bsdf_probe.h"
-#include "support/ray_device.h"
-#include "support/scratch_folder.h"
 #include "support/test_device.h"
 
 #include <fmt/format.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights/delta_light.h and lights.h: points and suns, the choice among all kinds of light, and what escaping
 // rays see.
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
+#include "probes/statistics.h"
 #include "scene/alias_table.h"
 #include "scene/environment.h"
 #include "scene/lights.h"
 #include "scene/sky_table.h"
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
-#include "support/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

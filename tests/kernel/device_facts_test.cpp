@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the device under test computes, and what is made of a device that computes otherwise.
 #include "device/device_facts.h"
-#include "support/kernel_probe.h"
-#include "support/scratch_folder.h"
+#include "probes/kernel_probe.h"
+#include "probes/scratch_folder.h"
 #include "support/test_device.h"
 
 #include <filesystem>

@@ -2,8 +2,8 @@
 // All kernels compile without a warning for every set of effects under test, as OpenCL C 1.2 and 3.0; no
 // device is needed.
 #include "clang_complaints.h"
-#include "support/effect_masks.h"
-#include "support/scratch_folder.h"
+#include "probes/effect_masks.h"
+#include "probes/scratch_folder.h"
 
 #include <algorithm>
 #include <fmt/format.h>

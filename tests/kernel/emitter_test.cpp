@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights/emitter.h and light_sample.h: points on emissive triangles, their density per steradian from both
 // techniques, sides, and shadow rays that do not meet the light they are sent to.
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
+#include "probes/statistics.h"
 #include "scene/lights.h"
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
-#include "support/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

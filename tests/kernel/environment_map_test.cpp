@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights/environment.h: orientation, lookup and rotation of lat-long maps, and directions sampled by texels.
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
+#include "probes/sphere_cells.h"
+#include "probes/statistics.h"
 #include "scene/environment.h"
 #include "scene/sky_table.h"
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
-#include "support/sphere_cells.h"
-#include "support/statistics.h"
 #include "support/test_device.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 // words; splats of the same samples are the gathered picture; windows; bad splats.
 #include "film/film_buffers.h"
 #include "kernels/shared/render_types.h"
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
 #include "support/test_device.h"
 
 #include <algorithm>

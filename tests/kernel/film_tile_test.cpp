@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // film/film.h and film/tile.h: unbiased rounding, faults by kind, replay list, and pixels of tiles.
 #include "kernels/shared/render_types.h"
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
 #include "support/test_device.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/fresnel.h against the textbook in long double, around critical angles float by float, and by
 // laws.
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
-#include "support/reference.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/reference.h"
 #include "support/test_device.h"
 
 #include <algorithm>

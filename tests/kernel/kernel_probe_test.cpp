@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The probe itself: types, statement lists, kernels of one's own, and refusals of wrong use.
-#include "support/kernel_probe.h"
+#include "probes/kernel_probe.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/material.h: constants and maps become a BSDF; normal and bump maps; shading normals that the eye
 // cannot see.
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
 #include "support/test_device.h"
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // scattering/microfacet.h: GGX against double precision by slopes, its normalisations, and sampled normals.
-#include "support/kernel_probe.h"
-#include "support/reference.h"
-#include "support/sphere_cells.h"
-#include "support/statistics.h"
+#include "probes/kernel_probe.h"
+#include "probes/reference.h"
+#include "probes/sphere_cells.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

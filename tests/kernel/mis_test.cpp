@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // numerics/mis.h: where only one technique finds a direction. What two of them weigh is case L09 of the
 // catalogue.
-#include "support/kernel_probe.h"
+#include "probes/kernel_probe.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

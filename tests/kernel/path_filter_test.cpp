@@ -3,8 +3,8 @@
 // BSDF is sampled without bias.
 #include "kernels/shared/path_types.h"
 #include "kernels/shared/scene_types.h"
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
 #include "support/test_device.h"
 
 #include <cmath>

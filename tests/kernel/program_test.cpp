@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Building programs on the device: options, dumps, messages, named arguments; and buffers.
 #include "device/program.h"
-#include "support/kernel_probe.h"
-#include "support/scratch_folder.h"
+#include "probes/kernel_probe.h"
+#include "probes/scratch_folder.h"
 #include "support/test_device.h"
 
 #include <filesystem>

@@ -2,9 +2,9 @@
 // The time within the shutter's opening, in programs that keep it: the camera draws it, and whatever a ray
 // hits, the rays that leave from there have it too.
 #include "kernels/shared/effects.h"
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
-#include "support/statistics.h"
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // numerics/real_functions.h: errors over the whole range, special values, and the same bits on every device.
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
-#include "support/statistics.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // numerics/sampler.h: addressed random numbers. The host computes them anew, by definition instead of by
 // tricks with bits, and the laws that rendering relies on are checked on the device's words.
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
-#include "support/statistics.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <algorithm>

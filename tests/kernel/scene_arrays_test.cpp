@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels find every array of a scene where the upload has put it.
+#include "probes/kernel_probe.h"
 #include "render/scene_buffers.h"
-#include "support/kernel_probe.h"
 #include "support/test_device.h"
 
 #include <cstring>

@@ -2,7 +2,7 @@
 // Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
 #include "kernels/shared/render_types.h"
 #include "kernels/shared/scene_arrays.h"
-#include "support/kernel_probe.h"
+#include "probes/kernel_probe.h"
 #include "support/test_device.h"
 
 #include <array>

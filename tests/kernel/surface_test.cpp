@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // geometry/surface.h: hit points, normals, sides, texture derivatives, the curved surface, and rays that
 // leave a triangle without meeting it again.
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
 #include "support/test_device.h"
 
 #include <array>

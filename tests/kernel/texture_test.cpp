@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // geometry/texture.h: texel formats, bilinear lookup with wrapping and clamping, orientation, channels.
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
 #include "support/test_device.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through a tree hit what a test of all triangles hits, to the last bit, in every layout.
-#include "support/meshes.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
+#include "probes/meshes.h"
+#include "probes/random_inputs.h"
+#include "probes/ray_device.h"
 #include "support/test_device.h"
 
 #include <algorithm>

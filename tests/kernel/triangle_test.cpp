@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ray-triangle test against exact arithmetic: signs, equal bits in both widths. How exact its hits are is
 // in the catalogue (tools/stability/cases/intersection_accuracy_cases.cpp).
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
-#include "support/statistics.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/ray_device.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <algorithm>

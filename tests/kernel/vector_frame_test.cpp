@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // numerics/vector.h and numerics/frame.h: products, cross products of nearly parallel vectors, orthonormal
 // frames.
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
-#include "support/statistics.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays that see through cut-outs meet every layer once and in order.
-#include "support/meshes.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
-#include "support/statistics.h"
+#include "probes/meshes.h"
+#include "probes/random_inputs.h"
+#include "probes/ray_device.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <algorithm>

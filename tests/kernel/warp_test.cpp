@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // numerics/warp.h: each map against a double-precision formula or its range, and its points against its
 // density.
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
-#include "support/sphere_cells.h"
-#include "support/statistics.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/sphere_cells.h"
+#include "probes/statistics.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

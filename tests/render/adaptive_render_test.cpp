@@ -2,8 +2,8 @@
 // Adaptive renders: no bias against uniform ones, less error for the same samples, and the same samples to
 // begin with.
 #include "film/film_error.h"
+#include "probes/statistics.h"
 #include "support/render_scene.h"
-#include "support/statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // A background is what the camera sees where it hits nothing, and nothing else: it lights nothing, no mirror
 // shows it, no integrator and no layer differs about it.
 #include "film/film_identity.h"
+#include "probes/film_estimate.h"
 #include "render/render_params.h"
-#include "support/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <cmath>

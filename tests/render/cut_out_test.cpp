@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coverage below 1: what shows through, what shadows and lamps become.
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Direct light on matte surfaces against closed forms, for every integrator: area lights, point lights, suns.
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -6,9 +6,9 @@
 #include "console/progress.h"
 #include "effects/effects.h"
 #include "effects/take_out.h"
+#include "probes/effect_masks.h"
 #include "render/kernels.h"
 #include "scene/load_scene.h"
-#include "support/effect_masks.h"
 #include "support/render_scene.h"
 
 #include <algorithm>

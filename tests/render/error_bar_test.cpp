@@ -3,9 +3,9 @@
 // against a long run.
 #include "film/error_slope.h"
 #include "film/film_error.h"
+#include "probes/statistics.h"
 #include "render/kernels.h"
 #include "support/render_scene.h"
-#include "support/statistics.h"
 
 #include <cmath>
 #include <cstdio>

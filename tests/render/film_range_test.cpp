@@ -2,8 +2,8 @@
 // The film holds every light: mapped lamps far brighter than their scene, points beside a wall, suns nearly
 // without a disc. Against closed forms.
 #include "film/film.h"
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Furnaces: surroundings of equal radiance, in which every material shows its albedo and nothing else.
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smooth glass in pictures: Fresnel's parts of a slab, Snell's directions, total reflection, and tint.
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -4,7 +4,7 @@
 #include "render/hit_layers.h"
 
 #include "console/signals.h"
-#include "support/kernel_probe.h"
+#include "probes/kernel_probe.h"
 #include "support/render_scene.h"
 
 #include <csignal>

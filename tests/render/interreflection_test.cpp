@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that is scattered several times between two matte squares, against radiosity in double precision.
-#include "support/closed_forms.h"
+#include "probes/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

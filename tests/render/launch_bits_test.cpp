@@ -2,8 +2,8 @@
 // The film does not depend on how its samples are dealt out to launches: at once, one by one, tiles last to
 // first.
 #include "film/film_buffers.h"
+#include "probes/kernel_probe.h"
 #include "render/launcher.h"
-#include "support/kernel_probe.h"
 #include "support/render_scene.h"
 
 #include <gtest/gtest.h>

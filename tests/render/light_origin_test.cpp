@@ -2,8 +2,8 @@
 // Where light reaches a coarse smooth mesh: sampling lights, sampling the BSDF, and both with their weights
 // see it from the same points.
 #include "device/kernel_source.h"
+#include "probes/film_estimate.h"
 #include "render/kernels.h"
-#include "support/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <cmath>

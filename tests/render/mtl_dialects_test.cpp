@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the writers of material libraries mean, in pictures; --mtl plain shows what they wrote.
+#include "probes/closed_forms.h"
 #include "support/blender_mtl.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -2,7 +2,7 @@
 // A NaN anywhere inside a sample is counted, also where the comparison that meets it first would take it for
 // black, for a light behind the surface or for an end by roulette. NaNs are planted into a copy of the
 // kernels, by the seed.
-#include "support/prepared_render.h"
+#include "probes/prepared_render.h"
 #include "support/render_scene.h"
 
 #include <algorithm>

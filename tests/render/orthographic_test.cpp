@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures in parallel projection: size does not depend on distance, and the film's plane bounds what is
 // seen.
+#include "probes/film_estimate.h"
 #include "support/film_agrees.h"
-#include "support/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <cmath>

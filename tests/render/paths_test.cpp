@@ -2,8 +2,8 @@
 // Path notation in pictures: expressions that share no path add up to the whole, each shows what a closed
 // form says, and what they exclude costs no ray.
 #include "film/film_identity.h"
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -4,8 +4,8 @@
 #include "render/prepared_scene.h"
 
 #include "console/progress.h"
+#include "probes/effect_masks.h"
 #include "render/ledger.h"
-#include "support/effect_masks.h"
 #include "support/render_scene.h"
 
 #include <functional>

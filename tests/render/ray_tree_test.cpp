@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the classic integrators trace: the tree of `whitted`, the single ray of `raycast`, and their
 // highlights.
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

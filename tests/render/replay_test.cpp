@@ -2,11 +2,11 @@
 // A replayed sample has the bits of the rendered one; a planted fault is found where it was planted, and so
 // is a decision that is made differently in double precision.
 #include "film/film_buffers.h"
+#include "probes/effect_masks.h"
+#include "probes/kernel_probe.h"
 #include "render/launcher.h"
 #include "replay/causes.h"
 #include "replay/flips.h"
-#include "support/effect_masks.h"
-#include "support/kernel_probe.h"
 #include "support/render_scene.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures that must be the same to the last bit: two renders on one device in every test.
 #include "kernels/shared/effects.h"
+#include "probes/film_estimate.h"
+#include "probes/kernel_probe.h"
 #include "render/kernels.h"
-#include "support/film_estimate.h"
-#include "support/kernel_probe.h"
 #include "support/render_scene.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --sampler: both choices give the same expectation; Sobol points bring it with less noise, white noise by
 // the known law.
-#include "support/closed_forms.h"
+#include "probes/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

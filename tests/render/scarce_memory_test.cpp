@@ -2,8 +2,8 @@
 // Memory that runs out after the last sample costs layers, never the picture: each of the large allocations
 // behind a finished render fails once.
 #include "error.h"
+#include "probes/kernel_probe.h"
 #include "run/saving.h"
-#include "support/kernel_probe.h"
 #include "support/render_scene.h"
 
 #include <atomic>

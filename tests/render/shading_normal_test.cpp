@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Normals that are not the plane's: interpolated, mapped, bumped; what they do to direct light.
+#include "probes/film_estimate.h"
 #include "render/kernels.h"
-#include "support/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light from outside the scene: constant skies and latitude-longitude maps, seen and as irradiance.
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A splatting integrator in a whole render: a ray caster whose samples are splatted to where their camera
 // rays cross the film draws what the ray caster gathers, to the bit.
-#include "support/prepared_render.h"
+#include "probes/prepared_render.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"
 

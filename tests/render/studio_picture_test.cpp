@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the studio: what stands in it is seen, white, grey or black, with a shadow and without a
 // horizon, and no room is black.
-#include "support/film_estimate.h"
+#include "probes/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <cmath>

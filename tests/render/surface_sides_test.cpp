@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sides of a surface: light from behind stays behind, whatever normals the surface is shaded with.
+#include "probes/film_estimate.h"
 #include "render/kernels.h"
-#include "support/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <algorithm>

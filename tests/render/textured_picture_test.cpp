@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps in pictures: which way up they lie, how they repeat, and what each of them scales.
+#include "probes/closed_forms.h"
 #include "render/kernels.h"
-#include "support/closed_forms.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 

@@ -2,7 +2,7 @@
 // Colours of vertices multiply Kd: linear between the vertices, sRGB in the file.
 #include "colour.h"
 #include "kernels/shared/effects.h"
-#include "support/film_estimate.h"
+#include "probes/film_estimate.h"
 #include "support/render_scene.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // The check of clrt-bench --watertight, a hundredth of its rays; and that it can fail.
 #include "bench/closed_meshes.h"
 #include "bench/watertight.h"
-#include "support/ray_device.h"
+#include "probes/ray_device.h"
 #include "support/test_device.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes that break builders and traversals: corners on a line, coordinates that are not finite, needles.
 // More is in the catalogue (tools/stability/cases/degenerate_cases.cpp).
-#include "support/aimed_rays.h"
+#include "probes/aimed_rays.h"
 #include "support/test_device.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A million rays against Embree in its robust mode. Where the two differ, all triangles in double precision
 // say which is wrong.
+#include "probes/meshes.h"
+#include "probes/random_inputs.h"
+#include "probes/ray_device.h"
 #include "support/embree_scene.h"
-#include "support/meshes.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
 #include "support/test_device.h"
 
 #include <algorithm>

@@ -4,10 +4,10 @@
 #include "app/command_line.h"
 #include "console/progress.h"
 #include "effects/take_out.h"
+#include "probes/kernel_probe.h"
 #include "replay/flips.h"
 #include "replay/quantities.h"
 #include "scene/load_scene.h"
-#include "support/kernel_probe.h"
 #include "support/test_device.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays of unusual length and from afar. More is in the catalogue
 // (tools/stability/cases/intersection_cases.cpp).
-#include "support/aimed_rays.h"
+#include "probes/aimed_rays.h"
 #include "support/test_device.h"
 
 #include <algorithm>

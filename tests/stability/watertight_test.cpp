@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // No ray passes through the seams of a closed mesh whose neighbours share edges but not their middles.
-#include "support/aimed_rays.h"
+#include "probes/aimed_rays.h"
 #include "support/test_device.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/bsdf_reference.h"
 
-#include "support/reference.h"
+#include "probes/reference.h"
 
 #include <algorithm>
 #include <cmath>

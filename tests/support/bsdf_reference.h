@@ -4,7 +4,7 @@
 // take them from.
 #pragma once
 
-#include "support/bsdf_probe.h"
+#include "probes/bsdf_probe.h"
 
 #include <cstddef>
 #include <glm/vec3.hpp>

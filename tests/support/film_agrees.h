@@ -2,7 +2,7 @@
 // Whether a film agrees with a closed form.
 #pragma once
 
-#include "support/film_estimate.h"
+#include "probes/film_estimate.h"
 
 #include <gtest/gtest.h>
 

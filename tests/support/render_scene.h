@@ -2,7 +2,7 @@
 // Renders small scenes in process on the test device.
 #pragma once
 
-#include "support/scratch_scene.h"
+#include "probes/scratch_scene.h"
 #include "support/test_device.h"
 
 namespace clrt {

@@ -2,7 +2,7 @@
 // What tests run on, as ctest's environment says.
 #pragma once
 
-#include "support/probe_device.h"
+#include "probes/probe_device.h"
 
 #include <string>
 

@@ -2,8 +2,8 @@
 // The BSDFs of all lobe sets as probed expressions, so that cases go through them in every build.
 #pragma once
 
+#include "probes/bsdf_probe.h"
 #include "stability/probe_set.h"
-#include "support/bsdf_probe.h"
 
 #include <glm/vec3.hpp>
 #include <string>

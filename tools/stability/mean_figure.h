@@ -2,8 +2,8 @@
 // Figures of a case that compares the mean of a random quantity.
 #pragma once
 
+#include "probes/statistics.h"
 #include "stability/stability_case.h"
-#include "support/statistics.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -3,10 +3,10 @@
 // whose rounding would hide the last digits.
 #pragma once
 
+#include "probes/ray_device.h"
+#include "probes/scratch_scene.h"
 #include "render/prepared_scene.h"
 #include "stability/stability_case.h"
-#include "support/ray_device.h"
-#include "support/scratch_scene.h"
 
 #include <glm/vec3.hpp>
 #include <vector>

@@ -3,8 +3,8 @@
 // robust choice costs.
 #pragma once
 
+#include "probes/kernel_probe.h"
 #include "stability/stability_case.h"
-#include "support/kernel_probe.h"
 
 #include <functional>
 #include <map>

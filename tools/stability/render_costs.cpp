@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/render_costs.h"
 
+#include "probes/prepared_render.h"
 #include "stability/shipped_scenes.h"
-#include "support/prepared_render.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 // the kernels gave.
 #pragma once
 
-#include "support/probe_device.h"
+#include "probes/probe_device.h"
 
 #include <array>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #include "stability/catalogue.h"
 #include "stability/probe_set.h"
 
-#include "support/film_estimate.h"
-#include "support/prepared_render.h"
+#include "probes/film_estimate.h"
+#include "probes/prepared_render.h"
 
 #include <algorithm>
 #include <cmath>

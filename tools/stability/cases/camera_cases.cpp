@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras: the narrowest and the widest angle of view, an up vector along the view.
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
 #include "render/render_params.h"
 #include "scene/camera_fit.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
 
 #include <array>
 #include <cmath>

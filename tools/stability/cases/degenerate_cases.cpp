@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Degenerate geometry: no area, garbage, copies, needles, nothing at all, normals that are none.
 #include "error.h"
+#include "probes/aimed_rays.h"
+#include "probes/scratch_scene.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
-#include "support/aimed_rays.h"
-#include "support/scratch_scene.h"
 
 #include <algorithm>
 #include <chrono>

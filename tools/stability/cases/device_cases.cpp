@@ -3,12 +3,12 @@
 #include "stability/catalogue.h"
 #include "stability/probe_set.h"
 
-#include "support/effect_masks.h"
-#include "support/film_estimate.h"
-#include "support/prepared_render.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
-#include "support/statistics.h"
+#include "probes/effect_masks.h"
+#include "probes/film_estimate.h"
+#include "probes/prepared_render.h"
+#include "probes/random_inputs.h"
+#include "probes/ray_device.h"
+#include "probes/statistics.h"
 
 #include <cmath>
 #include <fmt/format.h>

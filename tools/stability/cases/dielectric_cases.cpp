@@ -4,9 +4,9 @@
 #include "stability/catalogue.h"
 #include "stability/choices.h"
 
-#include "support/random_inputs.h"
-#include "support/reference.h"
-#include "support/sphere_cells.h"
+#include "probes/random_inputs.h"
+#include "probes/reference.h"
+#include "probes/sphere_cells.h"
 
 #include <cmath>
 #include <fmt/format.h>

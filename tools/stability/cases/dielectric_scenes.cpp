@@ -4,9 +4,9 @@
 #include "stability/mean_figure.h"
 #include "stability/path_probe.h"
 
-#include "support/meshes.h"
-#include "support/random_inputs.h"
-#include "support/reference.h"
+#include "probes/meshes.h"
+#include "probes/random_inputs.h"
+#include "probes/reference.h"
 
 #include <fmt/format.h>
 

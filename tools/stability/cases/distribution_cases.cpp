@@ -5,9 +5,9 @@
 #include "stability/cases/shading_expressions.h"
 #include "stability/catalogue.h"
 
-#include "support/random_inputs.h"
-#include "support/sphere_cells.h"
-#include "support/statistics.h"
+#include "probes/random_inputs.h"
+#include "probes/sphere_cells.h"
+#include "probes/statistics.h"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,11 @@
 #include "stability/mean_figure.h"
 #include "stability/path_probe.h"
 
+#include "probes/random_inputs.h"
+#include "probes/scene_probe.h"
+#include "probes/sphere_cells.h"
 #include "scene/environment.h"
 #include "scene/sky_table.h"
-#include "support/random_inputs.h"
-#include "support/scene_probe.h"
-#include "support/sphere_cells.h"
 
 #include <fmt/format.h>
 #include <limits>

@@ -4,11 +4,11 @@
 #include "stability/choices.h"
 #include "stability/film_bench.h"
 
-#include "support/effect_masks.h"
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
-#include "support/statistics.h"
+#include "probes/effect_masks.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
+#include "probes/ray_device.h"
+#include "probes/statistics.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -5,8 +5,8 @@
 #include "stability/mean_figure.h"
 #include "stability/path_probe.h"
 
-#include "support/random_inputs.h"
-#include "support/statistics.h"
+#include "probes/random_inputs.h"
+#include "probes/statistics.h"
 
 #include <fmt/format.h>
 

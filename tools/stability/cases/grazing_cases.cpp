@@ -5,8 +5,8 @@
 #include "stability/cases/shading_expressions.h"
 #include "stability/catalogue.h"
 
-#include "support/random_inputs.h"
-#include "support/reference.h"
+#include "probes/random_inputs.h"
+#include "probes/reference.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 // G01: where a ray that grazes a plane meets it.
 #include "stability/cases/grazing_plane_case.h"
 
+#include "probes/aimed_rays.h"
 #include "stability/cases/ray_builds.h"
-#include "support/aimed_rays.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Intersection: how exact hits are, and trees without end.
 #include "naive/naive_kernels.h"
+#include "probes/leaving_rays.h"
+#include "probes/scene_builder.h"
 #include "stability/cases/intersection_cases.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/probe_set.h"
-#include "support/leaving_rays.h"
-#include "support/scene_builder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 // Intersection: closed meshes hold every ray, and trees find what all triangles give.
 #include "stability/cases/intersection_cases.h"
 
+#include "probes/aimed_rays.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
 #include "stability/choices.h"
-#include "support/aimed_rays.h"
 
 #include <cmath>
 #include <fmt/format.h>

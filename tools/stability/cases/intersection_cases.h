@@ -2,8 +2,8 @@
 // Parts of the group of intersection cases.
 #pragma once
 
+#include "probes/ray_device.h"
 #include "stability/stability_case.h"
-#include "support/ray_device.h"
 
 #include <string>
 #include <vector>

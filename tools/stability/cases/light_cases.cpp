@@ -6,7 +6,7 @@
 #include "stability/mean_figure.h"
 #include "stability/path_probe.h"
 
-#include "support/random_inputs.h"
+#include "probes/random_inputs.h"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 #include "stability/cases/shading_expressions.h"
 #include "stability/choices.h"
 
+#include "probes/random_inputs.h"
 #include "scene/alias_table.h"
 #include "scene/lights.h"
-#include "support/random_inputs.h"
 
 #include <fmt/format.h>
 #include <numeric>

@@ -3,11 +3,11 @@
 #include "stability/cases/offsets_cases.h"
 
 #include "naive/naive_kernels.h"
+#include "probes/leaving_rays.h"
+#include "probes/scene_builder.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
 #include "stability/choices.h"
-#include "support/leaving_rays.h"
-#include "support/scene_builder.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 // Parts of the group of cases about leaving surfaces (offsets_closed_cases.cpp).
 #pragma once
 
+#include "probes/meshes.h"
 #include "stability/stability_case.h"
-#include "support/meshes.h"
 
 namespace clrt {
 

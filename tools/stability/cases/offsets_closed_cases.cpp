@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Leaving surfaces: shadow rays to lights, closed rooms, the terminator of smooth meshes.
 #include "naive/naive_kernels.h"
+#include "probes/leaving_rays.h"
+#include "probes/scratch_scene.h"
 #include "stability/cases/offsets_cases.h"
 #include "stability/cases/ray_builds.h"
-#include "support/leaving_rays.h"
-#include "support/scratch_scene.h"
 
 #include <cmath>
 #include <fmt/format.h>

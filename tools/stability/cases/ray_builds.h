@@ -2,8 +2,8 @@
 // What the cases that trace rays share: the builds' kernels, and rays as text.
 #pragma once
 
+#include "probes/ray_device.h"
 #include "stability/stability_case.h"
-#include "support/ray_device.h"
 
 #include <functional>
 #include <string>

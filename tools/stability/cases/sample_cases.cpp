@@ -5,9 +5,9 @@
 #include "stability/shipped_scenes.h"
 
 #include "output/image.h"
-#include "support/effect_masks.h"
-#include "support/prepared_render.h"
-#include "support/random_inputs.h"
+#include "probes/effect_masks.h"
+#include "probes/prepared_render.h"
+#include "probes/random_inputs.h"
 
 #include <algorithm>
 #include <cmath>

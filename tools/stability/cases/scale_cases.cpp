@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scale and position: powers of two, units, far places, sizes that differ by 1e7.
+#include "probes/film_estimate.h"
+#include "probes/leaving_rays.h"
+#include "probes/scratch_scene.h"
 #include "scene/cut_vast.h"
 #include "stability/cases/offsets_cases.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
 #include "stability/choices.h"
 #include "stability/mean_figure.h"
-#include "support/film_estimate.h"
-#include "support/leaving_rays.h"
-#include "support/scratch_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "stability/cases/shading_expressions.h"
 #include "stability/choices.h"
 
-#include "support/random_inputs.h"
+#include "probes/random_inputs.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "kernels/shared/types.h"
+#include "probes/closed_forms.h"
 #include "scene/vectors.h"
-#include "support/closed_forms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "effects/effect_table.h"
-#include "support/scratch_scene.h"
+#include "probes/scratch_scene.h"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes one kernel with a scene's arguments around each statement list.
-#include "support/scene_probe.h"
+#include "probes/scene_probe.h"
 
+#include "probes/ray_device.h"
 #include "render/scene_buffers.h"
-#include "support/ray_device.h"
 
 #include <fmt/format.h>
 #include <utility>

@@ -18,7 +18,7 @@
 
 #include "device/program.h"
 #include "kernels/shared/types.h"
-#include "support/probe_device.h"
+#include "probes/probe_device.h"
 
 #include <map>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Equal cells of the sphere with a Gauss-Legendre rule in each.
-#include "support/sphere_cells.h"
+#include "probes/sphere_cells.h"
 
-#include "support/random_inputs.h"
+#include "probes/random_inputs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "options/options.h"
+#include "probes/probe_device.h"
+#include "probes/scene_builder.h"
+#include "probes/scratch_folder.h"
 #include "render/prepared_scene.h"
 #include "render/render.h"
 #include "scene/scene.h"
-#include "support/probe_device.h"
-#include "support/scene_builder.h"
-#include "support/scratch_folder.h"
 
 #include <glm/vec3.hpp>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/effect_masks.h"
+#include "probes/effect_masks.h"
 
 #include <algorithm>
 #include <fmt/format.h>

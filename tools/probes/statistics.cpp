@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Incomplete gamma and beta functions after Press et al., Numerical Recipes (3rd ed.), sections 6.2 and 6.4.
-#include "support/statistics.h"
+#include "probes/statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 // nothing about watertightness: they never come near an edge.
 #pragma once
 
-#include "support/meshes.h"
-#include "support/random_inputs.h"
-#include "support/ray_device.h"
+#include "probes/meshes.h"
+#include "probes/random_inputs.h"
+#include "probes/ray_device.h"
 
 namespace clrt {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes one kernel around each expression and builds them as one program.
-#include "support/kernel_probe.h"
+#include "probes/kernel_probe.h"
 
 #include <fmt/format.h>
 #include <stdexcept>

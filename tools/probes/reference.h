@@ -3,7 +3,7 @@
 // Written for clarity, by angles where the kernels use components, so that an error is not repeated.
 #pragma once
 
-#include "support/random_inputs.h"
+#include "probes/random_inputs.h"
 
 #include <algorithm>
 

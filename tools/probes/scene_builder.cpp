@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faces -> OBJ text. Numbers have nine digits, so that every float is written exactly.
-#include "support/scene_builder.h"
+#include "probes/scene_builder.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/meshes.h"
+#include "probes/meshes.h"
 
+#include "probes/random_inputs.h"
 #include "scene/normalise.h"
-#include "support/random_inputs.h"
 
 #include <algorithm>
 #include <cmath>

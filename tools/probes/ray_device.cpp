@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/ray_device.h"
+#include "probes/ray_device.h"
 
-#include "support/meshes.h"
-#include "support/random_inputs.h"
+#include "probes/meshes.h"
+#include "probes/random_inputs.h"
 
 #include <cassert>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/prepared_render.h"
+#include "probes/prepared_render.h"
 
 #include <filesystem>
 #include <stdexcept>

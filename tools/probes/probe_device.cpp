@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/probe_device.h"
+#include "probes/probe_device.h"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/aimed_rays.h"
+#include "probes/aimed_rays.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include "bvh/bvh.h"
 #include "kernels/shared/render_types.h"
 #include "options/options.h"
+#include "probes/kernel_probe.h"
 #include "render/scene_buffers.h"
 #include "scene/scene.h"
-#include "support/kernel_probe.h"
 
 #include <functional>
 #include <glm/vec3.hpp>

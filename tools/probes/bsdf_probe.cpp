@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program that evaluates and samples a BSDF, and the lobe sets that tests go through.
-#include "support/bsdf_probe.h"
+#include "probes/bsdf_probe.h"
 
 #include <stdexcept>
 
@@ -147,7 +147,8 @@ LobeSet lobe_set(const std::string& name) {
     throw std::logic_error("there is no lobe set \"" + name + "\"");
 }
 
-BsdfProbe::BsdfProbe(const ProbeDevice& device) : device_(device), probe_(device, {"scattering/bsdf_reverse.h"}) {
+BsdfProbe::BsdfProbe(const ProbeDevice& device)
+    : device_(device), probe_(device, {"scattering/bsdf_reverse.h"}) {
     probe_.add_text(TEXT);
     probe_.add_text(ALBEDO_TEXT);
 }

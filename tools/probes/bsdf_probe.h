@@ -3,8 +3,8 @@
 #pragma once
 
 #include "kernels/shared/scene_types.h"
-#include "support/kernel_probe.h"
-#include "support/random_inputs.h"
+#include "probes/kernel_probe.h"
+#include "probes/random_inputs.h"
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 // kernels whose text was changed.
 #pragma once
 
-#include "support/scratch_scene.h"
+#include "probes/scratch_scene.h"
 
 #include <string>
 #include <utility>

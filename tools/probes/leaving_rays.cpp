@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/leaving_rays.h"
+#include "probes/leaving_rays.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closed forms and one quadrature, all in double.
-#include "support/closed_forms.h"
+#include "probes/closed_forms.h"
 
 #include <algorithm>
 #include <cmath>

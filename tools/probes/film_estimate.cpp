@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Means of windows, replicate by replicate.
-#include "support/film_estimate.h"
+#include "probes/film_estimate.h"
 
-#include "support/statistics.h"
+#include "probes/statistics.h"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "kernels/shared/render_types.h"
+#include "probes/kernel_probe.h"
 #include "scene/scene.h"
-#include "support/kernel_probe.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // Rays that have met a surface and leave it again.
 #pragma once
 
-#include "support/aimed_rays.h"
+#include "probes/aimed_rays.h"
 
 namespace clrt {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene text -> files in a scratch folder -> film.
-#include "support/scratch_scene.h"
+#include "probes/scratch_scene.h"
 
 #include "console/progress.h"
 #include "scene/load_scene.h"
