@@ -5,6 +5,7 @@
 #include "probes/reference.h"
 #include "probes/sphere_cells.h"
 #include "probes/statistics.h"
+#include "scene/vectors.h"
 #include "support/bsdf_reference.h"
 #include "support/test_device.h"
 
@@ -70,10 +71,6 @@ Moments energy(const BsdfSamples& samples, double eta) {
         weights.push_back(
             samples.eta[i] == 0 ? 0 : samples.weight[i].x / (samples.wi[i].z < 0 ? eta * eta : 1.0));
     return moments_of(weights);
-}
-
-bool is_finite(const dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 } // namespace
