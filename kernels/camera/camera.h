@@ -88,7 +88,8 @@ static inline CameraConnection camera_project(const CameraParams* camera, real3 
    counted from a corner the terms of a wide angle would cancel. */
 static inline real2 camera_pixel_centre(const RenderParams* params, uint x, uint y)
 {
-    const int from_left = 2 * (int)x + 1 - (int)params->width, from_top = 2 * (int)y + 1 - (int)params->height;
+    const int from_left = 2 * (int)x + 1 - (int)params->width,
+              from_top = 2 * (int)y + 1 - (int)params->height;
     return (real2)((real)from_left, (real)from_top) * REAL(0.5);
 }
 

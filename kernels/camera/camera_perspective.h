@@ -8,8 +8,9 @@
 
 static inline Ray camera_perspective_generate(const CameraParams* camera, real2 film, real2 lens, real time)
 {
-    const real3 direction = fma((real3)(film.x), vector_from(camera->film_dx),
-                                fma((real3)(film.y), vector_from(camera->film_dy), vector_from(camera->look)));
+    const real3 direction =
+        fma((real3)(film.x), vector_from(camera->film_dx),
+            fma((real3)(film.y), vector_from(camera->film_dy), vector_from(camera->look)));
     return ray_make(vector_from(camera->eye), vector_normalize(direction), time);
 }
 

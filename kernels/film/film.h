@@ -10,8 +10,8 @@
 #include "numerics/vector.h"
 #include "shared/render_types.h"
 
-/* Rays that a work-item has traced besides its primary rays, paths that max_depth has cut, and primary rays that have left the
-   scene: counting those costs nothing where there are none. */
+/* Rays that a work-item has traced besides its primary rays, paths that max_depth has cut, and primary rays
+   that have left the scene: counting those costs nothing where there are none. */
 typedef struct {
     uint secondary, shadow;
     uint cut;
@@ -36,7 +36,8 @@ static inline void film_add_counts(const PixelRays* rays, uint samples, global u
     words[PIXEL_SHOWN] |= rays->missed != samples ? 1u : 0u;
     if (rays->cut == 0u)
         return;
-    const ulong weight = upsample(words[PIXEL_CUT_WEIGHT_HIGH], words[PIXEL_CUT_WEIGHT_LOW]) + rays->cut_weight;
+    const ulong weight =
+        upsample(words[PIXEL_CUT_WEIGHT_HIGH], words[PIXEL_CUT_WEIGHT_LOW]) + rays->cut_weight;
     words[PIXEL_CUT_PATHS] += rays->cut;
     words[PIXEL_CUT_WEIGHT_LOW] = (uint)weight;
     words[PIXEL_CUT_WEIGHT_HIGH] = (uint)(weight >> 32);

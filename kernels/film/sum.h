@@ -26,8 +26,8 @@ static inline bool sum_add_alone(global long* sum, long quanta)
     return *sum != LONG_MAX;
 }
 
-/* Adds modulo 2^64 to a sum that others add to at the same time; the sum before, as this addition has met it (without
-   its high word, where that stays). */
+/* Adds modulo 2^64 to a sum that others add to at the same time; the sum before, as this addition has met it
+   (without its high word, where that stays). */
 static inline ulong sum_add_modulo(global long* sum, ulong quanta)
 {
 #if FILM_INT64_ATOMICS
@@ -42,9 +42,9 @@ static inline ulong sum_add_modulo(global long* sum, ulong quanta)
 #endif
 }
 
-/* Adds 0 to 2^60 quanta to a sum that others add to. It is full from 2^63 on, which sets its sign, and the host
-   reads that as the largest value. Whatever the order, a sum gets there in steps of less than 2^63, so that one
-   of them sees it happen; who comes later takes back what it adds. False where it is full. */
+/* Adds 0 to 2^60 quanta to a sum that others add to. It is full from 2^63 on, which sets its sign, and the
+   host reads that as the largest value. Whatever the order, a sum gets there in steps of less than 2^63, so
+   that one of them sees it happen; who comes later takes back what it adds. False where it is full. */
 static inline bool sum_add_shared(global long* sum, long quanta)
 {
     if (quanta == 0)

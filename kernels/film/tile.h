@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From work-item to pixel: a work-group is a tile of 8 x 8 pixels. Consecutive groups are spread over the picture, because a
-// CPU thread takes a run of them and a run should cost what the picture costs on average.
+// From work-item to pixel: a work-group is a tile of 8 x 8 pixels. Consecutive groups are spread over the
+// picture, because a CPU thread takes a run of them and a run should cost what the picture costs on average.
 #ifndef CLRT_FILM_TILE_H
 #define CLRT_FILM_TILE_H
 

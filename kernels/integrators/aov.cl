@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entry point for the layers of the primary hits: what the picture's samples see first, by the same camera rays.
+// Entry point for the layers of the primary hits: what the picture's samples see first, by the same camera
+// rays.
 #include "camera/camera.h"
 #include "film/tile.h"
 #include "path/visibility.h"
@@ -48,8 +49,8 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
 
 /* Writes the sums of the launch's samples, tile by tile in the order of the launch. */
 CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void render_aov(
-    const RenderParams params, SCENE_PARAMS, global const uint* restrict pixel_rays, global long* restrict hit_sums,
-    global uint* restrict hit_words)
+    const RenderParams params, SCENE_PARAMS, global const uint* restrict pixel_rays,
+    global long* restrict hit_sums, global uint* restrict hit_words)
 {
     TilePixel place;
     if (!tile_pixel(&params, &place))

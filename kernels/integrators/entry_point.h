@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over a pixel's samples, and the entry point. An integrator's .cl file includes this last and defines
-// before
+// The loop over a pixel's samples, and the entry point. An integrator's .cl file includes this last and
+// defines before
 //   INTEGRATOR_KERNEL    the entry point's name
 //   INTEGRATOR_RADIANCE  the integrator's function (pixel.h)
 // Builds with -DCLRT_TRACE have the entry point of replay.h instead.

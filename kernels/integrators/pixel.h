@@ -13,9 +13,10 @@
 #include "geometry/scene.h"
 #include "path/layers.h"
 
-/* Samples of a pixel that are simulated side by side. Their arithmetic does not depend on each other, so a processor that works
-   ahead fills the waits of one with the others: four give a seventh more samples a second than one on a CPU. The host sets 1
-   for devices that have many work-items in flight instead. No sample's radiance depends on it. */
+/* Samples of a pixel that are simulated side by side. Their arithmetic does not depend on each other, so a
+   processor that works ahead fills the waits of one with the others: four give a seventh more samples a
+   second than one on a CPU. The host sets 1 for devices that have many work-items in flight instead. No
+   sample's radiance depends on it. */
 #ifndef SAMPLES_AT_ONCE
 #define SAMPLES_AT_ONCE 4
 #endif
@@ -74,9 +75,9 @@ static inline uint pixel_fault(const CameraSample* sample, uint fault)
 }
 
 /* Adds finished samples to the pixel's sums and moves the counter past them. */
-static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place, const CameraSample* samples, uint count,
-                                    SampleCounter* counter, global long* film, global uint* pixel_rays,
-                                    global volatile uint* counters)
+static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place, const CameraSample* samples,
+                                    uint count, SampleCounter* counter, global long* film,
+                                    global uint* pixel_rays, global volatile uint* counters)
 {
     const uint pixel = tile_pixel_number(params, params->crop_x + place.x, params->crop_y + place.y);
     for (uint k = 0; k < count; ++k, sample_counter_next(params, counter)) {
@@ -84,7 +85,8 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
         if (fault == COUNT_WORDS) {
             const bool fits = film_add(params, film_sums(params, film, place.slot, counter->replicate),
                                        &samples[k].sampler, samples[k].radiance);
-            if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u || !fits)
+            if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u ||
+                !fits)
                 fault = COUNT_OVERFLOW;
         }
         fault = pixel_fault(&samples[k], fault);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The entry point of builds with -DCLRT_TRACE: one work-item replays one sample of the picture and writes its record.
-// Included by entry_point.h, in place of the loop over samples.
+// The entry point of builds with -DCLRT_TRACE: one work-item replays one sample of the picture and writes its
+// record. Included by entry_point.h, in place of the loop over samples.
 #ifndef CLRT_INTEGRATORS_REPLAY_H
 #define CLRT_INTEGRATORS_REPLAY_H
 
@@ -42,12 +42,13 @@ static inline void trace_finish(const Scene* scene, const CameraSample* sample)
 }
 
 /* Replays sample `number` of a pixel and writes the head of its record. */
-static CLRT_NOINLINE void replay_sample(const Scene* scene, const RenderParams* params, uint pixel, uint number,
-                                        global ulong* head)
+static CLRT_NOINLINE void replay_sample(const Scene* scene, const RenderParams* params, uint pixel,
+                                        uint number, global ulong* head)
 {
     CameraSample sample;
     PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
-    pixel_aim(params, 0, pixel % params->width, pixel / params->width, trace_counter(params, number), &sample, 1u);
+    pixel_aim(params, 0, pixel % params->width, pixel / params->width, trace_counter(params, number), &sample,
+              1u);
     INTEGRATOR_RADIANCE(scene, params, &sample, 1u, &rays);
     trace_finish(scene, &sample);
     head[TRACE_HEAD_FAULT] = trace_film(params, &sample, (global long*)(head + TRACE_HEAD_FILM));
@@ -55,8 +56,8 @@ static CLRT_NOINLINE void replay_sample(const Scene* scene, const RenderParams* 
     head[TRACE_HEAD_DECISIONS] = scene->trace->decisions;
 }
 
-CLRT_KERNEL void replay_samples(const RenderParams params, SCENE_PARAMS, global const uint* restrict addresses,
-                                global ulong* records)
+CLRT_KERNEL void replay_samples(const RenderParams params, SCENE_PARAMS,
+                                global const uint* restrict addresses, global ulong* records)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= addresses[TRACE_ADDRESS_COUNT])

@@ -105,7 +105,8 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
     const real3 d = vector_make(r * sc.y, y, r * sc.x);
     LightSample sample = light_sample_none();
     sample.wi = environment_to_world(params, d);
-    sample.pdf_w = (real)scene->environment[texel].radiance.w / environment_texel_solid_angle(params, row);
+    sample.pdf_w =
+        (real)TEXEL_PROBABILITY(scene->environment[texel]) / environment_texel_solid_angle(params, row);
     sample.radiance =
         vector_from(params->environment) *
         environment_map_lookup(scene, params, (real2)(map_u, real_atan2(r, y) * REAL_INVERSE_PI));
@@ -136,7 +137,7 @@ static inline real environment_map_pdf_w(const Scene* scene, const RenderParams*
     const real2 uv = environment_uv(environment_to_map(params, wi));
     const uint column = min((uint)(uv.x * (real)params->environment_width), params->environment_width - 1u);
     const uint row = min((uint)(uv.y * (real)params->environment_height), params->environment_height - 1u);
-    return (real)scene->environment[row * params->environment_width + column].radiance.w /
+    return (real)TEXEL_PROBABILITY(scene->environment[row * params->environment_width + column]) /
            environment_texel_solid_angle(params, row);
 }
 

@@ -11,7 +11,7 @@ typedef struct {
     real3 wi;       /* world, unit, from the surface */
     real3 radiance; /* arriving if nothing is in between; irradiance at normal incidence for a delta light */
     real3 target;   /* where the shadow ray ends; unused when distant */
-    real pdf_w;     /* per steradian as seen from the surface; 1 for a delta light, 0 where no light was found */
+    real pdf_w;     /* per steradian from the surface; 1 for a delta light, 0 where no light was found */
     uint kind;      /* KIND_*, set where lights of several kinds are chosen from */
     uint triangle;  /* of an emissive triangle, else NO_INDEX */
     bool is_distant;
@@ -46,17 +46,18 @@ static inline void light_record(const Scene* scene, const LightSample* sample)
     TRACE_NUMBER(scene, TRACE_LIGHT_PDF, sample->pdf_w);
 }
 
-/* How often denser per steradian a density on a light of this normal (any length) is where it is `way` away than where it is
-   `other_way` away: by d^2 / cos_l. Not positive, or not finite, where the two do not see the same face. */
+/* How often denser per steradian a density on a light of this normal (any length) is where it is `way` away
+   than where it is `other_way` away: by d^2 / cos_l. Not positive, or not finite, where the two do not see
+   the same face. */
 static inline real light_density_ratio(real3 way, real3 other_way, real3 normal)
 {
     const real squares = vector_dot(way, way) / vector_dot(other_way, other_way);
     return squares * real_sqrt(squares) * (vector_dot(other_way, normal) / vector_dot(way, normal));
 }
 
-/* Light that was sampled from the curved surface but lies on the other side reaches the surface at its plane, where rays that
-   cross it start: there it has another direction, distance and density. None if it is on wo's side of that point or shows
-   it another face. */
+/* Light that was sampled from the curved surface but lies on the other side reaches the surface at its plane,
+   where rays that cross it start: there it has another direction, distance and density. None if it is on wo's
+   side of that point or shows it another face. */
 static CLRT_NOINLINE void light_from_plane(const Scene* scene, const Surface* surface, LightSample* sample)
 {
     const real3 way = sample->target - surface->position;
@@ -79,13 +80,13 @@ static CLRT_NOINLINE void light_from_plane(const Scene* scene, const Surface* su
 static inline void light_choose_side(const Scene* scene, const Surface* surface, LightSample* sample)
 {
     sample->reflects = surface_reflects(surface, sample->wi);
-    if (HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && surface->is_curved && !sample->reflects &&
-        !sample->is_distant)
+    if (HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && surface->is_curved &&
+        !sample->reflects && !sample->is_distant)
         light_from_plane(scene, surface, sample);
 }
 
-/* The shadow ray from a surface to the sampled light. A segment to a target keeps its length, so that no rounding of a unit
-   vector moves its end, and stops a few roundings short. */
+/* The shadow ray from a surface to the sampled light. A segment to a target keeps its length, so that no
+   rounding of a unit vector moves its end, and stops a few roundings short. */
 static inline Ray light_shadow_ray(const Surface* surface, const LightSample* sample)
 {
     Ray ray = surface_ray(surface, sample->reflects, sample->wi);

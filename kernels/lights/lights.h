@@ -73,7 +73,7 @@ static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams*
 static inline real3 lights_outside(const Scene* scene, const RenderParams* params, uint segment, real3 wi,
                                    real pdf_w, uint kinds)
 {
-    if (segment > 1u || params->background.w == 0.0f)
+    if (segment > 1u || BACKGROUND_IS_SEEN(*params) == 0.0f)
         return lights_escape(scene, params, wi, pdf_w, kinds);
     return HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY) ? vector_from(params->background)
                                                          : (real3)(REAL(0.0));

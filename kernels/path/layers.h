@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers of paths: the picture's light, added again to each layer whose expression a path matches. A layer has one sum a pixel
-// behind the picture's replicates in the film. The picture does not depend on them: where only a layer must know whether an
-// event was matte or glossy, the class is chosen for the layers alone, and what it weighs is carried beside the throughput.
+// Layers of paths: the picture's light, added again to each layer whose expression a path matches. A layer
+// has one sum a pixel behind the picture's replicates in the film. The picture does not depend on them: where
+// only a layer must know whether an event was matte or glossy, the class is chosen for the layers alone, and
+// what it weighs is carried beside the throughput.
 #ifndef CLRT_PATH_LAYERS_H
 #define CLRT_PATH_LAYERS_H
 
@@ -16,7 +17,8 @@ typedef struct {
     real3 radiance[PATH_LAYERS];
 } LayerSums;
 
-/* What a path carries: its weight beside the throughput, and a connection to a light by class of the last event. */
+/* What a path carries: its weight beside the throughput, and a connection to a light by class of the last
+   event. */
 typedef struct {
     real3 share;
     real3 matte, glossy; /* what arrives if nothing is in between */
@@ -54,14 +56,15 @@ static inline void layers_add(uint state, uint kind, real3 radiance, LayerSums* 
 }
 
 /* The three sums of a slot in a layer. */
-static inline global long* layers_film_sums(const RenderParams* params, global long* film, uint slot, uint layer)
+static inline global long* layers_film_sums(const RenderParams* params, global long* film, uint slot,
+                                            uint layer)
 {
     return film_plane_sums(params, film, slot, params->film_replicates + layer);
 }
 
 /* Adds a sample to the film; the number of layers whose value is bad and left out. */
-static inline uint layers_film_add(const RenderParams* params, global long* film, uint slot, const Sampler* sampler,
-                                   const LayerSums* sums)
+static inline uint layers_film_add(const RenderParams* params, global long* film, uint slot,
+                                   const Sampler* sampler, const LayerSums* sums)
 {
     uint bad = 0u;
 #if PATH_LAYERS > 0

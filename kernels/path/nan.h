@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// NaNs on their way to the film, which counts them (film_fault). Most get there by themselves: a NaN in a product or a sum
-// stays one. But every comparison with it is false: a lobe seems to face away, a light to be behind the surface, and the
-// sample ends as if nothing were wrong. What is only compared with, directions and normals, is therefore summed up along the
-// path, and the sum is looked at where the path ends. (Elsewhere comparisons are written so that a NaN goes the way of the
-// values that are used: x <= 0 ends, not !(x > 0).)
+// NaNs on their way to the film, which counts them (film_fault). Most get there by themselves: a NaN in a
+// product or a sum stays one. But every comparison with it is false: a lobe seems to face away, a light to be
+// behind the surface, and the sample ends as if nothing were wrong. What is only compared with, directions
+// and normals, is therefore summed up along the path, and the sum is looked at where the path ends.
+// (Elsewhere comparisons are written so that a NaN goes the way of the values that are used: x <= 0 ends, not
+// !(x > 0).)
 #ifndef CLRT_PATH_NAN_H
 #define CLRT_PATH_NAN_H
 

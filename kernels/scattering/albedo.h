@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What GGX microfacets lose when light is followed to its first facet only, and what Schlick's Fresnel adds to them: directional
-// albedos of the lobes in bsdf_glossy.h and bsdf_dielectric.h, from tables. tools/fit_albedo.py integrates them and explains
-// the coordinates. The tables lose rather too little than too much, by their error: nothing made from them adds light.
+// What GGX microfacets lose when light is followed to its first facet only, and what Schlick's Fresnel adds
+// to them: directional albedos of the lobes in bsdf_glossy.h and bsdf_dielectric.h, from tables.
+// tools/fit_albedo.py integrates them and explains the coordinates. The tables lose rather too little than
+// too much, by their error: nothing made from them adds light.
 #ifndef CLRT_SCATTERING_ALBEDO_H
 #define CLRT_SCATTERING_ALBEDO_H
 
@@ -19,8 +20,8 @@ typedef struct {
     bool is_wide_x;    /* and whether it is along x */
 } AlbedoRoughness;
 
-/* Of one direction: the share that its first facet does not send on, and the part of the rest that a reflectance (1 - cos)^5
-   sends back. */
+/* Of one direction: the share that its first facet does not send on, and the part of the rest that a
+   reflectance (1 - cos)^5 sends back. */
 typedef struct {
     real loss;
     real schlick;
@@ -43,7 +44,8 @@ static inline AlbedoPlace albedo_place(real coordinate, uint nodes)
 
 static inline real albedo_mix(real a, real b, real part) { return fma(part, b - a, a); }
 
-/* Interpolates codes along the last axis, the last two, three, four. `first` is the index of the lowest corner. */
+/* Interpolates codes along the last axis, the last two, three, four. `first` is the index of the lowest
+   corner. */
 static inline real albedo_line(constant ushort* codes, uint first, AlbedoPlace x)
 {
     return albedo_mix((real)codes[first], (real)codes[first + 1u], x.part);
@@ -54,10 +56,11 @@ static inline real albedo_plane(constant ushort* codes, uint first, uint row, Al
     return albedo_mix(albedo_line(codes, first, x), albedo_line(codes, first + row, x), y.part);
 }
 
-static inline real albedo_block(constant ushort* codes, uint first, uint slice, uint row, AlbedoPlace z, AlbedoPlace y,
-                                AlbedoPlace x)
+static inline real albedo_block(constant ushort* codes, uint first, uint slice, uint row, AlbedoPlace z,
+                                AlbedoPlace y, AlbedoPlace x)
 {
-    return albedo_mix(albedo_plane(codes, first, row, y, x), albedo_plane(codes, first + slice, row, y, x), z.part);
+    return albedo_mix(albedo_plane(codes, first, row, y, x), albedo_plane(codes, first + slice, row, y, x),
+                      z.part);
 }
 
 /* The coordinate of a cosine: c^(3/4) with c = cos (1 + alpha) / (cos + alpha). */
@@ -102,7 +105,8 @@ static inline Albedo albedo_of(real h, real k, real cos_w, real alpha)
     return albedo;
 }
 
-/* Reflection by stretched microfacets: the tables have two axes more, the aspect and the roughness along the azimuth. */
+/* Reflection by stretched microfacets: the tables have two axes more, the aspect and the roughness along the
+   azimuth. */
 static CLRT_NOINLINE Albedo albedo_stretched(const AlbedoRoughness* rough, real3 w)
 {
     const real cos_w = fmin(fabs(w.z), REAL(1.0));
@@ -110,7 +114,8 @@ static CLRT_NOINLINE Albedo albedo_stretched(const AlbedoRoughness* rough, real3
     const real wide = rough->wide * (rough->is_wide_x ? w.x : w.y);
     const real narrow = rough->narrow * (rough->is_wide_x ? w.y : w.x);
     /* Straight up every azimuth is as good as another. */
-    const real along = across > REAL(0.0) ? real_sqrt(fma(wide, wide, narrow * narrow) / across) : rough->narrow;
+    const real along =
+        across > REAL(0.0) ? real_sqrt(fma(wide, wide, narrow * narrow) / across) : rough->narrow;
     const AlbedoPlace aspect = albedo_place(rough->aspect, ALBEDO_STRETCHED_ASPECTS);
     const AlbedoPlace spread =
         albedo_place((along - rough->narrow) / (rough->wide - rough->narrow), ALBEDO_STRETCHED_SPREADS);
@@ -119,10 +124,12 @@ static CLRT_NOINLINE Albedo albedo_stretched(const AlbedoRoughness* rough, real3
     const uint row = ALBEDO_STRETCHED_COSINES, slice = row * ALBEDO_STRETCHED_ALPHAS;
     const uint block = slice * ALBEDO_STRETCHED_SPREADS;
     const uint first = aspect.node * block + spread.node * slice + y.node * row + x.node;
-    const real h = albedo_mix(albedo_block(ALBEDO_STRETCHED_H, first, slice, row, spread, y, x),
-                              albedo_block(ALBEDO_STRETCHED_H, first + block, slice, row, spread, y, x), aspect.part);
-    const real k = albedo_mix(albedo_block(ALBEDO_STRETCHED_K, first, slice, row, spread, y, x),
-                              albedo_block(ALBEDO_STRETCHED_K, first + block, slice, row, spread, y, x), aspect.part);
+    const real h =
+        albedo_mix(albedo_block(ALBEDO_STRETCHED_H, first, slice, row, spread, y, x),
+                   albedo_block(ALBEDO_STRETCHED_H, first + block, slice, row, spread, y, x), aspect.part);
+    const real k =
+        albedo_mix(albedo_block(ALBEDO_STRETCHED_K, first, slice, row, spread, y, x),
+                   albedo_block(ALBEDO_STRETCHED_K, first + block, slice, row, spread, y, x), aspect.part);
     return albedo_of(fma(h, ALBEDO_STRETCHED_H_STEP, ALBEDO_STRETCHED_H_LOW),
                      fma(k, ALBEDO_STRETCHED_K_STEP, ALBEDO_STRETCHED_K_LOW), cos_w, rough->alpha);
 }
@@ -137,10 +144,11 @@ static inline Albedo albedo_reflection(const AlbedoRoughness* rough, real3 w)
     const AlbedoPlace x = albedo_place(albedo_cosine(cos_w, rough->alpha), ALBEDO_REFLECTION_COSINES);
     const uint row = ALBEDO_REFLECTION_COSINES;
     const uint first = y.node * row + x.node;
-    return albedo_of(
-        fma(albedo_plane(ALBEDO_REFLECTION_H, first, row, y, x), ALBEDO_REFLECTION_H_STEP, ALBEDO_REFLECTION_H_LOW),
-        fma(albedo_plane(ALBEDO_REFLECTION_K, first, row, y, x), ALBEDO_REFLECTION_K_STEP, ALBEDO_REFLECTION_K_LOW),
-        cos_w, rough->alpha);
+    return albedo_of(fma(albedo_plane(ALBEDO_REFLECTION_H, first, row, y, x), ALBEDO_REFLECTION_H_STEP,
+                         ALBEDO_REFLECTION_H_LOW),
+                     fma(albedo_plane(ALBEDO_REFLECTION_K, first, row, y, x), ALBEDO_REFLECTION_K_STEP,
+                         ALBEDO_REFLECTION_K_LOW),
+                     cos_w, rough->alpha);
 }
 
 /* Interpolates means along alpha, and along alpha and another axis. */
@@ -152,7 +160,8 @@ static inline real albedo_mean_line(constant float* means, uint first, AlbedoPla
 static inline real albedo_mean_plane(constant float* means, AlbedoPlace z, AlbedoPlace y)
 {
     const uint first = z.node * ALBEDO_MEAN_ALPHAS + y.node;
-    return albedo_mix(albedo_mean_line(means, first, y), albedo_mean_line(means, first + ALBEDO_MEAN_ALPHAS, y), z.part);
+    return albedo_mix(albedo_mean_line(means, first, y),
+                      albedo_mean_line(means, first + ALBEDO_MEAN_ALPHAS, y), z.part);
 }
 
 /* The same of light from everywhere, weighted by its cosine. */
@@ -178,12 +187,13 @@ static inline real albedo_contrast(real eta)
     return real_sqrt(fabs(eta - REAL(1.0)) / ((eta + REAL(1.0)) * ALBEDO_LARGEST_CONTRAST));
 }
 
-/* Between the first contrasts, indices that differ by less than 1.4 %, the loss bends more than the table follows: head-on at
-   alpha 1 it gave 0.011 for 0.008. This share is taken off where the indices are equal, less and less up to the next node. */
+/* Between the first contrasts, indices that differ by less than 1.4 %, the loss bends more than the table
+   follows: head-on at alpha 1 it gave 0.011 for 0.008. This share is taken off where the indices are equal,
+   less and less up to the next node. */
 #define ALBEDO_DIELECTRIC_EXCESS REAL(0.25)
 
-/* What a dielectric boundary neither reflects nor refracts of light with this cosine; eta: index on the light's side over the
-   index on the other. */
+/* What a dielectric boundary neither reflects nor refracts of light with this cosine; eta: index on the
+   light's side over the index on the other. */
 static inline real albedo_dielectric_loss(const AlbedoRoughness* rough, real eta, real cos_w)
 {
     const AlbedoPlace z = albedo_place(albedo_contrast(eta), ALBEDO_DIELECTRIC_CONTRASTS);
@@ -191,8 +201,8 @@ static inline real albedo_dielectric_loss(const AlbedoRoughness* rough, real eta
     const AlbedoPlace x = albedo_place(albedo_cosine(cos_w, rough->alpha), ALBEDO_DIELECTRIC_COSINES);
     const uint row = ALBEDO_DIELECTRIC_COSINES, slice = row * ALBEDO_DIELECTRIC_ALPHAS;
     const uint first = z.node * slice + y.node * row + x.node;
-    const real h = eta > REAL(1.0) ? fma(albedo_block(ALBEDO_INSIDE_H, first, slice, row, z, y, x), ALBEDO_INSIDE_H_STEP,
-                                         ALBEDO_INSIDE_H_LOW)
+    const real h = eta > REAL(1.0) ? fma(albedo_block(ALBEDO_INSIDE_H, first, slice, row, z, y, x),
+                                         ALBEDO_INSIDE_H_STEP, ALBEDO_INSIDE_H_LOW)
                                    : fma(albedo_block(ALBEDO_OUTSIDE_H, first, slice, row, z, y, x),
                                          ALBEDO_OUTSIDE_H_STEP, ALBEDO_OUTSIDE_H_LOW);
     const real excess = z.node == 0u ? ALBEDO_DIELECTRIC_EXCESS * (REAL(1.0) - z.part) : REAL(0.0);

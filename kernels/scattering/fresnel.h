@@ -5,9 +5,9 @@
 
 #include "numerics/vector.h"
 
-/* cos of the refracted angle, squared: 1 - eta^2 (1 - cos_i^2), where eta = index on the incident side over index on the
-   other; not positive under total internal reflection. Both products are carried with their rounding errors,
-   so the critical angle is met to the last float. */
+/* cos of the refracted angle, squared: 1 - eta^2 (1 - cos_i^2), where eta = index on the incident side over
+   index on the other; not positive under total internal reflection. Both products are carried with their
+   rounding errors, so the critical angle is met to the last float. */
 static inline real fresnel_cos_t_squared(real cos_i, real eta)
 {
     const real ec = eta * cos_i;
@@ -23,8 +23,8 @@ static inline real fresnel_cos_t_squared(real cos_i, real eta)
     return (p - m) + (fma(REAL(2.0) * ec, ec_error, p_error) - m_error);
 }
 
-/* Reflectance of a smooth dielectric for unpolarised light, and the cosine of the refracted angle; 1 and 0 under
-   total internal reflection. cos_i in [0, 1]; eta as above. */
+/* Reflectance of a smooth dielectric for unpolarised light, and the cosine of the refracted angle; 1 and 0
+   under total internal reflection. cos_i in [0, 1]; eta as above. */
 static inline real fresnel_dielectric(real cos_i, real eta, real* cos_t)
 {
     /* Equal indices: nothing is reflected at any angle. */
@@ -45,8 +45,8 @@ static inline real fresnel_dielectric(real cos_i, real eta, real* cos_t)
     return REAL(0.5) * fma(s, s, p * p);
 }
 
-/* Its mean over a hemisphere of equal radiance. On the denser side 1 - F is smaller by the squared index, as radiance is; on the
-   other Kulla's and Conty's fit (2017), within 1e-3 up to an index of 3. */
+/* Its mean over a hemisphere of equal radiance. On the denser side 1 - F is smaller by the squared index, as
+   radiance is; on the other Kulla's and Conty's fit (2017), within 1e-3 up to an index of 3. */
 static inline real fresnel_dielectric_mean(real eta)
 {
     const real index = eta > REAL(1.0) ? eta : REAL(1.0) / eta;
@@ -71,7 +71,10 @@ static inline real3 fresnel_schlick(real3 f0, real cos_i)
 /* The mean of (1 - cos)^5 over a hemisphere of equal radiance, 1 / 21, and that of Schlick's reflectance. */
 #define FRESNEL_SCHLICK_MEAN REAL(0.047619047619047619)
 
-static inline real3 fresnel_schlick_mean(real3 f0) { return f0 + ((real3)(REAL(1.0)) - f0) * FRESNEL_SCHLICK_MEAN; }
+static inline real3 fresnel_schlick_mean(real3 f0)
+{
+    return f0 + ((real3)(REAL(1.0)) - f0) * FRESNEL_SCHLICK_MEAN;
+}
 
 /* The refracted direction of wo about the normal n on wo's side; cos_t as given by fresnel_dielectric. */
 static inline real3 fresnel_refract(real3 wo, real3 n, real cos_i, real cos_t, real eta)

@@ -17,7 +17,7 @@
 /* Coverage in [0, 1]: 0 lets everything pass. */
 static inline real material_coverage(const Scene* scene, global const Material* material, float2 uv)
 {
-    real coverage = (real)material->matte.w;
+    real coverage = (real)MATERIAL_COVERAGE(*material);
     if (HAS(EFFECT_TEXTURES) && material->map_coverage != NO_INDEX)
         coverage *= texture_scalar(scene, material->map_coverage, uv);
     return real_unit(coverage);
@@ -119,7 +119,7 @@ static inline real3 material_reflectance(const Scene* scene, uint map, const Sur
 static inline void material_parameters(const Scene* scene, global const Material* material,
                                        const Surface* surface, Bsdf* bsdf)
 {
-    real metallic = (real)material->emission.w;
+    real metallic = (real)MATERIAL_METALLIC(*material);
     real roughness = REAL(1.0);
     if (HAS(EFFECT_TEXTURES)) {
         if (material->map_matte != NO_INDEX)
@@ -165,14 +165,14 @@ static CLRT_NOINLINE Bsdf material_bsdf(const Scene* scene, const Surface* surfa
     bsdf.transmission = vector_from(material->transmission);
     bsdf.alpha_x = (real)material->alpha_x;
     bsdf.alpha_y = (real)material->alpha_y;
-    bsdf.exponent = (real)material->specular.w;
+    bsdf.exponent = (real)MATERIAL_EXPONENT(*material);
     bsdf.lobes = material->lobes;
     bsdf.fresnel = material->fresnel;
     bsdf.flags = material->flags | transport;
     bsdf.normal_g = surface->normal_g;
     bsdf.normal_s = surface->normal_s;
     bsdf.is_curved = surface->is_curved;
-    const real index = (real)material->transmission.w;
+    const real index = (real)MATERIAL_INDEX(*material);
     bsdf.eta = HAS(EFFECT_REFRACTION) && surface->front ? REAL(1.0) / index : index;
     material_parameters(scene, material, surface, &bsdf);
     const real3 n = material_normal(scene, material, surface, wo);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GGX (Trowbridge-Reitz) distribution of microfacet normals, anisotropic, with Smith's height-correlated masking
-// and shadowing (Heitz 2014, JCGT 3(2)). Directions are local, z is the normal; only components are used,
-// no angles, so small alpha loses no digits.
+// The GGX (Trowbridge-Reitz) distribution of microfacet normals, anisotropic, with Smith's height-correlated
+// masking and shadowing (Heitz 2014, JCGT 3(2)). Directions are local, z is the normal; only components are
+// used, no angles, so small alpha loses no digits.
 #ifndef CLRT_SCATTERING_MICROFACET_H
 #define CLRT_SCATTERING_MICROFACET_H
 
@@ -19,8 +19,8 @@ static inline real microfacet_d(real3 h, real alpha_x, real alpha_y)
 /* Eyes closer to the horizon than this cosine see no microfacets, so that dividing by it stays finite. */
 #define MICROFACET_SMALLEST_COS REAL(1e-18)
 
-/* Smith's Lambda: (sqrt(1 + a / z^2) - 1) / 2 with a = (alpha tan)^2 z^2, without its cancellation and without a / z^2,
-   which overflows near the horizon. Infinite on the horizon. */
+/* Smith's Lambda: (sqrt(1 + a / z^2) - 1) / 2 with a = (alpha tan)^2 z^2, without its cancellation and
+   without a / z^2, which overflows near the horizon. Infinite on the horizon. */
 static inline real microfacet_lambda(real3 w, real alpha_x, real alpha_y)
 {
     const real x = alpha_x * w.x;

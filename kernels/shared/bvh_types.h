@@ -8,10 +8,10 @@
 
 #define BVH_LAYOUT_BVH8 8 /* eight children a node, tested with float8: for CPU devices */
 #define BVH_LAYOUT_BVH2 2 /* pairs of children in 64 bytes (Aila and Laine 2009): for GPUs */
-#define BVH_LAYOUT_CWBVH 80 /* eight quantised children in 80 bytes (Ylitie, Karras and Laine 2017): for GPUs */
+#define BVH_LAYOUT_CWBVH 80 /* eight quantised children in 80 bytes (Ylitie et al. 2017): for GPUs */
 
 #define BVH_LEAF_BIT 0x80000000u
-#define BVH_MAX_DEPTH 64 /* levels of the binary tree; the builder guarantees it, stacks and trails are sized by it */
+#define BVH_MAX_DEPTH 64 /* levels of the binary tree; the builder guarantees it, stacks are sized by it */
 
 /* An empty child has lower = +BVH_EMPTY, upper = -BVH_EMPTY: no ray enters it. Products with the clamped
    reciprocal direction (at most 1e18) stay finite. */
@@ -61,7 +61,7 @@
 #define CWBVH_LOWER_WORD 8
 #define CWBVH_UPPER_WORD 14
 #define CWBVH_EXPONENT_BIAS 127    /* a float's: the byte moved up by 23 bits is the step */
-#define CWBVH_SMALLEST_EXPONENT -60 /* products of a step with the reciprocal of a direction below 2^60 stay normal */
+#define CWBVH_SMALLEST_EXPONENT -60 /* its product with a reciprocal direction below 2^60 is normal */
 #define CWBVH_INNER_META 0x38u     /* one bit of three as for a leaf of one triangle, and place 24 */
 #define CWBVH_COUNT_SHIFT 5
 #define CWBVH_LEAF_TRIANGLES 3 /* most triangles a leaf holds: 24 in all have a bit of a word */

@@ -23,7 +23,7 @@ enum Projection {
 /* The camera in the normalised frame. Film positions count pixels right of and below the picture's centre. */
 typedef struct {
     vec4 eye;       /* xyz: where the ray through the picture's centre starts; w: 0, as of the others */
-    vec4 film_dx;   /* xyz: what a pixel to the right adds to a ray's direction, or to its origin if parallel */
+    vec4 film_dx;   /* xyz: what a pixel to the right adds to a ray's direction, to its origin if parallel */
     vec4 film_dy;   /* xyz: the same of a pixel downwards; film_dx x film_dy points along look */
     vec4 look;      /* xyz: unit direction of the ray through the picture's centre */
     u32 projection; /* PROJECTION_* */

@@ -22,8 +22,8 @@
 #define EFFECT_PATH_FILTER 0x4000u     /* --paths, layers of paths (path/automaton.h) */
 #define EFFECT_ALL 0x7fffu
 
-/* Rays and surfaces carry the time within the shutter's opening. No scene moves yet, so no program is built with it but
-   those of the tests. */
+/* Rays and surfaces carry the time within the shutter's opening. No scene moves yet, so no program is built
+   with it but those of the tests. */
 #define EFFECT_MOTION_BLUR 0x8000u
 
 #ifndef __cplusplus

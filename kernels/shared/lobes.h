@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lobes of surfaces, one row each: all that host and kernels know of a lobe by its name. A BSDF is the sum of its lobes.
+// The lobes of surfaces, one row each: all that host and kernels know of a lobe by its name. A BSDF is the
+// sum of its lobes.
 #ifndef CLRT_SHARED_LOBES_H
 #define CLRT_SHARED_LOBES_H
 
@@ -15,18 +16,19 @@
 /* Lobes of microfacets, which reflect light more than once (scattering/bsdf_energy.h). */
 #define LOBES_ROUGH (LOBE_GLOSSY | LOBE_DIELECTRIC)
 
-/* The table, in the order in which lobes are chosen and summed; ROW(NAME, name, EFFECT, letters, delta_letters, absent):
+/* The table, in the order in which lobes are chosen and summed; ROW(NAME, name, EFFECT, letters,
+   delta_letters, absent):
    - LOBE_NAME is the bit, LOBE_ROW_NAME its number;
    - name: in reports, and of its functions, bsdf_<name>_* in scattering/bsdf_<name>.h;
    - EFFECT_* that compiles it in;
    - letters of the path notation (bits LETTER_BIT) that it writes where it has a density: 0: nowhere;
    - and where it is a delta function, reflected or refracted;
    - absent: what --explain says where no material has it. */
-#define LOBE_TABLE(ROW)                                                                                       \
-    ROW(MATTE, matte, EFFECT_MATTE, LETTER_BIT(LETTER_MATTE), 0u, "no material has Kd above 0")               \
-    ROW(GLOSSY, glossy, EFFECT_GLOSSY, LETTER_BIT(LETTER_GLOSSY), 0u, "no material reflects roughly")         \
-    ROW(MIRROR, mirror, EFFECT_MIRROR, 0u, LETTER_BIT(LETTER_MIRROR), "no material is a mirror")              \
-    ROW(DIELECTRIC, dielectric, EFFECT_REFRACTION, LETTER_BIT(LETTER_GLOSSY),                                 \
+#define LOBE_TABLE(ROW)                                                                                      \
+    ROW(MATTE, matte, EFFECT_MATTE, LETTER_BIT(LETTER_MATTE), 0u, "no material has Kd above 0")              \
+    ROW(GLOSSY, glossy, EFFECT_GLOSSY, LETTER_BIT(LETTER_GLOSSY), 0u, "no material reflects roughly")        \
+    ROW(MIRROR, mirror, EFFECT_MIRROR, 0u, LETTER_BIT(LETTER_MIRROR), "no material is a mirror")             \
+    ROW(DIELECTRIC, dielectric, EFFECT_REFRACTION, LETTER_BIT(LETTER_GLOSSY),                                \
         LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION), "no material is a dielectric")
 
 #define LOBE_NUMBER(NAME, name, effect, letters, delta_letters, absent) LOBE_ROW_##NAME,

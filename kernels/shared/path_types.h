@@ -21,8 +21,8 @@
 #define KIND_SKY 8u   /* Le: environment */
 #define KINDS_ALL 15u
 
-/* A state is a number from 1; 0 is the state that no path leaves: dead. One word a state holds its successors, eight bits a
-   letter, from LETTER_MATTE in the lowest. */
+/* A state is a number from 1; 0 is the state that no path leaves: dead. One word a state holds its
+   successors, eight bits a letter, from LETTER_MATTE in the lowest. */
 #define STATE_DEAD 0u
 #define STATE_START 1u
 #define STATES_LIMIT 255
@@ -31,7 +31,7 @@
 
 /* Another word a state holds what can be done there. */
 #define STATE_KINDS_MASK 0xfu     /* kinds of light that end an accepted path: KIND_* */
-#define STATE_CONTINUES 0x10u     /* a ray that leaves in this state can find light or a surface that goes on */
+#define STATE_CONTINUES 0x10u     /* a ray that leaves in this state can find light or go on */
 #define STATE_SPLITS 0x20u        /* matte and glossy lead to states that accept different paths */
 #define STATE_DISTANCE_SHIFT 8u   /* above: fewest scattering events up to an accepting state */
 

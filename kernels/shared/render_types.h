@@ -19,7 +19,7 @@ SHARED_BEGIN
 typedef struct {
     CameraParams camera;
     vec4 environment; /* rgb: radiance of a constant environment, or factor of the map; w: unused, 0 */
-    vec4 background;  /* rgb: radiance that camera rays see outside the scene; w: 1, or 0 where they see sky and suns */
+    vec4 background;  /* rgb: radiance that camera rays see outside the scene; w: BACKGROUND_IS_SEEN */
 
     u32 width, height;          /* of the whole picture, pixels */
     u32 crop_x, crop_y;         /* top left pixel of the rendered window */
@@ -27,9 +27,10 @@ typedef struct {
     u32 first_sample;           /* of this launch */
     u32 sample_count;           /* of this launch: samples first_sample .. first_sample + sample_count - 1 */
     u32 replicates;             /* sample s belongs to replicate s mod replicates */
-    u32 first_replicate;        /* an adaptive launch deals samples to half of them only: sample s of the half is number */
-    u32 dealt_replicates;       /* s / dealt_replicates of replicate first_replicate + s mod dealt_replicates */
-    u32 film_replicates;        /* replicates whose sums are kept apart: a power of two below or equal to replicates */
+    /* An adaptive launch deals samples to half of them only: sample s of the half is number
+       s / dealt_replicates of replicate first_replicate + s mod dealt_replicates. */
+    u32 first_replicate, dealt_replicates;
+    u32 film_replicates;        /* that have sums of their own: a power of two, at most `replicates` */
     u32 seed;
     u32 max_depth;              /* path segments */
     float min_contribution;     /* whitted: smallest weight worth a ray */
@@ -53,6 +54,9 @@ typedef struct {
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
 } RenderParams;
 ASSERT_SIZE(RenderParams, 256);
+
+/* 1 where camera rays see the background, 0 where they see sky and suns. */
+#define BACKGROUND_IS_SEEN(params) ((params).background.w)
 
 /* The picture is rendered and summed in tiles of 8 x 8 pixels; sums of a tile lie together. */
 #define TILE_SIZE 8

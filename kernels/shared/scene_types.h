@@ -25,17 +25,18 @@ ASSERT_SIZE(Triangle, 48);
 #define FRESNEL_NONE 0u    /* colour `specular` at every angle */
 #define FRESNEL_SCHLICK 1u /* F0 = `specular`, 1 at grazing */
 
-#define MATERIAL_METALLIC_ROUGHNESS 1u /* `specular` is F0 of the part that is no metal: specular = mix(specular, matte,
-                                          metallic), matte = matte (1 - metallic) */
+/* `specular` is F0 of the part that is no metal: specular = mix(specular, matte, metallic),
+   matte = matte (1 - metallic). */
+#define MATERIAL_METALLIC_ROUGHNESS 1u
 #define MATERIAL_EMITS_BOTH_SIDES 2u
-#define MATERIAL_WHITTED_MIRROR 4u     /* `whitted` sends one mirror ray for the reflection lobe, no highlight */
-#define MATERIAL_CUT_OUT 8u            /* coverage below 1 somewhere */
+#define MATERIAL_WHITTED_MIRROR 4u /* `whitted` sends one mirror ray for the reflection lobe, no highlight */
+#define MATERIAL_CUT_OUT 8u        /* coverage below 1 somewhere */
 
 typedef struct {
-    vec4 matte;        /* rgb: Kd in [0,1]; w: coverage d in [0,1] */
-    vec4 specular;     /* rgb: Ks, or F0 with FRESNEL_SCHLICK; w: Phong exponent Ns (0: no highlight) */
-    vec4 transmission; /* rgb: Tf, tint of each crossing; w: index of refraction Ni */
-    vec4 emission;     /* rgb: Ke, emitted radiance; w: metallic Pm */
+    vec4 matte;        /* rgb: Kd in [0,1]; w: MATERIAL_COVERAGE */
+    vec4 specular;     /* rgb: Ks, or F0 with FRESNEL_SCHLICK; w: MATERIAL_EXPONENT */
+    vec4 transmission; /* rgb: Tf, tint of each crossing; w: MATERIAL_INDEX */
+    vec4 emission;     /* rgb: Ke, emitted radiance; w: MATERIAL_METALLIC */
     float alpha_x, alpha_y; /* GGX roughness along the tangent (direction of growing u) and across it */
     u32 lobes;              /* LOBE_* */
     u32 fresnel;            /* FRESNEL_* */
@@ -43,14 +44,20 @@ typedef struct {
     u32 map_matte, map_specular, map_emission; /* indices into the textures, multiply the constants above */
     u32 map_coverage, map_roughness, map_metallic; /* map_roughness holds Pr: alpha = (Pr map)^2 */
     u32 map_normal, map_bump;
-    float bump_scale;     /* -bm: height of a full-range bump map in normalised scene units; where there is only a
-                             normal map, the factor of its x and y */
+    float bump_scale;     /* -bm: height of a full-range bump map in normalised scene units; where there is
+                             only a normal map, the factor of its x and y */
     float roughness_sqrt_x, roughness_sqrt_y; /* Pr along x and y: sqrt(alpha), multiplied by map_roughness */
 } Material;
 ASSERT_SIZE(Material, 128);
 
+/* What the fourth components hold. */
+#define MATERIAL_COVERAGE(material) ((material).matte.w)     /* d in [0,1] */
+#define MATERIAL_EXPONENT(material) ((material).specular.w)  /* Phong's Ns; 0: no highlight */
+#define MATERIAL_INDEX(material) ((material).transmission.w) /* of refraction, Ni */
+#define MATERIAL_METALLIC(material) ((material).emission.w)  /* Pm in [0,1] */
+
 /* How texels are stored in the word array. */
-#define TEXEL_SRGB8 0u   /* one word: r, g, b, a bytes from the lowest; r, g, b are sRGB-encoded, a is linear */
+#define TEXEL_SRGB8 0u   /* one word: r, g, b, a bytes from the lowest; sRGB-encoded but for a */
 #define TEXEL_LINEAR8 1u /* the same, all four linear */
 #define TEXEL_FLOAT 2u   /* four words: r, g, b, a as floats */
 #define TEXEL_VERTEX 3u  /* no picture: three words a vertex (index as in positions): r, g, b as floats */
@@ -74,7 +81,7 @@ typedef struct {
     u32 triangle;
     u32 alias;
     u32 threshold;
-    float pdf_a; /* probability of choosing this triangle over its area, per unit area of the normalised frame */
+    float pdf_a; /* probability of this triangle over its area, per unit area of the normalised frame */
 } Emitter;
 ASSERT_SIZE(Emitter, 16);
 
@@ -97,11 +104,14 @@ ASSERT_SIZE(Light, 64);
 /* A texel of a lat-long environment map, rows from +Y down. The choice is piecewise constant over texels,
    the lookup bilinear. */
 typedef struct {
-    vec4 radiance; /* rgb; w: probability of choosing this texel */
+    vec4 radiance; /* rgb; w: TEXEL_PROBABILITY */
     u32 alias, threshold;
     u32 unused0, unused1;
 } EnvironmentTexel;
 ASSERT_SIZE(EnvironmentTexel, 32);
+
+/* Of choosing the texel. */
+#define TEXEL_PROBABILITY(texel) ((texel).radiance.w)
 
 SHARED_END
 

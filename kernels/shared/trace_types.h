@@ -7,7 +7,7 @@
 #include "types.h"
 
 /* Choices: integers that decide how the path goes on. */
-#define TRACE_VERTEX 1u        /* a vertex begins: bounce from 1, number of its ray in whitted's tree (0 elsewhere) */
+#define TRACE_VERTEX 1u        /* a vertex: bounce from 1, its ray's number in whitted's tree (else 0) */
 #define TRACE_TRIANGLE 2u      /* hit; NO_INDEX: none */
 #define TRACE_FRONT 3u         /* 1: seen from the front */
 #define TRACE_LOBE 4u          /* chosen: LOBE_*, TRACE_LOBE_REFRACTS */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hooks that record what a sample does. Without -DCLRT_TRACE they are nothing, and so is their cost; with it, the same code
-// computes the same bits and writes each value down on the way (src/replay).
+// Hooks that record what a sample does. Without -DCLRT_TRACE they are nothing, and so is their cost; with it,
+// the same code computes the same bits and writes each value down on the way (src/replay).
 #ifndef CLRT_TRACE_TRACE_H
 #define CLRT_TRACE_TRACE_H
 

@@ -45,7 +45,7 @@ void take_out_lobe(u32 lobe, Scene& scene) {
     for (Material& material : scene.materials) {
         material.lobes &= ~lobe;
         if (lobe == LOBE_GLOSSY)
-            material.specular.w = 0; // Phong's highlight
+            MATERIAL_EXPONENT(material) = 0;
         if (!(material.lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
             material.flags &= ~MATERIAL_WHITTED_MIRROR;
     }
@@ -61,7 +61,7 @@ void take_out_rough_refraction(Scene& scene) {
 }
 
 void set_cut_out_flag(Material& material) {
-    if (material.matte.w >= 1 && material.map_coverage == NO_INDEX)
+    if (MATERIAL_COVERAGE(material) >= 1 && material.map_coverage == NO_INDEX)
         material.flags &= ~MATERIAL_CUT_OUT;
 }
 
@@ -85,7 +85,7 @@ void take_out_normal_maps(Scene& scene) {
 
 void take_out_cut_outs(Scene& scene) {
     for (Material& material : scene.materials) {
-        material.matte.w = 1;
+        MATERIAL_COVERAGE(material) = 1;
         material.map_coverage = NO_INDEX;
         set_cut_out_flag(material);
     }

@@ -38,7 +38,7 @@ bool can_be_rough(const Material& m) {
 }
 /// Without a change of index there is nothing to refract at, rough or not.
 bool can_be_smooth(const Material& m) {
-    return m.alpha_x == 0 || m.transmission.w == 1.0f;
+    return m.alpha_x == 0 || MATERIAL_INDEX(m) == 1.0f;
 }
 
 /// Letters (bits LETTER_BIT) that a material may write.

@@ -24,7 +24,7 @@ void set_lights(const Scene& scene, RenderParams& params) {
     params.environment = to_vec4(sky.radiance);
     if (scene.background) {
         params.background = to_vec4(*scene.background);
-        params.background.w = 1;
+        BACKGROUND_IS_SEEN(params) = 1;
     }
     params.environment_width = sky.texels.empty() ? 0 : u32(sky.width);
     params.environment_height = sky.texels.empty() ? 0 : u32(sky.height);

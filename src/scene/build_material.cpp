@@ -139,7 +139,7 @@ private:
     void set_dielectric() {
         m_.specular = to_vec4(glm::dvec3(1), 0);
         m_.lobes = LOBE_DIELECTRIC;
-        if (m_.transmission.w != 1.0f)
+        if (MATERIAL_INDEX(m_) != 1.0f)
             set_roughness(roughness());
     }
 
@@ -147,7 +147,7 @@ private:
     /// the reflection leaves to it (scattering/bsdf_energy.h).
     void set_metallic() {
         const double metallic = load(from_.metallic, TextureRole::SCALAR, m_.map_metallic);
-        m_.emission.w = float(metallic);
+        MATERIAL_METALLIC(m_) = float(metallic);
         const bool by_map = m_.map_metallic != NO_INDEX;
         const double dielectric = by_map || metallic < 1
                                       ? load(from_.dielectric_f0, TextureRole::LEVEL, m_.map_specular)
@@ -174,14 +174,14 @@ private:
 
     void set_emission() {
         const glm::dvec3 radiance = load(from_.emission, TextureRole::COLOUR, m_.map_emission);
-        m_.emission = to_vec4(radiance, double(m_.emission.w));
+        m_.emission = to_vec4(radiance, double(MATERIAL_METALLIC(m_)));
         if (context_.two_sided && is_positive(radiance))
             m_.flags |= MATERIAL_EMITS_BOTH_SIDES;
     }
 
     void set_coverage() {
-        m_.matte.w = float(load(from_.coverage, TextureRole::COVERAGE, m_.map_coverage));
-        if (m_.matte.w < 1 || m_.map_coverage != NO_INDEX)
+        MATERIAL_COVERAGE(m_) = float(load(from_.coverage, TextureRole::COVERAGE, m_.map_coverage));
+        if (MATERIAL_COVERAGE(m_) < 1 || m_.map_coverage != NO_INDEX)
             m_.flags |= MATERIAL_CUT_OUT;
     }
 

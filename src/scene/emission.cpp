@@ -21,7 +21,7 @@ EmittedRadiance emitted_radiance(const Material& material, const TextureStore& t
 
 double emitted_luminance(const Material& material, const EmittedRadiance& emitted) {
     const double sides = material.flags & MATERIAL_EMITS_BOTH_SIDES ? 2 : 1;
-    return luminance(emitted.mean) * double(material.matte.w) * sides;
+    return luminance(emitted.mean) * double(MATERIAL_COVERAGE(material)) * sides;
 }
 
 } // namespace clrt

@@ -21,7 +21,7 @@ std::string roughness(const Material& m) {
 
 std::string reflection(const Material& m, const char* name) {
     const std::string kind = m.flags & MATERIAL_METALLIC_ROUGHNESS
-                                 ? fmt::format("F0 from Kd and Pm {:.4g}", m.emission.w)
+                                 ? fmt::format("F0 from Kd and Pm {:.4g}", MATERIAL_METALLIC(m))
                              : m.fresnel == FRESNEL_SCHLICK ? "F0 " + colour(m.specular)
                                                             : colour(m.specular);
     return fmt::format("{} {}", name, kind);
@@ -36,7 +36,7 @@ std::vector<std::string> parts_of(const Material& m) {
     if (m.lobes & LOBE_MIRROR)
         parts.push_back(reflection(m, "mirror"));
     if (m.lobes & LOBE_DIELECTRIC)
-        parts.push_back(fmt::format("dielectric Ni {:.4g} Tf {}{}", m.transmission.w, colour(m.transmission),
+        parts.push_back(fmt::format("dielectric Ni {:.4g} Tf {}{}", MATERIAL_INDEX(m), colour(m.transmission),
                                     m.alpha_x > 0 ? " " + roughness(m) : ""));
     if (!m.lobes)
         parts.push_back("black");
@@ -44,7 +44,7 @@ std::vector<std::string> parts_of(const Material& m) {
         parts.push_back("emits " + colour(m.emission) +
                         (m.flags & MATERIAL_EMITS_BOTH_SIDES ? " on both sides" : ""));
     if (m.flags & MATERIAL_CUT_OUT)
-        parts.push_back(fmt::format("coverage {:.4g}", m.matte.w));
+        parts.push_back(fmt::format("coverage {:.4g}", MATERIAL_COVERAGE(m)));
     return parts;
 }
 

@@ -85,7 +85,7 @@ void tabulate_sky(Environment& sky, SkySampling sampling) {
         keep_above_mean(weights, sky.width, sky.height, std::accumulate(weights.begin(), weights.end(), 0.0));
     const AliasTable table = build_alias_table(weights);
     tbb::parallel_for(size_t(0), sky.texels.size(), [&](size_t i) {
-        sky.texels[i].radiance.w = float(table.probability[i]);
+        TEXEL_PROBABILITY(sky.texels[i]) = float(table.probability[i]);
         sky.texels[i].alias = table.entries[i].alias;
         sky.texels[i].threshold = table.entries[i].threshold;
     });
