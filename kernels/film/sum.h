@@ -2,7 +2,7 @@
 // One sum of the film: 64 bits in fixed point, least significant byte first. In builds of integrators that
 // only gather, a pixel belongs to one work-item, which adds plainly. In builds with -DFILM_SPLATS=1 any
 // work-item may add to any sum: by an atomic of 64 bits where the host has asked the device for it
-// (-DFILM_INT64_ATOMICS=1), else by two of 32 bits and a carry. The sum is the same: where in between its
+// (-DFILM_INT64_ATOMICS=1) and the compiler offers it, else by two of 32 bits and a carry. The sum is the same: where in between its
 // words do not belong together, nobody looks at it as a number.
 #ifndef CLRT_FILM_SUM_H
 #define CLRT_FILM_SUM_H
@@ -14,7 +14,8 @@
 #define FILM_INT64_ATOMICS 0
 #endif
 
-#if FILM_INT64_ATOMICS
+#if FILM_INT64_ATOMICS && defined(cl_khr_int64_base_atomics)
+#define SUM_ADD_INT64
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 #endif
 
@@ -30,7 +31,7 @@ static inline bool sum_add_alone(global long* sum, long quanta)
    (without its high word, where that stays). */
 static inline ulong sum_add_modulo(global long* sum, ulong quanta)
 {
-#if FILM_INT64_ATOMICS
+#ifdef SUM_ADD_INT64
     return (ulong)atom_add((global volatile long*)sum, (long)quanta);
 #else
     global volatile uint* words = (global volatile uint*)sum;
