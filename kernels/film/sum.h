@@ -2,8 +2,8 @@
 // One sum of the film: 64 bits in fixed point, least significant byte first. In builds of integrators that
 // only gather, a pixel belongs to one work-item, which adds plainly. In builds with -DFILM_SPLATS=1 any
 // work-item may add to any sum: by an atomic of 64 bits where the host has asked the device for it
-// (-DFILM_INT64_ATOMICS=1) and the compiler offers it, else by two of 32 bits and a carry. The sum is the same: where in between its
-// words do not belong together, nobody looks at it as a number.
+// (-DFILM_INT64_ATOMICS=1) and the compiler offers it, else by two of 32 bits and a carry. The sum is the
+// same: where in between its words do not belong together, nobody looks at it as a number.
 #ifndef CLRT_FILM_SUM_H
 #define CLRT_FILM_SUM_H
 
