@@ -39,9 +39,8 @@ class ManPage(unittest.TestCase):
                     self.assertEqual(page.count(f"\n.SH {section}\n"), 1, section)
 
     def test_it_explains_the_lines_of_the_report(self):
-        folder = pathlib.Path(ROOT, "src", "render")
-        source = "".join(folder.joinpath(name).read_text(encoding="utf-8") for name in
-                         ("report_text.cpp", "error_text.cpp", "cut_paths.cpp", "../paths/blind_spots.cpp"))
+        source = "".join(pathlib.Path(ROOT, "src", name).read_text(encoding="utf-8") for name in
+                         ("run/report_text.cpp", "render/error_text.cpp", "render/cut_paths.cpp", "paths/blind_spots.cpp"))
         labels = {label.strip() for label in re.findall(r'"([a-z][a-z ]{7} )\S', source) if re.match(r"[a-z ]{8} ", label)}
         self.assertTrue({"picture", "error", "verdict", "price", "left out", "not seen", "tails"} <= labels, labels)
         page = next(page_of(program) for program in PROGRAMS if os.path.basename(program) == "clrt")

@@ -21,11 +21,9 @@ bool holds(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// The integrator's own text: its entry point, and the header beside it.
+/// All that is compiled of the integrator.
 std::string kernel_text(const IntegratorRow& row) {
-    const KernelFiles& files = embedded_kernel_files();
-    const std::string name = std::string("integrators/") + row.name;
-    return files.at(name + ".cl") + files.at(name + ".h");
+    return expand_kernel_source(embedded_kernel_files(), integrator_file(row.value));
 }
 
 /// A page without line ends and repeated blanks.
@@ -82,7 +80,7 @@ TEST(Integrators, KernelsReadWhatTheirRowTakes) {
     const std::pair<IntegratorOption, const char*> uses[] = {
         {TAKES_ROULETTE_DEPTH, "params->roulette_depth"},
         {TAKES_MIN_CONTRIBUTION, "params->min_contribution"},
-        {TAKES_PATHS, "HAS(EFFECT_PATH_FILTER)"}};
+        {TAKES_PATHS, "AUTOMATON_STATES[path->state]"}};
     for (const IntegratorRow& row : INTEGRATOR_ROWS)
         for (const auto& [option, use] : uses)
             EXPECT_EQ(holds(kernel_text(row), use), takes_option(row.value, option))
