@@ -4,7 +4,7 @@
 
 #include "device/device.h"
 #include "device/opencl_error.h"
-#include "options/options.h"
+#include "options/device_options.h"
 
 #include <map>
 #include <string>

@@ -2,7 +2,7 @@
 // Pictures in memory and on disk (OpenImageIO). Files are written under a temporary name and renamed.
 #pragma once
 
-#include "options/options.h"
+#include "options/output_options.h"
 
 #include <cstdint>
 #include <string>

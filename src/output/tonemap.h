@@ -2,7 +2,7 @@
 // Radiance -> the 8-bit sRGB values of PNG and its kind.
 #pragma once
 
-#include "options/options.h"
+#include "options/output_options.h"
 
 #include <array>
 #include <cstdint>

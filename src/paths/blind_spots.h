@@ -11,7 +11,7 @@
 // brightness depends on the size of the pixels, so that no picture has it.
 #pragma once
 
-#include "options/options.h"
+#include "options/integrators.h"
 #include "paths/path_expression.h"
 #include "scene/scene.h"
 

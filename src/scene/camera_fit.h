@@ -2,10 +2,12 @@
 // The camera of the options; parts that are not given are fitted to the scene.
 #pragma once
 
-#include "options/options.h"
+#include "options/camera_options.h"
 #include "scene/normalise.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
+
+#include <glm/vec2.hpp>
 
 namespace clrt {
 

@@ -2,7 +2,7 @@
 // The light from infinitely far away: a lat-long map, or a constant.
 #pragma once
 
-#include "options/options.h"
+#include "options/light_options.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 

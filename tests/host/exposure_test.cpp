@@ -82,11 +82,11 @@ TEST(AutoExposure, BlackBackdropsFirefliesAndOddNumbersCountForNothing) {
 
 TEST(AutoExposure, ItIsAWholeNumberOfHundredthsToWhichStopsAreAdded) {
     const std::vector<float> rgb = greys(even_tones(-6.1234, 2));
-    Options options;
-    options.output.exposure_ev = 0.5;
-    EXPECT_EQ(chosen_exposure_ev(options.output, rgb), 0.5);
-    options.output.auto_exposure = true;
-    const double ev = chosen_exposure_ev(options.output, rgb);
+    OutputOptions options;
+    options.exposure_ev = 0.5;
+    EXPECT_EQ(chosen_exposure_ev(options, rgb), 0.5);
+    options.auto_exposure = true;
+    const double ev = chosen_exposure_ev(options, rgb);
     EXPECT_NEAR(ev, auto_exposure_ev(rgb) + 0.5, 1e-9);
     EXPECT_EQ(exposure_notice(ev), "exposure by the picture's tones: --exposure 0.09");
     EXPECT_EQ(ev, 0.09);

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <iterator>
 
 namespace clrt {
 
@@ -143,6 +144,14 @@ std::vector<Fault> planted_faults() {
     };
 }
 
+/// The events of one quantity, in their order.
+std::vector<TraceEvent> events_of(const SampleTrace& trace, u32 quantity) {
+    std::vector<TraceEvent> found;
+    std::copy_if(trace.events.begin(), trace.events.end(), std::back_inserter(found),
+                 [&](const TraceEvent& event) { return event.quantity == quantity; });
+    return found;
+}
+
 } // namespace
 
 TEST(Replay, ASampleAddsToTheFilmWhatTheRenderAdds) {
@@ -239,6 +248,13 @@ TEST(Replay, LongPathsAreRecordedWhole) {
                 return event.quantity != TRACE_LOBE || event.bits[0] == LOBE_MIRROR;
             });
         EXPECT_TRUE(all_mirrors);
+        // Every sampled direction is that of the next ray.
+        const std::vector<TraceEvent> rays = events_of(trace, TRACE_RAY_DIRECTION);
+        const std::vector<TraceEvent> sampled = events_of(trace, TRACE_WI);
+        ASSERT_EQ(rays.size(), 3000u);
+        ASSERT_EQ(sampled.size(), 2999u);
+        for (size_t i = 0; i < sampled.size(); ++i)
+            EXPECT_EQ(sampled[i].bits, rays[i + 1].bits) << i;
     }
     EXPECT_EQ(traces[0].decisions, replay.run({{1, 0}}, TraceEvents::NONE)[0].decisions);
     EXPECT_NE(traces[0].decisions, traces[1].decisions);
