@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/closed_meshes.h"
 
+#include "probes/meshes.h"
 #include "scene/normalise.h"
 #include "scene/vectors.h"
 
@@ -29,20 +30,6 @@ ClosedMesh make_mesh(const std::string& name) {
     mesh.scene.material_places.emplace_back();
     mesh.scene.material_rules.emplace_back();
     return mesh;
-}
-
-u32 add_position(Scene& scene, const glm::dvec3& p) {
-    scene.positions.push_back(to_vec4(p));
-    return u32(scene.positions.size() - 1);
-}
-
-void add_triangle(Scene& scene, u32 v0, u32 v1, u32 v2) {
-    Triangle triangle{};
-    triangle.v0 = v0, triangle.v1 = v1, triangle.v2 = v2;
-    triangle.n0 = triangle.n1 = triangle.n2 = NO_INDEX;
-    triangle.t0 = triangle.t1 = triangle.t2 = NO_INDEX;
-    triangle.emitter = NO_INDEX;
-    scene.triangles.push_back(triangle);
 }
 
 /// Adds the two triangles of a cell of the grid of `columns` vertices a row that starts at `first`; columns
