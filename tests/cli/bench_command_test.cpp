@@ -68,6 +68,13 @@ TEST_F(BenchCommand, MeasuresCpuTimeAndBothLayoutsOnOneThread) {
     }
 }
 
+TEST_F(BenchCommand, HoldsEmbreeToAnInstructionSet) {
+    const CommandResult result = bench(quick({cornell_box, "--isa", "sse2", "--stats", "bench.json"}));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(folder.read("bench.json")).at("embree_isa"), "sse2");
+    expect_usage_error({cornell_box, "--isa", "mmx"}, {"--isa", "avx512", "'mmx'"});
+}
+
 TEST_F(BenchCommand, FourForAWrongTraversal) {
     std::filesystem::copy(CLRT_KERNELS_FOLDER, folder.file("kernels"),
                           std::filesystem::copy_options::recursive);

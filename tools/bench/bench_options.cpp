@@ -44,6 +44,12 @@ void choose_mode(BenchOptions& options, BenchMode mode) {
     options.mode = mode;
 }
 
+std::string parse_isa(const OptionValue& value) {
+    if (std::find(std::begin(EMBREE_ISAS), std::end(EMBREE_ISAS), value.text) == std::end(EMBREE_ISAS))
+        reject_value(value, fmt::format("one of {}", fmt::join(EMBREE_ISAS, ", ")));
+    return value.text;
+}
+
 void parse_aimed_rays(BenchOptions& options, const OptionValue& value) {
     if (!value.text.empty())
         options.aimed_rays = std::uint64_t(parse_whole(value, 1, LARGEST_AIMED_RAYS));
@@ -65,6 +71,9 @@ const std::vector<BenchOption>& table() {
              o.rays = std::uint32_t(parse_whole(v, 1, LARGEST_RAYS));
          }},
         {"--threads", "N", "CPU threads of both sides, 0 for all (default 0)", apply_as_clrt},
+        {"--isa", "NAME",
+         "Embree's instruction set: sse2, sse4.2, avx, avx2, avx512 (default: the best here)",
+         [](BenchOptions& o, const OptionValue& v) { o.isa = parse_isa(v); }},
         {"--cpu-time", "",
          "take ratios of CPU seconds, not of wall seconds: for a machine that does other work too",
          [](BenchOptions& o, const OptionValue&) { o.cpu_time = true; }},

@@ -11,6 +11,9 @@
 
 namespace clrt {
 
+/// Instruction sets that Embree's side can be held to, by Embree's own names.
+inline constexpr const char* EMBREE_ISAS[] = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
+
 enum class BenchMode { SPEED, WATERTIGHT, ROBUSTNESS };
 
 struct BenchOptions {
@@ -20,6 +23,7 @@ struct BenchOptions {
     Options clrt;                     ///< what means the same to clrt: device, bvh, threads, kernels_folder
     std::uint32_t rounds = 9;         ///< measurements of each side
     std::uint32_t rays = 1 << 20;     ///< of each kind
+    std::string isa;                  ///< Embree's instruction set, of EMBREE_ISAS; empty: its choice
     bool cpu_time = false;            ///< ratios of CPU seconds instead of wall seconds
     std::string stats_path;           ///< JSON; empty: none
     bool no_sidecar = false;          ///< leaves SCENE.clrt unread

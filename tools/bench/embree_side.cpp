@@ -29,8 +29,10 @@ RTCRay make_ray(const BenchRay& ray) {
 
 } // namespace
 
-EmbreeSide::EmbreeSide(const Scene& scene, bool robust, int threads) {
-    device_ = rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr);
+EmbreeSide::EmbreeSide(const Scene& scene, bool robust, int threads, const std::string& isa) {
+    const std::string config =
+        fmt::format("threads={}{}{}", std::max(threads, 0), isa.empty() ? "" : ",isa=", isa);
+    device_ = rtcNewDevice(config.c_str());
     if (!device_)
         throw std::runtime_error(
             fmt::format("Embree cannot start (error {})", int(rtcGetDeviceError(nullptr))));

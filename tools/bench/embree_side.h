@@ -16,9 +16,9 @@ namespace clrt {
 class EmbreeSide {
 public:
     /// Builds a tree of the best quality. `robust`: Embree's own answer to rays that slip through edges,
-    /// slower. `threads` of 0: all. The scene must outlive this object. Throws std::runtime_error where
-    /// Embree fails.
-    EmbreeSide(const Scene& scene, bool robust, int threads);
+    /// slower. `threads` of 0: all. `isa`: one of EMBREE_ISAS, or empty for the processor's best. The scene
+    /// must outlive this object. Throws std::runtime_error where Embree fails.
+    EmbreeSide(const Scene& scene, bool robust, int threads, const std::string& isa);
     EmbreeSide(const EmbreeSide&) = delete;
     EmbreeSide& operator=(const EmbreeSide&) = delete;
     ~EmbreeSide();

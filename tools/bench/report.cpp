@@ -163,6 +163,7 @@ std::string speed_json(const BenchOptions& bench, const DeviceInfo& device,
                        const std::vector<SceneSpeed>& scenes) {
     Json json = run_json(bench, device);
     json["embree"] = embree_version();
+    json["embree_isa"] = bench.isa.empty() ? Json() : Json(bench.isa);
     json["rounds"] = bench.rounds;
     json["time"] = bench.cpu_time ? "cpu" : "wall";
     json["ratio"] = mean_ratios(scenes);

@@ -102,8 +102,9 @@ SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const 
     const std::shared_ptr<const PlannedScene> planned = plan_scene(load_scene(options, progress), options);
     progress.update({"trees and rays"});
     ClrtSide clrt(device, all_kernel_files(bench.clrt.device.kernels_folder), planned);
-    const EmbreeSide embree(planned->scene, /*robust=*/false, bench.clrt.device.threads),
-        robust(planned->scene, /*robust=*/true, bench.clrt.device.threads);
+    const int threads = bench.clrt.device.threads;
+    const EmbreeSide embree(planned->scene, /*robust=*/false, threads, bench.isa),
+        robust(planned->scene, /*robust=*/true, threads, bench.isa);
     const std::vector<RaySet> sets = make_ray_sets(clrt, bench.rays);
 
     // Round 0 warms up: the driver finishes compiling, pages are touched.
