@@ -18,6 +18,14 @@ typedef struct {
 
 static inline real ray_component(real3 v, uint axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
 
+/* The components kx, ky, kz, by selecting among vectors: compilers make branches of a choice among scalars, and
+   no processor predicts along which axis a ray is longest. */
+static inline real3 ray_permuted(real3 v, uint kz)
+{
+    const real3 axis = (real3)((real)kz);
+    return axis == REAL(0.0) ? v.yzx : (axis == REAL(1.0) ? v.zxy : v);
+}
+
 static inline RayShear ray_shear_make(const Ray* ray)
 {
     const real3 d = ray->direction;
@@ -26,12 +34,14 @@ static inline RayShear ray_shear_make(const Ray* ray)
     shear.kz = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
     shear.kx = shear.kz == 2u ? 0u : shear.kz + 1u;
     shear.ky = shear.kx == 2u ? 0u : shear.kx + 1u;
-    shear.ox = ray_component(ray->origin, shear.kx);
-    shear.oy = ray_component(ray->origin, shear.ky);
-    shear.oz = ray_component(ray->origin, shear.kz);
-    shear.sz = REAL(1.0) / ray_component(d, shear.kz);
-    shear.sx = ray_component(d, shear.kx) * shear.sz;
-    shear.sy = ray_component(d, shear.ky) * shear.sz;
+    const real3 origin = ray_permuted(ray->origin, shear.kz);
+    const real3 permuted = ray_permuted(d, shear.kz);
+    shear.ox = origin.x;
+    shear.oy = origin.y;
+    shear.oz = origin.z;
+    shear.sz = REAL(1.0) / permuted.z;
+    shear.sx = permuted.x * shear.sz;
+    shear.sy = permuted.y * shear.sz;
     return shear;
 }
 
