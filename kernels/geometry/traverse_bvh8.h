@@ -266,13 +266,19 @@ static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* p
             global const uint* node = bvh8_node(scene, child);
             SCENE_COUNT_NODE(scene);
             real8 entry;
+            global const uint* children = node + BVH8_CHILD_WORD;
             const uint lanes = bvh8_enter(node, &box, planes, limit, &entry);
             if (lanes == 0u)
                 break;
+            /* One child is the usual case, and need not go through the stack. */
+            if ((lanes & (lanes - 1u)) == 0u) {
+                child = bvh8_only_child(children, lanes);
+                continue;
+            }
 #pragma unroll
             for (int lane = BVH8_WIDTH - 1; lane >= 0; --lane)
                 if (lanes & (1u << lane))
-                    stack[top++] = node[BVH8_CHILD_WORD + lane];
+                    stack[top++] = children[lane];
             child = stack[--top];
         }
         if (child & BVH_LEAF_BIT) {
