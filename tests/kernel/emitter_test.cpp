@@ -7,6 +7,7 @@
 #include "scene/lights.h"
 #include "support/test_device.h"
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 using namespace clrt;
