@@ -16,10 +16,8 @@ typedef struct {
     real sx, sy, sz;
 } RayShear;
 
-static inline real ray_component(real3 v, uint axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
-
-/* The components kx, ky, kz, by selecting among vectors: compilers make branches of a choice among scalars, and
-   no processor predicts along which axis a ray is longest. */
+/* The components kx, ky, kz of a vector. Selects among vectors: compilers make branches of a choice among
+   scalars, and no processor predicts along which axis a ray is longest. */
 static inline real3 ray_permuted(real3 v, uint kz)
 {
     const real3 axis = (real3)((real)kz);

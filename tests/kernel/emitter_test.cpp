@@ -50,9 +50,10 @@ SceneProbe& probe() {
             surface_corners(scene, scene->triangles + as_uint(b.z), &p[0], &p[1], &p[2]);
             real x[3], y[3], z[3];
             for (int k = 0; k < 3; ++k) {
-                x[k] = ray_component(p[k], shear.kx);
-                y[k] = ray_component(p[k], shear.ky);
-                z[k] = ray_component(p[k], shear.kz);
+                const real3 permuted = ray_permuted(p[k], shear.kz);
+                x[k] = permuted.x;
+                y[k] = permuted.y;
+                z[k] = permuted.z;
             }
             real u, v, w, det, t_det;
             triangle_edges(&shear, x, y, z, &u, &v, &w, &det, &t_det);

@@ -24,9 +24,10 @@ const char* const TEXT = R"(
 static void permute(const RayShear* shear, const real3* p, real* x, real* y, real* z)
 {
     for (int corner = 0; corner < 3; ++corner) {
-        x[corner] = ray_component(p[corner], shear->kx);
-        y[corner] = ray_component(p[corner], shear->ky);
-        z[corner] = ray_component(p[corner], shear->kz);
+        const real3 permuted = ray_permuted(p[corner], shear->kz);
+        x[corner] = permuted.x;
+        y[corner] = permuted.y;
+        z[corner] = permuted.z;
     }
 }
 

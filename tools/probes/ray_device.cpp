@@ -49,9 +49,10 @@ static Hit closest_of_all(const Scene* scene, const RenderParams* params, const 
         surface_corners(scene, &scene->triangles[k], &p[0], &p[1], &p[2]);
         real x[3], y[3], z[3], u, v, w, det, t_det;
         for (int corner = 0; corner < 3; ++corner) {
-            x[corner] = ray_component(p[corner], shear.kx);
-            y[corner] = ray_component(p[corner], shear.ky);
-            z[corner] = ray_component(p[corner], shear.kz);
+            const real3 permuted = ray_permuted(p[corner], shear.kz);
+            x[corner] = permuted.x;
+            y[corner] = permuted.y;
+            z[corner] = permuted.z;
         }
         triangle_edges(&shear, x, y, z, &u, &v, &w, &det, &t_det);
         const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);

@@ -13,8 +13,6 @@ typedef struct {
     real dx, dy, dz;
 } RayShear;
 
-static inline real ray_component(real3 v, uint axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
-
 static inline RayShear ray_shear_make(const Ray* ray)
 {
     RayShear shear;

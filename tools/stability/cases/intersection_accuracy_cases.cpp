@@ -25,9 +25,10 @@ static void probe_triangle(real3 origin, real3 direction, real3 p0, real3 p1, re
     const real3 p[3] = {p0, p1, p2};
     real x[3], y[3], z[3], u, v, w, det, t_det;
     for (int corner = 0; corner < 3; ++corner) {
-        x[corner] = ray_component(p[corner], shear.kx);
-        y[corner] = ray_component(p[corner], shear.ky);
-        z[corner] = ray_component(p[corner], shear.kz);
+        const real3 permuted = ray_permuted(p[corner], shear.kz);
+        x[corner] = permuted.x;
+        y[corner] = permuted.y;
+        z[corner] = permuted.z;
     }
     triangle_edges(&shear, x, y, z, &u, &v, &w, &det, &t_det);
     const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
