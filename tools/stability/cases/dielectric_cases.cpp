@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/vec2.hpp>
 
 namespace clrt {
 
