@@ -13,6 +13,13 @@ typedef struct {
     real dx, dy, dz;
 } RayShear;
 
+/* The components kx, ky, kz: the axes stay as they are. */
+static inline real3 ray_permuted(real3 v, uint kz)
+{
+    (void)kz;
+    return v;
+}
+
 static inline RayShear ray_shear_make(const Ray* ray)
 {
     RayShear shear;
