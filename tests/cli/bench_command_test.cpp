@@ -126,6 +126,12 @@ TEST_F(BenchCommand, TellsWhatRobustnessCosts) {
     }
 }
 
+TEST_F(BenchCommand, MakesARoughSceneForRobustnessWhereNoneIsGiven) {
+    const CommandResult result = bench({"--robustness=1000", "--rays", "4096", "--rounds", "1"});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_TRUE(holds(result.out, {"a rough torus in a ball", "watertight triangles, padded boxes"}));
+}
+
 TEST_F(BenchCommand, TwoForWrongUsage) {
     expect_usage_error({}, {"expected a scene"});
     expect_usage_error({"scene.obj", "--round", "3"}, {"--round", "--rounds"});

@@ -22,10 +22,7 @@ const glm::dvec3 AWAY = glm::normalize(glm::dvec3(148376, 1234, -223423));
 ClosedMesh make_mesh(const std::string& name) {
     ClosedMesh mesh;
     mesh.name = name;
-    Material opaque{};
-    opaque.matte = {0.5f, 0.5f, 0.5f, 1.0f};
-    opaque.lobes = LOBE_MATTE;
-    mesh.scene.materials.push_back(opaque);
+    mesh.scene = make_empty_scene();
     mesh.scene.material_names.emplace_back("opaque");
     mesh.scene.material_places.emplace_back();
     mesh.scene.material_rules.emplace_back();

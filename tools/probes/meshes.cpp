@@ -71,6 +71,8 @@ Scene make_empty_scene() {
     Material opaque{};
     opaque.matte = {0.5f, 0.5f, 0.5f, 1.0f};
     opaque.lobes = LOBE_MATTE;
+    opaque.map_matte = opaque.map_specular = opaque.map_emission = opaque.map_coverage = NO_INDEX;
+    opaque.map_roughness = opaque.map_metallic = opaque.map_normal = opaque.map_bump = NO_INDEX;
     scene.materials.push_back(opaque);
     return scene;
 }
