@@ -49,4 +49,15 @@ TEST_F(Start, WhatAPictureNeedsIsLoadedBeforeTheRender) {
     EXPECT_EQ(listing(), (std::vector<std::string>{"a.png", "scene.obj"}));
 }
 
+TEST_F(Start, ALibraryThatCannotBeLoadedIsAnErrorBeforeTheRender) {
+    folder.write("clrt-images.so", "this is no library");
+    CommandSettings settings;
+    settings.environment["LD_LIBRARY_PATH"] = path();
+    const CommandResult result = clrt(quick({"scene.obj", "-o", "b.png", "-o", "a.exr"}), settings);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(holds(result.err, {"clrt: error: ", "picture formats cannot be loaded", "clrt-images.so"}));
+    EXPECT_EQ(listing(), (std::vector<std::string>{"clrt-images.so", "scene.obj"}));
+    EXPECT_EQ(clrt(quick({"scene.obj", "-o", "b.png"}), settings).exit_code, 0);
+}
+
 } // namespace clrt
