@@ -170,8 +170,7 @@ void FilmBuffers::read_sums(RenderProgress& render) const {
     const size_t replicates = params_.film_replicates, plane = film_plane(render.film);
     render.film.sums.resize(replicates * plane);
     for (size_t i = 0; i < replicates; ++i)
-        if (film_has_replicate(render.film, int(i)))
-            read_plane(i, &render.film.sums[i * plane]);
+        read_plane(i, &render.film.sums[i * plane]);
     render.path_layers.resize(layers_);
     for (size_t i = 0; i < layers_; ++i) {
         Film& layer = render.path_layers[i];

@@ -66,7 +66,7 @@ TEST(Film, ReplicatesWithoutSamplesAreNotLookedAt) {
     for (int r = 0; r < 4; ++r)
         EXPECT_EQ(film_has_replicate(film, r), r == 2) << r;
     for (size_t i = 0; i < film.sums.size(); ++i)
-        film.sums[i] = i / 18 == 2 ? 4096 : 1; // those of the others are never read from the device
+        film.sums[i] = i / 18 == 2 ? 4096 : 1;
     EXPECT_EQ(film_mean(film), std::vector<float>(18, 1.0f));
 }
 
