@@ -36,13 +36,6 @@ bool differ(const vec4& a, const vec4& b) {
     return a.x != b.x || a.y != b.y || a.z != b.z;
 }
 
-// Where two corners agree no ray hits: two edges are one and the same, which the neighbours share. Corners in
-// line may close a seam: for a ray, which rounds each corner on its own, they are no longer in line, and only
-// this triangle fills the gap between an edge on one side and its two parts on the other.
-bool can_be_hit(const vec4& a, const vec4& b, const vec4& c) {
-    return in_range(a) && in_range(b) && in_range(c) && differ(a, b) && differ(b, c) && differ(c, a);
-}
-
 // Adding +0 turns -0 into +0, so that the bits of a box do not depend on the order of its corners.
 Float4 corner(const vec4& p) {
     return Float4{p.x, p.y, p.z, 0} + splat(0);
@@ -229,10 +222,17 @@ private:
 
 } // namespace
 
-double half_area(const BinaryNode& node) {
-    const double x = double(node.upper[0]) - node.lower[0];
-    const double y = double(node.upper[1]) - node.lower[1];
-    const double z = double(node.upper[2]) - node.lower[2];
+// Where two corners agree no ray hits: two edges are one and the same, which the neighbours share. Corners in
+// line may close a seam: for a ray, which rounds each corner on its own, they are no longer in line, and only
+// this triangle fills the gap between an edge on one side and its two parts on the other.
+bool can_be_hit(const vec4& a, const vec4& b, const vec4& c) {
+    return in_range(a) && in_range(b) && in_range(c) && differ(a, b) && differ(b, c) && differ(c, a);
+}
+
+double half_area(const float* lower, const float* upper) {
+    const double x = double(upper[0]) - lower[0];
+    const double y = double(upper[1]) - lower[1];
+    const double z = double(upper[2]) - lower[2];
     return x * y + y * z + z * x;
 }
 

@@ -31,6 +31,9 @@ struct BinaryTree {
     int depth = 0;          ///< levels: 0 for an empty tree, 1 for a root that is a leaf
 };
 
+/// Whether a tree holds the triangle of these corners (build_bvh says which it does).
+bool can_be_hit(const vec4& a, const vec4& b, const vec4& c);
+
 constexpr float MOST_REFERENCES = 1.5f; ///< entries in leaves per triangle; spatial splits stop there
 
 /// So many triangles or parts of them can be told apart: indices of nodes and leaves have 31 bits, each
@@ -43,7 +46,11 @@ constexpr size_t MOST_TRIANGLES = BVH_LEAF_BIT - BVH8_WIDTH;
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
                              const LeafCost& leaf_cost, BvhQuality quality);
 
-/// Half the surface of a node's box.
-double half_area(const BinaryNode& node);
+/// Half the surface of a box, of three coordinates each.
+double half_area(const float* lower, const float* upper);
+/// That of a node's box.
+inline double half_area(const BinaryNode& node) {
+    return half_area(node.lower, node.upper);
+}
 
 } // namespace clrt

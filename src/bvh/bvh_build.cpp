@@ -10,18 +10,6 @@
 namespace clrt {
 namespace {
 
-LeafCost leaf_cost(BvhLayout layout) {
-    switch (layout) {
-    case BvhLayout::BVH2:
-        return BVH2_LEAF_COST;
-    case BvhLayout::CWBVH:
-        return CWBVH_LEAF_COST;
-    case BvhLayout::BVH8:
-        break;
-    }
-    return BVH8_LEAF_COST;
-}
-
 /// A tree of high quality is kept if its cost is below this share of the fast one's. Measured with eight-wide
 /// nodes on PoCL: at 0.98 to 1.01 (a bunny, a sphere) rays take up to 10 % longer in it, for the memory that
 /// cut triangles take; at 0.88 to 0.91 (three rooms) diffuse rays gain 0 to 10 %, while camera and shadow

@@ -25,7 +25,7 @@ WideCollapse::WideCollapse(const BinaryTree& tree, const WideRules& rules)
 
 float WideCollapse::leaf_cost(u32 node) const {
     const BinaryNode& n = nodes_[node];
-    return relative_area(n, root_area_) * (rules_.leaf_cost + rules_.triangle_cost * float(n.count));
+    return relative_area(n, root_area_) * (rules_.price.leaf + rules_.price.triangle * float(n.count));
 }
 
 void WideCollapse::find_costs(u32 node) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bvh/binary_tree.h"
+#include "bvh/sah_cost.h"
 
 #include <array>
 #include <cstdint>
@@ -23,17 +24,15 @@ struct WideChildren {
     std::array<bool, BVH8_WIDTH> used{};
 };
 
-/// What a wide tree's leaves hold and cost, in units of a wide node's test, and how deep it may be.
+/// What a wide tree's leaves hold and cost, and how deep it may be.
 struct WideRules {
-    u32 max_leaf;        ///< triangles
-    float leaf_cost;     ///< of any leaf
-    float triangle_cost; ///< more for each triangle
-    int max_levels;      ///< of wide nodes; three levels of the binary tree always fit into one
+    u32 max_leaf; ///< triangles
+    LeafPrice price;
+    int max_levels; ///< of wide nodes; three levels of the binary tree always fit into one
 };
 
-/// bvh8: testing a node costs as much as testing a block of up to eight triangles. cwbvh: the paper's costs.
-constexpr WideRules BVH8_RULES{BVH8_WIDTH, 1.0f, 0.0f, BVH_MAX_DEPTH};
-constexpr WideRules CWBVH_RULES{CWBVH_LEAF_TRIANGLES, 0.0f, 0.3f, CWBVH_MAX_LEVELS};
+constexpr WideRules BVH8_RULES{BVH8_WIDTH, leaf_price(BvhLayout::BVH8), BVH_MAX_DEPTH};
+constexpr WideRules CWBVH_RULES{CWBVH_LEAF_TRIANGLES, leaf_price(BvhLayout::CWBVH), CWBVH_MAX_LEVELS};
 
 /// The cheapest way to represent every binary subtree in a wide tree.
 class WideCollapse {

@@ -2,6 +2,7 @@
 // Eight-wide nodes over blocks of up to eight triangles.
 #include "bvh/collapse.h"
 #include "bvh/layout.h"
+#include "bvh/sah_cost.h"
 
 #include <algorithm>
 #include <tbb/parallel_for.h>
@@ -58,13 +59,13 @@ std::vector<LeafRange> write_bvh8_nodes(const BinaryTree& tree, Bvh& bvh) {
     };
     const WideCollapse collapse(tree, BVH8_RULES);
     const BinaryNode* binary = tree.nodes.get();
-    double area_tested = 0;
+    SahSum cost(BvhLayout::BVH8);
     std::vector<LeafRange> leaves;
     std::vector<Pending> stack{{{0, 0}, append_bvh8_node(bvh.nodes)}};
     while (!stack.empty()) {
         const Pending parent = stack.back();
         stack.pop_back();
-        area_tested += half_area(binary[parent.subtree.node]);
+        cost.add_node(half_area(binary[parent.subtree.node]));
         const std::vector<WideChild> children =
             lane_order(collapse, binary, collapse.children(parent.subtree, BVH8_RULES.max_levels));
         const size_t first_pending = stack.size();
@@ -75,7 +76,7 @@ std::vector<LeafRange> write_bvh8_nodes(const BinaryTree& tree, Bvh& bvh) {
             if (collapse.is_leaf(child.node)) {
                 reference = BVH_LEAF_BIT | u32(leaves.size());
                 leaves.push_back({child.first, b.count});
-                area_tested += half_area(b);
+                cost.add_leaf(half_area(b), b.count);
             } else {
                 reference = append_bvh8_node(bvh.nodes);
                 stack.push_back({child, reference});
@@ -86,7 +87,7 @@ std::vector<LeafRange> write_bvh8_nodes(const BinaryTree& tree, Bvh& bvh) {
         }
         std::reverse(stack.begin() + std::ptrdiff_t(first_pending), stack.end());
     }
-    bvh.sah_cost = sah_cost(area_tested, tree);
+    bvh.sah_cost = cost.relative_to(half_area(binary[0]));
     return leaves;
 }
 
