@@ -18,6 +18,18 @@ struct WideChild {
     u32 first;
 };
 
+/// The children of one wide node, left to right in the binary tree.
+struct WideChildList {
+    std::array<WideChild, BVH8_WIDTH> items;
+    int size = 0;
+
+    void add(const WideChild& child) { items[size_t(size++)] = child; }
+    WideChild* begin() { return items.data(); }
+    WideChild* end() { return items.data() + size; }
+    const WideChild* begin() const { return items.data(); }
+    const WideChild* end() const { return items.data() + size; }
+};
+
 /// The children of one wide node by slot.
 struct WideChildren {
     std::array<WideChild, BVH8_WIDTH> slots;
@@ -46,10 +58,13 @@ public:
     /// The children of the wide node made from `parent`: one if that is a leaf, which only the root can be.
     /// `levels` of wide nodes are left for `parent` and what is below: the rules' max_levels at the root, one
     /// less at each child. Where the cheapest children would not do with that, three binary levels are taken
-    /// at once. Slots are given so that visiting them by ascending slot XOR octant is roughly front to back
-    /// for a ray whose octant has bit a set where its direction is negative along axis a (section 4.1 of the
-    /// paper).
-    WideChildren children(WideChild parent, int levels) const;
+    /// at once.
+    WideChildList children(WideChild parent, int levels) const;
+
+    /// Gives slots to a node's children so that visiting them by ascending slot XOR octant is roughly front
+    /// to back for a ray whose octant has bit a set where its direction is negative along axis a (section 4.1
+    /// of the paper).
+    WideChildren assign_slots(const WideChildList& list, u32 parent) const;
 
 private:
     // cost[i]: of a subtree represented by at most i + 1 children of one wide node.
@@ -58,18 +73,13 @@ private:
         float cost;
         int left; // children given to the left subtree
     };
-    struct ChildList {
-        std::array<WideChild, BVH8_WIDTH> items;
-        int size = 0;
-    };
 
     void find_costs(u32 node);
     float leaf_cost(u32 node) const;
-    bool fits(const ChildList& list, int levels) const;
-    void expand_levels(WideChild subtree, int levels, ChildList& list) const;
+    bool fits(const WideChildList& list, int levels) const;
+    void expand_levels(WideChild subtree, int levels, WideChildList& list) const;
     Distribution distribute(const BinaryNode& node, int children) const;
-    void expand(WideChild subtree, int children, ChildList& list) const;
-    WideChildren assign_slots(const ChildList& list, u32 parent) const;
+    void expand(WideChild subtree, int children, WideChildList& list) const;
 
     const BinaryNode* nodes_;
     WideRules rules_;

@@ -113,7 +113,8 @@ private:
 
     void write_node(const Pending& parent) {
         cost_.add_node(half_area(binary_[parent.subtree.node]));
-        const WideChildren children = collapse_.children(parent.subtree, parent.levels);
+        const WideChildren children =
+            collapse_.assign_slots(collapse_.children(parent.subtree, parent.levels), parent.subtree.node);
         u32 inner_mask = 0, inner_count = 0;
         for (u32 slot = 0; slot < BVH8_WIDTH; ++slot)
             if (children.used[slot] && !collapse_.is_leaf(children.slots[slot].node)) {
