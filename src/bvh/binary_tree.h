@@ -21,8 +21,7 @@ struct BinaryNode {
     u32 count; ///< triangles below
 };
 
-/// A tree over the usable triangles. The tree is the same for any number of threads; the indices of its nodes
-/// are not, so layouts must walk it from the root (node 0).
+/// A tree over the usable triangles, the same for any number of threads. Node 0 is the root.
 struct BinaryTree {
     std::unique_ptr<BinaryNode[]> nodes; ///< no root when `order` is empty
     u32 node_count = 0;
@@ -40,11 +39,17 @@ constexpr float MOST_REFERENCES = 1.5f; ///< entries in leaves per triangle; spa
 /// layout has at most one of either an entry, and counts are rounded up to whole blocks in 32 signed bits.
 constexpr size_t MOST_TRIANGLES = BVH_LEAF_BIT - BVH8_WIDTH;
 
-/// Builds the tree by binned SAH, with HIGH also by spatial splits and reinsertion, and by object medians
-/// where centres coincide or the depth that is left demands it. Leaves hold at most `leaf_cost.max_leaf`
-/// triangles. Time is at most BVH_MAX_DEPTH passes.
+/// What goes into a binary tree besides binned SAH.
+struct TreeEffort {
+    bool spatial_splits = false; ///< where the sides of a binned split overlap much
+    int reinsertion_rounds = 0;  ///< of reinsert_subtrees
+};
+
+/// Builds the tree by binned SAH, and by object medians where centres coincide or the depth that is left
+/// demands it; then as much more as `effort` says. Leaves hold at most `leaf_cost.max_leaf` triangles. Time
+/// is at most BVH_MAX_DEPTH passes.
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                             const LeafCost& leaf_cost, BvhQuality quality);
+                             const LeafCost& leaf_cost, const TreeEffort& effort);
 
 /// Half the surface of a box, of three coordinates each.
 double half_area(const float* lower, const float* upper);

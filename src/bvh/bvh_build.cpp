@@ -6,32 +6,26 @@
 #include "error.h"
 
 #include <chrono>
+#include <utility>
 
 namespace clrt {
 namespace {
 
-/// A tree of high quality is kept if its cost is below this share of the fast one's. Measured with eight-wide
-/// nodes on PoCL: at 0.98 to 1.01 (a bunny, a sphere) rays take up to 10 % longer in it, for the memory that
-/// cut triangles take; at 0.88 to 0.91 (three rooms) diffuse rays gain 0 to 10 %, while camera and shadow
-/// rays gain or lose as much.
+// Reinsertion takes most of the overlap away that binned splits leave, in a few rounds: of a room of a
+// million triangles a quarter of the cost for a third of the time.
+constexpr TreeEffort OBJECT_SPLITS{false, 4};
+constexpr TreeEffort MORE_ROUNDS{false, 8};
+constexpr TreeEffort SPATIAL_SPLITS{true, 8};
+
+/// A tree with cut triangles is kept if its cost is below this share of the other's.
 constexpr double LARGEST_COST_SHARE = 0.95;
 
-} // namespace
-
-Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
-              BvhQuality quality) {
-    const auto start = std::chrono::steady_clock::now();
-    // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
-    // builder rounds counts up to whole blocks in 32 signed bits.
-    if (triangles.size() > MOST_TRIANGLES)
-        throw SceneError("scene", 0,
-                         "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
-                             std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
-    BinaryTree tree = build_binary_tree(positions, triangles, leaf_cost(layout), quality);
+Bvh build(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
+          const TreeEffort& effort) {
+    BinaryTree tree = build_binary_tree(positions, triangles, leaf_cost(layout), effort);
     Bvh bvh;
     bvh.layout = layout;
     bvh.depth = tree.depth;
-    bvh.quality = quality;
     bvh.triangle_count = tree.triangle_count;
     bvh.reference_count = tree.order.size();
     switch (layout) {
@@ -45,18 +39,31 @@ Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& t
         write_cwbvh(positions, triangles, tree, bvh);
         break;
     }
-    bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;
 }
 
-Bvh build_better_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                     BvhLayout layout) {
-    Bvh fast = build_bvh(positions, triangles, layout, BvhQuality::FAST);
-    Bvh high = build_bvh(positions, triangles, layout, BvhQuality::HIGH);
-    const double seconds = fast.seconds + high.seconds;
-    Bvh better = high.sah_cost <= LARGEST_COST_SHARE * fast.sah_cost ? std::move(high) : std::move(fast);
-    better.seconds = seconds;
-    return better;
+Bvh build_high(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
+    Bvh whole = build(positions, triangles, layout, MORE_ROUNDS);
+    Bvh cut = build(positions, triangles, layout, SPATIAL_SPLITS);
+    return cut.sah_cost <= LARGEST_COST_SHARE * whole.sah_cost ? std::move(cut) : std::move(whole);
+}
+
+} // namespace
+
+Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
+              BvhQuality quality) {
+    const auto start = std::chrono::steady_clock::now();
+    // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
+    // builder rounds counts up to whole blocks in 32 signed bits.
+    if (triangles.size() > MOST_TRIANGLES)
+        throw SceneError("scene", 0,
+                         "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
+                             std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
+    Bvh bvh = quality == BvhQuality::HIGH ? build_high(positions, triangles, layout)
+                                          : build(positions, triangles, layout, OBJECT_SPLITS);
+    bvh.quality = quality;
+    bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return bvh;
 }
 
 } // namespace clrt

@@ -42,7 +42,7 @@ constexpr LeafCost leaf_cost(BvhLayout layout) {
     case BvhLayout::BVH8:
         break;
     }
-    return {3, BVH8_WIDTH / 2, BVH8_WIDTH, 0.0f};
+    return {3, BVH8_WIDTH / 4, BVH8_WIDTH, 0.0f};
 }
 
 /// Writes the LEAF_TRIANGLE_WORDS words of a leaf triangle but for those that stay 0.

@@ -9,16 +9,17 @@
 #include <algorithm>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <vector>
 
 namespace clrt {
 namespace {
 
-constexpr int ROUNDS = 4;
-constexpr u32 CANDIDATE_SHARE = 10;   // one node in so many is tried each round
-constexpr u32 MOST_STEPS = 400;       // nodes looked at for one subtree
-constexpr u32 SEARCHES_PER_TASK = 64; // searches of a thread at a time
-constexpr float LEAST_GAIN = 1e-9f;   // as a share of the root's surface: less is rounding
+constexpr u32 CANDIDATE_SHARE = 10;       // one node in so many is tried each round
+constexpr u32 MOST_STEPS = 400;           // nodes looked at for one subtree
+constexpr u32 SEARCHES_PER_TASK = 64;     // searches of a thread at a time
+constexpr u32 PARALLEL_EXTENT = 1u << 14; // triangles, before moves, of subtrees that repay a task
+constexpr float LEAST_GAIN = 1e-9f;       // as a share of the root's surface: less is rounding
 
 Box box_of(const BinaryNode& node) {
     Box box;
@@ -27,9 +28,19 @@ Box box_of(const BinaryNode& node) {
     return box;
 }
 
+bool same(const Box& a, const Box& b) {
+    const Int4 differ = (a.lower != b.lower) | (a.upper != b.upper);
+    return (differ[0] | differ[1] | differ[2]) == 0;
+}
+
 struct Move {
     u32 node = 0, target = 0; // `target` becomes the sibling of `node`
     float gain = 0;
+};
+
+struct Extent {
+    int depth = 0;
+    double inner_area = 0;
 };
 
 class Reinserter {
@@ -43,18 +54,20 @@ public:
         link(0, 0);
     }
 
-    void run() {
-        for (int round = 0; round < ROUNDS; ++round) {
-            const double before = total_area();
+    void run(int rounds) {
+        Extent before = extent(0);
+        for (int round = 0; round < rounds; ++round) {
             const std::vector<Move> done = apply(find_moves());
             if (done.empty())
                 break;
+            const Extent after = extent(0);
             // Each move was the best for itself only: together they may have made the tree worse or too deep.
-            if (depth(0) > BVH_MAX_DEPTH || !(total_area() < before)) {
+            if (after.depth > BVH_MAX_DEPTH || !(after.inner_area < before.inner_area)) {
                 for (auto move = done.rbegin(); move != done.rend(); ++move)
                     reinsert(move->node, move->target);
                 break;
             }
+            before = after;
         }
         const std::vector<u32> order = std::move(tree_.order);
         put_in_order(tree_, begins_.data(), [&](u32 item) { return order[item]; });
@@ -79,16 +92,19 @@ private:
         link(child + 1, begin + nodes_[child].count);
     }
 
-    int depth(u32 node) const {
-        const u32 child = nodes_[node].child;
-        return child == 0 ? 1 : 1 + std::max(depth(child), depth(child + 1));
-    }
-
-    double total_area() const {
-        double sum = 0;
-        for (u32 i = 0; i < tree_.node_count; ++i)
-            sum += nodes_[i].child != 0 ? area(i) : 0;
-        return sum;
+    // A subtree's levels and the sum of its inner nodes' surfaces, the same for any number of threads.
+    Extent extent(u32 node) const {
+        const BinaryNode& n = nodes_[node];
+        if (n.child == 0)
+            return {1, 0};
+        Extent left, right;
+        if (n.count < PARALLEL_EXTENT) {
+            left = extent(n.child);
+            right = extent(n.child + 1);
+        } else {
+            tbb::parallel_invoke([&] { left = extent(n.child); }, [&] { right = extent(n.child + 1); });
+        }
+        return {1 + std::max(left.depth, right.depth), area(node) + left.inner_area + right.inner_area};
     }
 
     // The best moves of the largest nodes, best first.
@@ -213,16 +229,18 @@ private:
             parents_[node.child] = parents_[node.child + 1] = slot;
     }
 
+    // Fits boxes from an inner node upwards, as far as they change.
     void refit(u32 node) {
         for (;; node = parents_[node]) {
             BinaryNode& n = nodes_[node];
-            if (n.child != 0) {
-                Box box = box_of(nodes_[n.child]);
-                box.extend(box_of(nodes_[n.child + 1]));
-                for (int axis = 0; axis < 3; ++axis) {
-                    n.lower[axis] = box.lower[axis];
-                    n.upper[axis] = box.upper[axis];
-                }
+            const Box before = box_of(n);
+            Box box = box_of(nodes_[n.child]);
+            box.extend(box_of(nodes_[n.child + 1]));
+            if (same(box, before))
+                return;
+            for (int axis = 0; axis < 3; ++axis) {
+                n.lower[axis] = box.lower[axis];
+                n.upper[axis] = box.upper[axis];
             }
             if (node == 0)
                 return;
@@ -238,9 +256,9 @@ private:
 
 } // namespace
 
-void reinsert_subtrees(BinaryTree& tree) {
-    if (tree.node_count > 3)
-        Reinserter(tree).run();
+void reinsert_subtrees(BinaryTree& tree, int rounds) {
+    if (rounds > 0 && tree.node_count > 3)
+        Reinserter(tree).run(rounds);
 }
 
 } // namespace clrt
