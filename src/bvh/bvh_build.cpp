@@ -20,9 +20,8 @@ constexpr TreeEffort SPATIAL_SPLITS{true, 8};
 /// A tree with cut triangles is kept if its cost is below this share of the other's.
 constexpr double LARGEST_COST_SHARE = 0.95;
 
-Bvh build(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
-          const TreeEffort& effort) {
-    BinaryTree tree = build_binary_tree(positions, triangles, leaf_cost(layout), effort);
+Bvh write_layout(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree tree,
+                 BvhLayout layout) {
     Bvh bvh;
     bvh.layout = layout;
     bvh.depth = tree.depth;
@@ -42,10 +41,13 @@ Bvh build(const std::vector<vec4>& positions, const std::vector<Triangle>& trian
     return bvh;
 }
 
-Bvh build_high(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout) {
-    Bvh whole = build(positions, triangles, layout, MORE_ROUNDS);
-    Bvh cut = build(positions, triangles, layout, SPATIAL_SPLITS);
-    return cut.sah_cost <= LARGEST_COST_SHARE * whole.sah_cost ? std::move(cut) : std::move(whole);
+BinaryTree build_high(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                      BvhLayout layout) {
+    const LeafCost leaves = leaf_cost(layout);
+    BinaryTree whole = build_binary_tree(positions, triangles, leaves, MORE_ROUNDS);
+    BinaryTree cut = build_binary_tree(positions, triangles, leaves, SPATIAL_SPLITS);
+    const bool pays = cost_in_layout(cut, layout) <= LARGEST_COST_SHARE * cost_in_layout(whole, layout);
+    return pays ? std::move(cut) : std::move(whole);
 }
 
 } // namespace
@@ -59,8 +61,10 @@ Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& t
         throw SceneError("scene", 0,
                          "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
                              std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
-    Bvh bvh = quality == BvhQuality::HIGH ? build_high(positions, triangles, layout)
-                                          : build(positions, triangles, layout, OBJECT_SPLITS);
+    BinaryTree tree = quality == BvhQuality::HIGH
+                          ? build_high(positions, triangles, layout)
+                          : build_binary_tree(positions, triangles, leaf_cost(layout), OBJECT_SPLITS);
+    Bvh bvh = write_layout(positions, triangles, std::move(tree), layout);
     bvh.quality = quality;
     bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;

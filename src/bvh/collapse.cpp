@@ -23,6 +23,11 @@ WideCollapse::WideCollapse(const BinaryTree& tree, const WideRules& rules)
     find_costs(0);
 }
 
+double WideCollapse::cost() const {
+    const float node_above = is_leaf(0) ? relative_area(nodes_[0], root_area_) : 0.0f;
+    return double(costs_[0][0]) + double(node_above);
+}
+
 float WideCollapse::leaf_cost(u32 node) const {
     const BinaryNode& n = nodes_[node];
     return relative_area(n, root_area_) * (rules_.price.leaf + rules_.price.triangle * float(n.count));

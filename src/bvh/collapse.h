@@ -52,6 +52,9 @@ public:
     /// The tree must not be empty and must outlive this object.
     WideCollapse(const BinaryTree& tree, const WideRules& rules);
 
+    /// The SAH cost of the whole tree. A root that is a leaf gets a node above it.
+    double cost() const;
+
     /// Whether the subtree becomes one leaf.
     bool is_leaf(u32 node) const;
 

@@ -45,6 +45,9 @@ constexpr LeafCost leaf_cost(BvhLayout layout) {
     return {3, BVH8_WIDTH / 4, BVH8_WIDTH, 0.0f};
 }
 
+/// The cost that the tree will have in a layout (Bvh::sah_cost but for rounding); 0 where it is empty.
+double cost_in_layout(const BinaryTree& tree, BvhLayout layout);
+
 /// Writes the LEAF_TRIANGLE_WORDS words of a leaf triangle but for those that stay 0.
 void write_leaf_triangle(const std::vector<vec4>& positions, const Triangle& triangle, u32 index, u32* words);
 

@@ -401,6 +401,18 @@ TEST(Bvh, HighNeverCostsMoreThanFast) {
                 << name_of(layout);
 }
 
+// The choice between two trees is made before either is written.
+TEST(Bvh, CostsAreKnownBeforeALayoutIsWritten) {
+    for (const Mesh& mesh : {bumpy_ball(40), random_soup(3, 0.3f, 1), random_soup(5000, 0.1f, 2)})
+        for (const BvhLayout layout : ALL_LAYOUTS) {
+            const BinaryTree tree =
+                build_binary_tree(mesh.positions, mesh.triangles, leaf_cost(layout), TreeEffort{false, 4});
+            const double written = build_bvh(mesh.positions, mesh.triangles, layout).sah_cost;
+            EXPECT_NEAR(cost_in_layout(tree, layout), written, 1e-5 * written) << name_of(layout);
+        }
+    EXPECT_EQ(cost_in_layout(BinaryTree{}, BvhLayout::BVH8), 0);
+}
+
 TEST(Bvh, UnusableTrianglesAreLeftOut) {
     Mesh mesh = random_soup(2000, 0.1f, 5);
     const float nan = std::nanf(""), inf = INFINITY;
