@@ -86,20 +86,6 @@ Bounds check_leaf(const Mesh& mesh, const DecodedChild& child, size_t max_leaf, 
     return high ? box : bounds; // spatial splits cut the boxes; uncovered_points looks at those
 }
 
-// What testing a leaf costs in units of a node's test: a block at once, or triangles one by one, which take
-// less time than an eight-wide node's quantised boxes.
-double leaf_tests(BvhLayout layout, double triangles) {
-    switch (layout) {
-    case BvhLayout::BVH2:
-        return triangles;
-    case BvhLayout::CWBVH:
-        return double(0.3f) * triangles;
-    case BvhLayout::BVH8:
-        break;
-    }
-    return 1;
-}
-
 Bounds check_node(const Mesh& mesh, const Bvh& bvh, u32 node, int level, size_t pending, const Bounds& reach,
                   TreeFacts& facts) {
     const bool quantised = bvh.layout == BvhLayout::CWBVH;
@@ -127,7 +113,7 @@ Bounds check_node(const Mesh& mesh, const Bvh& bvh, u32 node, int level, size_t 
                 quantised
                     ? bounds.lower[axis] < child.lower[axis] || bounds.upper[axis] > child.upper[axis]
                     : bounds.lower[axis] != child.lower[axis] || bounds.upper[axis] != child.upper[axis];
-        const double tests = child.is_leaf ? leaf_tests(bvh.layout, double(child.triangles.size())) : 1.0;
+        const double tests = child.is_leaf ? leaf_tests(bvh.layout, child.triangles.size()) : 1.0;
         facts.area_tested += tests * bounds.half_area();
         all.extend(bounds.lower, bounds.upper);
     }
@@ -375,42 +361,6 @@ TEST(Bvh, SpatialSplitsCutLongTriangles) {
         EXPECT_GT(high.reference_count, high.triangle_count * 11 / 10);
         EXPECT_LT(high.sah_cost, 0.95 * fast.sah_cost) << name_of(layout);
     }
-}
-
-// A room whose walls are two triangles each, full of small ones: cutting the walls at every level, as spatial
-// splits by themselves do, costs more than it gives.
-TEST(Bvh, HighNeverCostsMoreThanFast) {
-    Mesh room = random_soup(4000, 0.02f, 21);
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-1.2f, 1.2f}) {
-            vec4 corners[4];
-            for (int i = 0; i < 4; ++i) {
-                float p[3];
-                p[axis] = side;
-                p[(axis + 1) % 3] = i & 1 ? 1.2f : -1.2f;
-                p[(axis + 2) % 3] = i & 2 ? 1.2f : -1.2f;
-                corners[i] = {p[0], p[1], p[2], 0};
-            }
-            room.add(corners[0], corners[1], corners[3]);
-            room.add(corners[0], corners[3], corners[2]);
-        }
-    for (const Mesh& mesh : {room, bumpy_ball(60), needles(5000, 5)})
-        for (const BvhLayout layout : ALL_LAYOUTS)
-            EXPECT_LE(build_bvh(mesh.positions, mesh.triangles, layout, BvhQuality::HIGH).sah_cost,
-                      1.001 * build_bvh(mesh.positions, mesh.triangles, layout).sah_cost)
-                << name_of(layout);
-}
-
-// The choice between two trees is made before either is written.
-TEST(Bvh, CostsAreKnownBeforeALayoutIsWritten) {
-    for (const Mesh& mesh : {bumpy_ball(40), random_soup(3, 0.3f, 1), random_soup(5000, 0.1f, 2)})
-        for (const BvhLayout layout : ALL_LAYOUTS) {
-            const BinaryTree tree =
-                build_binary_tree(mesh.positions, mesh.triangles, leaf_cost(layout), TreeEffort{false, 4});
-            const double written = build_bvh(mesh.positions, mesh.triangles, layout).sah_cost;
-            EXPECT_NEAR(cost_in_layout(tree, layout), written, 1e-5 * written) << name_of(layout);
-        }
-    EXPECT_EQ(cost_in_layout(BinaryTree{}, BvhLayout::BVH8), 0);
 }
 
 TEST(Bvh, UnusableTrianglesAreLeftOut) {
