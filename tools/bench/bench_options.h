@@ -11,7 +11,7 @@
 
 namespace clrt {
 
-enum class BenchMode { SPEED, WATERTIGHT, ROBUSTNESS };
+enum class BenchMode { SPEED, TREES, WATERTIGHT, ROBUSTNESS };
 
 struct BenchOptions {
     BenchMode mode = BenchMode::SPEED;
