@@ -12,24 +12,23 @@ struct LedgerValue {
     double median = 0, low = 0, high = 0;
 };
 
-/// Each single interval holds the location with this probability at least; because a ledger looks several
-/// times and stops at the first interval that is narrow enough, 95 % of those that it prints do
-/// (tests/host/paired_estimate_test, and pairs of one program with itself on a busy machine).
+/// The probability with which the interval of a fixed number of pairs holds the location, at least.
 constexpr double LOOK_CONFIDENCE = 0.96;
-/// What is left of it.
+/// That of the intervals that a ledger prints: it looks several times and stops at the first that is narrow
+/// enough, which favours those that are too narrow by chance (tests/host/ledger_pairs_test).
 constexpr double LEDGER_CONFIDENCE = 0.95;
 
 /// The fewest pairs that have an interval: of fewer, all on one side are no rare event.
 constexpr size_t FEWEST_PAIRS = 8;
-/// The most that are taken of one effect. More only tell by how little memory's placement matters.
+/// The most that are taken of one effect.
 constexpr size_t MOST_PAIRS = 135;
 
 /// The location of values that scatter evenly to both sides of it, independently, otherwise however they
 /// like: the median of the means of all pairs of them, itself included (Hodges and Lehmann 1963), and the
-/// interval that Wilcoxon's signed-rank test does not turn down (Tukey 1949; exact, without ties). Half of a
-/// pair's noise is the machine's short bursts: they move it no more than a median, and where there are none
-/// its interval is 2 % wider than Student's. A single value is its own interval; up to FEWEST_PAIRS the
-/// interval holds all values. `values` is not empty.
+/// interval that Wilcoxon's signed-rank test does not turn down (Tukey 1949; exact, without ties). The short
+/// bursts of a busy machine move it little: where a tenth of the runs takes 10 % longer, Student's interval
+/// needs three times as many pairs; without bursts it is 2 % narrower. Of six values or
+/// fewer the interval holds all. `values` is not empty.
 LedgerValue paired_estimate(const std::vector<double>& values);
 
 /// The same of the value of exp(x) - 1.
