@@ -14,10 +14,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "12.3 (11.0 - 14.1)", all times `factor`.
-std::string text(const LedgerValue& value, double factor) {
-    return fmt::format("{:.1f} ({:.1f} - {:.1f})", factor * value.median, factor * value.low,
-                       factor * value.high);
+/// "12.3 (11.0 - 14.1)".
+std::string percent(const LedgerValue& share) {
+    return fmt::format("{:.1f} ({:.1f} - {:.1f})", 100 * share.median, 100 * share.low, 100 * share.high);
+}
+
+/// Milliseconds, three digits: pictures take microseconds or minutes.
+std::string milliseconds(const LedgerValue& seconds) {
+    return fmt::format("{:.3g} ({:.3g} - {:.3g})", 1e3 * seconds.median, 1e3 * seconds.low,
+                       1e3 * seconds.high);
 }
 
 Json json(const LedgerValue& value) {
@@ -111,14 +116,14 @@ Json row_json(const Ledger& ledger, const LedgerRow& line) {
 } // namespace
 
 std::string describe_cost(const LedgerValue& share) {
-    const auto percent = [](double value) { return 100 * value; };
+    const auto interval = [](double middle, double low, double high) {
+        return fmt::format("{:.1f} % ({:.1f} - {:.1f})", 100 * middle, 100 * low, 100 * high);
+    };
     if (share.low > 0)
-        return "costs " + fmt::format("{:.1f} % ({:.1f} - {:.1f})", percent(share.median), percent(share.low),
-                                      percent(share.high));
+        return "costs " + interval(share.median, share.low, share.high);
     if (share.high < 0)
-        return "saves " + fmt::format("{:.1f} % ({:.1f} - {:.1f})", percent(-share.median),
-                                      percent(-share.high), percent(-share.low));
-    return fmt::format("no cost seen (at most {:.1f} %)", percent(share.high));
+        return "saves " + interval(-share.median, -share.high, -share.low);
+    return fmt::format("no cost seen (at most {:.1f} %)", 100 * share.high);
 }
 
 RuleSide rule_side(const LedgerValue& share) {
@@ -133,13 +138,13 @@ std::string format_ledger(const Ledger& ledger, const Options& options, const De
     out += table_line(of_absent ? "code of" : "", "ms", "of the picture's time",
                       of_absent ? "" : "% of light", "compile s", "pairs");
     for (const LedgerRow& line : ledger.rows)
-        out += table_line(line.effect, text(line.seconds, 1e3), describe_cost(line.time_share),
-                          of_absent ? "" : text(line.light_share, 100),
+        out += table_line(line.effect, milliseconds(line.seconds), describe_cost(line.time_share),
+                          of_absent ? "" : percent(line.light_share),
                           compile_text(ledger, line.compile_extra), std::to_string(line.pairs));
     out += table_line(
-        "the picture", text(ledger.specialised.seconds, 1e3), "", "",
+        "the picture", milliseconds(ledger.specialised.seconds), "", "",
         fmt::format("{:.2f} (+-{:.2f})", ledger.specialised.compile_seconds, ledger.compile_scatter), "");
-    out += table_line("by the full program", text(ledger.full.seconds, 1e3),
+    out += table_line("by the full program", milliseconds(ledger.full.seconds),
                       describe_cost(ledger.full_extra_share), "",
                       compile_text(ledger, ledger.full_compile_extra), std::to_string(ledger.full_pairs));
     out += "\n" + (of_absent ? rule_text(ledger) : "");

@@ -65,8 +65,9 @@ TEST(Ledger, TheTableHoldsEveryFigure) {
     const std::string text = format_ledger(example(), {}, {});
     for (const char* expected :
          {"40 x 30, path", "Pairs of 4 spp", "95 % intervals", "refraction", "costs 40.0 % (30.0 - 50.0)",
-          "25.0 (20.0 - 30.0)", "not seen        18\n", "costs 20.0 % (10.0 - 30.0)", "+0.40",
-          "0.80 (+-0.35)", "after 40 samples a pixel (20 - never)", "at once where neither"})
+          "25.0 (20.0 - 30.0)", "not seen        18\n", "40 (30 - 50)", "100 (90 - 110)",
+          "costs 20.0 % (10.0 - 30.0)", "+0.40", "0.80 (+-0.35)", "after 40 samples a pixel (20 - never)",
+          "at once where neither"})
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
     Ledger slower = example();
     slower.break_even.reset();
