@@ -21,7 +21,7 @@ constexpr double USUAL_SAMPLES = 32;
 /// But no run takes longer for their sake, seconds.
 constexpr double LONGEST_RUN_SECONDS = 0.5;
 /// Pictures of a few pixels render in less than it takes to start.
-constexpr double MOST_SAMPLES = 4096;
+constexpr double MOST_RUN_SAMPLES = 4096;
 /// Of the time that is left, what a plan counts on: runs differ.
 constexpr double PLANNED_SHARE = 0.9;
 /// Below this a clock tells nothing, seconds.
@@ -79,7 +79,7 @@ std::uint32_t LedgerPlan::samples() const {
     const double pass = std::max(mean(sum_.pass), SHORTEST_PASS);
     const double usual = std::min(USUAL_SAMPLES, LONGEST_RUN_SECONDS / pass);
     const double wanted = std::max(usual, std::max(RUN_SECONDS, mean(sum_.run)) / pass);
-    return std::uint32_t(std::clamp(std::ceil(wanted), 1.0, MOST_SAMPLES));
+    return std::uint32_t(std::clamp(std::ceil(wanted), 1.0, MOST_RUN_SAMPLES));
 }
 
 } // namespace clrt

@@ -62,7 +62,7 @@ std::string table_line(const std::string& what, const std::string& seconds, cons
     return fmt::format("{:<22} {:<22} {:<31} {:<22} {:<15} {}\n", what, seconds, cost, light, compile, pairs);
 }
 
-std::string head(const Ledger& ledger, const Options& options, const DeviceInfo& device) {
+std::string heading(const Ledger& ledger, const Options& options, const DeviceInfo& device) {
     return fmt::format("Ledger of {}{}: {} x {}, {}, on {}\nPairs of {} spp; {} for one sample a pixel; "
                        "{:.0f} % intervals\n\n",
                        ledger.of == LedgerOf::ABSENT ? "what is not in " : "", input_name(options.scene.path),
@@ -133,7 +133,7 @@ RuleSide rule_side(const LedgerValue& share) {
 }
 
 std::string format_ledger(const Ledger& ledger, const Options& options, const DeviceInfo& device) {
-    std::string out = head(ledger, options, device);
+    std::string out = heading(ledger, options, device);
     const bool of_absent = ledger.of == LedgerOf::ABSENT;
     out += table_line(of_absent ? "code of" : "", "ms", "of the picture's time",
                       of_absent ? "" : "% of light", "compile s", "pairs");
