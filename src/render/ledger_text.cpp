@@ -59,7 +59,7 @@ const char* name_of(RuleSide side) {
 /// One line of the table: what, milliseconds, the cost in words, light, compiling, pairs.
 std::string table_line(const std::string& what, const std::string& seconds, const std::string& cost,
                        const std::string& light, const std::string& compile, const std::string& pairs) {
-    return fmt::format("{:<22} {:<22} {:<31} {:<22} {:<15} {}\n", what, seconds, cost, light, compile, pairs);
+    return fmt::format("{:<22} {:<30} {:<31} {:<22} {:<15} {}\n", what, seconds, cost, light, compile, pairs);
 }
 
 std::string heading(const Ledger& ledger, const Options& options, const DeviceInfo& device) {
