@@ -20,7 +20,7 @@ namespace {
 
 /// A replay and a ledger write neither pictures nor films.
 bool writes_pictures(const Options& options) {
-    return !options.run.pixel && !options.run.ledger;
+    return !options.run.pixel && options.run.ledger == LedgerOf::NOTHING;
 }
 
 /// The names that a result gets: one, or one a frame. Where --spp does not say, the number of samples is that
