@@ -93,7 +93,7 @@ int run(int argc, const char* const* argv) {
     report_broken_pipes();
     if (options.run.pixel)
         return run_replay(options);
-    return options.run.ledger ? run_ledger(options) : run_render(options);
+    return options.run.ledger != LedgerOf::NOTHING ? run_ledger(options) : run_render(options);
 }
 
 } // namespace

@@ -106,6 +106,8 @@ void check(const MergeOptions& options) {
     for (const std::string& path : options.outputs)
         written.push_back({"--output", path});
     check_written_files(written, read);
+    for (const std::string& path : options.outputs)
+        prepare_output(path);
 }
 
 /// Throws UsageError where an output is a film that holds what the merged one lacks.

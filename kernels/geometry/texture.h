@@ -22,6 +22,14 @@ static inline float4 texture_texel(const Scene* scene, global const Texture* tex
                     as_float(scene->texel_words[bytes.z]), (float)bytes.w / 255.0f);
 }
 
+/* The floor of a texel coordinate, which fits an int: conversions are one instruction each, floor() may be a
+   function. */
+static inline int texture_floor(float x)
+{
+    const int whole = (int)x;
+    return whole - ((float)whole > x ? 1 : 0);
+}
+
 /* Wraps a texel coordinate that is at most one picture off. */
 static inline uint texture_wrap(int i, uint size, bool clamp_to_edge)
 {
@@ -48,12 +56,14 @@ static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, float
     /* Texel centres lie at half-integers; rows go down while v goes up. */
     const float x = u * (float)texture->width - 0.5f;
     const float y = (1.0f - v) * (float)texture->height - 0.5f;
-    const float fx = x - floor(x);
-    const float fy = y - floor(y);
-    const uint x0 = texture_wrap((int)floor(x), texture->width, clamped);
-    const uint y0 = texture_wrap((int)floor(y), texture->height, clamped);
-    const uint x1 = texture_wrap((int)floor(x) + 1, texture->width, clamped);
-    const uint y1 = texture_wrap((int)floor(y) + 1, texture->height, clamped);
+    const int left = texture_floor(x);
+    const int top = texture_floor(y);
+    const float fx = x - (float)left;
+    const float fy = y - (float)top;
+    const uint x0 = texture_wrap(left, texture->width, clamped);
+    const uint y0 = texture_wrap(top, texture->height, clamped);
+    const uint x1 = texture_wrap(left + 1, texture->width, clamped);
+    const uint y1 = texture_wrap(top + 1, texture->height, clamped);
     const float4 a = texture_texel(scene, texture, x0, y0);
     const float4 b = texture_texel(scene, texture, x1, y0);
     const float4 c = texture_texel(scene, texture, x0, y1);

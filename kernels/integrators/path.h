@@ -47,7 +47,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
 {
     const real3 wo = -path->ray.direction;
     const Sampler* sampler = &sample->sampler;
-    path->is_alive = false;
+    path->is_alive = path->is_connected = false;
     if (path->hit.triangle == NO_INDEX) {
         path_escape(scene, params, segment, path, sample, rays);
         return;
@@ -69,50 +69,75 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
         path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &next, path);
 }
 
-/* Advances all paths by a segment and its vertex; gives the number that are alive after it. */
-static inline uint path_advance(const Scene* scene, const RenderParams* params, uint segment, Path* paths,
-                                CameraSample* samples, uint count, PixelRays* rays)
+/* Some of a group's paths, by number and without gaps: asking each path whether it takes part would be a
+   branch that nobody can predict. */
+typedef struct {
+    uint at[SAMPLES_AT_ONCE];
+    uint count;
+} PathList;
+
+static inline void path_list_add(PathList* list, uint k, bool takes_part)
 {
-    /* Draw random numbers. */
-    for (uint k = 0; k < count; ++k)
-        if (paths[k].is_alive)
-            paths[k].numbers = path_numbers(&samples[k].sampler, segment);
+    list->at[list->count] = k;
+    list->count += takes_part ? 1u : 0u;
+}
+
+/* Draws the random numbers of the vertices at the ends of these paths' segments. */
+static inline void path_draw(const CameraSample* samples, uint segment, const PathList* list, Path* paths)
+{
+    NumberLanes numbers;
+    for (uint i = 0; i < list->count || i % DEVICE_LANES != 0u; ++i)
+        numbers_set_sampler(&numbers, i, &samples[list->at[min(i, list->count - 1u)]].sampler);
+    numbers_draw(&numbers, segment, list->count);
+    for (uint i = 0; i < list->count; ++i)
+        paths[list->at[i]].numbers = numbers_of(&numbers, i);
+}
+
+/* Advances the paths of a list by a segment and its vertex; leaves those in it that go on. */
+static inline void path_advance(const Scene* scene, const RenderParams* params, uint segment, Path* paths,
+                                CameraSample* samples, PathList* alive, PixelRays* rays)
+{
+    path_draw(samples, segment, alive, paths);
 
     /* Find the next vertices. */
-    for (uint k = 0; k < count; ++k)
-        if (paths[k].is_alive)
-            paths[k].hit = vertex_hit(scene, params, &samples[k].sampler, segment, 0u, &paths[k].ray);
+    for (uint i = 0; i < alive->count; ++i) {
+        const uint k = alive->at[i];
+        paths[k].hit = vertex_hit(scene, params, &samples[k].sampler, segment, 0u, &paths[k].ray);
+    }
 
     /* Handle them. */
-    uint alive = 0u;
-    for (uint k = 0; k < count; ++k) {
-        paths[k].is_connected = false;
-        if (paths[k].is_alive)
-            path_vertex(scene, params, segment, &paths[k], &samples[k], rays);
-        alive += paths[k].is_alive ? 1u : 0u;
+    PathList next, connected;
+    next.count = connected.count = 0u;
+    for (uint i = 0; i < alive->count; ++i) {
+        const uint k = alive->at[i];
+        path_vertex(scene, params, segment, &paths[k], &samples[k], rays);
+        path_list_add(&next, k, paths[k].is_alive);
+        path_list_add(&connected, k, paths[k].is_connected);
     }
-    rays->secondary += alive;
+    *alive = next;
+    rays->secondary += next.count;
+    rays->shadow += connected.count;
 
     /* Add the light that nothing keeps away. */
-    for (uint k = 0; k < count; ++k) {
-        if (!paths[k].is_connected)
-            continue;
-        ++rays->shadow;
+    for (uint i = 0; i < connected.count; ++i) {
+        const uint k = connected.at[i];
         const real share = visible_share(scene, params, &paths[k].shadow);
         path_add_connection(scene, &paths[k], share, &samples[k].radiance, &samples[k].layers);
     }
-    return alive;
 }
 
 static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples,
                                         uint count, PixelRays* rays)
 {
     Path paths[SAMPLES_AT_ONCE];
-    for (uint k = 0; k < count; ++k)
+    PathList alive;
+    alive.count = 0u;
+    for (uint k = 0; k < count; ++k) {
         path_begin(&paths[k], &samples[k].ray);
-    uint segment = 1u;
-    while (path_advance(scene, params, segment, paths, samples, count, rays) != 0u && segment < PATH_SEGMENTS)
-        ++segment;
+        path_list_add(&alive, k, true);
+    }
+    for (uint segment = 1u; alive.count != 0u && segment <= PATH_SEGMENTS; ++segment)
+        path_advance(scene, params, segment, paths, samples, &alive, rays);
     for (uint k = 0; k < count; ++k)
         nan_carry(scene, nan_of_vector(paths[k].throughput + paths[k].watched), &samples[k].radiance);
 }

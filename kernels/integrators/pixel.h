@@ -13,14 +13,6 @@
 #include "geometry/scene.h"
 #include "path/layers.h"
 
-/* Samples of a pixel that are simulated side by side. Their arithmetic does not depend on each other, so a
-   processor that works ahead fills the waits of one with the others: four give a seventh more samples a
-   second than one on a CPU. The host sets 1 for devices that have many work-items in flight instead. No
-   sample's radiance depends on it. */
-#ifndef SAMPLES_AT_ONCE
-#define SAMPLES_AT_ONCE 4
-#endif
-
 /* One sample of a pixel: what an integrator gets and gives. */
 typedef struct {
     Sampler sampler;

@@ -18,8 +18,10 @@
    and NVIDIA compilers shorten their build alike. So every large function is kept out of line. */
 #define CLRT_NOINLINE __attribute__((noinline))
 
-/* A body that two functions share, told apart by a constant argument: nothing of the choice is left in
-   either. Clang for NVIDIA's targets would call it instead. */
+/* What must stand where it is called. Either a body that two functions share, told apart by a constant
+   argument: nothing of the choice is left in either, where clang for NVIDIA's targets would call it instead.
+   Or a large function with one caller that matters: of the struct that it gives, only what that caller reads
+   is computed. */
 #define CLRT_INLINE static inline __attribute__((always_inline))
 
 /* Begins an entry point. Intel's CPU runtime runs several work-items in the lanes of vectors and takes apart
@@ -31,6 +33,17 @@
 #else
 #define CLRT_KERNEL kernel
 #endif
+
+/* Samples of a pixel that are simulated side by side: 1, or a multiple of DEVICE_LANES. Their arithmetic does
+   not depend on each other, so a processor that works ahead fills the waits of one with the others, and what
+   all of them do alike is done in the lanes of vectors. The host sets 1 for devices that have many work-items
+   in flight instead. No sample's radiance depends on it. */
+#ifndef SAMPLES_AT_ONCE
+#define SAMPLES_AT_ONCE 32
+#endif
+
+/* Iterations of a loop that compilers for CPUs turn into one, with vectors: as many as AVX2 has lanes. */
+#define DEVICE_LANES (SAMPLES_AT_ONCE < 8 ? SAMPLES_AT_ONCE : 8)
 
 #ifndef __has_builtin
 #define __has_builtin(x) 0

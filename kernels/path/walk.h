@@ -5,29 +5,11 @@
 
 #include "filter.h"
 #include "layers.h"
+#include "numbers.h"
 #include "vertex.h"
 
 /* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
 #define PATH_SMALLEST_SURVIVAL REAL(0.05)
-
-/* The random numbers of one vertex. They are drawn before the ray is traced: they do not wait for the hit, so
-   a processor that works ahead hides their long chain of multiplications. */
-typedef struct {
-    uint2 light;
-    uint alias;
-    real lobe;
-    real2 direction;
-} PathNumbers;
-
-static inline PathNumbers path_numbers(const Sampler* sampler, uint segment)
-{
-    PathNumbers numbers;
-    numbers.light = sampler_pair_words(sampler, segment, SAMPLE_LIGHT);
-    numbers.alias = sampler_word(sampler, segment, SAMPLE_LIGHT_ALIAS);
-    numbers.lobe = sampler_number(sampler, segment, SAMPLE_LOBE);
-    numbers.direction = sampler_pair(sampler, segment, SAMPLE_DIRECTION);
-    return numbers;
-}
 
 /* A path on its way. */
 typedef struct {

@@ -208,11 +208,11 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
                                             : options.film_file.resume_path;
     // A ledger's compile seconds are those of a first start; its samples are its own unless the command line
     // says how many.
-    if (options.run.ledger && options.device.cache == Toggle::AUTO)
+    if (options.run.ledger != LedgerOf::NOTHING && options.device.cache == Toggle::AUTO)
         options.device.cache = Toggle::OFF;
-    if (options.run.ledger && !is_given(arguments.options, "--spp"))
+    if (options.run.ledger != LedgerOf::NOTHING && !is_given(arguments.options, "--spp"))
         options.sampling.spp.reset();
-    if (options.run.ledger && !is_given(arguments.options, "--time"))
+    if (options.run.ledger != LedgerOf::NOTHING && !is_given(arguments.options, "--time"))
         options.sampling.time_seconds.reset();
     check_combinations(options);
     if (options.camera.frames)

@@ -143,7 +143,7 @@ void check_adaptive(const Options& options) {
     if (!options.output.path_layers.empty())
         reject(options, "option --adaptive: expected no --aov NAME=EXPR, found the layer '" +
                             options.output.path_layers.front().name + "', which is not summed by halves");
-    if (options.run.ledger)
+    if (options.run.ledger != LedgerOf::NOTHING)
         reject(options, "option --adaptive: expected no --ledger, found both; the ledger compares pictures "
                         "of equal samples");
 }
@@ -175,7 +175,7 @@ void check_frames(const Options& options) {
         {"--resume", !options.film_file.resume_path.empty()},
         {"--checkpoint", !options.film_file.checkpoint_path.empty()},
         {"--pixel", options.run.pixel.has_value()},
-        {"--ledger", options.run.ledger},
+        {"--ledger", options.run.ledger != LedgerOf::NOTHING},
         {"--explain", options.run.explain != Explain::NO}};
     for (const auto& [name, is_given] : others)
         if (is_given)

@@ -30,11 +30,17 @@ std::vector<OptionSpec> promise_options() {
              check_paths(v, v.text);
              o.transport.paths = v.text;
          }},
-        {group, "", "--ledger", "",
-         "measure what every effect costs in time and gives in light, by rendering without it; --time bounds "
-         "all of it, and effects that do not fit are named (default: all effects, a minute after compiling); "
-         "writes no picture",
-         [](Options& o, const OptionValue&) { o.run.ledger = true; }, Repeat::NO, COMMAND_LINE_ONLY},
+        {group, "", "--ledger", "[=absent]",
+         "measure what every effect costs in time and gives in light, by pairs of renders with and without "
+         "it; =absent: what the code of effects that the picture does not show would cost, were it compiled "
+         "in. --time bounds all of it, and effects that do not fit are named (default: all effects, at most "
+         "a minute of pairs beside compiling); writes no picture",
+         [](Options& o, const OptionValue& v) {
+             if (!v.text.empty() && v.text != "absent")
+                 reject_value(v, "--ledger or --ledger=absent");
+             o.run.ledger = v.text.empty() ? LedgerOf::SHOWN : LedgerOf::ABSENT;
+         },
+         Repeat::NO, COMMAND_LINE_ONLY},
         {group, "", "--stats", "FILE",
          "write statistics of the run as JSON, in SI units; - is the standard output, the report then goes "
          "to stderr",

@@ -25,8 +25,10 @@ constexpr u32 PARALLEL_SUBTREE = 1024; // items below which a subtree is not wor
 constexpr u32 GRAIN = 4096;            // triangles prepared at a time
 // Overlap of a binned split's sides, as a share of the root's surface, below which no spatial split is
 // sought.
-constexpr float LEAST_OVERLAP = 1e-5f;
-constexpr float LEAST_NODE_OVERLAP = 0.06f; // the same as a share of the node's surface
+constexpr float LEAST_OVERLAP = 1e-4f;
+// The same as a share of the node's surface. Reinsertion mends smaller ones: with 0.06 trees of four scenes
+// took up to 2.5 times as long and were no better.
+constexpr float LEAST_NODE_OVERLAP = 0.2f;
 
 bool in_range(const vec4& p) {
     return std::abs(p.x) <= BVH_EMPTY && std::abs(p.y) <= BVH_EMPTY && std::abs(p.z) <= BVH_EMPTY;
@@ -34,13 +36,6 @@ bool in_range(const vec4& p) {
 
 bool differ(const vec4& a, const vec4& b) {
     return a.x != b.x || a.y != b.y || a.z != b.z;
-}
-
-// Where two corners agree no ray hits: two edges are one and the same, which the neighbours share. Corners in
-// line may close a seam: for a ray, which rounds each corner on its own, they are no longer in line, and only
-// this triangle fills the gap between an edge on one side and its two parts on the other.
-bool can_be_hit(const vec4& a, const vec4& b, const vec4& c) {
-    return in_range(a) && in_range(b) && in_range(c) && differ(a, b) && differ(b, c) && differ(c, a);
 }
 
 // Adding +0 turns -0 into +0, so that the bits of a box do not depend on the order of its corners.
@@ -97,24 +92,23 @@ struct ItemRange {
 
 class Builder {
 public:
-    // Without a mesh there are no spatial splits; `leaf_begins` gets where each leaf's items begin, if given.
-    Builder(BuildItem* items, BinaryNode* nodes, const LeafCost& leaf_cost,
-            const TriangleCorners* mesh = nullptr, u32* leaf_begins = nullptr)
+    // Without a mesh there are no spatial splits; `leaf_begins` gets where each leaf's items begin.
+    Builder(BuildItem* items, BinaryNode* nodes, const LeafCost& leaf_cost, const TriangleCorners* mesh,
+            u32* leaf_begins)
         : items_(items), nodes_(nodes), leaf_cost_(leaf_cost), mesh_(mesh), leaf_begins_(leaf_begins) {}
 
-    int build_root(const ItemRange& range, const ItemBounds& bounds) {
+    void build_root(const ItemRange& range, const ItemBounds& bounds) {
         const Float4 edge = bounds.box.upper - bounds.box.lower;
         root_scale_ =
             std::min(1.0f / std::max({edge[0], edge[1], edge[2]}), std::numeric_limits<float>::max());
         least_overlap_ = LEAST_OVERLAP * half_area(bounds.box, root_scale_);
-        return build(0, range, bounds, 1);
+        build(0, range, bounds, 1);
     }
 
     u32 node_count() const { return node_count_; }
 
 private:
-    // Builds the subtree over the items and returns the number of its deepest level.
-    int build(u32 node_index, ItemRange range, const ItemBounds& bounds, int level) {
+    void build(u32 node_index, ItemRange range, const ItemBounds& bounds, int level) {
         BinaryNode& node = nodes_[node_index];
         for (int axis = 0; axis < 3; ++axis) {
             node.lower[axis] = bounds.box.lower[axis];
@@ -125,25 +119,20 @@ private:
         const bool is_leaf = !split(range, bounds, level, sides);
         node.count = range.count;
         if (is_leaf) {
-            if (leaf_begins_)
-                leaf_begins_[node_index] = range.begin;
-            return level;
+            leaf_begins_[node_index] = range.begin;
+            return;
         }
         const u32 child = node_count_.fetch_add(2, std::memory_order_relaxed);
         node.child = child;
         const auto [left, right] = divide(range, sides.left_count);
-        int left_depth = 0, right_depth = 0;
-        const auto build_left = [&, left = left] { left_depth = build(child, left, sides.left, level + 1); };
-        const auto build_right = [&, right = right] {
-            right_depth = build(child + 1, right, sides.right, level + 1);
-        };
+        const auto build_left = [&, left = left] { build(child, left, sides.left, level + 1); };
+        const auto build_right = [&, right = right] { build(child + 1, right, sides.right, level + 1); };
         if (range.count < PARALLEL_SUBTREE) {
             build_left();
             build_right();
         } else {
             tbb::parallel_invoke(build_left, build_right);
         }
-        return std::max(left_depth, right_depth);
     }
 
     // Splits the items, or returns false where a leaf is cheaper. A spatial split makes them more.
@@ -229,17 +218,23 @@ private:
 
 } // namespace
 
-double half_area(const BinaryNode& node) {
-    const double x = double(node.upper[0]) - node.lower[0];
-    const double y = double(node.upper[1]) - node.lower[1];
-    const double z = double(node.upper[2]) - node.lower[2];
+// Where two corners agree no ray hits: two edges are one and the same, which the neighbours share. Corners in
+// line may close a seam: for a ray, which rounds each corner on its own, they are no longer in line, and only
+// this triangle fills the gap between an edge on one side and its two parts on the other.
+bool can_be_hit(const vec4& a, const vec4& b, const vec4& c) {
+    return in_range(a) && in_range(b) && in_range(c) && differ(a, b) && differ(b, c) && differ(c, a);
+}
+
+double half_area(const float* lower, const float* upper) {
+    const double x = double(upper[0]) - lower[0];
+    const double y = double(upper[1]) - lower[1];
+    const double z = double(upper[2]) - lower[2];
     return x * y + y * z + z * x;
 }
 
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                             const LeafCost& leaf_cost, BvhQuality quality) {
-    const bool high = quality == BvhQuality::HIGH;
-    const size_t capacity = high
+                             const LeafCost& leaf_cost, const TreeEffort& effort) {
+    const size_t capacity = effort.spatial_splits
                                 ? std::min(size_t(double(triangles.size()) * MOST_REFERENCES), MOST_TRIANGLES)
                                 : triangles.size();
     // Uninitialised: each page is first touched by the thread that fills it.
@@ -257,27 +252,17 @@ BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vect
         return tree;
     // At most two nodes an item; the part that is not used is never touched and takes no memory.
     tree.nodes.reset(new BinaryNode[2 * capacity]);
-    if (high) {
-        const TriangleCorners mesh{positions, triangles};
-        std::unique_ptr<u32[]> leaf_begins(new u32[2 * capacity]);
-        Builder builder(items.get(), tree.nodes.get(), leaf_cost, &mesh, leaf_begins.get());
-        builder.build_root({0, count, u32(capacity) - count}, prepared.bounds);
-        tree.node_count = builder.node_count();
-        const auto triangle_at = [&](u32 item) { return items[item].triangle(); };
-        put_in_order(tree, leaf_begins.get(), triangle_at);
-        items.reset();
-        leaf_begins.reset();
-        reinsert_subtrees(tree);
-        return tree;
-    }
-    Builder builder(items.get(), tree.nodes.get(), leaf_cost);
-    tree.depth = builder.build_root({0, count, 0}, prepared.bounds);
+    std::unique_ptr<u32[]> leaf_begins(new u32[2 * capacity]);
+    const TriangleCorners mesh{positions, triangles};
+    Builder builder(items.get(), tree.nodes.get(), leaf_cost, effort.spatial_splits ? &mesh : nullptr,
+                    leaf_begins.get());
+    builder.build_root({0, count, u32(effort.spatial_splits ? capacity : count) - count}, prepared.bounds);
     tree.node_count = builder.node_count();
-    tree.order.resize(count);
-    tbb::parallel_for(tbb::blocked_range<u32>(0, count, GRAIN), [&](const tbb::blocked_range<u32>& part) {
-        for (u32 i = part.begin(); i != part.end(); ++i)
-            tree.order[i] = items[i].triangle();
-    });
+    const auto triangle_at = [&](u32 item) { return items[item].triangle(); };
+    put_in_order(tree, leaf_begins.get(), triangle_at);
+    items.reset();
+    leaf_begins.reset();
+    reinsert_subtrees(tree, effort.reinsertion_rounds);
     return tree;
 }
 

@@ -21,8 +21,7 @@ struct BinaryNode {
     u32 count; ///< triangles below
 };
 
-/// A tree over the usable triangles. The tree is the same for any number of threads; the indices of its nodes
-/// are not, so layouts must walk it from the root (node 0).
+/// A tree over the usable triangles, the same for any number of threads. Node 0 is the root.
 struct BinaryTree {
     std::unique_ptr<BinaryNode[]> nodes; ///< no root when `order` is empty
     u32 node_count = 0;
@@ -31,19 +30,32 @@ struct BinaryTree {
     int depth = 0;          ///< levels: 0 for an empty tree, 1 for a root that is a leaf
 };
 
+/// Whether a tree holds the triangle of these corners (build_bvh says which it does).
+bool can_be_hit(const vec4& a, const vec4& b, const vec4& c);
+
 constexpr float MOST_REFERENCES = 1.5f; ///< entries in leaves per triangle; spatial splits stop there
 
 /// So many triangles or parts of them can be told apart: indices of nodes and leaves have 31 bits, each
 /// layout has at most one of either an entry, and counts are rounded up to whole blocks in 32 signed bits.
 constexpr size_t MOST_TRIANGLES = BVH_LEAF_BIT - BVH8_WIDTH;
 
-/// Builds the tree by binned SAH, with HIGH also by spatial splits and reinsertion, and by object medians
-/// where centres coincide or the depth that is left demands it. Leaves hold at most `leaf_cost.max_leaf`
-/// triangles. Time is at most BVH_MAX_DEPTH passes.
-BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                             const LeafCost& leaf_cost, BvhQuality quality);
+/// What goes into a binary tree besides binned SAH.
+struct TreeEffort {
+    bool spatial_splits = false; ///< where the sides of a binned split overlap much
+    int reinsertion_rounds = 0;  ///< of reinsert_subtrees
+};
 
-/// Half the surface of a node's box.
-double half_area(const BinaryNode& node);
+/// Builds the tree by binned SAH, and by object medians where centres coincide or the depth that is left
+/// demands it; then as much more as `effort` says. Leaves hold at most `leaf_cost.max_leaf` triangles. Time
+/// is at most BVH_MAX_DEPTH passes.
+BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                             const LeafCost& leaf_cost, const TreeEffort& effort);
+
+/// Half the surface of a box, of three coordinates each.
+double half_area(const float* lower, const float* upper);
+/// That of a node's box.
+inline double half_area(const BinaryNode& node) {
+    return half_area(node.lower, node.upper);
+}
 
 } // namespace clrt

@@ -34,15 +34,12 @@ struct Bvh {
 /// BVH_MAX_DEPTH and never quadratic, whatever the input (coincident triangles included). With FAST boxes are
 /// the exact bounds of their triangles (corners are floats). With HIGH a triangle may be in several leaves,
 /// at most MOST_REFERENCES times the triangles in total, and the boxes of its leaves together cover it
-/// (clip.h); hits are the same to the last bit. In cwbvh boxes are the least of the node's lattice that
-/// enclose those. The slack for the traversal's arithmetic is the traversal's own. An empty scene gives a
-/// root with empty children and no leaves. Throws SceneError for more triangles than 31-bit indices reach.
+/// (clip.h), where that lowers the cost of the tree by a twentieth: in even meshes it does not, and the cut
+/// triangles would take memory and time for nothing; hits are the same to the last bit. In cwbvh boxes are
+/// the least of the node's lattice that enclose those. The slack for the traversal's arithmetic is the
+/// traversal's own. An empty scene gives a root with empty children and no leaves. Throws SceneError for more
+/// triangles than 31-bit indices reach.
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
               BvhQuality quality = BvhQuality::FAST);
-
-/// Builds both qualities and keeps the HIGH tree only where its cost is lower by a twentieth, which in even
-/// meshes it is not: there the cut triangles would take memory and time for nothing.
-Bvh build_better_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                     BvhLayout layout);
 
 } // namespace clrt

@@ -6,44 +6,25 @@
 #include "error.h"
 
 #include <chrono>
+#include <utility>
 
 namespace clrt {
 namespace {
 
-LeafCost leaf_cost(BvhLayout layout) {
-    switch (layout) {
-    case BvhLayout::BVH2:
-        return BVH2_LEAF_COST;
-    case BvhLayout::CWBVH:
-        return CWBVH_LEAF_COST;
-    case BvhLayout::BVH8:
-        break;
-    }
-    return BVH8_LEAF_COST;
-}
+// Reinsertion takes most of the overlap away that binned splits leave, in a few rounds: of a room of a
+// million triangles a quarter of the cost for a third of the time.
+constexpr TreeEffort OBJECT_SPLITS{false, 4};
+constexpr TreeEffort MORE_ROUNDS{false, 8};
+constexpr TreeEffort SPATIAL_SPLITS{true, 8};
 
-/// A tree of high quality is kept if its cost is below this share of the fast one's. Measured with eight-wide
-/// nodes on PoCL: at 0.98 to 1.01 (a bunny, a sphere) rays take up to 10 % longer in it, for the memory that
-/// cut triangles take; at 0.88 to 0.91 (three rooms) diffuse rays gain 0 to 10 %, while camera and shadow
-/// rays gain or lose as much.
+/// A tree with cut triangles is kept if its cost is below this share of the other's.
 constexpr double LARGEST_COST_SHARE = 0.95;
 
-} // namespace
-
-Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
-              BvhQuality quality) {
-    const auto start = std::chrono::steady_clock::now();
-    // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
-    // builder rounds counts up to whole blocks in 32 signed bits.
-    if (triangles.size() > MOST_TRIANGLES)
-        throw SceneError("scene", 0,
-                         "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
-                             std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
-    BinaryTree tree = build_binary_tree(positions, triangles, leaf_cost(layout), quality);
+Bvh write_layout(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree tree,
+                 BvhLayout layout) {
     Bvh bvh;
     bvh.layout = layout;
     bvh.depth = tree.depth;
-    bvh.quality = quality;
     bvh.triangle_count = tree.triangle_count;
     bvh.reference_count = tree.order.size();
     switch (layout) {
@@ -57,18 +38,36 @@ Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& t
         write_cwbvh(positions, triangles, tree, bvh);
         break;
     }
-    bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;
 }
 
-Bvh build_better_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                     BvhLayout layout) {
-    Bvh fast = build_bvh(positions, triangles, layout, BvhQuality::FAST);
-    Bvh high = build_bvh(positions, triangles, layout, BvhQuality::HIGH);
-    const double seconds = fast.seconds + high.seconds;
-    Bvh better = high.sah_cost <= LARGEST_COST_SHARE * fast.sah_cost ? std::move(high) : std::move(fast);
-    better.seconds = seconds;
-    return better;
+BinaryTree build_high(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                      BvhLayout layout) {
+    const LeafCost leaves = leaf_cost(layout);
+    BinaryTree whole = build_binary_tree(positions, triangles, leaves, MORE_ROUNDS);
+    BinaryTree cut = build_binary_tree(positions, triangles, leaves, SPATIAL_SPLITS);
+    const bool pays = cost_in_layout(cut, layout) <= LARGEST_COST_SHARE * cost_in_layout(whole, layout);
+    return pays ? std::move(cut) : std::move(whole);
+}
+
+} // namespace
+
+Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
+              BvhQuality quality) {
+    const auto start = std::chrono::steady_clock::now();
+    // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
+    // builder rounds counts up to whole blocks in 32 signed bits.
+    if (triangles.size() > MOST_TRIANGLES)
+        throw SceneError("scene", 0,
+                         "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
+                             std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
+    BinaryTree tree = quality == BvhQuality::HIGH
+                          ? build_high(positions, triangles, layout)
+                          : build_binary_tree(positions, triangles, leaf_cost(layout), OBJECT_SPLITS);
+    Bvh bvh = write_layout(positions, triangles, std::move(tree), layout);
+    bvh.quality = quality;
+    bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return bvh;
 }
 
 } // namespace clrt

@@ -23,9 +23,14 @@ WideCollapse::WideCollapse(const BinaryTree& tree, const WideRules& rules)
     find_costs(0);
 }
 
+double WideCollapse::cost() const {
+    const float node_above = is_leaf(0) ? relative_area(nodes_[0], root_area_) : 0.0f;
+    return double(costs_[0][0]) + double(node_above);
+}
+
 float WideCollapse::leaf_cost(u32 node) const {
     const BinaryNode& n = nodes_[node];
-    return relative_area(n, root_area_) * (rules_.leaf_cost + rules_.triangle_cost * float(n.count));
+    return relative_area(n, root_area_) * (rules_.price.leaf + rules_.price.triangle * float(n.count));
 }
 
 void WideCollapse::find_costs(u32 node) {
@@ -69,12 +74,12 @@ bool WideCollapse::is_leaf(u32 node) const {
     return n.child == 0 || (n.count <= rules_.max_leaf && costs_[node][0] == leaf_cost(node));
 }
 
-void WideCollapse::expand(WideChild subtree, int children, ChildList& list) const {
+void WideCollapse::expand(WideChild subtree, int children, WideChildList& list) const {
     const Costs& costs = costs_[subtree.node];
     while (children > 1 && costs[children - 2] == costs[children - 1])
         --children;
     if (children == 1) {
-        list.items[list.size++] = subtree;
+        list.add(subtree);
         return;
     }
     const BinaryNode& n = nodes_[subtree.node];
@@ -83,14 +88,14 @@ void WideCollapse::expand(WideChild subtree, int children, ChildList& list) cons
     expand({n.child + 1, subtree.first + nodes_[n.child].count}, children - left, list);
 }
 
-bool WideCollapse::fits(const ChildList& list, int levels) const {
-    return std::all_of(list.items.begin(), list.items.begin() + list.size,
+bool WideCollapse::fits(const WideChildList& list, int levels) const {
+    return std::all_of(list.begin(), list.end(),
                        [&](const WideChild& child) { return heights_[child.node] <= 3 * levels; });
 }
 
-void WideCollapse::expand_levels(WideChild subtree, int levels, ChildList& list) const {
+void WideCollapse::expand_levels(WideChild subtree, int levels, WideChildList& list) const {
     if (levels == 0 || is_leaf(subtree.node)) {
-        list.items[size_t(list.size++)] = subtree;
+        list.add(subtree);
         return;
     }
     const BinaryNode& n = nodes_[subtree.node];
@@ -98,11 +103,11 @@ void WideCollapse::expand_levels(WideChild subtree, int levels, ChildList& list)
     expand_levels({n.child + 1, subtree.first + nodes_[n.child].count}, levels - 1, list);
 }
 
-WideChildren WideCollapse::children(WideChild parent, int levels) const {
-    ChildList list;
+WideChildList WideCollapse::children(WideChild parent, int levels) const {
+    WideChildList list;
     if (is_leaf(parent.node)) {
-        list.items[list.size++] = parent;
-        return assign_slots(list, parent.node);
+        list.add(parent);
+        return list;
     }
     const BinaryNode& n = nodes_[parent.node];
     const int left = distribute(n, BVH8_WIDTH).left;
@@ -112,10 +117,10 @@ WideChildren WideCollapse::children(WideChild parent, int levels) const {
         list.size = 0;
         expand_levels(parent, 3, list);
     }
-    return assign_slots(list, parent.node);
+    return list;
 }
 
-WideChildren WideCollapse::assign_slots(const ChildList& list, u32 parent) const {
+WideChildren WideCollapse::assign_slots(const WideChildList& list, u32 parent) const {
     // How far each child lies from the parent's centre in the direction of each slot's octant.
     float distance[BVH8_WIDTH][BVH8_WIDTH];
     const BinaryNode& p = nodes_[parent];

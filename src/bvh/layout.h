@@ -16,13 +16,6 @@ struct LeafRange {
     u32 first, count;
 };
 
-/// The SAH cost of a tree by the sum of half areas that it tests; 0 where all triangles are one axis-parallel
-/// line, whose box has no surface.
-inline double sah_cost(double area_tested, const BinaryTree& tree) {
-    const double root_area = half_area(tree.nodes[0]);
-    return root_area > 0 ? area_tested / root_area : 0;
-}
-
 inline u32 float_bits(float x) {
     u32 bits;
     std::memcpy(&bits, &x, sizeof bits);
@@ -40,9 +33,20 @@ inline u32 sort_leaf(BinaryTree& tree, const LeafRange& leaf) {
 /// Leaf costs that suit the layouts. bvh8: one block of triangles costs as much as an eight-wide node, and
 /// the collapse decides about small subtrees; bvh2: triangles are tested one by one; cwbvh: the collapse
 /// decides again.
-constexpr LeafCost BVH8_LEAF_COST{3, BVH8_WIDTH / 2, BVH8_WIDTH, 0.0f};
-constexpr LeafCost BVH2_LEAF_COST{0, 1, BVH2_LEAF_TRIANGLES, 1.0f};
-constexpr LeafCost CWBVH_LEAF_COST{0, 1, CWBVH_LEAF_TRIANGLES, 0.0f};
+constexpr LeafCost leaf_cost(BvhLayout layout) {
+    switch (layout) {
+    case BvhLayout::BVH2:
+        return {0, 1, BVH2_LEAF_TRIANGLES, 1.0f};
+    case BvhLayout::CWBVH:
+        return {0, 1, CWBVH_LEAF_TRIANGLES, 0.0f};
+    case BvhLayout::BVH8:
+        break;
+    }
+    return {3, BVH8_WIDTH / 4, BVH8_WIDTH, 0.0f};
+}
+
+/// The cost that the tree will have in a layout (Bvh::sah_cost but for rounding); 0 where it is empty.
+double cost_in_layout(const BinaryTree& tree, BvhLayout layout);
 
 /// Writes the LEAF_TRIANGLE_WORDS words of a leaf triangle but for those that stay 0.
 void write_leaf_triangle(const std::vector<vec4>& positions, const Triangle& triangle, u32 index, u32* words);

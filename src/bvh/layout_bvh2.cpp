@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pairs of children in 64 bytes over runs of up to four triangles.
 #include "bvh/layout.h"
+#include "bvh/sah_cost.h"
 
 #include <algorithm>
 #include <tbb/parallel_for.h>
@@ -36,18 +37,18 @@ std::vector<LeafRange> write_bvh2_nodes(const BinaryTree& tree, Bvh& bvh) {
         int child;
     };
     const BinaryNode* binary = tree.nodes.get();
-    double area_tested = 0;
+    SahSum cost(BvhLayout::BVH2);
     std::vector<LeafRange> leaves;
     std::vector<Pending> stack;
     const auto push_children = [&](u32 subtree, u32 first, u32 node) {
         const u32 left = binary[subtree].child;
-        area_tested += half_area(binary[subtree]);
+        cost.add_node(half_area(binary[subtree]));
         stack.push_back({left + 1, first + binary[left].count, node, 1});
         stack.push_back({left, first, node, 0});
     };
     const u32 root = append_bvh2_node(bvh.nodes);
     if (binary[0].child == 0) {
-        area_tested += half_area(binary[0]);
+        cost.add_node(half_area(binary[0]));
         stack.push_back({0, 0, root, 0});
     } else {
         push_children(0, 0, root);
@@ -62,12 +63,12 @@ std::vector<LeafRange> write_bvh2_nodes(const BinaryTree& tree, Bvh& bvh) {
                     is_leaf ? b.count : 0);
         if (is_leaf) {
             leaves.push_back({p.first, b.count});
-            area_tested += half_area(b) * b.count;
+            cost.add_leaf(half_area(b), b.count);
         } else {
             push_children(p.subtree, p.first, reference);
         }
     }
-    bvh.sah_cost = sah_cost(area_tested, tree);
+    bvh.sah_cost = cost.relative_to(half_area(binary[0]));
     return leaves;
 }
 

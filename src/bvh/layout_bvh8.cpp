@@ -2,6 +2,7 @@
 // Eight-wide nodes over blocks of up to eight triangles.
 #include "bvh/collapse.h"
 #include "bvh/layout.h"
+#include "bvh/sah_cost.h"
 
 #include <algorithm>
 #include <tbb/parallel_for.h>
@@ -33,20 +34,14 @@ u32 append_bvh8_node(std::vector<u32>& nodes) {
 // The children of a wide node in the order of their lanes, which is that of bvh8_any_hit: what ends a shadow
 // ray's search soonest comes first. Leaves, the largest first, since it is hit most likely; then subtrees,
 // the one of fewest triangles first. (Closest hits are searched front to back and do not care.)
-std::vector<WideChild> lane_order(const WideCollapse& collapse, const BinaryNode* binary,
-                                  const WideChildren& children) {
-    std::vector<WideChild> order;
-    for (int slot = 0; slot < BVH8_WIDTH; ++slot)
-        if (children.used[slot])
-            order.push_back(children.slots[slot]);
+void sort_by_lane(const WideCollapse& collapse, const BinaryNode* binary, WideChildList& children) {
     const auto key = [&](const WideChild& child) {
         const bool leaf = collapse.is_leaf(child.node);
         return std::tuple(!leaf, leaf ? -half_area(binary[child.node]) : double(binary[child.node].count),
                           child.first);
     };
-    std::sort(order.begin(), order.end(),
+    std::sort(children.begin(), children.end(),
               [&](const WideChild& a, const WideChild& b) { return key(a) < key(b); });
-    return order;
 }
 
 // Writes all nodes, siblings side by side and otherwise depth first, and returns the leaves in the same
@@ -58,35 +53,35 @@ std::vector<LeafRange> write_bvh8_nodes(const BinaryTree& tree, Bvh& bvh) {
     };
     const WideCollapse collapse(tree, BVH8_RULES);
     const BinaryNode* binary = tree.nodes.get();
-    double area_tested = 0;
+    SahSum cost(BvhLayout::BVH8);
     std::vector<LeafRange> leaves;
     std::vector<Pending> stack{{{0, 0}, append_bvh8_node(bvh.nodes)}};
     while (!stack.empty()) {
         const Pending parent = stack.back();
         stack.pop_back();
-        area_tested += half_area(binary[parent.subtree.node]);
-        const std::vector<WideChild> children =
-            lane_order(collapse, binary, collapse.children(parent.subtree, BVH8_RULES.max_levels));
+        cost.add_node(half_area(binary[parent.subtree.node]));
+        WideChildList children = collapse.children(parent.subtree, BVH8_RULES.max_levels);
+        sort_by_lane(collapse, binary, children);
         const size_t first_pending = stack.size();
-        for (size_t lane = 0; lane < children.size(); ++lane) {
-            const WideChild child = children[lane];
+        for (int lane = 0; lane < children.size; ++lane) {
+            const WideChild child = children.items[size_t(lane)];
             const BinaryNode& b = binary[child.node];
             u32 reference;
             if (collapse.is_leaf(child.node)) {
                 reference = BVH_LEAF_BIT | u32(leaves.size());
                 leaves.push_back({child.first, b.count});
-                area_tested += half_area(b);
+                cost.add_leaf(half_area(b), b.count);
             } else {
                 reference = append_bvh8_node(bvh.nodes);
                 stack.push_back({child, reference});
             }
             u32* node = &bvh.nodes[size_t(parent.node) * BVH8_NODE_WORDS];
-            write_box(node, int(lane), b.lower, b.upper);
+            write_box(node, lane, b.lower, b.upper);
             node[BVH8_CHILD_WORD + lane] = reference;
         }
         std::reverse(stack.begin() + std::ptrdiff_t(first_pending), stack.end());
     }
-    bvh.sah_cost = sah_cost(area_tested, tree);
+    bvh.sah_cost = cost.relative_to(half_area(binary[0]));
     return leaves;
 }
 

@@ -3,6 +3,7 @@
 // Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs").
 #include "bvh/collapse.h"
 #include "bvh/layout.h"
+#include "bvh/sah_cost.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +88,7 @@ public:
             stack_.pop_back();
             write_node(parent);
         }
-        bvh.sah_cost = sah_cost(area_tested_, tree);
+        bvh.sah_cost = cost_.relative_to(half_area(binary_[0]));
     }
 
     /// Each with its different triangles only.
@@ -111,8 +112,9 @@ private:
     }
 
     void write_node(const Pending& parent) {
-        area_tested_ += half_area(binary_[parent.subtree.node]);
-        const WideChildren children = collapse_.children(parent.subtree, parent.levels);
+        cost_.add_node(half_area(binary_[parent.subtree.node]));
+        const WideChildren children =
+            collapse_.assign_slots(collapse_.children(parent.subtree, parent.levels), parent.subtree.node);
         u32 inner_mask = 0, inner_count = 0;
         for (u32 slot = 0; slot < BVH8_WIDTH; ++slot)
             if (children.used[slot] && !collapse_.is_leaf(children.slots[slot].node)) {
@@ -143,7 +145,7 @@ private:
             leaves_.push_back({child.first, count});
             places_.push_back(entry_count_);
             entry_count_ += count;
-            area_tested_ += half_area(binary_[child.node]) * count;
+            cost_.add_leaf(half_area(binary_[child.node]), count);
         }
         std::reverse(stack_.begin() + std::ptrdiff_t(first_pending), stack_.end());
     }
@@ -156,7 +158,7 @@ private:
     std::vector<LeafRange> leaves_;
     std::vector<u32> places_;
     u32 entry_count_ = 0;
-    double area_tested_ = 0;
+    SahSum cost_{BvhLayout::CWBVH};
 };
 
 } // namespace

@@ -9,22 +9,28 @@
 #include <algorithm>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <vector>
 
 namespace clrt {
 namespace {
 
-constexpr int ROUNDS = 4;
-constexpr u32 CANDIDATE_SHARE = 10;   // one node in so many is tried each round
-constexpr u32 MOST_STEPS = 400;       // nodes looked at for one subtree
-constexpr u32 SEARCHES_PER_TASK = 64; // searches of a thread at a time
-constexpr float LEAST_GAIN = 1e-9f;   // as a share of the root's surface: less is rounding
+constexpr u32 CANDIDATE_SHARE = 10;     // one node in so many is tried each round
+constexpr u32 MOST_STEPS = 400;         // nodes looked at for one subtree
+constexpr u32 SEARCHES_PER_TASK = 64;   // searches of a thread at a time
+constexpr u32 PARALLEL_WALK = 1u << 14; // triangles, before moves, of subtrees that repay a task
+constexpr float LEAST_GAIN = 1e-9f;     // as a share of the root's surface: less is rounding
 
 Box box_of(const BinaryNode& node) {
     Box box;
     box.lower = Float4{node.lower[0], node.lower[1], node.lower[2], 0};
     box.upper = Float4{node.upper[0], node.upper[1], node.upper[2], 0};
     return box;
+}
+
+bool same(const Box& a, const Box& b) {
+    const Int4 differ = (a.lower != b.lower) | (a.upper != b.upper);
+    return (differ[0] | differ[1] | differ[2]) == 0;
 }
 
 struct Move {
@@ -43,14 +49,12 @@ public:
         link(0, 0);
     }
 
-    void run() {
-        for (int round = 0; round < ROUNDS; ++round) {
-            const double before = total_area();
+    void run(int rounds) {
+        for (int round = 0; round < rounds; ++round) {
             const std::vector<Move> done = apply(find_moves());
             if (done.empty())
                 break;
-            // Each move was the best for itself only: together they may have made the tree worse or too deep.
-            if (depth(0) > BVH_MAX_DEPTH || !(total_area() < before)) {
+            if (depth(0) > BVH_MAX_DEPTH) {
                 for (auto move = done.rbegin(); move != done.rend(); ++move)
                     reinsert(move->node, move->target);
                 break;
@@ -80,15 +84,17 @@ private:
     }
 
     int depth(u32 node) const {
-        const u32 child = nodes_[node].child;
-        return child == 0 ? 1 : 1 + std::max(depth(child), depth(child + 1));
-    }
-
-    double total_area() const {
-        double sum = 0;
-        for (u32 i = 0; i < tree_.node_count; ++i)
-            sum += nodes_[i].child != 0 ? area(i) : 0;
-        return sum;
+        const BinaryNode& n = nodes_[node];
+        if (n.child == 0)
+            return 1;
+        int left = 0, right = 0;
+        if (n.count < PARALLEL_WALK) {
+            left = depth(n.child);
+            right = depth(n.child + 1);
+        } else {
+            tbb::parallel_invoke([&] { left = depth(n.child); }, [&] { right = depth(n.child + 1); });
+        }
+        return 1 + std::max(left, right);
     }
 
     // The best moves of the largest nodes, best first.
@@ -166,7 +172,8 @@ private:
         }
     }
 
-    // Moves those whose surroundings no better move has changed; returns how to take them back.
+    // Makes the moves whose surroundings no better one has changed, as long as each shrinks the tree as it is
+    // by then; returns how to take them back.
     std::vector<Move> apply(const std::vector<Move>& moves) {
         std::vector<bool> touched(tree_.node_count);
         std::vector<Move> done;
@@ -179,8 +186,11 @@ private:
             for (u32 n : around)
                 touched[n] = true;
             // Where the sibling goes is where the subtree would have to return to.
-            done.push_back({move.node, parents_[move.node], 0});
-            reinsert(move.node, move.target);
+            const u32 way_back = parents_[move.node];
+            if (reinsert(move.node, move.target) < 0)
+                done.push_back({move.node, way_back, 0});
+            else
+                reinsert(move.node, way_back);
         }
         return done;
     }
@@ -193,17 +203,19 @@ private:
     }
 
     // The sibling takes the parent's place, the target the sibling's, and their new parent the target's.
-    void reinsert(u32 node, u32 target) {
+    // Returns by how much the sum of inner nodes' surfaces has grown.
+    float reinsert(u32 node, u32 target) {
         const u32 other = sibling(node), parent = parents_[node];
         const u32 pair = std::min(node, other);
+        float growth = -area(parent);
         const BinaryNode sibling_node = nodes_[other];
         const u32 sibling_begin = begins_[other];
         place(other, nodes_[target], begins_[target]);
         place(parent, sibling_node, sibling_begin);
         nodes_[target].child = pair;
         parents_[node] = parents_[other] = target;
-        refit(target);
-        refit(parents_[parent]);
+        growth += area(target) + refit(target);
+        return growth + refit(parents_[parent]);
     }
 
     void place(u32 slot, const BinaryNode& node, u32 begin) {
@@ -213,19 +225,22 @@ private:
             parents_[node.child] = parents_[node.child + 1] = slot;
     }
 
-    void refit(u32 node) {
-        for (;; node = parents_[node]) {
+    // Fits boxes from an inner node upwards, as far as they change; returns by how much they have grown.
+    float refit(u32 node) {
+        for (float growth = 0;; node = parents_[node]) {
             BinaryNode& n = nodes_[node];
-            if (n.child != 0) {
-                Box box = box_of(nodes_[n.child]);
-                box.extend(box_of(nodes_[n.child + 1]));
-                for (int axis = 0; axis < 3; ++axis) {
-                    n.lower[axis] = box.lower[axis];
-                    n.upper[axis] = box.upper[axis];
-                }
+            const Box before = box_of(n);
+            Box box = box_of(nodes_[n.child]);
+            box.extend(box_of(nodes_[n.child + 1]));
+            if (same(box, before))
+                return growth;
+            growth += area(box) - area(before);
+            for (int axis = 0; axis < 3; ++axis) {
+                n.lower[axis] = box.lower[axis];
+                n.upper[axis] = box.upper[axis];
             }
             if (node == 0)
-                return;
+                return growth;
         }
     }
 
@@ -238,9 +253,9 @@ private:
 
 } // namespace
 
-void reinsert_subtrees(BinaryTree& tree) {
-    if (tree.node_count > 3)
-        Reinserter(tree).run();
+void reinsert_subtrees(BinaryTree& tree, int rounds) {
+    if (rounds > 0 && tree.node_count > 3)
+        Reinserter(tree).run(rounds);
 }
 
 } // namespace clrt

@@ -8,10 +8,11 @@
 
 namespace clrt {
 
-/// Moves subtrees until REINSERTION_ROUNDS are done or a round finds nothing. The sum of the inner nodes'
-/// surfaces shrinks with every round that is kept. The result is the same for any number of threads; no
-/// deeper than BVH_MAX_DEPTH; leaves stay what they are. Time: every round looks at a share of the nodes and
-/// follows at most a fixed number of steps from each, whatever the tree.
-void reinsert_subtrees(BinaryTree& tree);
+/// Moves subtrees until `rounds` are done or a round finds nothing. The sum of the inner nodes' surfaces
+/// shrinks with every move that is kept. The result is the same for any number of threads; no deeper than
+/// BVH_MAX_DEPTH; leaves stay what they are. Nodes must be numbered as put_in_order does, and are so again.
+/// Time: every round looks at a share of the nodes and follows at most a fixed number of steps from each,
+/// whatever the tree.
+void reinsert_subtrees(BinaryTree& tree, int rounds);
 
 } // namespace clrt

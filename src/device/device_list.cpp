@@ -2,7 +2,7 @@
 // Asks every platform and device about itself, and prints the table of --list-devices.
 #include "device/device.h"
 
-#include "device/address_space.h"
+#include "console/address_space.h"
 #include "device/driver_cache_folder.h"
 #include "device/opencl_error.h"
 
@@ -140,7 +140,9 @@ Row table_row(const DeviceInfo& device) {
 } // namespace
 
 std::vector<PlatformInfo> list_platforms() {
-    require_address_space(DRIVER_BYTES, "an OpenCL driver");
+    if (const std::string obstacle = address_space_obstacle(DRIVER_BYTES, "an OpenCL driver");
+        !obstacle.empty())
+        throw DeviceError(obstacle);
     std::vector<PlatformInfo> platforms = ask_platforms();
     if (std::none_of(platforms.begin(), platforms.end(), may_lack_cache_folder))
         return platforms;

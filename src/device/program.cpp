@@ -2,7 +2,7 @@
 // Builds kernel programs, or loads them from the cache, and binds arguments by name.
 #include "device/program.h"
 
-#include "device/address_space.h"
+#include "console/address_space.h"
 #include "device/program_cache.h"
 
 #include <algorithm>
@@ -193,7 +193,9 @@ Program build_program(const Device& device, const ProgramRequest& request) {
     const std::string options = all_options(device, request);
     if (!request.dump_folder.empty())
         dump(request, options);
-    require_address_space(COMPILER_BYTES, "compiling kernels");
+    if (const std::string obstacle = address_space_obstacle(COMPILER_BYTES, "compiling kernels");
+        !obstacle.empty())
+        throw DeviceError(obstacle);
 
     // Take the program from our cache.
     const std::string folder =

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 namespace clrt {
 
@@ -42,12 +43,21 @@ FilmScale scale_of_level(int exponent) {
             std::ldexp(1.0, exponent + SUSTAINED_BITS)};
 }
 
-/// The sum of value `i` over replicates [begin, end), rounded once. Full replicates take 64 bits each, so the
-/// halves of the words are added apart.
-double sum_over_replicates(const Film& film, size_t i, size_t begin, size_t end) {
+/// Where the sums of the replicates [begin, end) start, of those that have samples.
+std::vector<const std::int64_t*> planes_of(const Film& film, int begin, int end) {
+    std::vector<const std::int64_t*> planes;
+    for (int r = begin; r < end; ++r)
+        if (film_has_replicate(film, r))
+            planes.push_back(film.sums.data() + size_t(r) * film_plane(film));
+    return planes;
+}
+
+/// The sum of value `i` over planes, rounded once. Full replicates take 64 bits each, so the halves of the
+/// words are added apart.
+double sum_over_planes(const std::vector<const std::int64_t*>& planes, size_t i) {
     std::int64_t high = 0, low = 0;
-    for (size_t r = begin; r < end; ++r) {
-        const std::int64_t sum = film.sums[r * film_plane(film) + i];
+    for (const std::int64_t* const plane : planes) {
+        const std::int64_t sum = plane[i];
         high += sum >> 32;
         low += sum & 0xffffffff;
     }
@@ -56,15 +66,16 @@ double sum_over_replicates(const Film& film, size_t i, size_t begin, size_t end)
 
 /// Mean radiance of an adaptive film: the halves' means, each by weight 1/2.
 std::vector<float> mean_of_halves(const Film& film) {
-    const size_t plane = film_plane(film), of_half = size_t(film.replicates / 2);
-    std::vector<float> mean(plane);
-    for (size_t i = 0; i < plane; ++i) {
+    const int of_half = film.replicates / 2;
+    const std::array planes = {planes_of(film, 0, of_half), planes_of(film, of_half, 2 * of_half)};
+    std::vector<float> mean(film_plane(film));
+    tbb::parallel_for(size_t(0), mean.size(), [&](size_t i) {
         double value = 0;
         for (size_t half = 0; half < 2; ++half)
-            value += 0.5 * sum_over_replicates(film, i, half * of_half, (half + 1) * of_half) *
-                     film.scale.quantum / double(film.tile_samples[half][film_tile(film, i / 3)]);
+            value += 0.5 * sum_over_planes(planes[half], i) * film.scale.quantum /
+                     double(film.tile_samples[half][film_tile(film, i / 3)]);
         mean[i] = float(value);
-    }
+    });
     return mean;
 }
 
@@ -154,6 +165,10 @@ std::uint64_t film_replicate_samples(const Film& film, int replicate) {
     return samples;
 }
 
+bool film_has_replicate(const Film& film, int replicate) {
+    return is_adaptive(film) || film_replicate_samples(film, replicate) > 0;
+}
+
 ReplicateMeans::ReplicateMeans(const Film& film) : film_(film) {
     if (is_adaptive(film)) {
         const int of_half = film.replicates / 2;
@@ -210,16 +225,16 @@ bool add_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& 
 }
 
 std::vector<float> film_mean(const Film& film) {
-    const size_t plane = film_plane(film);
     const std::uint64_t samples = film_samples(film);
-    std::vector<float> mean(plane, 0.0f);
+    std::vector<float> mean(film_plane(film), 0.0f);
     if (samples == 0)
         return mean;
     if (is_adaptive(film))
         return mean_of_halves(film);
-    for (size_t i = 0; i < plane; ++i)
-        mean[i] = float(sum_over_replicates(film, i, 0, size_t(film.replicates)) * film.scale.quantum /
-                        double(samples));
+    const std::vector<const std::int64_t*> planes = planes_of(film, 0, film.replicates);
+    tbb::parallel_for(size_t(0), mean.size(), [&](size_t i) {
+        mean[i] = float(sum_over_planes(planes, i) * film.scale.quantum / double(samples));
+    });
     return mean;
 }
 

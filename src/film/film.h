@@ -92,6 +92,9 @@ std::uint64_t film_all_samples(const Film& film);
 /// For films that are not adaptive.
 std::uint64_t film_replicate_samples(const Film& film, int replicate);
 
+/// Whether any sample fell into the replicate; the sums of one without are all 0.
+bool film_has_replicate(const Film& film, int replicate);
+
 /// Means of the replicates that have samples, one value (pixel and channel) after the other.
 class ReplicateMeans {
 public:

@@ -16,8 +16,8 @@ template <>
 inline constexpr Named<BvhLayout> NAMES<BvhLayout>[] = {
     {BvhLayout::BVH8, "bvh8"}, {BvhLayout::BVH2, "bvh2"}, {BvhLayout::CWBVH, "cwbvh"}};
 
-/// How much work goes into the tree. HIGH builds several times as long for fewer tests a ray: spatial splits
-/// and reinsertion.
+/// How much work goes into the tree. HIGH builds about three times as long: more rounds of reinsertion, and a
+/// second tree with spatial splits, which is kept where it is cheaper, as among long thin triangles.
 enum class BvhQuality { FAST, HIGH };
 
 template <>

@@ -19,11 +19,13 @@ template <>
 inline constexpr Named<Check> NAMES<Check>[] = {
     {Check::OFF, "off"}, {Check::COUNT, "count"}, {Check::STRICT, "strict"}};
 enum class Explain { NO, TABLE, JSON };
+/// What a ledger prices: effects that the picture shows, or the code of those that it does not.
+enum class LedgerOf { NOTHING, SHOWN, ABSENT };
 
 struct RunOptions {
     bool list_devices = false;
     Explain explain = Explain::NO;
-    bool ledger = false; ///< measure what every effect costs and gives; no picture
+    LedgerOf ledger = LedgerOf::NOTHING; ///< measure what effects cost and give; no picture
     Check check = Check::COUNT;
     std::optional<glm::ivec2> pixel; ///< replay a sample of it; no picture
     std::uint32_t sample = 0;        ///< which one

@@ -3,7 +3,7 @@
 // disk, renamed.
 #pragma once
 
-#include "output/output_file.h"
+#include "images/output_file.h"
 
 #include <atomic>
 #include <cstddef>

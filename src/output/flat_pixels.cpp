@@ -6,11 +6,15 @@ namespace clrt {
 FlatPixels::FlatPixels(const Picture& picture, const std::string& path)
     : picture_(picture), alpha_(can_hold_alpha(path) ? picture_coverage(picture) : nullptr) {}
 
-OIIO::ImageSpec FlatPixels::spec(OIIO::TypeDesc type) const {
-    OIIO::ImageSpec spec(picture_.width, picture_.height, channels(), type);
+ImageLayout FlatPixels::layout(ChannelType type) const {
+    ImageLayout layout;
+    layout.width = layout.full_width = picture_.width;
+    layout.height = layout.full_height = picture_.height;
+    layout.channels = {{"R", type}, {"G", type}, {"B", type}};
     if (alpha_)
-        spec.attribute("oiio:UnassociatedAlpha", 1); // else colours are taken for multiplied by alpha
-    return spec;
+        layout.channels.push_back({"A", type});
+    layout.unassociated_alpha = alpha_ != nullptr;
+    return layout;
 }
 
 const std::vector<float>& FlatPixels::row(int y) {

@@ -3,9 +3,9 @@
 // picture has it and the format holds it.
 #pragma once
 
+#include "images/image_library.h"
 #include "output/image.h"
 
-#include <OpenImageIO/imageio.h>
 #include <string>
 #include <vector>
 
@@ -19,8 +19,8 @@ public:
 
     /// 3, or 4 with alpha.
     int channels() const { return alpha_ ? 4 : 3; }
-    /// The spec of a file of such pixels.
-    OIIO::ImageSpec spec(OIIO::TypeDesc type) const;
+    /// What an encoder of such pixels is told.
+    ImageLayout layout(ChannelType type) const;
     /// A row of pixels, 0 at the top. With alpha, colours are those of what covers the pixel, black where
     /// nothing does.
     const std::vector<float>& row(int y);

@@ -3,29 +3,31 @@
 #include "output/image.h"
 
 #include "error.h"
+#include "images/image_library.h"
 #include "output/standard_streams.h"
 #include "output/writers.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <OpenImageIO/strutil.h>
 #include <unistd.h>
 
 namespace clrt {
 
 namespace {
 
-enum class Kind { UNKNOWN, EXR, DISPLAY, LINEAR, PFM };
+enum class Kind { UNKNOWN, EXR, PNG, DISPLAY, LINEAR, PFM };
 
 /// 16-bit sizes of TGA; JPEG_MAX_DIMENSION of libjpeg.
 constexpr int LARGEST_SIDE = 65535, LARGEST_JPEG_SIDE = 65500;
 
 Kind kind_of(const std::string& path) {
     static const std::vector<std::pair<std::string, Kind>> KINDS = {
-        {"exr", Kind::EXR},     {"png", Kind::DISPLAY}, {"jpg", Kind::DISPLAY}, {"jpeg", Kind::DISPLAY},
+        {"exr", Kind::EXR},     {"png", Kind::PNG},     {"jpg", Kind::DISPLAY}, {"jpeg", Kind::DISPLAY},
         {"bmp", Kind::DISPLAY}, {"tga", Kind::DISPLAY}, {"ppm", Kind::DISPLAY}, {"tif", Kind::LINEAR},
         {"tiff", Kind::LINEAR}, {"hdr", Kind::LINEAR},  {"pfm", Kind::PFM}};
     const std::string format = output_format(path);
@@ -33,6 +35,12 @@ Kind kind_of(const std::string& path) {
         if (format == known)
             return kind;
     return Kind::UNKNOWN;
+}
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
 }
 
 /// The renderer's duty, not the user's.
@@ -48,9 +56,9 @@ void assert_consistent([[maybe_unused]] const Picture& picture) {
 
 std::string output_format(const std::string& path) {
     if (is_standard_output(path))
-        return OIIO::Strutil::lower(path.substr(0, path.find(':')));
+        return lower_case(path.substr(0, path.find(':')));
     const std::string extension = std::filesystem::path(path).extension().string();
-    return OIIO::Strutil::lower(extension.substr(extension.empty() ? 0 : 1));
+    return lower_case(extension.substr(extension.empty() ? 0 : 1));
 }
 
 std::string expected_output() {
@@ -74,6 +82,12 @@ bool can_hold_alpha(const std::string& path) {
 void check_output_path(const std::string& path) {
     if (!is_output_path(path))
         throw UsageError("output '" + path + "': expected " + expected_output());
+}
+
+void prepare_output(const std::string& path) {
+    const Kind kind = kind_of(path);
+    if (kind == Kind::EXR || kind == Kind::DISPLAY || kind == Kind::LINEAR)
+        image_library();
 }
 
 int largest_output_side(const std::string& path) {
@@ -111,6 +125,8 @@ void write_picture(const Picture& picture, const std::string& path, double expos
     switch (kind_of(path)) {
     case Kind::EXR:
         return write_exr(picture, path);
+    case Kind::PNG:
+        return write_png(picture, path, exposure_ev, tonemap);
     case Kind::DISPLAY:
         return write_display(picture, path, exposure_ev, tonemap);
     case Kind::LINEAR:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures in memory and on disk (OpenImageIO). Files are written under a temporary name and renamed.
+// Pictures in memory and on disk. Files are written under a temporary name and renamed.
 #pragma once
 
 #include "options/output_options.h"
@@ -62,6 +62,10 @@ int largest_output_side(const std::string& path);
 /// Throws SceneError when the file's folder is not there or cannot be written, before any work is done. The
 /// standard output has none.
 void check_output_folder(const std::string& path);
+
+/// Loads what writes such a picture, before any work is done: image_library() for all but .png and .pfm.
+/// Throws std::runtime_error where it cannot be loaded.
+void prepare_output(const std::string& path);
 
 /// The coverage of a transparent picture, a value a pixel; none of an opaque one.
 const std::vector<float>* picture_coverage(const Picture& picture);

@@ -3,7 +3,7 @@
 // "png:-" a picture, whose format must be said.
 #pragma once
 
-#include "output/output_file.h"
+#include "images/output_file.h"
 
 #include <string>
 

@@ -13,27 +13,24 @@ namespace {
 /// Rows handed to the encoder at once: four of OpenEXR's ZIP blocks.
 constexpr int ROWS_AT_ONCE = 64;
 
-OIIO::ImageSpec exr_spec(const Picture& picture) {
-    OIIO::ImageSpec spec(picture.width, picture.height, 0, OIIO::TypeFloat);
-    for (const Layer& layer : picture.layers)
-        for (const std::string& channel : layer.channel_names) {
-            spec.channelnames.push_back(layer.name.empty() ? channel : layer.name + "." + channel);
-            spec.channelformats.push_back(layer.is_id ? OIIO::TypeUInt32 : OIIO::TypeFloat);
-        }
-    spec.nchannels = static_cast<int>(spec.channelnames.size());
-
+ImageLayout exr_layout(const Picture& picture) {
+    ImageLayout layout;
     // The window is the data window, the whole picture the display window.
-    spec.x = picture.x0;
-    spec.y = picture.y0;
-    spec.full_width = picture.full_width;
-    spec.full_height = picture.full_height;
-
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    spec.attribute("Software", "clrt " CLRT_VERSION);
+    layout.width = picture.width;
+    layout.height = picture.height;
+    layout.x = picture.x0;
+    layout.y = picture.y0;
+    layout.full_width = picture.full_width;
+    layout.full_height = picture.full_height;
+    for (const Layer& layer : picture.layers)
+        for (const std::string& channel : layer.channel_names)
+            layout.channels.push_back({layer.name.empty() ? channel : layer.name + "." + channel,
+                                       layer.is_id ? ChannelType::UINT32 : ChannelType::FLOAT});
+    layout.attributes = {
+        {"compression", "zip"}, {"oiio:ColorSpace", "Linear"}, {"Software", "clrt " CLRT_VERSION}};
     for (const auto& [name, value] : picture.metadata)
-        spec.attribute("clrt." + name, value);
-    return spec;
+        layout.attributes.emplace_back("clrt." + name, value);
+    return layout;
 }
 
 /// The 32 bits of a value in the file.
@@ -65,13 +62,13 @@ void gather_rows(const Picture& picture, int first, int count, size_t channels,
 } // namespace
 
 void write_exr(const Picture& picture, const std::string& path) {
-    const OIIO::ImageSpec spec = exr_spec(picture);
-    ImageStream stream(path, spec);
+    const ImageLayout layout = exr_layout(picture);
+    ImageStream stream(path, layout);
     std::vector<std::uint32_t> words;
     for (int row = 0; row < picture.height; row += ROWS_AT_ONCE) {
         const int count = std::min(ROWS_AT_ONCE, picture.height - row);
-        gather_rows(picture, row, count, static_cast<size_t>(spec.nchannels), words);
-        stream.write_rows(row, count, OIIO::TypeUnknown, words.data());
+        gather_rows(picture, row, count, layout.channels.size(), words);
+        stream.write_rows(row, count, words.data());
     }
     stream.finish();
 }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <OpenImageIO/fmath.h>
 
 namespace clrt {
 
@@ -24,15 +23,15 @@ float storable_in_hdr(float x) {
 
 void write_linear(const Picture& picture, const std::string& path) {
     FlatPixels pixels(picture, path);
-    OIIO::ImageSpec spec = pixels.spec(OIIO::TypeFloat);
-    spec.attribute("oiio:ColorSpace", "Linear");
-    ImageStream stream(path, spec);
+    ImageLayout layout = pixels.layout(ChannelType::FLOAT);
+    layout.attributes.emplace_back("oiio:ColorSpace", "Linear");
+    ImageStream stream(path, layout);
     const bool is_hdr = output_format(path) == "hdr";
     for (int y = 0; y < picture.height; ++y) {
         std::vector<float> row = pixels.row(y);
         if (is_hdr)
             std::transform(row.begin(), row.end(), row.begin(), storable_in_hdr);
-        stream.write_rows(y, 1, OIIO::TypeFloat, row.data());
+        stream.write_rows(y, 1, row.data());
     }
     stream.finish();
 }
@@ -41,7 +40,7 @@ void write_pfm(const Picture& picture, const std::string& path) {
     // "PF" is RGB; the sign of the scale tells the byte order, negative for little-endian. Rows go from the
     // bottom up.
     const std::string header = "PF\n" + std::to_string(picture.width) + " " + std::to_string(picture.height) +
-                               "\n" + (OIIO::littleendian() ? "-1.0\n" : "1.0\n");
+                               "\n" + (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "-1.0\n" : "1.0\n");
     const std::unique_ptr<OutputFile> file = open_output(path);
     file->write_at(header.data(), header.size(), 0);
     const size_t row_length = 3 * static_cast<size_t>(picture.width), row_bytes = row_length * sizeof(float);

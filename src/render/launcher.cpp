@@ -2,6 +2,7 @@
 #include "render/launcher.h"
 
 #include "device/opencl_error.h"
+#include "seconds.h"
 
 #include <algorithm>
 
@@ -15,15 +16,22 @@ constexpr u32 GRID_COLUMNS = 2048;
 
 } // namespace
 
-void run_groups(const Device& device, const Kernel& kernel, u32 groups, const std::string& doing) {
+double run_groups(const Device& device, const Kernel& kernel, u32 groups, const std::string& doing) {
     const u32 columns = std::clamp(groups, 1u, GRID_COLUMNS);
     const u32 rows = std::max((groups + columns - 1) / columns, 1u);
+    const bool is_processor = device.info.type == "CPU";
+    const double begun = is_processor ? processor_seconds() : 0;
+    cl_ulong start = 0, end = 0; // nanoseconds
     check_opencl(doing, [&] {
+        cl::Event event;
         device.queue.enqueueNDRangeKernel(kernel.handle(), cl::NullRange,
                                           cl::NDRange(columns * TILE_SIZE, rows * TILE_SIZE),
-                                          cl::NDRange(TILE_SIZE, TILE_SIZE));
+                                          cl::NDRange(TILE_SIZE, TILE_SIZE), nullptr, &event);
         device.queue.finish();
+        start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+        end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
     });
+    return is_processor ? processor_seconds() - begun : 1e-9 * double(end - start);
 }
 
 Launcher::Launcher(const Device& device, const Program& program, const std::string& name,
@@ -50,7 +58,7 @@ void Launcher::launch(RenderParams params, u32 first_tile, u32 end_tile) {
     params.first_tile = first_tile;
     params.end_tile = end_tile;
     kernel_.set("params", params);
-    run_groups(device_, kernel_, end_tile - first_tile, "rendering");
+    device_seconds_ += run_groups(device_, kernel_, end_tile - first_tile, "rendering");
 }
 
 } // namespace clrt

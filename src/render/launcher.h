@@ -13,7 +13,9 @@
 namespace clrt {
 
 /// Launches work-groups of 8 x 8 work-items, at least one, and waits; `doing` is how an error names that.
-void run_groups(const Device& device, const Kernel& kernel, u32 groups, const std::string& doing);
+/// Returns the device's own seconds, which other programs disturb little: where it is the processor, those
+/// that all threads of this process were at work, else those between start and end by the device's clock.
+double run_groups(const Device& device, const Kernel& kernel, u32 groups, const std::string& doing);
 
 /// One kernel with its parameters; launches tiles and samples of them.
 class Launcher {
@@ -29,12 +31,16 @@ public:
     /// [first_tile, end_tile), and waits.
     void run_half(int half, u32 first_tile, u32 end_tile);
 
+    /// Of all launches so far, as run_groups counts them.
+    double device_seconds() const { return device_seconds_; }
+
 private:
     void launch(RenderParams params, u32 first_tile, u32 end_tile);
 
     const Device& device_;
     Kernel kernel_;
     const RenderParams params_;
+    double device_seconds_ = 0;
 };
 
 } // namespace clrt

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/ledger.h"
 
-#include "bvh/bvh.h"
-#include "console/signals.h"
-#include "effects/take_out.h"
-#include "error.h"
+#include "render/ledger_bench.h"
 #include "render/ledger_plan.h"
-#include "render/render.h"
-#include "render/scene_buffers.h"
 #include "seconds.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <cmath>
-#include <ctime>
-#include <fmt/format.h>
+#include <iterator>
 #include <spdlog/spdlog.h>
 
 namespace clrt {
@@ -24,259 +17,195 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Seconds that all threads of this process were at work.
-double processor_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
-double mean_luminance(const Film& film) {
-    const std::vector<float> mean = film_mean(film);
-    double sum = 0;
-    for (size_t i = 0; i + 2 < mean.size(); i += 3)
-        sum += 0.2126 * double(mean[i]) + 0.7152 * double(mean[i + 1]) + 0.0722 * double(mean[i + 2]);
-    return mean.empty() ? 0 : 3 * sum / double(mean.size());
-}
-
-/// One way to render the scene, and what each round of it gave.
-struct Variant {
-    std::string effect; ///< that is left out; empty: none
-    Options options;
-    u32 mask = 0;
-    PreparedParts parts; ///< made once
-    double compile_seconds = 0;
-    std::vector<double> seconds, light; ///< a round; seconds of one sample a pixel
+/// The variant and its pairs with the picture.
+struct Measured {
+    const LedgerVariant& variant;
+    const LedgerPairs& pairs;
 };
 
-/// Renders variants, all of them with the tree of the picture as asked for.
-class Bench {
+/// Makes one ledger.
+class LedgerMaker {
 public:
-    Bench(const Device& device, const Scene& scene, const Options& options) : device_(device), scene_(scene) {
-        const auto picture = plan_scene(scene, options);
-        options_ = picture->options;
-        is_turned_ = turns_triangles(picture->effects.left_out);
-        tree_ = plan_tree(device.info, *picture);
+    LedgerMaker(const Device& device, const Scene& scene, const Options& options, Progress& progress)
+        : bench_(device, scene, options), variants_(ledger_variants(scene, options)),
+          plan_(options.sampling.time_seconds, options.sampling.spp), options_(options), progress_(progress) {
     }
 
-    const SceneTree& tree() const { return *tree_; }
-
-    bool is_processor_time() const { return device_.info.type == "CPU"; }
-
-    /// Threads that a processor second is shared by; 1 where seconds are those of the wall clock.
-    double threads() const {
-        return is_processor_time() ? double(std::max(device_.info.compute_units, 1u)) : 1;
-    }
-
-    /// Makes a variant's tree and programs and lets the driver finish them. Compilers work on one thread, and
-    /// alone: their seconds are counted. Returns what it took by the wall clock.
-    VariantSeconds compile(Variant& variant) const {
-        const auto begun = Clock::now();
-        variant.options.sampling.spp = 1;
-        const auto planned = plan_scene(scene_, variant.options);
-        variant.mask = planned->effects.mask;
-        variant.parts.tree = tree_of(*planned);
-        const double start = processor_seconds();
-        variant.parts.programs = plan_programs(device_, *planned);
-        const double built = processor_seconds() - start;
-        const auto rendered = Clock::now();
-        const Render render = run(planned, variant.parts, nullptr);
-        const double launched = render.first_launch_seconds;
-        variant.compile_seconds = (is_processor_time() ? built : variant.parts.programs->seconds) + launched;
-        const double run_seconds = seconds_since(rendered) - launched - render.run_seconds;
-        return {seconds_since(begun) - run_seconds - render.run_seconds, run_seconds, render.run_seconds};
-    }
-
-    /// Renders a variant; adds the seconds of one sample a pixel and the light to it.
-    void measure(Variant& variant, int round, std::uint32_t samples) const {
-        Options options = variant.options;
-        options.sampling.seed += u32(round);
-        options.sampling.spp = samples;
-        double seconds = 0;
-        const Render render = run(plan_scene(scene_, std::move(options)), variant.parts, &seconds);
-        variant.seconds.push_back(seconds / double(samples));
-        variant.light.push_back(mean_luminance(render.film));
-    }
+    Ledger make();
 
 private:
-    /// The tree of the picture, or another by the same rule where triangles are turned round.
-    std::shared_ptr<const SceneTree> tree_of(const PlannedScene& planned) const {
-        if (turns_triangles(planned.effects.left_out) == is_turned_)
-            return tree_;
-        return std::make_shared<SceneTree>(build_scene_tree(planned.scene, options_, tree_->bvh.layout));
-    }
+    void compile_beside_picture(LedgerVariant& variant);
+    void price_full_program(const LedgerVariant& variant, const LedgerPairs& pairs);
+    void announce() const;
+    LedgerPairs pairs_of(LedgerVariant& other, double seconds);
+    void price(size_t i);
+    void describe();
+    double now() const { return seconds_since(start_); }
 
-    /// The scene is planned and uploaded for every run, so that only one of them is in memory at a time.
-    Render run(const std::shared_ptr<const PlannedScene>& planned, const PreparedParts& parts,
-               double* seconds) const {
-        const PreparedScene prepared = prepare_render(device_, planned, parts);
-        Progress silent(Toggle::OFF, true);
-        const double start = processor_seconds();
-        Render result = render(prepared, silent);
-        if (seconds)
-            *seconds = is_processor_time() ? processor_seconds() - start : result.seconds;
-        if (stop_signal())
-            throw UsageError("the ledger was stopped by a signal; it needs all its rounds");
-        return result;
-    }
-
-    const Device& device_;
-    const Scene& scene_;
-    Options options_;        ///< of the picture as asked for, --time and --spp included
-    bool is_turned_ = false; ///< its triangles
-    std::shared_ptr<const SceneTree> tree_;
+    const Clock::time_point start_ = Clock::now();
+    const LedgerBench bench_;
+    std::vector<LedgerVariant> variants_; ///< the picture, by the full program, effects
+    LedgerPlan plan_;
+    const Options& options_;
+    Progress& progress_;
+    Ledger ledger_;
+    double pair_seconds_ = 0;
+    std::vector<double> compile_seconds_; ///< of the picture's program, each time
 };
 
-/// The picture as asked for, the full program, and the picture without each effect that it shows.
-std::vector<Variant> make_variants(const Scene& scene, Options options) {
-    options.output.files.clear();
-    options.sampling.time_seconds.reset();
-    const Effects effects = find_effects(scene, options);
-    Variant as_asked;
-    as_asked.options = options;
-    std::vector<Variant> variants(2, as_asked);
-    variants[1].options.effects.list.reset();
-    variants[1].options.effects.all = true;
-    variants[1].options.effects.off = effects.left_out;
-    for (const Effect& effect : effects.list) {
-        if (!effect.present || (effects.left_out & effect.bit))
-            continue;
-        variants.push_back(as_asked);
-        variants.back().effect = effect.name;
-        variants.back().options.effects.off |= effect.bit;
-    }
-    return variants;
+double seconds_of(const LedgerRun& run) {
+    return run.seconds;
 }
 
-/// f(a, b) of every round.
-template <typename F>
-LedgerValue compare(const std::vector<double>& a, const std::vector<double>& b, const F& f) {
-    std::vector<double> values;
-    for (size_t i = 0; i < a.size(); ++i)
-        values.push_back(f(a[i], b[i]));
-    return ledger_value(std::move(values));
+LedgerValue times(double factor, const LedgerValue& value) {
+    return {factor * value.median, factor * value.low, factor * value.high};
 }
 
-double difference(double with, double without) {
-    return with - without;
-}
-
-double share(double with, double without) {
-    return with > 0 ? 1 - without / with : 0;
-}
-
-LedgerRow make_row(const Variant& picture, const Variant& without) {
+/// The effect's part of the picture's time: the picture is what has the effect.
+LedgerRow shown_row(const Measured& measured) {
     LedgerRow row;
-    row.effect = without.effect;
-    row.without = {without.compile_seconds, ledger_value(without.seconds)};
-    row.seconds = compare(picture.seconds, without.seconds, difference);
-    row.time_share = compare(picture.seconds, without.seconds, share);
-    row.light_share = compare(picture.light, without.light, share);
+    const LedgerValue without = relative_change(measured.pairs.log_ratio());
+    row.time_share = {-without.median, -without.high, -without.low};
+    row.light_share = measured.pairs.light_share();
     return row;
 }
 
-void set_break_even(const Variant& specialised, const Variant& full, double threads, Ledger& ledger) {
-    if (specialised.mask == full.mask)
-        return; // the same program: what differs is noise
-    const LedgerValue extra = compare(full.seconds, specialised.seconds, difference);
-    const auto samples = [&](double gain) {
-        return gain > 0 ? std::optional<double>(specialised.compile_seconds * threads / gain) : std::nullopt;
+/// What the code adds to the picture's time: the other variant is what has the code.
+LedgerRow absent_row(const Measured& measured) {
+    LedgerRow row;
+    row.time_share = relative_change(measured.pairs.log_ratio());
+    return row;
+}
+
+LedgerProgram program_of(const LedgerVariant& variant, const std::vector<LedgerRun>& runs) {
+    std::vector<double> seconds;
+    std::transform(runs.begin(), runs.end(), std::back_inserter(seconds), seconds_of);
+    return {variant.compile_seconds, paired_estimate(seconds)};
+}
+
+LedgerRow make_row(LedgerOf of, const Measured& measured) {
+    LedgerRow row = of == LedgerOf::ABSENT ? absent_row(measured) : shown_row(measured);
+    row.effect = measured.variant.effect;
+    row.other = program_of(measured.variant, measured.pairs.other);
+    row.seconds = times(program_of(measured.variant, measured.pairs.picture).seconds.median, row.time_share);
+    row.pairs = measured.pairs.size();
+    return row;
+}
+
+void set_break_even(double threads, Ledger& ledger) {
+    const auto samples = [&](double extra_share) {
+        const double gain = ledger.specialised.seconds.median * extra_share;
+        return gain > 0 ? std::optional<double>(ledger.specialised.compile_seconds * threads / gain)
+                        : std::nullopt;
     };
-    ledger.break_even = samples(extra.median);
-    ledger.break_even_low = samples(extra.high);
-    ledger.break_even_high = samples(extra.low);
+    ledger.break_even = samples(ledger.full_extra_share.median);
+    ledger.break_even_low = samples(ledger.full_extra_share.high);
+    ledger.break_even_high = samples(ledger.full_extra_share.low);
 }
 
-} // namespace
-
-LedgerValue ledger_value(std::vector<double> values) {
-    assert(values.size() == size_t(LEDGER_ROUNDS));
-    std::sort(values.begin(), values.end());
-    return {values[LEDGER_ROUNDS / 2], values[1], values[LEDGER_ROUNDS - 2]};
+/// Compilers take a third longer at one moment than at another: the picture's program is compiled right
+/// before each other one.
+void LedgerMaker::compile_beside_picture(LedgerVariant& variant) {
+    const double begun = now();
+    bench_.compile(variants_[0]);
+    compile_seconds_.push_back(variants_[0].compile_seconds);
+    const double first = now() - begun;
+    VariantSeconds seconds = bench_.compile(variant);
+    seconds.compile += first;
+    plan_.add(seconds);
 }
-
-namespace {
 
 /// Says what is to come before it takes its time.
-void announce(const LedgerPlan& plan, const Options& options, size_t variants, double now,
-              Progress& progress) {
-    const double needed = plan.needed(variants, now);
-    const size_t fitting = plan.fitting(variants, now);
-    progress.finish();
+void LedgerMaker::announce() const {
+    const size_t variants = variants_.size() - 1;
+    const double needed = plan_.needed(variants, now());
+    const size_t fitting = plan_.fitting(variants, now());
+    progress_.finish();
     if (fitting == variants)
-        spdlog::info("the ledger of {} effects takes {:.0f} s or more", variants - 2, needed);
+        spdlog::info("the ledger of {} effects takes {:.0f} s or more", variants - 1, needed);
     else
         spdlog::warn("the ledger of {} effects takes {:.0f} s or more, compiling included: about {} of them "
-                     "fit --time "
-                     "{:g}",
-                     variants - 2, needed, fitting - 2, *options.sampling.time_seconds);
+                     "fit --time {:g}",
+                     variants - 1, needed, fitting - 1, *options_.sampling.time_seconds);
 }
 
-/// Compiles the variants that fit the time and gives back the effects of the others. The first program is
-/// compiled twice: what the compiler does once is no program's.
-std::vector<std::string> compile_fitting(const Bench& bench, const Options& options, Clock::time_point start,
-                                         std::vector<Variant>& variants, LedgerPlan& plan,
-                                         Progress& progress) {
-    bench.compile(variants[0]);
-    size_t done = 0;
-    for (; done < variants.size(); ++done) {
-        if (done == 2)
-            announce(plan, options, variants.size(), seconds_since(start), progress);
-        if (done >= 2 && plan.fitting(variants.size(), seconds_since(start)) <= done)
-            break;
-        progress.update({"compile", double(done) / double(variants.size()), 0, -1});
-        plan.add(bench.compile(variants[done]));
-    }
-    std::vector<std::string> left;
-    for (size_t i = done; i < variants.size(); ++i)
-        left.push_back(variants[i].effect);
-    variants.resize(done);
-    return left;
+/// Pairs of the picture and another variant, for so many seconds.
+LedgerPairs LedgerMaker::pairs_of(LedgerVariant& other, double seconds) {
+    const double end = now() + seconds;
+    const auto run = [&](LedgerVariant& variant) {
+        return [&](std::uint32_t pair) { return bench_.run(variant, pair, ledger_.samples); };
+    };
+    return take_pairs(run(variants_[0]), run(other), [&] { return now() < end; });
 }
 
-/// Renders all variants in turn, round by round; gives back the fewest samples of a round.
-std::uint32_t take_turns(const Bench& bench, Clock::time_point start, std::vector<Variant>& variants,
-                         LedgerPlan& plan, Progress& progress) {
-    std::uint32_t fewest = UINT32_MAX;
-    for (int round = 0; round < LEDGER_ROUNDS; ++round) {
-        fewest = std::min(fewest, plan.samples(variants.size(), LEDGER_ROUNDS - round, seconds_since(start)));
-        for (size_t i = 0; i < variants.size(); ++i) {
-            const double done = double(size_t(round) * variants.size() + i);
-            progress.update({"ledger", done / double(size_t(LEDGER_ROUNDS) * variants.size()), 0, -1});
-            bench.measure(variants[(i + size_t(round)) % variants.size()], round, fewest);
-        }
+void LedgerMaker::price_full_program(const LedgerVariant& variant, const LedgerPairs& pairs) {
+    ledger_.specialised = program_of(variants_[0], pairs.picture);
+    ledger_.full = program_of(variant, pairs.other);
+    ledger_.full_extra_share = relative_change(pairs.log_ratio());
+    ledger_.full_compile_extra = variant.compile_seconds - compile_seconds_.back();
+    ledger_.full_pairs = pairs.size();
+}
+
+/// Compiles a variant where that is not done, and bills it.
+void LedgerMaker::price(size_t i) {
+    progress_.update({"ledger", double(i - 1) / double(variants_.size() - 1), 0, -1});
+    LedgerVariant& variant = variants_[i];
+    if (!variant.planned)
+        compile_beside_picture(variant);
+    const double begun = now();
+    const LedgerPairs pairs = pairs_of(variant, plan_.pair_seconds(variants_.size() - 1, begun));
+    plan_.add_pairs(now() - begun);
+    pair_seconds_ += now() - begun;
+    if (i == 1)
+        price_full_program(variant, pairs);
+    else {
+        ledger_.rows.push_back(make_row(options_.run.ledger, {variant, pairs}));
+        ledger_.rows.back().compile_extra = variant.compile_seconds - compile_seconds_.back();
     }
-    return fewest;
+    // Its scene and programs are not needed any more.
+    variant.planned.reset();
+    variant.parts = {};
+}
+
+/// What the ledger is of.
+void LedgerMaker::describe() {
+    const FilmOptions& film = options_.film;
+    ledger_.of = options_.run.ledger;
+    ledger_.width = film.crop ? film.crop->x1 - film.crop->x0 : film.size.x;
+    ledger_.height = film.crop ? film.crop->y1 - film.crop->y0 : film.size.y;
+    ledger_.clock = bench_.clock();
+    ledger_.bvh_quality = bench_.tree().bvh.quality;
+    ledger_.bvh_reason = bench_.tree().reason;
+}
+
+Ledger LedgerMaker::make() {
+    progress_.update({"compile", 0, 0, -1});
+    bench_.compile(variants_[0]); // what the compiler does once is no program's
+    compile_beside_picture(variants_[1]);
+    announce();
+    ledger_.samples = plan_.samples();
+    price(1);
+    size_t i = 2;
+    while (i < variants_.size() && plan_.fitting(variants_.size() - 1, now()) >= i)
+        price(i++);
+    for (; i < variants_.size(); ++i)
+        ledger_.not_measured.push_back(variants_[i].effect);
+    describe();
+    ledger_.specialised.compile_seconds = paired_estimate(compile_seconds_).median;
+    for (size_t k = 1; k < compile_seconds_.size(); ++k)
+        ledger_.compile_scatter =
+            std::max(ledger_.compile_scatter, std::fabs(compile_seconds_[k] - compile_seconds_[k - 1]));
+    if (variants_[0].mask != variants_[1].mask) // else the same program: what differs is noise
+        set_break_even(bench_.threads(), ledger_);
+    ledger_.seconds = now();
+    ledger_.compile_seconds = ledger_.seconds - pair_seconds_;
+    return std::move(ledger_);
 }
 
 } // namespace
 
 Ledger make_ledger(const Device& device, const Scene& scene, const Options& options, Progress& progress) {
-    const auto start = Clock::now();
-    const Bench bench(device, scene, options);
-    std::vector<Variant> variants = make_variants(scene, options);
-    LedgerPlan plan(options.sampling.time_seconds, options.sampling.spp);
-    Ledger ledger;
-    ledger.not_measured = compile_fitting(bench, options, start, variants, plan, progress);
-    ledger.compile_seconds = seconds_since(start);
-    ledger.samples = take_turns(bench, start, variants, plan, progress);
-    ledger.seconds = seconds_since(start);
-
-    // Draw up the bill.
-    const Variant &picture = variants[0], &full = variants[1];
-    ledger.width = options.film.crop ? options.film.crop->x1 - options.film.crop->x0 : options.film.size.x;
-    ledger.height = options.film.crop ? options.film.crop->y1 - options.film.crop->y0 : options.film.size.y;
-    ledger.is_processor_time = bench.is_processor_time();
-    ledger.bvh_quality = bench.tree().bvh.quality;
-    ledger.bvh_reason = bench.tree().reason;
-    ledger.specialised = {picture.compile_seconds, ledger_value(picture.seconds)};
-    ledger.full = {full.compile_seconds, ledger_value(full.seconds)};
-    ledger.full_extra_share =
-        compare(full.seconds, picture.seconds, [](double all, double needed) { return all / needed - 1; });
-    set_break_even(picture, full, bench.threads(), ledger);
-    for (size_t i = 2; i < variants.size(); ++i)
-        ledger.rows.push_back(make_row(picture, variants[i]));
-    return ledger;
+    return LedgerMaker(device, scene, options, progress).make();
 }
 
 } // namespace clrt

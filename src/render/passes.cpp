@@ -57,6 +57,7 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
     // A launch without samples makes the driver finish its compilation.
     const auto start = Clock::now();
     launcher_.run(0, 0, 0, 0);
+    first_device_seconds_ = launcher_.device_seconds();
     begin_hits();
     result.first_launch_seconds = seconds_between(start, Clock::now());
 }
@@ -312,6 +313,7 @@ void Passes::read_back() {
     result_.counts.primary = film_all_samples(result_.film) - earlier_samples_;
     result_.counts.add(earlier_counts_);
     result_.run_seconds = seconds();
+    result_.device_seconds = launcher_.device_seconds() - first_device_seconds_;
     result_.seconds = earlier_seconds_ + result_.run_seconds;
 }
 

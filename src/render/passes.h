@@ -71,6 +71,7 @@ private:
     double earlier_seconds_ = 0;
     std::uint64_t first_ = 0, samples_ = 0; ///< the next sample's number; samples of the whole film
     std::uint64_t earlier_samples_ = 0;     ///< of all pixels, from earlier runs
+    double first_device_seconds_ = 0;       ///< of the launch without samples
     double launch_seconds_ = 0;             ///< of all launches of this run
     double hit_seconds_ = 0;                ///< of them: for the layers of hits
     LaunchSize launch_size_;

@@ -21,6 +21,7 @@ struct Render : RenderProgress {
     std::uint64_t passes = 0;        ///< samples a pixel in this run
     double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
     double run_seconds = 0;          ///< of this run's render stage, first_launch_seconds not included
+    double device_seconds = 0;       ///< of this run's launches, as run_groups counts them
     double check_seconds = 0;        ///< of them: reading the film and measuring its error
     double dropped_seconds = 0; ///< of them: for a pass that was interrupted and dropped; not in `seconds`
     double overrun_seconds = 0; ///< beyond --time

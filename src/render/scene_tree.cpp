@@ -11,14 +11,7 @@ namespace clrt {
 SceneTree build_scene_tree(const Scene& scene, const Options& options, BvhLayout layout) {
     BvhQualityChoice choice = choose_bvh_quality(options, scene.triangles.size());
     spdlog::debug("tree: {} ({})", name_of(choice.quality), choice.reason);
-    const bool compare = choice.quality == BvhQuality::HIGH && !options.bvh.quality;
-    SceneTree tree;
-    tree.bvh = compare ? build_better_bvh(scene.positions, scene.triangles, layout)
-                       : build_bvh(scene.positions, scene.triangles, layout, choice.quality);
-    tree.reason = std::move(choice.reason);
-    if (tree.bvh.quality != choice.quality)
-        tree.reason += ", but cutting triangles gains too little here";
-    return tree;
+    return {build_bvh(scene.positions, scene.triangles, layout, choice.quality), std::move(choice.reason)};
 }
 
 } // namespace clrt

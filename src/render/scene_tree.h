@@ -13,11 +13,11 @@ namespace clrt {
 /// A tree and why it has its quality.
 struct SceneTree {
     Bvh bvh;
-    std::string reason; ///< as choose_bvh_quality gives it, and what came of it
+    std::string reason; ///< as choose_bvh_quality gives it
 };
 
-/// Builds the tree of a scene in the quality that choose_bvh_quality gives; where the options leave the
-/// choice, HIGH only where cutting triangles gains something. Throws SceneError for too many triangles.
+/// Builds the tree of a scene in the quality that choose_bvh_quality gives. Throws SceneError for too many
+/// triangles.
 SceneTree build_scene_tree(const Scene& scene, const Options& options, BvhLayout layout);
 
 } // namespace clrt

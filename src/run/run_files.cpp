@@ -3,6 +3,7 @@
 
 #include "device/kernel_source.h"
 #include "output/file_name.h"
+#include "output/image.h"
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "render/kernels.h"
@@ -19,7 +20,7 @@ namespace {
 
 /// A replay and a ledger write neither pictures nor films.
 bool writes_pictures(const Options& options) {
-    return !options.run.pixel && !options.run.ledger;
+    return !options.run.pixel && options.run.ledger == LedgerOf::NOTHING;
 }
 
 /// The names that a result gets: one, or one a frame. Where --spp does not say, the number of samples is that
@@ -83,7 +84,10 @@ void check_run_files(const Options& options, const Scene& scene) {
         for (const auto& [name, text] : read_kernel_files(options.device.kernels_folder))
             read.push_back(
                 {"the kernel file", (std::filesystem::path(options.device.kernels_folder) / name).string()});
-    check_written_files(files_to_write(options), read);
+    const std::vector<NamedFile> written = files_to_write(options);
+    check_written_files(written, read);
+    for (const NamedFile& file : written)
+        prepare_output(file.path); // does nothing for films and statistics
 }
 
 } // namespace clrt

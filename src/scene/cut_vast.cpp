@@ -98,23 +98,19 @@ public:
     explicit Cutter(Scene& scene) : scene_(scene) {}
 
     CutTriangles run() {
-        double most = 0;
-        for (u32 t = 0; t < scene_.triangles.size(); ++t) {
-            const TriangleCorners c = corners_of(scene_.positions, scene_.triangles[t]);
-            const double extent = extent_of(c);
-            if (extent >= LEAST_EXTENT * place_of(c))
-                most = std::max(most, extent);
-            if (extent >= LEAST_LISTED * place_of(c))
-                list(t);
-        }
-        const Sites sites = find_sites(scene_, most / VAST);
+        const Sites sites = find_sites(scene_, largest_extent() / VAST);
         if (sites->empty())
             return {};
-        for (const auto& [t, listed] : triangles_)
+        for (u32 t = 0; t < scene_.triangles.size(); ++t) {
+            const TriangleCorners c = corners_of(scene_.positions, scene_.triangles[t]);
+            if (extent_of(c) >= LEAST_LISTED * place_of(c))
+                list(t);
+        }
+        for (auto& [t, listed] : triangles_) {
             waiting_.push_back(t);
-        std::sort(waiting_.begin(), waiting_.end());
-        for (auto& [t, listed] : triangles_)
             listed = sites;
+        }
+        std::sort(waiting_.begin(), waiting_.end());
         const size_t before = scene_.triangles.size();
         while (!waiting_.empty() && scene_.triangles.size() < before + MOST_ADDED) {
             const u32 t = waiting_.front();
@@ -127,6 +123,17 @@ public:
 
 private:
     using Edge = std::pair<u32, u32>;
+
+    /// Of the triangles that may be vast.
+    double largest_extent() const {
+        double most = 0;
+        for (const Triangle& triangle : scene_.triangles) {
+            const TriangleCorners c = corners_of(scene_.positions, triangle);
+            if (const double extent = extent_of(c); extent >= LEAST_EXTENT * place_of(c))
+                most = std::max(most, extent);
+        }
+        return most;
+    }
 
     /// The same number for corners at the same place.
     u32 corner(u32 position) {

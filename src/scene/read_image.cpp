@@ -2,39 +2,22 @@
 #include "scene/read_image.h"
 
 #include "colour.h"
-#include "error.h"
+#include "images/image_library.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <filesystem>
-#include <OpenImageIO/imageio.h>
-#include <system_error>
 #include <tbb/parallel_for.h>
 
 namespace clrt {
 namespace {
 
-/// A texture is addressed by 32-bit words; a larger picture is refused before its memory is asked for.
-constexpr std::uint64_t MOST_VALUES = (std::uint64_t(1) << 32) - 1;
-/// Rows of a picture without tiles that are read at a time.
-constexpr int BLOCK_ROWS = 64;
-/// Deflate writes at most 258 bytes for 2 bits, a PNG at least one bit a pixel.
-constexpr std::uint64_t MOST_PNG_PIXELS_A_BYTE = 258 * 4 * 8;
-
-/// A message of OpenImageIO, which may have several lines.
-std::string one_line(std::string message) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    return message;
-}
-
 /// Where r, g, b, a come from among the file's channels; -1: alpha is 1.
-std::array<int, 4> channel_sources(const OIIO::ImageSpec& spec) {
-    if (spec.nchannels >= 4)
-        return {0, 1, 2, spec.alpha_channel >= 0 ? spec.alpha_channel : 3};
-    if (spec.nchannels == 3)
+std::array<int, 4> channel_sources(const StoredImage& stored) {
+    if (stored.channels >= 4)
+        return {0, 1, 2, stored.alpha_channel >= 0 ? stored.alpha_channel : 3};
+    if (stored.channels == 3)
         return {0, 1, 2, -1};
-    return {0, 0, 0, spec.nchannels == 2 ? 1 : -1};
+    return {0, 0, 0, stored.channels == 2 ? 1 : -1};
 }
 
 /// Expands pixels of `channels` values to RGBA.
@@ -47,51 +30,6 @@ std::vector<T> expand(const std::vector<T>& file, size_t channels, const std::ar
         rgba[i] = from < 0 ? opaque : file[i / 4 * channels + size_t(from)];
     }
     return rgba;
-}
-
-/// Reads the rows [begin, end), counted from the top of the file's window.
-bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int begin, int end, OIIO::TypeDesc type,
-               void* values) {
-    begin += spec.y;
-    end += spec.y;
-    return spec.tile_width ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
-                                              spec.z + 1, 0, spec.nchannels, type, values)
-                           : input.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, type, values);
-}
-
-/// Reads all pixels. Memory is filled as rows arrive, and asked for once the first have: a short file that
-/// claims to be a huge picture costs nothing.
-template <typename T>
-std::vector<T> read_values(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                           const std::string& path) {
-    const size_t row = size_t(spec.width) * size_t(spec.nchannels);
-    const int step = spec.tile_width ? spec.tile_height : BLOCK_ROWS;
-    std::vector<T> values;
-    for (int begin = 0, end = 0; begin < spec.height; begin = end) {
-        end = step < spec.height - begin ? begin + step : spec.height;
-        values.resize(row * size_t(end));
-        if (!read_rows(input, spec, begin, end, type, &values[row * size_t(begin)]))
-            throw SceneError(path, 0, "the picture cannot be read: " + one_line(input.geterror()));
-        values.reserve(row * size_t(spec.height));
-    }
-    return values;
-}
-
-void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const std::string& path) {
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
-        throw SceneError(path, 0, "the picture has no pixels");
-    const std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
-    const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
-    if (pixels > MOST_VALUES / std::uint64_t(spec.nchannels))
-        throw SceneError(path, 0,
-                         "the picture is too large: " + size + " pixels, expected fewer than 2^32 values");
-    // An interlaced PNG is unpacked as a whole before its first row is there.
-    std::error_code error;
-    const std::uint64_t bytes = std::filesystem::file_size(path, error);
-    if (!error && std::strcmp(input.format_name(), "png") == 0 && pixels / MOST_PNG_PIXELS_A_BYTE > bytes)
-        throw SceneError(path, 0,
-                         "the picture is cut off: " + size + " pixels are not in " + std::to_string(bytes) +
-                             " bytes");
 }
 
 std::vector<vec4> to_linear(const std::vector<float>& rgba, bool decode) {
@@ -108,29 +46,19 @@ std::vector<vec4> to_linear(const std::vector<float>& rgba, bool decode) {
 } // namespace
 
 Image read_image(const std::string& path, ImageEncoding encoding) {
-    // Without this OpenImageIO multiplies the colours of PNG and others by alpha.
-    OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] = 1;
-    const auto input = OIIO::ImageInput::open(path, &config);
-    if (!input)
-        throw SceneError(path, 0, "the picture cannot be opened: " + one_line(OIIO::geterror()));
-    const OIIO::ImageSpec spec = input->spec();
-    check_size(*input, spec, path);
-
+    const StoredImage stored = image_library().read(path);
     Image image;
-    image.width = spec.width;
-    image.height = spec.height;
-    image.has_alpha = spec.alpha_channel >= 0 || spec.nchannels == 2 || spec.nchannels == 4;
-    image.is_grey = spec.nchannels <= 2;
-    const std::array<int, 4> source = channel_sources(spec);
-    const size_t channels = size_t(spec.nchannels);
-    if (spec.format == OIIO::TypeDesc::UINT8) {
-        const auto values = read_values<std::uint8_t>(*input, spec, OIIO::TypeDesc::UINT8, path);
-        image.bytes = expand<std::uint8_t>(values, channels, source, 255);
+    image.width = stored.width;
+    image.height = stored.height;
+    image.has_alpha = stored.alpha_channel >= 0 || stored.channels == 2 || stored.channels == 4;
+    image.is_grey = stored.channels <= 2;
+    const std::array<int, 4> source = channel_sources(stored);
+    const size_t channels = size_t(stored.channels);
+    if (!stored.bytes.empty()) {
+        image.bytes = expand<std::uint8_t>(stored.bytes, channels, source, 255);
     } else {
-        const auto values = read_values<float>(*input, spec, OIIO::TypeDesc::FLOAT, path);
-        const bool decode = encoding == ImageEncoding::COLOUR && !spec.format.is_floating_point();
-        image.floats = to_linear(expand<float>(values, channels, source, 1.f), decode);
+        const bool decode = encoding == ImageEncoding::COLOUR && !stored.is_floating_point;
+        image.floats = to_linear(expand<float>(stored.floats, channels, source, 1.f), decode);
     }
     return image;
 }

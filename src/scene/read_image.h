@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures from files (OpenImageIO), expanded to RGBA: grey becomes r = g = b, absent alpha 1.
+// Pictures from files, expanded to RGBA: grey becomes r = g = b, absent alpha 1.
 #pragma once
 
 #include "kernels/shared/types.h"

@@ -57,6 +57,34 @@ TEST_F(BenchCommand, WritesRatiosOfAllKindsOfRays) {
     EXPECT_GT(tree.at("clrt").at("bytes_per_triangle"), 20);
     EXPECT_GT(tree.at("embree").at("bytes_per_triangle"), 20);
     EXPECT_GT(tree.at("clrt").at("sah_cost"), 0);
+    EXPECT_EQ(tree.at("embree_builder").at("quality"), "medium");
+    EXPECT_GT(tree.at("embree_builder").at("sah_cost"), 0);
+    EXPECT_TRUE(holds(result.out, {"Embree's builder (medium)"}));
+}
+
+// Cost and time of both builders' trees side by side, of all qualities; clrt's are at least as good.
+TEST_F(BenchCommand, ComparesTreesWithEmbreesByOneFormula) {
+    for (const char* layout : {"bvh8", "bvh2", "cwbvh"}) {
+        const CommandResult result = bench({CLRT_SCENES_FOLDER "/caustic/caustic.obj", "--trees", "--bvh",
+                                            layout, "--rounds", "1", "--stats", "trees.json"});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_TRUE(holds(result.out, {layout, "SAH cost", "clrt fast", "clrt high", "Embree low",
+                                       "Embree medium", "Embree high"}));
+        const auto json = nlohmann::json::parse(folder.read("trees.json"));
+        const auto& scene = json.at("scenes").at(0);
+        const auto cost = [&](const char* tree) {
+            return scene.at("trees").at(tree).at("sah_cost").get<double>();
+        };
+        EXPECT_LE(cost("clrt fast"), cost("Embree medium")) << layout;
+        EXPECT_LE(cost("clrt high"), cost("Embree high")) << layout;
+        EXPECT_GT(cost("Embree low"), cost("Embree medium")) << layout;
+        for (const char* tree : {"clrt fast", "clrt high", "Embree low", "Embree medium", "Embree high"}) {
+            const auto& figures = scene.at("trees").at(tree);
+            EXPECT_GT(figures.at("build_seconds").at("median"), 0) << tree;
+            EXPECT_GT(figures.at("build_cpu_seconds").at("median"), 0) << tree;
+            EXPECT_GE(figures.at("references"), scene.at("triangles")) << tree;
+        }
+    }
 }
 
 TEST_F(BenchCommand, MeasuresCpuTimeAndBothLayoutsOnOneThread) {
@@ -143,6 +171,8 @@ TEST_F(BenchCommand, TwoForWrongUsage) {
     expect_usage_error({"scene.obj", "--watertight"}, {"--watertight", "scene.obj"});
     expect_usage_error({"--watertight=0"}, {"--watertight", "'0'"});
     expect_usage_error({"--watertight", "--robustness"}, {"--watertight", "--robustness"});
+    expect_usage_error({"--trees"}, {"expected a scene"});
+    expect_usage_error({"--trees", "scene.obj", "--bvh", "high"}, {"--trees", "layout"});
 }
 
 TEST_F(BenchCommand, OneAndThreeAsClrt) {

@@ -6,6 +6,7 @@
 #include "film/film_file.h"
 
 #include <csignal>
+#include <nlohmann/json.hpp>
 
 namespace clrt {
 
@@ -281,6 +282,19 @@ TEST_F(FilmCommand, PicturesSoFarAreSavedAtWholePasses) {
     render_part("whole", 0, samples);
     expect_same_picture("so_far.exr", "whole.exr");
     EXPECT_EQ(so_far.at(5, 5, "albedo.R"), ReadPicture(folder.file("whole.exr")).at(5, 5, "albedo.R"));
+}
+
+TEST_F(FilmCommand, OneSampleAPixelKeepsReplicatesApartOnlyWhereAFilmIsWritten) {
+    const auto replicates = [&](const std::string& name) {
+        return nlohmann::json::parse(folder.read(name))["replicates"].get<int>();
+    };
+    render_part("kept", 0, 1, {"--stats", "kept.json"});
+    ASSERT_EQ(clrt({"lamp.obj", "--spp", "1", "-o", "alone.exr", "--stats", "alone.json"}).exit_code, 0);
+    EXPECT_EQ(replicates("kept.json"), 8);
+    EXPECT_EQ(replicates("alone.json"), 1);
+    const ReadPicture kept(folder.file("kept.exr")), alone(folder.file("alone.exr"));
+    EXPECT_EQ(alone.spec.channelnames, kept.spec.channelnames);
+    EXPECT_EQ(alone.values, kept.values);
 }
 
 } // namespace clrt

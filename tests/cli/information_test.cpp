@@ -2,6 +2,7 @@
 // What clrt says without rendering, and the options file beside a scene.
 #include "clrt_command.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace clrt {
@@ -97,6 +98,25 @@ TEST_F(Information, TheLedgerBillsEveryEffectAndWritesNoPicture) {
     EXPECT_EQ(json["effects"][2]["light_share"]["high"], 0.0);
     EXPECT_GT(json["effects"][1]["light_share"]["low"], 0.0);
     EXPECT_LT(json["effects"][1]["light_share"]["high"], 1.0);
+}
+
+TEST_F(Information, TheLedgerBillsTheCodeOfAbsentEffects) {
+    write_square("scene");
+    const auto result = clrt({"scene.obj", "--ledger=absent", "-s", "1", "-r", "16x12", "--env", "1,1,1",
+                              "--time", "1", "--stats", "bill.json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(holds(result.out, {"Ledger of what is not in scene.obj", "by the full program"}));
+    EXPECT_EQ(listing(), (std::vector<std::string>{"bill.json", "scene.obj"}));
+    const auto json = nlohmann::json::parse(folder.read("bill.json"));
+    std::vector<std::string> names = json["not_measured"];
+    for (const auto& row : json["absent_effects"])
+        names.push_back(row["name"]);
+    std::sort(names.begin(), names.end());
+    // Without textures and refraction the code of normal maps and rough refraction has no price of its own.
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"area lights", "cut-outs", "environment map", "glossy", "mirror",
+                                        "path filter", "pixel filter", "point lights and suns", "refraction",
+                                        "smooth normals", "textures"}));
 }
 
 TEST_F(Information, ExplainNeedsNoDevice) {

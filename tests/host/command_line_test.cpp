@@ -325,6 +325,14 @@ TEST(CommandLine, ExplainDoesNotSwallowTheScene) {
     EXPECT_NE(refusal({"--explain=xml", "s.obj"}).find("--explain=json"), std::string::npos);
 }
 
+TEST(CommandLine, LedgerDoesNotSwallowTheScene) {
+    EXPECT_EQ(parse({}).run.ledger, LedgerOf::NOTHING);
+    EXPECT_EQ(parse({"--ledger"}).run.ledger, LedgerOf::SHOWN);
+    EXPECT_EQ(parse({"--ledger"}).scene.path, "scene.obj");
+    EXPECT_EQ(parse({"--ledger=absent"}).run.ledger, LedgerOf::ABSENT);
+    EXPECT_NE(refusal({"--ledger=all", "s.obj"}).find("--ledger=absent"), std::string::npos);
+}
+
 TEST(CommandLine, DurationsHaveUnits) {
     EXPECT_EQ(parse({"-t", "90s"}).sampling.time_seconds, 90.0);
     EXPECT_EQ(parse({"-t", "5m"}).sampling.time_seconds, 300.0);

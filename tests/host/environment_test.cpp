@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>

@@ -61,6 +61,15 @@ TEST(Film, TheMeanIsTheSumOverAllReplicates) {
     }
 }
 
+TEST(Film, ReplicatesWithoutSamplesAreNotLookedAt) {
+    Film film = empty_film(3, 2, 4, 6, 1); // sample 6 belongs to replicate 2
+    for (int r = 0; r < 4; ++r)
+        EXPECT_EQ(film_has_replicate(film, r), r == 2) << r;
+    for (size_t i = 0; i < film.sums.size(); ++i)
+        film.sums[i] = i / 18 == 2 ? 4096 : 1;
+    EXPECT_EQ(film_mean(film), std::vector<float>(18, 1.0f));
+}
+
 TEST(Film, SumsBeyondTheDigitsOfADoubleKeepTheirMean) {
     Film film = empty_film(1, 1, 2, 0, std::uint64_t(1) << 20);
     film.sums = {std::int64_t(1) << 60, 4096, 0, -(std::int64_t(1) << 60), 4096, 0};

@@ -13,6 +13,7 @@ HOST = (
     ("src", "its headers: errors, exit codes, seconds, colours"),
     ("src/options", "what a user asks for, as plain structs"),
     ("src/console", "log, progress line, terminal, signals"),
+    ("src/images", "OpenImageIO, loaded when it is needed"),
     ("src/output", "pictures and other files"),
     ("src/bvh", "trees over triangles"),
     ("src/device", "OpenCL: devices, programs, buffers"),

@@ -11,6 +11,7 @@ namespace clrt {
 namespace {
 
 constexpr LeafCost COST{0, 1, 4, 1.0f};
+constexpr int ROUNDS = 4;
 
 double inner_area(const BinaryTree& tree) {
     double sum = 0;
@@ -75,9 +76,9 @@ void refit(const Mesh& mesh, BinaryTree& tree, u32 node, u32 begin) {
 
 TEST(Reinsertion, ShrinksInnerNodesOfGoodTrees) {
     for (const Mesh& mesh : {random_soup(20000, 0.2f, 1), random_soup(20000, 0.01f, 2)}) {
-        BinaryTree tree = build_binary_tree(mesh.positions, mesh.triangles, COST, BvhQuality::FAST);
+        BinaryTree tree = build_binary_tree(mesh.positions, mesh.triangles, COST, TreeEffort{});
         const double before = inner_area(tree);
-        reinsert_subtrees(tree);
+        reinsert_subtrees(tree, ROUNDS);
         check_tree(tree, u32(mesh.triangles.size()));
         EXPECT_LT(inner_area(tree), before);
     }
@@ -85,7 +86,7 @@ TEST(Reinsertion, ShrinksInnerNodesOfGoodTrees) {
 
 TEST(Reinsertion, RepairsTreesWithMisplacedLeaves) {
     const Mesh mesh = random_soup(20000, 0.01f, 3);
-    BinaryTree tree = build_binary_tree(mesh.positions, mesh.triangles, COST, BvhQuality::FAST);
+    BinaryTree tree = build_binary_tree(mesh.positions, mesh.triangles, COST, TreeEffort{});
     const double good = inner_area(tree);
     std::mt19937 random(3);
     for (int i = 0; i < 100; ++i)
@@ -93,7 +94,7 @@ TEST(Reinsertion, RepairsTreesWithMisplacedLeaves) {
     refit(mesh, tree, 0, 0);
     const double bad = inner_area(tree);
     EXPECT_GT(bad, 1.5 * good);
-    reinsert_subtrees(tree);
+    reinsert_subtrees(tree, ROUNDS);
     check_tree(tree, u32(mesh.triangles.size()));
     EXPECT_LT(inner_area(tree), good + 0.5 * (bad - good));
 }
@@ -102,9 +103,19 @@ TEST(Reinsertion, SmallTreesAndEqualBoxesStayWhole) {
     Mesh mesh;
     for (int count = 1; count < 60; ++count) {
         mesh.add({0, 0, 0, 0}, {1, 0, 0, 0}, {0, 1, 0.5f, 0});
-        BinaryTree tree = build_binary_tree(mesh.positions, mesh.triangles, COST, BvhQuality::FAST);
-        reinsert_subtrees(tree);
+        BinaryTree tree = build_binary_tree(mesh.positions, mesh.triangles, COST, TreeEffort{});
+        reinsert_subtrees(tree, ROUNDS);
         check_tree(tree, u32(count));
+    }
+}
+
+// Stopping a refit where a box stays as it was must leave no ancestor behind.
+TEST(Reinsertion, BoxesAreTheUnionsOfTheirChildrenAfterManyRounds) {
+    for (const bool spatial : {false, true}) {
+        const Mesh mesh = random_soup(30000, 0.2f, 7);
+        BinaryTree tree =
+            build_binary_tree(mesh.positions, mesh.triangles, COST, TreeEffort{spatial, 3 * ROUNDS});
+        EXPECT_EQ(check_subtree(tree, 0).count, tree.order.size());
     }
 }
 
@@ -113,7 +124,8 @@ TEST(Reinsertion, GivesTheSameTreeForAnyThreads) {
     std::vector<std::vector<u32>> orders;
     for (size_t threads : {1, 2, 5}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        orders.push_back(build_binary_tree(mesh.positions, mesh.triangles, COST, BvhQuality::HIGH).order);
+        orders.push_back(
+            build_binary_tree(mesh.positions, mesh.triangles, COST, TreeEffort{true, ROUNDS}).order);
     }
     EXPECT_EQ(orders[0], orders[1]);
     EXPECT_EQ(orders[0], orders[2]);

@@ -15,6 +15,7 @@
 #include "support/test_device.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -102,7 +103,19 @@ TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
                              include({"integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
         expect_clean_with_and_without_effects(
-            name_of(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout)), "-DSAMPLES_AT_ONCE=4"});
+            name_of(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout))});
+}
+
+TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
+    const std::string file = folder.write("kernels.cl", include({"integrators/path.cl"}));
+    for (const Target& target : {AVX2, AVX512}) {
+        std::vector<std::string> options = {"-cl-std=CL1.2", "-O2", "-c", "-o", "/dev/null",
+                                            "-Rpass=loop-vectorize"};
+        options.insert(options.end(), target.options.begin(), target.options.end());
+        EXPECT_THAT(clang_complaints(file, options),
+                    testing::ContainsRegex("numbers\\.h:[0-9:]+ remark: vectorized loop .*width: 8"))
+            << "for " << target.name;
+    }
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {

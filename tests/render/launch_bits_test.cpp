@@ -62,12 +62,40 @@ public:
         return render.film.sums;
     }
 
+    /// Seconds of all tiles with so many samples, as `device` counts them.
+    double device_seconds(const Device& device, u32 samples) const {
+        FilmBuffers film(device, params_, 0);
+        Launcher launcher(device, prepared_.programs->picture,
+                          integrator_kernel(prepared_.planned->options.transport.integrator), params_,
+                          prepared_.buffers);
+        film.bind(launcher.kernel());
+        launcher.run(0, samples, 0, tiles());
+        const double once = launcher.device_seconds();
+        launcher.run(samples, samples, 0, tiles());
+        EXPECT_GT(launcher.device_seconds(), once) << "they add up";
+        return launcher.device_seconds();
+    }
+
 private:
     PreparedScene prepared_;
     RenderParams params_;
 };
 
 } // namespace
+
+// By the processor's clock, and as for a device with one of its own: PoCL has that too.
+TEST(Launcher, CountsTheDevicesOwnSeconds) {
+    const LaunchedScene scene(Integrator::PATH);
+    Device other = test_device();
+    other.info.type = "GPU";
+    const Device* const devices[] = {&test_device(), &other};
+    for (const Device* device : devices) {
+        scene.device_seconds(*device, 1); // the driver compiles
+        const double few = scene.device_seconds(*device, 4);
+        EXPECT_GT(few, 0) << device->info.type;
+        EXPECT_GT(scene.device_seconds(*device, 256), 4 * few) << device->info.type;
+    }
+}
 
 TEST(LaunchBits, DoNotDependOnTheSizesOrTheOrderOfLaunches) {
     for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}) {

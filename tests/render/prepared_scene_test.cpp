@@ -162,6 +162,9 @@ TEST(PreparedScene, TheLedgerMeasuresWithTheTreeOfThePicture) {
     const Ledger ledger = make_ledger(test_device(), plan->scene, plan->options, silent);
     EXPECT_EQ(ledger.bvh_quality, BvhQuality::HIGH);
     EXPECT_EQ(ledger.bvh_reason, picture.tree->reason);
+    EXPECT_GE(ledger.full_pairs, FEWEST_PAIRS);
+    EXPECT_GT(ledger.specialised.seconds.low, 0);
+    EXPECT_EQ(ledger.clock, LedgerClock::PROCESSOR);
 }
 
 } // namespace clrt

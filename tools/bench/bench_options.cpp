@@ -40,7 +40,7 @@ void no_effect(BenchOptions&, const OptionValue&) {}
 
 void choose_mode(BenchOptions& options, BenchMode mode) {
     if (options.mode != BenchMode::SPEED && options.mode != mode)
-        throw UsageError("options --watertight and --robustness: expected one of them, found both");
+        throw UsageError("options --trees, --watertight and --robustness: expected one of them, found two");
     options.mode = mode;
 }
 
@@ -83,6 +83,8 @@ const std::vector<BenchOption>& table() {
          [](BenchOptions& o, const OptionValue& v) { o.stats_path = parse_path(v); }},
         {"--no-sidecar", "", "leave the options file SCENE.clrt unread",
          [](BenchOptions& o, const OptionValue&) { o.no_sidecar = true; }},
+        {"--trees", "", "compare the building of trees, in all qualities, and trace nothing",
+         [](BenchOptions& o, const OptionValue&) { choose_mode(o, BenchMode::TREES); }},
         {"--watertight", "[=N]",
          "count the rays that leave closed meshes, of N aimed at edges (default 100000000)",
          [](BenchOptions& o, const OptionValue& v) {
@@ -108,6 +110,7 @@ bool is_flag(const BenchOption& option) {
 
 std::string help_page() {
     std::string page = "Usage: clrt-bench [options] scene.obj...\n"
+                       "       clrt-bench [options] --trees scene.obj...\n"
                        "       clrt-bench [options] --watertight[=N]\n"
                        "       clrt-bench [options] --robustness[=N] [scene.obj...]\n\n"
                        "Traces the same rays through the same triangles by clrt's kernels and by Embree, in "
@@ -117,6 +120,12 @@ std::string help_page() {
                        "of the first diffuse bounce (diffuse) and of reflection (mirror). A ratio above 1: "
                        "clrt is faster. Hits that\n"
                        "differ are judged by all triangles in double precision.\n\n"
+                       "The SAH cost of a tree is the number of nodes and leaves that a random ray is "
+                       "expected to test. For\n"
+                       "Embree it is that of a tree by its builder (rtcBuildBVH) of the same children a "
+                       "node and triangles a leaf:\n"
+                       "what is inside its scenes cannot be seen. --trees compares all qualities of both "
+                       "builders.\n\n"
                        "--watertight and --robustness aim rays exactly at vertices and edges of closed "
                        "meshes. The latter tells what\n"
                        "clrt's watertight triangle test and padded boxes cost against plain ones, and what "
@@ -212,7 +221,11 @@ BenchOptions parse_bench_options(int argc, const char* const* argv) {
     if (options.mode == BenchMode::WATERTIGHT && !options.scenes.empty())
         throw UsageError("--watertight makes its own meshes: expected no scene, found '" + options.scenes[0] +
                          "'");
-    if (options.mode == BenchMode::SPEED && options.scenes.empty())
+    if (options.mode == BenchMode::TREES && options.clrt.bvh.quality)
+        throw UsageError(
+            fmt::format("--trees builds every quality: expected only a layout after --bvh, found '{}'",
+                        name_of(*options.clrt.bvh.quality)));
+    if ((options.mode == BenchMode::SPEED || options.mode == BenchMode::TREES) && options.scenes.empty())
         throw UsageError(
             "expected a scene: clrt-bench [options] scene.obj...; `clrt-bench --help` lists the options");
     if (!options.stats_path.empty())

@@ -14,7 +14,7 @@ namespace clrt {
 /// Instruction sets that Embree's side can be held to, by Embree's own names.
 inline constexpr const char* EMBREE_ISAS[] = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
 
-enum class BenchMode { SPEED, WATERTIGHT, ROBUSTNESS };
+enum class BenchMode { SPEED, TREES, WATERTIGHT, ROBUSTNESS };
 
 struct BenchOptions {
     BenchMode mode = BenchMode::SPEED;

@@ -47,6 +47,22 @@ int run_speed(const BenchOptions& bench) {
                : EXIT_DONE;
 }
 
+int run_trees(const BenchOptions& bench) {
+    set_driver_environment(bench.clrt.device);
+    std::string notice;
+    const DeviceInfo device = choose_device(list_platforms(), bench.clrt.device.name, notice);
+    Progress progress(Toggle::AUTO, /*quiet=*/false);
+    std::vector<SceneTrees> scenes;
+    for (const std::string& path : bench.scenes) {
+        scenes.push_back(compare_trees(bench, path, choose_layout(bench.clrt.bvh.layout, device), progress));
+        fmt::print("{}{}", scenes.size() > 1 ? "\n" : "", format_trees(scenes.back()));
+        std::fflush(stdout);
+    }
+    if (!bench.stats_path.empty())
+        write_text_file(bench.stats_path, trees_json(bench, device, scenes));
+    return EXIT_DONE;
+}
+
 int run_watertight_check(const BenchOptions& bench) {
     const Device device = open_bench_device(bench);
     Progress progress(Toggle::AUTO, /*quiet=*/false);
@@ -87,6 +103,8 @@ int run_robustness(const BenchOptions& bench) {
 
 int run_mode(const BenchOptions& bench) {
     switch (bench.mode) {
+    case BenchMode::TREES:
+        return run_trees(bench);
     case BenchMode::WATERTIGHT:
         return run_watertight_check(bench);
     case BenchMode::ROBUSTNESS:

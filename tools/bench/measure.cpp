@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/measure.h"
 
+#include "seconds.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <time.h>
 
 namespace clrt {
 
 namespace {
-
-double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 /// The value below which a share of the sorted values lies, interpolated.
 double quantile(const std::vector<double>& sorted, double share) {
@@ -28,10 +23,10 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 Cost measure(const std::function<void()>& action) {
     const auto wall = std::chrono::steady_clock::now();
-    const double cpu = cpu_seconds();
+    const double cpu = processor_seconds();
     action();
     return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(),
-            cpu_seconds() - cpu};
+            processor_seconds() - cpu};
 }
 
 Spread spread_of(std::vector<double> values) {

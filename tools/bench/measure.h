@@ -11,6 +11,12 @@ namespace clrt {
 struct Cost {
     double wall = 0; ///< seconds
     double cpu = 0;  ///< seconds of all threads of the process together; a loaded machine changes it little
+
+    Cost& operator+=(const Cost& other) {
+        wall += other.wall;
+        cpu += other.cpu;
+        return *this;
+    }
 };
 
 /// Runs an action and measures it.

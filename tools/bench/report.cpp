@@ -2,18 +2,16 @@
 #include "bench/report.h"
 
 #include "bench/embree_side.h"
+#include "bench/report_json.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace clrt {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The median, and the quartiles of the rounds.
 std::string ratio_text(const Spread& ratio) {
@@ -26,19 +24,6 @@ double per_triangle(double value, const SceneSpeed& scene) {
 
 double triangles_per_second(double seconds, const SceneSpeed& scene) {
     return seconds > 0 ? double(scene.triangles) / seconds : 0;
-}
-
-/// What every JSON starts with.
-Json run_json(const BenchOptions& bench, const DeviceInfo& device) {
-    Json json;
-    json["version"] = CLRT_VERSION;
-    json["command"] = fmt::format("{}", fmt::join(bench.command, " "));
-    json["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
-    return json;
-}
-
-Json spread_json(const Spread& spread) {
-    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
 }
 
 Json tree_json(const TreeFigures& tree, const SceneSpeed& scene) {
@@ -87,6 +72,11 @@ Json scene_json(const SceneSpeed& scene) {
     json["tree"]["clrt"] = tree_json(scene.clrt, scene);
     json["tree"]["clrt"]["sah_cost"] = scene.sah_cost;
     json["tree"]["embree"] = tree_json(scene.embree, scene);
+    json["tree"]["embree_builder"] = {{"quality", quality_name(scene.builder_quality)},
+                                      {"build_seconds", scene.embree_builder.cost.wall},
+                                      {"build_cpu_seconds", scene.embree_builder.cost.cpu},
+                                      {"sah_cost", scene.embree_builder.sah_cost},
+                                      {"references", scene.embree_builder.references}};
     return json;
 }
 
@@ -138,6 +128,18 @@ std::string visits_text(const SceneSpeed& scene) {
 
 } // namespace
 
+Json run_json(const BenchOptions& bench, const DeviceInfo& device) {
+    Json json;
+    json["version"] = CLRT_VERSION;
+    json["command"] = fmt::format("{}", fmt::join(bench.command, " "));
+    json["device"] = {{"platform", device.platform}, {"name", device.name}, {"driver", device.driver}};
+    return json;
+}
+
+Json spread_json(const Spread& spread) {
+    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+}
+
 std::string format_speed(const SceneSpeed& scene, bool cpu_time) {
     std::string text = fmt::format("{}: {} triangles, {}\n", scene.path, scene.triangles, scene.layout);
     text += fmt::format("{:<8}{:>10}{:>9}{:>9}   {:<22}{:>9}   {}\n", "rays", "number", "clrt", "Embree",
@@ -151,7 +153,11 @@ std::string format_speed(const SceneSpeed& scene, bool cpu_time) {
                         cpu_time ? "CPU" : "wall");
     text += "trees " + tree_text("clrt", scene.clrt, scene, cpu_time) +
             fmt::format(", SAH cost {:.2f}; ", scene.sah_cost) +
-            tree_text("Embree", scene.embree, scene, cpu_time) + "\n";
+            tree_text("Embree", scene.embree, scene, cpu_time) +
+            fmt::format("; Embree's builder ({}) {:.3f} s, SAH cost {:.2f}\n",
+                        quality_name(scene.builder_quality),
+                        cpu_time ? scene.embree_builder.cost.cpu : scene.embree_builder.cost.wall,
+                        scene.embree_builder.sah_cost);
     text += visits_text(scene);
     for (const KindSpeed& kind : scene.kinds)
         text += verdict_text(kind, kind.verdict, "Embree") +

@@ -4,6 +4,7 @@
 
 #include "bench/robustness.h"
 #include "bench/speed.h"
+#include "bench/trees.h"
 #include "bench/watertight.h"
 
 #include <string>
@@ -17,6 +18,13 @@ std::string format_speed(const SceneSpeed& scene, bool cpu_time);
 /// The JSON of --stats. "ratio" holds one number a kind: the geometric mean over the scenes.
 std::string speed_json(const BenchOptions& bench, const DeviceInfo& device,
                        const std::vector<SceneSpeed>& scenes);
+
+/// The table of --trees.
+std::string format_trees(const SceneTrees& scene);
+
+/// Its JSON.
+std::string trees_json(const BenchOptions& bench, const DeviceInfo& device,
+                       const std::vector<SceneTrees>& scenes);
 
 /// The table of --watertight.
 std::string format_watertight(const std::vector<WatertightCase>& cases);

@@ -129,6 +129,9 @@ SceneSpeed compare_speed(const Device& device, const BenchOptions& bench, const 
     result.sah_cost = clrt.bvh().sah_cost;
     result.clrt = {clrt.build_cost(), 4 * (clrt.bvh().nodes.size() + clrt.bvh().leaves.size())};
     result.embree = {embree.build_cost(), embree.bytes()};
+    result.builder_quality = matching_quality(clrt.bvh().quality);
+    result.embree_builder = build_embree_tree(planned->scene, clrt.bvh().layout, result.builder_quality,
+                                              bench.clrt.device.threads);
     const RoundingBound bound = rounding_bound(device.info.correctly_rounded_division);
     for (const Contest& contest : contests)
         result.kinds.push_back(contest.result(clrt, bound));

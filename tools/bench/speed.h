@@ -6,6 +6,7 @@
 #include "bench/bench_options.h"
 #include "bench/bench_rays.h"
 #include "bench/clrt_side.h"
+#include "bench/embree_builder.h"
 #include "bench/measure.h"
 #include "console/progress.h"
 #include "device/device.h"
@@ -40,6 +41,8 @@ struct SceneSpeed {
     std::string layout;   ///< of clrt's tree
     double sah_cost = 0;  ///< of clrt's tree
     TreeFigures clrt, embree;
+    RTCBuildQuality builder_quality = RTC_BUILD_QUALITY_MEDIUM; ///< the one that matches clrt's tree
+    EmbreeTree embree_builder;                                  ///< its tree, for the SAH cost
     std::vector<KindSpeed> kinds;
 };
 

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "images/oiio_decoder.h"
+
+#include "error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <OpenImageIO/imageio.h>
+#include <system_error>
+
+namespace clrt {
+
+namespace {
+
+/// A texture is addressed by 32-bit words; a larger picture is refused before its memory is asked for.
+constexpr std::uint64_t MOST_VALUES = (std::uint64_t(1) << 32) - 1;
+/// Rows of a picture without tiles that are read at a time.
+constexpr int BLOCK_ROWS = 64;
+/// Deflate writes at most 258 bytes for 2 bits, a PNG at least one bit a pixel.
+constexpr std::uint64_t MOST_PNG_PIXELS_A_BYTE = 258 * 4 * 8;
+
+/// A message of OpenImageIO, which may have several lines.
+std::string one_line(std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return message;
+}
+
+/// Reads the rows [begin, end), counted from the top of the file's window.
+bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int begin, int end, OIIO::TypeDesc type,
+               void* values) {
+    begin += spec.y;
+    end += spec.y;
+    return spec.tile_width ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
+                                              spec.z + 1, 0, spec.nchannels, type, values)
+                           : input.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, type, values);
+}
+
+/// Reads all pixels. Memory is filled as rows arrive, and asked for once the first have: a short file that
+/// claims to be a huge picture costs nothing.
+template <typename T>
+std::vector<T> read_values(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                           const std::string& path) {
+    const size_t row = size_t(spec.width) * size_t(spec.nchannels);
+    const int step = spec.tile_width ? spec.tile_height : BLOCK_ROWS;
+    std::vector<T> values;
+    for (int begin = 0, end = 0; begin < spec.height; begin = end) {
+        end = step < spec.height - begin ? begin + step : spec.height;
+        values.resize(row * size_t(end));
+        if (!read_rows(input, spec, begin, end, type, &values[row * size_t(begin)]))
+            throw SceneError(path, 0, "the picture cannot be read: " + one_line(input.geterror()));
+        values.reserve(row * size_t(spec.height));
+    }
+    return values;
+}
+
+void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const std::string& path) {
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
+        throw SceneError(path, 0, "the picture has no pixels");
+    const std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
+    const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
+    if (pixels > MOST_VALUES / std::uint64_t(spec.nchannels))
+        throw SceneError(path, 0,
+                         "the picture is too large: " + size + " pixels, expected fewer than 2^32 values");
+    // An interlaced PNG is unpacked as a whole before its first row is there.
+    std::error_code error;
+    const std::uint64_t bytes = std::filesystem::file_size(path, error);
+    if (!error && std::strcmp(input.format_name(), "png") == 0 && pixels / MOST_PNG_PIXELS_A_BYTE > bytes)
+        throw SceneError(path, 0,
+                         "the picture is cut off: " + size + " pixels are not in " + std::to_string(bytes) +
+                             " bytes");
+}
+
+} // namespace
+
+StoredImage read_by_oiio(const std::string& path) {
+    // Without this OpenImageIO multiplies the colours of PNG and others by alpha.
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1;
+    const auto input = OIIO::ImageInput::open(path, &config);
+    if (!input)
+        throw SceneError(path, 0, "the picture cannot be opened: " + one_line(OIIO::geterror()));
+    const OIIO::ImageSpec spec = input->spec();
+    check_size(*input, spec, path);
+
+    StoredImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channels = spec.nchannels;
+    image.alpha_channel = spec.alpha_channel;
+    image.is_floating_point = spec.format.is_floating_point();
+    if (spec.format == OIIO::TypeDesc::UINT8)
+        image.bytes = read_values<std::uint8_t>(*input, spec, OIIO::TypeDesc::UINT8, path);
+    else
+        image.floats = read_values<float>(*input, spec, OIIO::TypeDesc::FLOAT, path);
+    return image;
+}
+
+} // namespace clrt

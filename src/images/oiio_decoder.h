@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "images/image_library.h"
+
+namespace clrt {
+
+/// Reads a file's first picture by OpenImageIO. Throws SceneError.
+StoredImage read_by_oiio(const std::string& path);
+
+} // namespace clrt
