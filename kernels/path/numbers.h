@@ -14,7 +14,7 @@ typedef struct {
     real2 direction;
 } PathNumbers;
 
-static inline PathNumbers path_numbers(const Sampler* sampler, uint segment)
+static inline PathNumbers numbers_make(const Sampler* sampler, uint segment)
 {
     PathNumbers numbers;
     numbers.light = sampler_pair_words(sampler, segment, SAMPLE_LIGHT);
@@ -43,7 +43,7 @@ static inline void numbers_draw_vector(NumberLanes* lanes, uint segment, uint fi
 {
     for (uint i = first; i < first + DEVICE_LANES; ++i) {
         const Sampler sampler = {lanes->key[i], lanes->index_reversed[i], lanes->word_key[i]};
-        const PathNumbers numbers = path_numbers(&sampler, segment);
+        const PathNumbers numbers = numbers_make(&sampler, segment);
         lanes->light_x[i] = numbers.light.x;
         lanes->light_y[i] = numbers.light.y;
         lanes->alias[i] = numbers.alias;
