@@ -102,14 +102,14 @@ TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
     const std::string text = entry_points({"path", "whitted", "raycast"}) +
                              include({"integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
-        expect_clean_with_and_without_effects(
-            name_of(layout), text, {fmt::format("-DBVH_LAYOUT={}", int(layout))});
+        expect_clean_with_and_without_effects(name_of(layout), text,
+                                              {fmt::format("-DBVH_LAYOUT={}", int(layout))});
 }
 
 TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
     const std::string file = folder.write("kernels.cl", include({"integrators/path.cl"}));
     for (const Target& target : {AVX2, AVX512}) {
-        std::vector<std::string> options = {"-cl-std=CL1.2", "-O2", "-c", "-o", "/dev/null",
+        std::vector<std::string> options = {"-cl-std=CL1.2",        "-O2", "-c", "-o", "/dev/null",
                                             "-Rpass=loop-vectorize"};
         options.insert(options.end(), target.options.begin(), target.options.end());
         EXPECT_THAT(clang_complaints(file, options),
