@@ -174,7 +174,7 @@ static inline bool surface_winding_is_reversed(const Scene* scene, global const 
 
 /* Reconstructs the surface where a ray has hit it; wo points back along the ray. The position comes from the
    barycentric weights, not from the distance, so its error depends on the triangle's size and place alone. */
-CLRT_INLINE Surface surface_at(const Scene* scene, const Hit* hit, const Ray* ray)
+CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const Ray* ray)
 {
     const real3 wo = -ray->direction;
     global const Triangle* triangle = scene->triangles + hit->triangle;

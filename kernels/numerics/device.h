@@ -18,10 +18,8 @@
    and NVIDIA compilers shorten their build alike. So every large function is kept out of line. */
 #define CLRT_NOINLINE __attribute__((noinline))
 
-/* What must stand where it is called. Either a body that two functions share, told apart by a constant
-   argument: nothing of the choice is left in either, where clang for NVIDIA's targets would call it instead.
-   Or a large function with one caller that matters: of the struct that it gives, only what that caller reads
-   is computed. */
+/* A body that two functions share, told apart by a constant argument: nothing of the choice is left in
+   either. Clang for NVIDIA's targets would call it instead. */
 #define CLRT_INLINE static inline __attribute__((always_inline))
 
 /* Begins an entry point. Intel's CPU runtime runs several work-items in the lanes of vectors and takes apart
@@ -53,6 +51,16 @@
    portable scalar operations. */
 #if __has_builtin(__builtin_ia32_movmskps256) && !defined(REAL_IS_DOUBLE)
 #define CLRT_HAS_MOVMSKPS 1
+#endif
+
+/* A large function that gives a struct to one caller that matters. x86 targets of PoCL: in line, so that of
+   the struct only what that caller reads is computed and nothing goes through memory. Elsewhere out of line
+   like all large functions; Oclgrind 21.10 does not even know the intrinsic that clang writes where it puts a
+   returned struct in line. */
+#ifdef CLRT_HAS_MOVMSKPS
+#define CLRT_GIVES_STRUCT CLRT_INLINE
+#else
+#define CLRT_GIVES_STRUCT static CLRT_NOINLINE
 #endif
 
 /* x86 targets of PoCL: LLVM's own bit reversal is the fastest. Elsewhere it is written out, with ^ instead of

@@ -193,7 +193,7 @@ static inline uint bsdf_choose(const Bsdf* bsdf, BsdfChoice* choice)
 }
 
 /* Samples a direction. u_lobe chooses the lobe, u the direction. */
-CLRT_INLINE BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2 u)
+CLRT_GIVES_STRUCT BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2 u)
 {
     BsdfSample sample;
     sample.pdf_w = REAL(0.0);

@@ -156,7 +156,7 @@ static inline real3 material_emitted(const Scene* scene, const Surface* surface)
 }
 
 /* Builds the BSDF of a surface point as wo sees it, for radiance or importance (TRANSPORT_*). */
-CLRT_INLINE Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo, uint transport)
+CLRT_GIVES_STRUCT Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo, uint transport)
 {
     global const Material* material = scene->materials + surface->material;
     Bsdf bsdf;
