@@ -146,6 +146,16 @@ void check_folders(const Options& options) {
         check_output_folder(options.film_file.checkpoint_path);
 }
 
+/// True for a picture of one sample a pixel that no film file keeps: there is nothing to compare it with and
+/// nothing to merge it with, and sums of replicates without samples would take longer to empty and to read
+/// than many a picture to render. The random numbers of sample 0 are the same for any number of replicates.
+bool needs_one_replicate(const Options& options) {
+    const SamplingOptions& sampling = options.sampling;
+    return sampling.spp == 1u && sampling.first_sample == 0 && !sampling.error && !sampling.adaptive &&
+           options.film_file.checkpoint_path.empty() && !options.run.pixel &&
+           options.run.ledger == LedgerOf::NOTHING && !options.run.given.count("--replicates");
+}
+
 /// Every picture of a turn gets a name of its own.
 void number_names(Options& options) {
     for (std::string& path : options.output.files)
@@ -215,6 +225,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (options.run.ledger != LedgerOf::NOTHING && !is_given(arguments.options, "--time"))
         options.sampling.time_seconds.reset();
     check_combinations(options);
+    if (needs_one_replicate(options))
+        options.sampling.replicates = 1;
     if (options.camera.frames)
         number_names(options);
     if (!options.scene.path.empty() && !list_devices && options.run.explain == Explain::NO)

@@ -12,18 +12,6 @@
 
 namespace clrt {
 
-namespace {
-
-/// Replicates of a new film that are kept apart. One sample a pixel has nothing to compare, and a film of all
-/// of them would take longer to empty and to read than many a picture to render; one that is written keeps
-/// them for the films that it is merged with.
-int new_replicates(const Options& options, int fitting) {
-    const bool has_one_sample = options.sampling.spp == 1u && options.film_file.checkpoint_path.empty();
-    return has_one_sample ? 1 : fitting;
-}
-
-} // namespace
-
 Render render(const PreparedScene& prepared, Progress& progress, const RenderHooks& hooks) {
     const PlannedScene& planned = *prepared.planned;
     const Options& options = planned.options;
@@ -37,7 +25,7 @@ Render render(const PreparedScene& prepared, Progress& progress, const RenderHoo
     film.height = int(params.crop_height);
     const int fitting = fitting_replicates(prepared.device, params, planned.effects.paths.layers.size());
     if (!hooks.resume) {
-        film.replicates = new_replicates(options, fitting);
+        film.replicates = fitting;
         film.shown.assign(film_plane(film) / 3, 0);
     } else
         fold_replicates(film, std::min(fitting, film.replicates));
