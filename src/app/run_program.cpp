@@ -11,6 +11,13 @@
 
 namespace clrt {
 
+namespace {
+
+/// What oneTBB says where it cannot start another thread.
+constexpr char NO_THREAD[] = "pthread_create has failed";
+
+} // namespace
+
 int run_program(const char* name, const std::function<int()>& program) {
     const auto report = [&](int code, const char* what) {
         std::fprintf(stderr, "%s: error: %s\n", name, what);
@@ -34,6 +41,9 @@ int run_program(const char* name, const std::function<int()>& program) {
                       "not enough memory: expected a smaller scene, smaller textures or a smaller "
                       "--size; --crop renders a large picture in parts");
     } catch (const std::exception& error) {
+        if (std::strncmp(error.what(), NO_THREAD, sizeof NO_THREAD - 1) == 0)
+            return report(EXIT_SCENE, "not enough memory for another thread, or too many of them: expected "
+                                      "higher limits (ulimit -v, ulimit -u) or a smaller -j");
         return report(EXIT_SCENE, error.what());
     }
 }
