@@ -99,10 +99,12 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
 {
     path_draw(samples, segment, alive, paths);
 
-    /* Find the next vertices. */
+    /* Find the next vertices. Their triangles are on the way from memory while other rays are traced; where
+       a ray has missed, the address is nowhere, which a prefetch may be asked for. */
     for (uint i = 0; i < alive->count; ++i) {
         const uint k = alive->at[i];
         paths[k].hit = vertex_hit(scene, params, &samples[k].sampler, segment, 0u, &paths[k].ray);
+        CLRT_PREFETCH((ulong)scene->triangles + sizeof(Triangle) * paths[k].hit.triangle);
     }
 
     /* Handle them. */
