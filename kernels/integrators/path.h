@@ -83,27 +83,31 @@ static inline void path_list_add(PathList* list, uint k, bool takes_part)
 }
 
 /* Draws the random numbers of the vertices at the ends of these paths' segments. */
-static inline void path_draw(const CameraSample* samples, uint segment, const PathList* list, Path* paths)
+static inline void path_draw(const Scene* scene, const RenderParams* params, const CameraSample* samples,
+                             uint segment, const PathList* list, Path* paths)
 {
     NumberLanes numbers;
     for (uint i = 0; i < list->count || i % DEVICE_LANES != 0u; ++i)
         numbers_set_sampler(&numbers, i, &samples[list->at[min(i, list->count - 1u)]].sampler);
     numbers_draw(&numbers, segment, list->count);
-    for (uint i = 0; i < list->count; ++i)
+    for (uint i = 0; i < list->count; ++i) {
         paths[list->at[i]].numbers = numbers_of(&numbers, i);
+        environment_prefetch_slot(scene, params, numbers.light_x[i]);
+    }
 }
 
 /* Advances the paths of a list by a segment and its vertex; leaves those in it that go on. */
 static inline void path_advance(const Scene* scene, const RenderParams* params, uint segment, Path* paths,
                                 CameraSample* samples, PathList* alive, PixelRays* rays)
 {
-    path_draw(samples, segment, alive, paths);
+    path_draw(scene, params, samples, segment, alive, paths);
 
-    /* Find the next vertices. Their triangles are on the way from memory while other rays are traced; where
-       a ray has missed, the address is nowhere, which a prefetch may be asked for. */
+    /* Find the next vertices. What they will read is on the way from memory while other rays are traced;
+       where a ray has missed, the triangle's address is nowhere, which a prefetch may be asked for. */
     for (uint i = 0; i < alive->count; ++i) {
         const uint k = alive->at[i];
         paths[k].hit = vertex_hit(scene, params, &samples[k].sampler, segment, 0u, &paths[k].ray);
+        environment_prefetch_texel(scene, params, paths[k].numbers.light.x, paths[k].numbers.alias);
         CLRT_PREFETCH((ulong)scene->triangles + sizeof(Triangle) * paths[k].hit.triangle);
     }
 

@@ -78,16 +78,49 @@ static inline real3 environment_eval(const Scene* scene, const RenderParams* par
     return factor * environment_map_lookup(scene, params, environment_uv(environment_to_map(params, wi)));
 }
 
+/* The slot of the alias table that a word stands for. */
+static inline uint environment_slot(const RenderParams* params, uint word)
+{
+    return warp_index(word, params->environment_width * params->environment_height);
+}
+
+/* The texel that a slot and another word choose. */
+static inline uint environment_texel(const Scene* scene, uint slot, uint alias_word)
+{
+    return alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
+}
+
+/* Starts to load the texel that environment_map_sample will choose for these words, and those above and below
+   for the lookup. A map is larger than caches are, and these are all over it. environment_prefetch_slot comes
+   first: by the time of the second call the slot has arrived. */
+static inline void environment_prefetch_slot(const Scene* scene, const RenderParams* params, uint word)
+{
+    if (HAS(EFFECT_ENVIRONMENT_MAP) && params->choose_environment > 0.0f)
+        CLRT_PREFETCH(scene->environment + environment_slot(params, word));
+}
+
+static inline void environment_prefetch_texel(const Scene* scene, const RenderParams* params, uint word,
+                                              uint alias_word)
+{
+    if (!HAS(EFFECT_ENVIRONMENT_MAP) || params->choose_environment == 0.0f ||
+        params->environment_width == 0u)
+        return;
+    const ulong row = sizeof(EnvironmentTexel) * params->environment_width;
+    const ulong texel = (ulong)(scene->environment +
+                                environment_texel(scene, environment_slot(params, word), alias_word));
+    CLRT_PREFETCH(texel - row);
+    CLRT_PREFETCH(texel);
+    CLRT_PREFETCH(texel + row);
+}
+
 /* Chooses a texel by the alias table and a direction uniformly within it. */
 static inline LightSample environment_map_sample(const Scene* scene, const RenderParams* params, uint word,
                                                  uint alias_word, real v)
 {
     const uint width = params->environment_width;
     const uint count = width * params->environment_height;
-    const uint slot = warp_index(word, count);
     const real2 u = (real2)(warp_rest(word, count, alias_word), v);
-    const uint texel =
-        alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
+    const uint texel = environment_texel(scene, environment_slot(params, word), alias_word);
     const uint row = texel / width;
     const uint column = texel - row * width;
     /* 1 - cos is uniform between the row's edges, measured from the nearer pole: so no digits are lost next
