@@ -22,8 +22,8 @@ static inline real emitter_pdf_of_angle(global const Emitter* emitter, real3 nor
 
 /* Chooses a triangle by the alias table and a point on it. `word` gives the index and, by its rest, the
    point's first coordinate; v is the second. */
-CLRT_GIVES_STRUCT LightSample emitter_sample(const Scene* scene, const RenderParams* params,
-                                                real3 position, uint word, uint alias_word, real v)
+CLRT_GIVES_STRUCT LightSample emitter_sample(const Scene* scene, const RenderParams* params, real3 position,
+                                             uint word, uint alias_word, real v)
 {
     LightSample sample = light_sample_none();
     /* Choose. */

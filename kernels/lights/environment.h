@@ -90,24 +90,30 @@ static inline uint environment_texel(const Scene* scene, uint slot, uint alias_w
     return alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
 }
 
+/* True where light sampling may look at a map's texels. */
+static inline bool environment_is_searched(const RenderParams* params)
+{
+    return HAS(EFFECT_ENVIRONMENT_MAP) && params->choose_environment > 0.0f &&
+           params->environment_width != 0u;
+}
+
 /* Starts to load the texel that environment_map_sample will choose for these words, and those above and below
    for the lookup. A map is larger than caches are, and these are all over it. environment_prefetch_slot comes
    first: by the time of the second call the slot has arrived. */
 static inline void environment_prefetch_slot(const Scene* scene, const RenderParams* params, uint word)
 {
-    if (HAS(EFFECT_ENVIRONMENT_MAP) && params->choose_environment > 0.0f)
+    if (environment_is_searched(params))
         CLRT_PREFETCH(scene->environment + environment_slot(params, word));
 }
 
 static inline void environment_prefetch_texel(const Scene* scene, const RenderParams* params, uint word,
                                               uint alias_word)
 {
-    if (!HAS(EFFECT_ENVIRONMENT_MAP) || params->choose_environment == 0.0f ||
-        params->environment_width == 0u)
+    if (!environment_is_searched(params))
         return;
+    const uint chosen = environment_texel(scene, environment_slot(params, word), alias_word);
+    const ulong texel = (ulong)(scene->environment + chosen);
     const ulong row = sizeof(EnvironmentTexel) * params->environment_width;
-    const ulong texel = (ulong)(scene->environment +
-                                environment_texel(scene, environment_slot(params, word), alias_word));
     CLRT_PREFETCH(texel - row);
     CLRT_PREFETCH(texel);
     CLRT_PREFETCH(texel + row);
