@@ -5,7 +5,7 @@ import os
 import jinja2
 
 from clrt_tools import study_charts, study_pictures, study_sentence
-from clrt_tools.metrics import SMALL_SQUARE
+from clrt_tools.metrics import DARK_SHARE
 from clrt_tools.picture_file import read_picture
 from clrt_tools.study_ratios import TARGETS
 
@@ -73,7 +73,7 @@ def page(title, study):
     first = study.runs[0].stats
     labels = {method: method.label(study.default) for method in study.summaries}
     return environment.get_template("study_page.html.jinja").render(
-        title=title, study=study, labels=labels, targets=TARGETS, cores=os.cpu_count(), small=SMALL_SQUARE,
+        title=title, study=study, labels=labels, targets=TARGETS, cores=os.cpu_count(), dark=DARK_SHARE,
         device=first["device"], version=first["version"], width=first["width"], height=first["height"],
         triangles=first.get("triangles"), **_pictures(study),
         error_chart=study_charts.error_chart(study.summaries, labels), stages_chart=study_charts.stages_chart(study.stages, labels),

@@ -10,7 +10,7 @@ from typing import Optional
 import numpy
 
 from clrt_tools.atomic_text import write_text
-from clrt_tools.metrics import SMALL_SQUARE
+from clrt_tools.metrics import relative_weight
 from clrt_tools.picture_file import read_picture
 from clrt_tools.verdict import tile_sums
 
@@ -55,7 +55,7 @@ def measure(run, reference):
     if x.shape != reference.mean.shape:
         raise ValueError(f"expected a reference of {x.shape[1]}x{x.shape[0]} pixels like the renders, found "
                          f"{reference.mean.shape[1]}x{reference.mean.shape[0]}")
-    weight = 1 / (reference.mean ** 2 + SMALL_SQUARE)
+    weight = relative_weight(reference.mean)
     if reference.halves:
         a, b = reference.halves
         square = (x - a) * (x - b)
