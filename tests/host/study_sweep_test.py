@@ -4,7 +4,6 @@ import os
 import sys
 import tempfile
 import time
-import types
 import unittest
 import unittest.mock
 
@@ -14,7 +13,8 @@ import OpenImageIO
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from noisy_pictures import write_exr  # noqa: E402
 from clrt_tools import study_pictures, study_results, study_runs  # noqa: E402
-from clrt_tools.study_runs import Method, Point, Run  # noqa: E402
+from clrt_tools.study_methods import SWITCHES, Method, combinations  # noqa: E402
+from clrt_tools.study_runs import Point, Run  # noqa: E402
 
 SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "independent")
 
@@ -35,14 +35,45 @@ class Sweep(unittest.TestCase):
         self.assertEqual([p.method for p in points if p.cold], [SOBOL, WHITE])
         self.assertFalse({p.seed for p in points} & set(study_runs.REFERENCE_SEEDS))
 
+    NAMES = {"integrator": ["path", "whitted"], "precision": ["single", "double"], "sampler": ["independent", "sobol"]}
+
     def test_of_a_quick_study_changes_one_thing_at_a_time(self):
-        options = types.SimpleNamespace(integrators=["path", "whitted"], precisions=["single", "double"],
-                                        samplers=["independent", "sobol"], quick=True)
         one_change = [SOBOL, WHITE, Method("path", "double", "sobol"), Method("whitted", "single", "sobol")]
-        self.assertEqual(study_runs.combinations(options), one_change)
-        options.quick = False
-        every = study_runs.combinations(options)
+        self.assertEqual(combinations(self.NAMES, set(), True, SOBOL), one_change)
+        every = combinations(self.NAMES, set(), False, SOBOL)
         self.assertEqual((every[:4], len(every), len(set(every))), (one_change, 8, 8))
+
+    def test_combines_a_way_to_find_the_light_only_where_it_is_asked_for(self):
+        names = {**self.NAMES, "guide": ["auto", "on", "off"], "adaptive": ["off", "mse", "relative"]}
+        default = Method("path", "single", "sobol", guide="auto", adaptive="off")
+        methods = combinations(names, set(), False, default)
+        self.assertEqual((methods[0], len(methods), len(set(methods))), (default, 8 + 2 + 2, 12))
+        self.assertEqual([m.label(default) for m in methods[1:6]],
+                         ["independent", "guide on", "guide off", "adaptive mse", "adaptive relative"])
+        methods = combinations(names, {"guide"}, False, default)
+        self.assertEqual((len(methods), len(set(methods))), (8 * 3 + 2, 26))
+        self.assertEqual(len(combinations(names, {"guide"}, True, default)), 1 + 1 + 2 + 2 + 1 + 1)
+
+    def test_a_default_that_is_not_among_the_names_gives_way(self):
+        self.assertEqual(combinations({"integrator": ["whitted"], "precision": ["single"], "sampler": ["sobol"]}, set(), True, SOBOL),
+                         [Method("whitted", "single", "sobol")])
+
+
+class AMethod(unittest.TestCase):
+    def test_is_said_as_clrt_takes_it(self):
+        method = Method("path", "single", "sobol", guide="on", adaptive="relative")
+        self.assertEqual(method.words(), ["--integrator", "path", "--precision", "single", "--sampler", "sobol", "--guide", "on",
+                                          "--adaptive=relative"])
+        self.assertEqual(Method(adaptive="off").words(), [])
+        self.assertEqual(Method(adaptive="on").words(), ["--adaptive"])
+
+    def test_has_a_name_of_its_own(self):
+        self.assertEqual(str(Method("path", "single", "sobol", guide="auto", adaptive="off")), "path, single, sobol")
+        self.assertEqual(str(Method("path", "single", "sobol", guide="off", adaptive="mse")),
+                         "path, single, sobol, guide off, adaptive mse")
+
+    def test_every_switch_has_its_place_among_the_changes(self):
+        self.assertEqual(sorted(switch.rank for switch in SWITCHES.values()), list(range(1, len(SWITCHES) + 1)))
 
 
 class Pictures(unittest.TestCase):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The curves and bars of a study, as SVG text to put into the page."""
+import dataclasses
 import io
 import re
 
@@ -38,10 +39,12 @@ def svg(figure):
 
 
 def _styles(methods):
-    """A colour for integrator and precision, a line and a marker for the sampler."""
-    kinds = list(dict.fromkeys((m.integrator, m.precision) for m in methods))
-    return {m: (COLOURS[kinds.index((m.integrator, m.precision)) % len(COLOURS)],
-                *SAMPLER_STYLES.get(m.sampler, (":", "^"))) for m in methods}
+    """A line and a marker for the sampler, a colour for all else."""
+    def kind(method):
+        return dataclasses.replace(method, sampler=None)
+
+    kinds = list(dict.fromkeys(map(kind, methods)))
+    return {m: (COLOURS[kinds.index(kind(m)) % len(COLOURS)], *SAMPLER_STYLES.get(m.sampler, (":", "^"))) for m in methods}
 
 
 def _plain(axis):

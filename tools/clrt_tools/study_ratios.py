@@ -38,6 +38,10 @@ class Interval:
         return Interval(1 / self.value, 1 / self.high, 1 / self.low if self.low > 0 else math.inf)
 
 
+    def root(self):
+        return Interval(math.sqrt(self.value), math.sqrt(self.low), math.sqrt(self.high))
+
+
 def of_logarithm(value, half_width):
     """The interval of exp(value) whose logarithm is known to +- half_width; None: not known."""
     if half_width is None or not math.isfinite(half_width):
@@ -78,6 +82,7 @@ class Ratio:
     error: Optional[Interval]    # RMSE over RMSE; None: lost in the reference's noise
     seconds: Interval            # a sample
     cost: Optional[Interval]     # MSE x seconds: seconds for the same error, where it falls with the root of the samples
+    relative_cost: Optional[Interval] = None  # likewise of the relative MSE
     floor: Optional[float] = None  # relative error at which it levels off: it does not simulate what the reference shows
 
 
@@ -94,10 +99,16 @@ def compare(summaries, default):
 
 
 def _ratio(method, own, its, seconds):
-    value, width = jackknife(lambda mse: 0.5 * (_log(mse[0]) - _log(mse[1])), numpy.array([own.blocks, its.blocks]))
-    error = of_logarithm(value, width) if math.isfinite(value) else None
-    cost = product(of_logarithm(2 * value, None if width is None else 2 * width), seconds) if error else None
-    return Ratio(method, own.spp, error, seconds, cost)
+    squared = _quotient(own.blocks, its.blocks)
+    relative = _quotient(own.relative_blocks, its.relative_blocks)
+    return Ratio(method, own.spp, squared and squared.root(), seconds, squared and product(squared, seconds),
+                 relative and product(relative, seconds))
+
+
+def _quotient(own, its):
+    """Of two mean squared errors, from those of the blocks; None where one is lost in the reference's noise."""
+    value, width = jackknife(lambda mse: _log(mse[0]) - _log(mse[1]), numpy.array([own, its]))
+    return of_logarithm(value, width) if math.isfinite(value) else None
 
 
 def _seconds_ratio(points, default_points):

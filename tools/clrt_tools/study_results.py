@@ -12,6 +12,7 @@ import numpy
 from clrt_tools.atomic_text import write_text
 from clrt_tools.metrics import relative_weight
 from clrt_tools.picture_file import read_picture
+from clrt_tools.study_methods import SWITCHES
 from clrt_tools.verdict import tile_sums
 
 # Parts of a picture, along its longer side, whose errors are taken as independent: enough for a jackknife over them.
@@ -62,7 +63,7 @@ def measure(run, reference):
     else:
         square = (x - reference.mean) ** 2 - (0 if reference.variance is None else reference.variance)
     run.mse, run.relmse = float(square.mean()), float((square * weight).mean())
-    run.blocks = block_sums(square.mean(axis=-1))
+    run.blocks, run.relative_blocks = (block_sums(values.mean(axis=-1)) for values in (square, square * weight))
     run.noise_blocks = None if picture.variance is None else block_sums(picture.variance.mean(axis=-1))
     run.rel_rmse = relative_root(run.mse, reference)
 
@@ -104,6 +105,11 @@ class Summary:
         return sum(run.blocks for run in self.runs) / len(self.runs)
 
     @property
+    def relative_blocks(self):
+        """Likewise of relative squared errors."""
+        return sum(run.relative_blocks for run in self.runs) / len(self.runs)
+
+    @property
     def noise_blocks(self):
         """The part of them that is noise, as clrt's variance layers tell; None where one is missing."""
         known = [run.noise_blocks for run in self.runs if run.noise_blocks is not None]
@@ -130,11 +136,9 @@ def _summary(spp, group, reference):
                    math.sqrt(statistics.fmean(e * e for e in own)) if all(own) else None)
 
 
-COLUMNS = ["scene", "device", "integrator", "precision", "sampler", "seed", "spp", "width", "height", "cold", "load_s", "bvh_s",
-           "compile_s", "first_launch_s", "render_s", "total_s", "process_cpu_s", "mse", "rel_rmse", "relmse", "own_rel_rmse",
-           "nonfinite", "command"]
-
-
+STAGES = ("load", "bvh", "compile", "first_launch", "render", "total")
+COLUMNS = ["scene", "device", *SWITCHES, "seed", "spp", "width", "height", "cold", *(f"{stage}_s" for stage in STAGES),
+           "process_cpu_s", "mse", "rel_rmse", "relmse", "own_rel_rmse", "nonfinite", "command"]
 # Kinds of samples that a film leaves out.
 BAD_SAMPLES = ("nan", "infinite", "negative", "overflow")
 
@@ -142,10 +146,9 @@ BAD_SAMPLES = ("nan", "infinite", "negative", "overflow")
 def _row(run, scene):
     stats, point = run.stats, run.point
     seconds = stats["seconds"]
-    return [scene, stats["device"]["name"], point.method.integrator, point.method.precision, point.method.sampler, point.seed,
-            point.spp, stats["width"], stats["height"], int(point.cold), *(f"{seconds[name]:.6f}" for name in (
-                "load", "bvh", "compile", "first_launch", "render", "total")), f"{run.cpu_seconds:.6f}",
-            repr(run.mse), "" if run.rel_rmse is None else repr(run.rel_rmse), repr(run.relmse),
+    return [scene, stats["device"]["name"], *(getattr(point.method, field) or "" for field in SWITCHES), point.seed, point.spp,
+            stats["width"], stats["height"], int(point.cold), *(f"{seconds[name]:.6f}" for name in STAGES),
+            f"{run.cpu_seconds:.6f}", repr(run.mse), "" if run.rel_rmse is None else repr(run.rel_rmse), repr(run.relmse),
             run.own_error or "", sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES), run.command]
 
 

@@ -9,8 +9,19 @@ SAME_ERROR, SAME_SECONDS = 1.01, 1.05
 # Widest interval, over or below 1, that is still called about the same.
 WIDEST_SAME = 2.0
 
-NAMES = {"sobol": "Sobol points", "independent": "white noise", "double": "double precision", "single": "single precision",
-         "fast": "fast maths"}
+# What changes of a method are called, where their names do not say enough.
+NAMES = {"sampler": {"sobol": "Sobol points", "independent": "white noise"},
+         "precision": {"double": "double precision", "single": "single precision", "fast": "fast maths"},
+         "guide": {"on": "path guiding", "off": "no path guiding", "auto": "path guiding by a pilot's choice"},
+         "adaptive": {"off": "even sampling", "on": "adaptive sampling", "mse": "adaptive sampling for the squared error",
+                      "relative": "adaptive sampling for the relative error"}}
+# The change that aims at the relative squared error, and is judged by it.
+FOR_RELATIVE = ("adaptive", "relative")
+
+
+def change_name(field, name):
+    """A name of a switch in words."""
+    return NAMES.get(field, {}).get(name, name if field == "integrator" else f"{field} {name}")
 
 
 def number(value):
@@ -86,7 +97,7 @@ def _than(name, other, cost):
     better, worse, factor = (other, name, cost) if cost.value > 1 else (name, other, cost.inverse())
     if factor.value < SAME_SECONDS:
         return f"{other} and {name} cost about the same"
-    verb = "are" if better == NAMES["sobol"] else "is"
+    verb = "are" if better == NAMES["sampler"]["sobol"] else "is"
     return f"{better} {verb} {number(factor.value)} times{_in_brackets(ends(factor))} better than {worse}"
 
 
@@ -108,14 +119,17 @@ def _precision(name, ratio):
 def _clause(ratio, default):
     """What one change to the default does."""
     (field, value), = ratio.method.changes(default).items()
-    name = NAMES.get(value, value)
+    name = change_name(field, value)
     if ratio.floor:
         return f"{name} levels off at {number(100 * ratio.floor)} %: it does not simulate all that the reference shows"
     if ratio.error is None:
         return f"{name} lies below the noise of the reference"
     if field == "precision":
         return _precision(name, ratio)
-    return _than(name, NAMES.get(getattr(default, field), getattr(default, field)), ratio.cost)
+    other = change_name(field, getattr(default, field))
+    if (field, value) == FOR_RELATIVE and ratio.relative_cost:
+        return _than(name, other, ratio.relative_cost)
+    return _than(name, other, ratio.cost)
 
 
 def headline(times, size, ratios, default):
