@@ -105,13 +105,13 @@ class StudyCommand(unittest.TestCase):
         parts.feed(text)
         for source in parts.sources:
             self.assertRegex(source, r"^(data:image/png;base64,|#)")
-        self.assertEqual(parts.tags["svg"], 3)
+        self.assertEqual(parts.tags["svg"], 4)
         self.assertEqual(parts.tags["figure"], 5)
         self.assertEqual(text.count('<tr class="number">'), 4)
         self.assertEqual(text.count('<tr class="ratio">'), 1)
-        # The answer comes first: the sentence, then the table of seconds, then everything else.
-        self.assertLess(text.index(headline), text.index('<table id="times">'))
-        self.assertLess(text.index('<table id="times">'), text.index('<table id="ratios">'))
+        # The answer comes first: the sentence, the table of seconds, what each change buys, then everything else.
+        order = [text.index(part) for part in (headline, '<table id="times">', 'id="gains-chart"', '<table id="ratios">')]
+        self.assertEqual(order, sorted(order))
         self.assertIn("path, single, independent", text)
         self.assertIn("--sampler independent", text)
 

@@ -9,7 +9,7 @@ import numpy
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools"))
-from clrt_tools import study_ratios, study_report, study_results, study_sentence  # noqa: E402
+from clrt_tools import study_page, study_ratios, study_report, study_results, study_sentence  # noqa: E402
 from clrt_tools.study_ratios import Interval, OwnSize  # noqa: E402
 from clrt_tools.study_methods import Method  # noqa: E402
 from clrt_tools.study_runs import Point, Run  # noqa: E402
@@ -84,6 +84,13 @@ class Ratios(unittest.TestCase):
         self.assertAlmostEqual(ratio.cost.value, 4, delta=0.4)
         self.assertAlmostEqual(ratio.relative_cost.value, 0.4, delta=0.04)
         self.assertTrue(ratio.relative_cost.low < 0.4 < ratio.relative_cost.high, ratio.relative_cost)
+
+    def test_what_a_change_buys_is_the_inverse_of_its_cost(self):
+        study = Figures().add(SOBOL, (16,), 1, -0.5, 0.1, 4).add(WHITE, (16,), 2, -0.5, 0.1, 4, relative=4).conclude()
+        both = study_page.gains(study, {WHITE: "white"})["white"]
+        self.assertAlmostEqual(both[0].value, 1 / 4, delta=0.03)
+        self.assertAlmostEqual(both[1].value, 1 / 16, delta=0.01)
+        self.assertTrue(all(gain.low < gain.value < gain.high for gain in both), both)
 
     def test_without_a_pair_of_runs_have_no_interval_of_seconds(self):
         seconds = Figures().add(SOBOL, (16,), 1, -0.5, 0.1, 1).add(WHITE, (16,), 2, -0.5, 0.1, 1).conclude().ratios[WHITE].seconds

@@ -15,6 +15,10 @@ from clrt_tools.metrics import SMALL_RADIANCE  # noqa: E402
 # Okabe and Ito's colours, which people who see fewer colours tell apart as well.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31"]
 SAMPLER_STYLES = {"sobol": ("-", "o"), "independent": ("--", "s")}
+# The two errors of a gain: words, colour, marker, and place beside the middle of its row.
+ERRORS = (("squared error", COLOURS[0], "o", -0.13), ("relative squared error", COLOURS[1], "D", 0.13))
+# How far a bar reaches, as a factor, where an end of its interval is not known.
+UNKNOWN = 10
 STAGES = [("load", "load scene"), ("bvh", "build tree"), ("compile", "compile"), ("first_launch", "first launch"),
           ("render", "render")]
 STAGE_COLOURS = ["#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#0072b2"]
@@ -91,6 +95,30 @@ def _draw_guides(axes, points):
                   label="slope -1/2" if step == 0 else None)
     axes.set_xlim(x0, x1)
     axes.set_ylim(y0, y1)
+
+
+def gains_chart(gains):
+    """What each change buys: accuracy a second over the default's, by both errors. `gains`: {words: (Interval or None of the
+    squared error, likewise of the relative squared error)}."""
+    figure, axes = pyplot.subplots(figsize=(WIDTH, 1.5 + 0.5 * len(gains)), layout="constrained")
+    axes.axvline(1, color=INK, linewidth=1)
+    for which, (label, colour, marker, shift) in enumerate(ERRORS):
+        known = [(row + shift, pair[which]) for row, pair in enumerate(gains.values()) if pair[which]]
+        values = numpy.array([gain.value for _, gain in known])
+        ends = numpy.array([(max(gain.low, gain.value / UNKNOWN), min(gain.high, gain.value * UNKNOWN)) for _, gain in known])
+        axes.errorbar(values, [row for row, _ in known], xerr=abs(ends.reshape(-1, 2).T - values), fmt=marker, color=colour,
+                      markersize=6, capsize=3, linewidth=1.6, label=label)
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    axes.set_xlim(min(low, 0.5), max(high, 2))
+    axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    _plain(axes.xaxis)
+    axes.set_yticks(range(len(gains)), list(gains))
+    axes.set_ylim(len(gains) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+    axes.set_xlabel("accuracy a second, times the default's (right is better)")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=11, frameon=False)
+    return svg(figure)
 
 
 def stages_chart(rows, labels):

@@ -64,6 +64,12 @@ def _pictures(study):
             "largest": scale}
 
 
+def gains(study, labels):
+    """{words: accuracy a second over the default's, by both errors} of every single change to the default."""
+    return {labels[method]: tuple(cost and cost.inverse() for cost in (ratio.cost, ratio.relative_cost))
+            for method, ratio in study.ratios.items() if len(method.changes(study.default)) == 1}
+
+
 def page(title, study):
     """The page's text, of a study_report.Study."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(FOLDER), autoescape=True, undefined=jinja2.StrictUndefined,
@@ -76,5 +82,6 @@ def page(title, study):
         title=title, study=study, labels=labels, targets=TARGETS, cores=os.cpu_count(), dark=DARK_SHARE,
         device=first["device"], version=first["version"], width=first["width"], height=first["height"],
         triangles=first.get("triangles"), **_pictures(study),
+        gains_chart=study_charts.gains_chart(gains(study, labels)),
         error_chart=study_charts.error_chart(study.summaries, labels), stages_chart=study_charts.stages_chart(study.stages, labels),
         stages=study.stages[study.default][1])
