@@ -76,11 +76,11 @@ def _log(value):
 
 @dataclasses.dataclass
 class Ratio:
-    """A method over the default, both at the same samples a pixel."""
+    """A method over the default, both at the same samples a pixel; a rival at about the same seconds."""
     method: object
-    spp: int
+    spp: object                  # a pixel; of a rival: `its v the default's`
     error: Optional[Interval]    # RMSE over RMSE; None: lost in the reference's noise
-    seconds: Interval            # a sample
+    seconds: Interval            # a sample; of a rival: of the picture
     cost: Optional[Interval]     # MSE x seconds: seconds for the same error, where it falls with the root of the samples
     relative_cost: Optional[Interval] = None  # likewise of the relative MSE
     floor: Optional[float] = None  # relative error at which it levels off: it does not simulate what the reference shows
@@ -96,6 +96,28 @@ def compare(summaries, default):
             ratios[method] = _ratio(method, own[spp], its[spp], _seconds_ratio(points, summaries[default]))
             ratios[method].floor = floor(points)
     return ratios
+
+
+def compare_rival(rival, points, default_points):
+    """The Ratio of another renderer's pictures to the default's, at the counts of samples that take about the same seconds."""
+    its = default_points[-1]
+    own = min(points, key=lambda point: abs(_log(point.seconds / its.seconds)))
+    ratio = _ratio(rival, own, its, _quotient_of_seconds(own, its))
+    ratio.spp, ratio.floor = f"{own.spp} v {its.spp}", floor(points)
+    return ratio
+
+
+def _quotient_of_seconds(own, its):
+    """Of two renderers' runs, which did not alternate: Welch's interval of the difference of the mean logarithms."""
+    logs = [numpy.log([run.render_seconds for run in summary.runs]) for summary in (own, its)]
+    value = float(logs[0].mean() - logs[1].mean())
+    if min(len(each) for each in logs) < 2:
+        return Interval(math.exp(value))
+    squares = [float(each.var(ddof=1)) / len(each) for each in logs]
+    if sum(squares) == 0:
+        return Interval(math.exp(value), math.exp(value), math.exp(value))
+    degrees = sum(squares) ** 2 / sum(square ** 2 / (len(each) - 1) for square, each in zip(squares, logs))
+    return of_logarithm(value, float(stdtrit(degrees, 0.975)) * math.sqrt(sum(squares)))
 
 
 def _ratio(method, own, its, seconds):

@@ -52,7 +52,8 @@ class Run:
     command: str
     picture: str                # path of the EXR
     stats: dict                 # clrt --stats
-    cpu_seconds: float          # user and system time of the process
+    cpu_seconds: Optional[float]  # user and system time of the process; None where not known
+    brightness: Optional[float] = None      # mean over the reference's
     mse: Optional[float] = None
     rel_rmse: Optional[float] = None
     relmse: Optional[float] = None

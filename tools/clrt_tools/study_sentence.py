@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The figures of a study in words. Nothing is called better that is not so at 95 %."""
+from clrt_tools.study_methods import Method
 from clrt_tools.study_ratios import BELOW, EXTRAPOLATED, MEASURED, NEVER
 
 # The error, relative, that the sentence tells the price of, and what it takes where that was not measured.
@@ -17,6 +18,7 @@ NAMES = {"sampler": {"sobol": "Sobol points", "independent": "white noise"},
                       "relative": "adaptive sampling for the relative error"}}
 # The change that aims at the relative squared error, and is judged by it.
 FOR_RELATIVE = ("adaptive", "relative")
+THE_DEFAULT = "clrt's default"
 
 
 def change_name(field, name):
@@ -132,13 +134,31 @@ def _clause(ratio, default):
     return _than(name, other, ratio.cost)
 
 
+def _rival_clause(ratio):
+    """How another renderer compares with the default."""
+    if ratio.floor:
+        return f"{ratio.method} levels off at {number(100 * ratio.floor)} %: it does not render what the reference shows"
+    known = [(cost, words) for cost, words in ((ratio.cost, "squared error"), (ratio.relative_cost, "relative squared error")) if cost]
+    if not known:
+        return f"{ratio.method} lies below the noise of the reference"
+    return f"{THE_DEFAULT} and {ratio.method}: " + ", ".join(f"{_times_as_accurate(cost)} by the {words}" for cost, words in known)
+
+
+def _times_as_accurate(cost):
+    """`1.4 times (1.2 - 1.6) the accuracy a second`, of the default over the rival whose cost it is."""
+    if cost.includes_one:
+        return _same(cost)
+    return f"{number(cost.value)} times{_in_brackets(ends(cost))} its accuracy a second"
+
+
 def headline(times, size, ratios, default):
-    """What a study says, in two sentences: the price of an error, and what each single change to the default does."""
-    clauses = [_clause(ratio, default) for method, ratio in ratios.items() if len(method.changes(default)) == 1]
+    """What a study says: the price of an error, what each single change to the default does, how other renderers compare."""
+    methods = {method: ratio for method, ratio in ratios.items() if isinstance(method, Method)}
+    clauses = [_clause(ratio, default) for method, ratio in methods.items() if len(method.changes(default)) == 1]
     sentence = price_sentence(times, size)
     if clauses:
         sentence += " " + clauses[0][0].upper() + "; ".join(clauses)[1:] + "."
-    return sentence
+    return " ".join([sentence] + [_rival_clause(ratio) + "." for method, ratio in ratios.items() if method not in methods])
 
 
 def time_words(time):

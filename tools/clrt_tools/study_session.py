@@ -71,8 +71,8 @@ class Session:
             given.update(reference_spp=0, size=(window.full_width, window.full_height))
         elif options.reference_spp:
             given["reference_spp"] = max(1, options.reference_spp // 2)
-        if "--crop" in options.extra:
-            given["size"] = own_size  # its numbers are pixels of that size
+        if "--crop" in options.extra or options.against:
+            given["size"] = own_size  # numbers of the crop are pixels of that size; another renderer's pictures have it
         plan = study_plan.choose_plan(speed, self.budget.left(), own_size, methods, given)
         self.notes += plan.notes
         return plan, own_size
