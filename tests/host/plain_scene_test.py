@@ -95,9 +95,9 @@ class Reading(Scenes):
                 taken.append(name)
             except NotPlain:
                 pass
-        self.assertTrue({"caustic", "colour_bleeding", "cornell_box", "furnace", "mirror_glass_depth10", "spheres_over_plane"} <=
-                        set(taken), taken)
-        self.assertFalse({"every_effect", "glossy_plates", "still_life", "textured_interior"} & set(taken), taken)
+        self.assertTrue({"caustic", "colour_bleeding", "cornell_box", "door_ajar", "furnace", "hall_of_lamps", "mirror_glass_depth10",
+                         "spheres_over_plane"} <= set(taken), taken)
+        self.assertFalse({"every_effect", "glossy_plates", "plates_far_lamp", "still_life", "textured_interior"} & set(taken), taken)
 
 
 class ForMitsuba(Scenes):
