@@ -13,6 +13,7 @@ import OpenImageIO
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from noisy_pictures import write_exr  # noqa: E402
 from clrt_tools import study_pictures, study_results, study_runs  # noqa: E402
+from clrt_tools.clrt_choices import Choices  # noqa: E402
 from clrt_tools.study_methods import SWITCHES, Method, combinations  # noqa: E402
 from clrt_tools.study_runs import Point, Run  # noqa: E402
 
@@ -74,6 +75,38 @@ class AMethod(unittest.TestCase):
 
     def test_every_switch_has_its_place_among_the_changes(self):
         self.assertEqual(sorted(switch.rank for switch in SWITCHES.values()), list(range(1, len(SWITCHES) + 1)))
+
+
+class TheNamesThatClrtTakes(unittest.TestCase):
+    HELP = """Work:
+  -i, --integrator NAME        path (all light), or so, or whitted (default path)
+      --sampler NAME           sobol or independent (white noise, to
+                               compare with) (default sobol)
+      --light-sampler NAME     how a light is chosen: tree (by a, or b; `path`
+                               alone), mixture (half: half) or power (default
+                               tree)
+      --guide auto|on|off      learns where light comes from (default auto: as
+                               a pilot says)
+      --adaptive%s
+                               take more samples where it is noisy (default: the same)
+"""
+
+    def choices(self, adaptive):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "clrt")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write(f"#!/bin/sh\ncat <<'END'\n{self.HELP % adaptive}END\n")
+            os.chmod(program, 0o755)
+            return Choices(program)
+
+    def test_are_read_from_every_form_of_its_help(self):
+        choices = self.choices("[=mse|relative]")
+        self.assertEqual(choices.names("--light-sampler"), ["tree", "mixture", "power"])
+        self.assertEqual(choices.names("--sampler"), ["sobol", "independent"])
+        self.assertEqual(choices.names("--guide"), ["auto", "on", "off"])
+        self.assertEqual(choices.names("--adaptive"), ["off", "mse", "relative"])
+        self.assertEqual(self.choices("").names("--adaptive"), ["off", "on"])
+        self.assertEqual(choices.default_method(), Method("path", None, "sobol", "tree", "auto", "off"))
 
 
 class Pictures(unittest.TestCase):

@@ -10,7 +10,7 @@ SWITCH_OF = {switch.option: switch for switch in SWITCHES.values()}
 
 
 class Choices:
-    """The names in the help of options such as `--integrator NAME  path (...), whitted (...) or raycast (...) (default path)`,
+    """The names in the help of options such as `--sampler NAME  how points are chosen: sobol (...) or independent (default sobol)`,
     `--guide auto|on|off` and `--adaptive[=mse|relative]`."""
 
     def __init__(self, program):
@@ -31,7 +31,8 @@ class Choices:
             return [OFF] + (listed.group(1).split("|") if listed else [ON])
         if "|" in head[1]:
             return head[1].split("|")
-        return re.split(", | or ", re.sub(r" \([^()]*\)", "", " ".join(head[2].split())))
+        listed = re.sub(r" \([^()]*\)", "", " ".join(head[2].split()))
+        return re.split(", | or ", listed.split(": ")[-1])
 
     def default(self, option):
         if SWITCH_OF[option].bare:

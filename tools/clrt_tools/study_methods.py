@@ -39,8 +39,8 @@ class Method:
                                         "quick: path)", "-i", combined=True)
     precision: Optional[str] = _switch("--precision", "precisions", 5, "likewise (default: all)", "-p", combined=True)
     sampler: Optional[str] = _switch("--sampler", "samplers", 1, "likewise (default: all)", combined=True)
-    lights: Optional[str] = _switch("--light-choice", "light-choices", 2, "likewise; combined with the others where it is given "
-                                    "(default: all that this clrt has, one change at a time)")
+    lights: Optional[str] = _switch("--light-sampler", "light-samplers", 2, "likewise; combined with the others where it is given "
+                                    "(default: all that this clrt has, one change at a time)", usual="tree")
     guide: Optional[str] = _switch("--guide", "guides", 3, "likewise, such as auto,on,off", usual="auto")
     adaptive: Optional[str] = _switch("--adaptive", "adaptive", 4, "likewise, such as off,relative", usual=OFF, bare=True)
 

@@ -13,6 +13,8 @@ WIDEST_SAME = 2.0
 # What changes of a method are called, where their names do not say enough.
 NAMES = {"sampler": {"sobol": "Sobol points", "independent": "white noise"},
          "precision": {"double": "double precision", "single": "single precision", "fast": "fast maths"},
+         "lights": {"tree": "the light tree", "mixture": "choosing lights by power and evenly",
+                    "power": "choosing lights by power alone"},
          "guide": {"on": "path guiding", "off": "no path guiding", "auto": "path guiding by a pilot's choice"},
          "adaptive": {"off": "even sampling", "on": "adaptive sampling", "mse": "adaptive sampling for the squared error",
                       "relative": "adaptive sampling for the relative error"}}
