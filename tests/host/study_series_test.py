@@ -10,12 +10,12 @@ import numpy
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from noisy_pictures import write_exr  # noqa: E402
-from clrt_tools import study_page, study_report, study_results, study_series  # noqa: E402
+from clrt_tools import study_page, study_report, study_results  # noqa: E402
 from clrt_tools.mean_check import compare_means  # noqa: E402
 from clrt_tools.picture_file import UnreadableFile  # noqa: E402
 from clrt_tools.study_methods import Method  # noqa: E402
 from clrt_tools.study_runs import Point, Run  # noqa: E402
-from clrt_tools.study_series import SeriesError, read_series  # noqa: E402
+from clrt_tools.study_series import SeriesError, read_all_series, read_series  # noqa: E402
 
 SHAPE = (60, 80, 3)
 TRUTH = 0.5
@@ -74,6 +74,16 @@ class Reading(Folder):
             read_series(os.path.join(self.folder, "none"))
 
 
+    def test_of_several_renderers_needs_one_size_and_different_names(self):
+        self.write_series()
+        self.assertEqual(len(read_all_series([self.folder], "80x60")), 1)
+        self.assertEqual(read_all_series([], "80x60"), [])
+        with self.assertRaisesRegex(SeriesError, "expected pictures of 40x30, found 80x60"):
+            read_all_series([self.folder], "40x30")
+        with self.assertRaisesRegex(SeriesError, "expected renderers of different names, found Rival 1.0 twice"):
+            read_all_series([self.folder, self.folder], None)
+
+
 class Comparing(Folder):
     def runs(self, counts, error, second):
         """Of clrt."""
@@ -91,7 +101,7 @@ class Comparing(Folder):
         series, runs = read_series(self.folder), self.runs((4, 16), 1.0, 0.1)
         for run in runs + series.runs:
             study_results.measure(run, REFERENCE)
-        return series, study_report.conclude(runs, REFERENCE, {}, [], SHAPE[1::-1], [], series)
+        return series, study_report.conclude(runs, REFERENCE, {}, [], SHAPE[1::-1], [], [series])
 
     def test_is_at_about_the_same_seconds(self):
         # Half the error at the same samples, five times the seconds of a sample: 1.25 times the cost.
@@ -111,8 +121,8 @@ class Comparing(Folder):
         self.assertAlmostEqual(gains[0].value, 1 / 9, delta=0.02)
 
     def test_warns_of_another_scene(self):
-        self.assertEqual(study_series.brightness_note(self.conclude()[0]), "")
-        note = study_series.brightness_note(self.conclude(truth=1.1 * TRUTH, error=0.1)[0])
+        self.assertEqual(self.conclude()[0].brightness_note(), "")
+        note = self.conclude(truth=1.1 * TRUTH, error=0.1)[1].notes[0]
         self.assertRegex(note, "^Rival 1.0: its pictures are 1?[09].[0-9] % brighter than the reference: it renders another scene")
 
     def test_of_means_knows_how_well_they_are_known(self):

@@ -11,7 +11,6 @@ import numpy
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402 (needs the backend above)
 
-from clrt_tools.metrics import SMALL_RADIANCE  # noqa: E402
 from clrt_tools.study_methods import Method  # noqa: E402
 
 # Okabe and Ito's colours, which people who see fewer colours tell apart as well.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The switches of clrt that a study compares, and the methods that they make. A new switch is one row of Method, and its words in
-study_sentence.py where its names do not say enough; the names that it takes, and whether it is there, are asked of the program that will run (clrt_choices.py)."""
+"""The switches of clrt that a study compares, and the methods that they make. A new switch is one row of Method, and its words
+in study_sentence.py where its names do not say enough; the names that it takes, and whether it is there, are asked of the program
+that will run (clrt_choices.py)."""
 import dataclasses
 import itertools
 from typing import Optional

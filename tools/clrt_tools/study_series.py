@@ -45,6 +45,15 @@ class Series:
     runs: list
     size: tuple  # (width, height)
 
+    def brightness_note(self):
+        """What to say where the pictures, once measured, surely have another mean than the reference; else nothing."""
+        values = [run.brightness - 1 for run in self.runs]
+        mean = statistics.fmean(values)
+        if len(values) < 2 or abs(mean) < max(SAME_MEAN, SURELY * statistics.stdev(values) / math.sqrt(len(values))):
+            return ""
+        return (f"{self.rival}: its pictures are {100 * abs(mean):.1f} % {'brighter' if mean > 0 else 'darker'} than the "
+                "reference: it renders another scene, and its errors count that")
+
 
 def read_series(folder):
     """The Series of a folder. Raises SeriesError or UnreadableFile."""
@@ -67,6 +76,22 @@ def read_series(folder):
     if len(set(keys)) != len(keys):
         raise SeriesError(f"{path}: expected one picture for each spp and seed, found two with the same")
     return Series(rival, runs, _common_size(runs))
+
+
+def read_all_series(folders, size):
+    """Those of several renderers, all of one size: that of `size` ("WxH") where it is given."""
+    found = [read_series(folder) for folder in folders]
+    for folder, series in zip(folders, found):
+        expected = size or _words(found[0].size)
+        if _words(series.size) != expected:
+            raise SeriesError(f"{folder}: expected pictures of {expected}, found {_words(series.size)}")
+    if len({series.rival for series in found}) != len(found):
+        raise SeriesError(f"{folders[-1]}: expected renderers of different names, found {found[-1].rival} twice")
+    return found
+
+
+def _words(size):
+    return "{}x{}".format(*size)
 
 
 def _run(path, index, picture, rival):
@@ -96,12 +121,3 @@ def _common_size(runs):
         raise SeriesError(f"{there}: expected {first[0]}x{first[1]} pixels like {where}, found {other[0]}x{other[1]}")
     return next(iter(sizes))
 
-
-def brightness_note(series):
-    """What to say where the pictures, once measured, surely have another mean than the reference; else nothing."""
-    values = [run.brightness - 1 for run in series.runs]
-    mean = statistics.fmean(values)
-    if len(values) < 2 or abs(mean) < max(SAME_MEAN, SURELY * statistics.stdev(values) / math.sqrt(len(values))):
-        return ""
-    return (f"{series.rival}: its pictures are {100 * abs(mean):.1f} % {'brighter' if mean > 0 else 'darker'} than the reference: "
-            "it renders another scene, and its errors count that")
