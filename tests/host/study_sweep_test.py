@@ -85,8 +85,7 @@ class TheNamesThatClrtTakes(unittest.TestCase):
       --light-sampler NAME     how a light is chosen: tree (by a, or b; `path`
                                alone), mixture (half: half) or power (default
                                tree)
-      --guide auto|on|off      learns where light comes from (default auto: as
-                               a pilot says)
+      --guide auto|on|off      learns where light comes from
       --adaptive%s
                                take more samples where it is noisy (default: the same)
 """

@@ -35,9 +35,11 @@ class Choices:
         return re.split(", | or ", listed.split(": ")[-1])
 
     def default(self, option):
+        """The name that the help calls so, else the first."""
         if SWITCH_OF[option].bare:
             return OFF
-        return re.search(r"\(default (\w+)", " ".join(self._entries[option].split())).group(1)
+        said = re.search(r"\(default (\w+)", " ".join(self._entries[option].split()))
+        return said.group(1) if said else self.names(option)[0]
 
     def default_method(self):
         """What clrt does without options."""
