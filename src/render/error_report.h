@@ -17,10 +17,12 @@ namespace clrt {
 
 /// The error of a film with all that belongs to it.
 struct ErrorReport {
-    std::optional<FilmError> error;       ///< over the pixels that show the scene (ErrorPixels::SCENE)
-    std::optional<FilmError> whole_error; ///< over all pixels
-    std::optional<double> scene_share;    ///< of the pixels: shows the scene; none where that is not known
-    bool has_backdrop = false;            ///< whether the two errors are of different pixels
+    ErrorMeasure measure = ErrorMeasure::MSE; ///< by which --error judges, and of all but other_error
+    std::optional<FilmError> error;           ///< over the pixels that show the scene (ErrorPixels::SCENE)
+    std::optional<FilmError> other_error;     ///< by the other measure
+    std::optional<FilmError> whole_error;     ///< over all pixels
+    std::optional<double> scene_share; ///< of the pixels: shows the scene; none where that is not known
+    bool has_backdrop = false;         ///< whether the two errors are of different pixels
     std::optional<ErrorSlope> slope;
     std::optional<ErrorSpread> spread;
     std::optional<ErrorPrice> price;

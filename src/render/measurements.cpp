@@ -32,7 +32,7 @@ void Measurements::measure_film(const FilmBuffers& buffers, std::uint64_t earlie
     const auto start = Clock::now();
     buffers.read_sums(render);
     buffers.read_shown(render.film);
-    error_ = film_squared_error(render.film);
+    error_ = film_squared_error(render.film, ErrorPixels::SCENE, 1, render.round.measure);
     // Beside the sums of all replicates, a few words a pixel are read in no time.
     if (const std::uint64_t samples = film_all_samples(render.film) - earlier_samples; samples > 0)
         rays_per_sample_ = rays_per_sample(buffers.read_counts(), double(samples));

@@ -4,6 +4,7 @@
 #include "console/signals.h"
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
+#include "render/error_text.h"
 #include "render/good_counts.h"
 #include "seconds.h"
 
@@ -77,7 +78,8 @@ void Passes::begin_hits() {
         return;
     try {
         hit_layers_.emplace(prepared_.device, *prepared_.programs->layers, params_,
-                            options_.sampling.adaptive, prepared_.buffers, film_buffers_, result_.hits);
+                            options_.sampling.adaptive.has_value(), prepared_.buffers, film_buffers_,
+                            result_.hits);
     } catch (const DeviceError& error) {
         give_up_hits(error);
     }
@@ -219,12 +221,17 @@ void Passes::show_end() {
 void Passes::begin_round() {
     AdaptiveRound& round = result_.round;
     if (round.end == 0) {
-        round = first_round(result_.film);
+        round = first_round(result_.film, *options_.sampling.adaptive);
     } else if (samples_ == round.end) {
         const auto start = Clock::now();
         film_buffers_.read_sums(result_);
+        const bool is_first = expected_gain(round) == 0;
         round = next_round(result_.film, round);
         result_.check_seconds += seconds_between(start, Clock::now());
+        if (is_first) {
+            progress_.finish();
+            spdlog::info("adaptive sampling: {}", gain_text(round));
+        }
     }
 }
 
@@ -325,7 +332,7 @@ void Passes::save_when_due() {
     }
     if (picture_reminder_.due() && hooks_.save_picture) {
         read_back();
-        result_.error = film_error(result_.film);
+        result_.error = film_error(result_.film, ErrorPixels::SCENE, options_.sampling.measure());
         hooks_.save_picture(result_);
     }
 }
@@ -354,7 +361,7 @@ void Passes::finish() {
     } else {
         read_back();
     }
-    result_.error = film_error(result_.film);
+    result_.error = film_error(result_.film, ErrorPixels::SCENE, options_.sampling.measure());
 }
 
 void Passes::run() {

@@ -69,11 +69,15 @@ void add_facts(const Report& report, Metadata& metadata) {
 }
 
 /// Null where all tiles have the same number of samples.
-Json adaptive_json(const Film& film) {
+Json adaptive_json(const RenderProgress& render) {
+    const Film& film = render.film;
     if (!is_adaptive(film))
         return nullptr;
     const TileSpread spread = tile_spread(film);
-    return {{"tile_size", ADAPTIVE_TILE_SIZE},
+    return {{"measure", name_of(render.round.measure)},
+            {"expected_gain",
+             expected_gain(render.round) > 0 ? Json(expected_gain(render.round)) : Json(nullptr)},
+            {"tile_size", ADAPTIVE_TILE_SIZE},
             {"mean_spp", spread.mean},
             {"fewest_spp", spread.fewest},
             {"most_spp", spread.most}};
@@ -126,7 +130,7 @@ std::string report_json(const Report& report) {
                                  ? Json(nullptr)
                                  : Json(film_samples(render.film) - render.passes);
     json["first_sample"] = report.options.sampling.first_sample;
-    json["adaptive"] = adaptive_json(render.film);
+    json["adaptive"] = adaptive_json(render);
     json["sampler"] = name_of(report.options.sampling.sampler);
     json["seed"] = report.options.sampling.seed;
     json["replicates"] = render.film.replicates;
