@@ -24,6 +24,10 @@ Json interval_json(const std::optional<FilmError>& error) {
             {"high", error ? optional_number(error->high) : Json(nullptr)}};
 }
 
+Json optional_price(const std::optional<ErrorPrice>& price) {
+    return price ? price_json(*price) : Json(nullptr);
+}
+
 /// The errors by all measures.
 Json measures_json(const ErrorReport& report) {
     Json json;
@@ -34,7 +38,22 @@ Json measures_json(const ErrorReport& report) {
 
 } // namespace
 
-ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y) {
+Json price_json(const ErrorPrice& price) {
+    return {{"rel_rmse", price.relative_rmse},
+            {"spp", price.samples},
+            {"spp_low", price.low_samples},
+            {"spp_high", price.high_samples ? Json(*price.high_samples) : Json(nullptr)},
+            {"samples_factor", price.factor},
+            {"seconds", price.seconds},
+            {"seconds_low", price.low_seconds},
+            {"seconds_high", optional_number(price.high_seconds)},
+            {"confidence", FORECAST_CONFIDENCE},
+            {"slope", price.slope},
+            {"slope_measured", price.measured}};
+}
+
+ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y,
+                              const std::optional<double>& target) {
     ErrorReport report;
     report.cut = cut_paths(render, bias.cut_radiance);
     report.blind_spots = bias.blind_spots;
@@ -64,6 +83,8 @@ ErrorReport make_error_report(const RenderProgress& render, const BiasSources& b
     } catch (const std::bad_alloc&) { // where the error sits is not worth the picture
     }
     report.price = price_of_half(doublings, *squared, report.replicates, render.seconds);
+    if (target && report.error && report.error->relative_rmse > *target)
+        report.target_price = price_of_error(*target, doublings, *squared, report.replicates, render.seconds);
     return report;
 }
 
@@ -109,14 +130,8 @@ Json error_report_json(const ErrorReport& report) {
                          {"high", report.slope->slope + report.slope->reach},
                          {"first_spp", report.slope->first_samples},
                          {"last_spp", report.slope->last_samples}};
-    json["half"] = nullptr;
-    if (report.price)
-        json["half"] = {{"rel_rmse", report.price->relative_rmse},
-                        {"spp", report.price->samples},
-                        {"samples_factor", report.price->factor},
-                        {"seconds", report.price->seconds},
-                        {"slope", report.price->slope},
-                        {"slope_measured", report.price->measured}};
+    json["half"] = optional_price(report.price);
+    json["target"] = optional_price(report.target_price);
     json["worst_tile"] = nullptr;
     json["tails"] = nullptr;
     if (report.spread) {

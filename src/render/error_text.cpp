@@ -94,6 +94,16 @@ std::string price_line(const ErrorReport& report) {
                        report.price->seconds, percent_text(report.price->relative_rmse));
 }
 
+/// What the error that was asked for still takes.
+std::string target_line(const ErrorReport& report) {
+    if (!report.target_price || verdict_on(report) == Verdict::UNTRUSTED)
+        return "";
+    const ErrorPrice& price = *report.target_price;
+    return fmt::format("target   takes {} spp, {:.1f} s more, with {:.0f} % confidence {:.1f} {}\n",
+                       price.samples, price.seconds, 100 * FORECAST_CONFIDENCE, price.low_seconds,
+                       price.high_seconds ? fmt::format("to {:.1f} s", *price.high_seconds) : "s or more");
+}
+
 } // namespace
 
 std::string percent_text(double fraction) {
@@ -115,6 +125,7 @@ std::string format_error_report(const ErrorReport& report) {
                        format_blind_spots(report.blind_spots);
     if (report.error && report.error->relative_rmse > 0)
         text += fmt::format("price    {}\n", price_line(report));
+    text += target_line(report);
     return text;
 }
 

@@ -39,6 +39,15 @@ void Measurements::measure_film(const FilmBuffers& buffers, std::uint64_t earlie
     render.check_seconds += std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+void Measurements::forecast(const std::vector<SquaredError>& doublings, int replicates,
+                            const std::optional<double>& target) {
+    forecast_ = forecast_error(doublings, *error_);
+    const std::optional<FilmError> error = relative_error(*error_);
+    price_.reset();
+    if (target && error && error->relative_rmse > *target)
+        price_ = price_of_error(*target, doublings, *error_, replicates, double(error_->samples));
+}
+
 void Measurements::measure_rays(const FilmBuffers& buffers, const Film& film, double samples,
                                 double seconds) {
     if (seconds < next_rays_seconds_ || !(samples > 0))
@@ -51,7 +60,9 @@ void Measurements::measure_rays(const FilmBuffers& buffers, const Film& film, do
 
 double Measurements::error_at(double samples) const {
     const std::optional<FilmError> error = error_ ? relative_error(*error_) : std::nullopt;
-    return error ? error->relative_rmse * std::sqrt(double(error_->samples) / samples) : -1;
+    if (!error || !forecast_)
+        return -1;
+    return error->relative_rmse * std::pow(samples / double(error_->samples), forecast_->slope);
 }
 
 double Measurements::rays_per_second(const Film& film, double samples, double seconds) const {

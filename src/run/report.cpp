@@ -34,6 +34,12 @@ Json stop_json(const Report& report) {
               {"error_reached", nullptr},
               {"overrun_seconds", report.render.overrun_seconds},
               {"dropped_seconds", report.render.dropped_seconds}};
+    json["forecasts"] = Json::array();
+    for (const RenderForecast& forecast : report.render.forecasts) {
+        json["forecasts"].push_back(price_json(forecast.price));
+        json["forecasts"].back()["at_spp"] = forecast.samples;
+        json["forecasts"].back()["at_seconds"] = forecast.seconds;
+    }
     if (report.options.sampling.error) {
         json["error_target"] = *report.options.sampling.error;
         json["error_reached"] = error_reached(report);
