@@ -189,6 +189,12 @@ class Errors(unittest.TestCase):
         self.assertEqual((summary.seconds, summary.repeats), (2.0, 3))
         self.assertAlmostEqual(summary.blocks.sum() / truth_pixels(self.truth), summary.error ** 2 * 0.25)
 
+    def test_of_blocks_add_up_to_those_of_the_picture(self):
+        run = self.run_of("x.exr", 0.05)
+        study_results.measure(run, study_results.Reference(self.truth))
+        for blocks, error in ((run.blocks, run.mse), (run.relative_blocks, run.relmse)):
+            self.assertAlmostEqual(blocks.sum() / truth_pixels(self.truth) / error, 1)
+
     def test_below_the_references_noise_have_no_number(self):
         self.assertIsNone(study_results.relative_root(-1e-9, study_results.Reference(self.truth)))
 
