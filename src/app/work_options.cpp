@@ -123,6 +123,11 @@ std::vector<OptionSpec> work_options() {
          "sobol (scrambled points, even over the samples of a pixel) or independent (white noise, to compare "
          "with) (default sobol)",
          [](Options& o, const OptionValue& v) { o.sampling.sampler = parse_choice<SamplerChoice>(v); }},
+        {group, "", "--light-sampler", "NAME",
+         "how a light is chosen: power (by what it emits) or mixture (half by that, half evenly over kinds "
+         "of "
+         "light and the objects that shine) (default mixture)",
+         [](Options& o, const OptionValue& v) { o.sampling.light_sampler = parse_choice<LightSampler>(v); }},
         {group, "", "--precision", "NAME",
          "single, double (needs fp64) or fast (relaxed maths) (default single)",
          [](Options& o, const OptionValue& v) { o.device.precision = parse_choice<Precision>(v); }},

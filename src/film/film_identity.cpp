@@ -53,11 +53,12 @@ public:
         number(ortho_height);
     }
     void add(const Environment& environment) {
-        const auto& [radiance, width, height, texels, rotation_degrees, mean_radiance, sampling] =
-            environment;
+        const auto& [radiance, width, height, texels, rotation_degrees, mean_radiance, sampling,
+                     tabulated_share] = environment;
         (void)texels;        // one of SCENE_ARRAYS
         (void)mean_radiance; // of the others
         (void)sampling;      // the texels tell
+        (void)tabulated_share;
         vector(radiance);
         number(width);
         number(height);
@@ -123,6 +124,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["scene"] = scene_hash(scene); // after the size, which a fitted camera follows
     identity["precision"] = name_of(options.device.precision);
     identity["sampler"] = name_of(options.sampling.sampler);
+    identity["light_sampler"] = name_of(options.sampling.light_sampler);
     identity["adaptive"] = false;
     if (options.sampling.adaptive)
         identity["adaptive"] = name_of(*options.sampling.adaptive);

@@ -35,6 +35,7 @@ const std::map<std::string, std::string>& samples() {
         {"--replicates", "4"},
         {"--adaptive", ""},
         {"--sampler", "independent"},
+        {"--light-sampler", "power"},
         {"--precision", "double"},
         {"--threads", "2"},
         {"--bvh", "bvh2"},

@@ -99,6 +99,7 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
         EXPECT_EQ(field([&](Options& o) { o.sampling.adaptive = measure; }), "adaptive");
     EXPECT_EQ(field([](Options& o) { o.sampling.sampler = SamplerChoice::INDEPENDENT; }), "sampler");
+    EXPECT_EQ(field([](Options& o) { o.sampling.light_sampler = LightSampler::POWER; }), "light_sampler");
     EXPECT_EQ(field([](Options& o) { o.transport.min_contribution = 0.1; }), "min_contribution");
     EXPECT_EQ(field([](Options& o) { o.transport.paths = "LDE"; }), "paths");
     EXPECT_EQ(field([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "layers");
