@@ -106,9 +106,9 @@ std::optional<ErrorPrice> price_of_error(double target, const std::vector<Square
                      factor(*samples), seconds * (factor(*samples) - 1),
                      forecast->slope,  forecast->measured};
     price.low_samples = samples_if(-FORECAST_QUANTILE).value_or(*samples);
-    price.low_seconds = seconds * (factor(price.low_samples) - 1);
+    price.low_seconds = seconds * (factor(price.low_samples) - 1) / PACE_SPREAD;
     if ((price.high_samples = samples_if(FORECAST_QUANTILE)))
-        price.high_seconds = seconds * (factor(*price.high_samples) - 1);
+        price.high_seconds = seconds * (factor(*price.high_samples) - 1) * PACE_SPREAD;
     return price;
 }
 

@@ -34,6 +34,9 @@ struct ErrorForecast {
 
 /// Share of the intervals that are to hold the number of samples at which the error is reached.
 constexpr double FORECAST_CONFIDENCE = 0.8;
+/// A sample takes up to so many times longer or shorter than before: a busy machine, and adaptive rounds that
+/// go where paths are long. Eight in ten of the renders measured stayed within it.
+constexpr double PACE_SPREAD = 1.25;
 
 /// From the errors of a render at its doublings, or, where none was measured, from the present error. None
 /// where the picture is black or its error 0.
@@ -53,7 +56,7 @@ struct ErrorPrice {
     bool measured = false;         ///< the slope, in part
     std::uint64_t low_samples = 0; ///< ends of the interval: good counts,
     std::optional<std::uint64_t> high_samples = std::nullopt; ///< none: more than anybody can name
-    double low_seconds = 0;
+    double low_seconds = 0; ///< theirs, at a pace that is PACE_SPREAD times faster or slower
     std::optional<double> high_seconds = std::nullopt;
 };
 

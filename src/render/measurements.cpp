@@ -44,7 +44,8 @@ void Measurements::forecast(const std::vector<SquaredError>& doublings, int repl
     forecast_ = forecast_error(doublings, *error_);
     const std::optional<FilmError> error = relative_error(*error_);
     price_.reset();
-    if (target && error && error->relative_rmse > *target)
+    const bool is_first = error_->samples < FEWEST_OF_A_REPLICATE * std::uint64_t(replicates);
+    if (target && error && error->relative_rmse > *target && !is_first)
         price_ = price_of_error(*target, doublings, *error_, replicates, double(error_->samples));
 }
 

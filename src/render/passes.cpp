@@ -231,8 +231,8 @@ std::optional<ProgressTarget> Passes::progress_target(double samples) const {
         return std::max(double(count) - samples, 0.0) * seconds() / of_run;
     };
     return ProgressTarget{*options_.sampling.error, seconds_to(price->samples),
-                          seconds_to(price->low_samples),
-                          price->high_samples ? seconds_to(*price->high_samples) : -1};
+                          seconds_to(price->low_samples) / PACE_SPREAD,
+                          price->high_samples ? seconds_to(*price->high_samples) * PACE_SPREAD : -1};
 }
 
 /// Shows what the render has come to.

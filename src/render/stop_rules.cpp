@@ -11,9 +11,6 @@ namespace clrt {
 
 namespace {
 
-/// The first measurement that may end a render: two samples in every replicate, so that the spread is not
-/// that of single samples.
-constexpr std::uint64_t FEWEST_OF_A_REPLICATE = 2;
 /// A pass is begun when the time that is left is this part of what passes took so far: they differ by about
 /// as much, and one that is not done in time can be dropped.
 constexpr double WORTH_BEGINNING = 0.8;

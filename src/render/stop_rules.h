@@ -34,6 +34,10 @@ struct StopMoment {
     double dropped_seconds = 0; ///< of a pass that was not finished
 };
 
+/// The first measurement that may end a render, or that anything is forecast from: two samples in every
+/// replicate, so that the spread is not that of single samples.
+constexpr std::uint64_t FEWEST_OF_A_REPLICATE = 2;
+
 /// The rules of one render. --error is looked at where the samples are even (good_counts.h): looking after
 /// every pass would end renders where the estimate happens to be low and so bias the printed error.
 class StopRules {

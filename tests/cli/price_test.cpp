@@ -41,6 +41,47 @@ TEST_P(Price, IsWhatHalfTheErrorTakes) {
     EXPECT_NEAR(has / promised, 1, LARGEST_DIFFERENCE);
 }
 
+// Renders to an error that is asked for, and sees whether it came where it was forecast: at a number of
+// samples within the intervals made from 32 samples a pixel on, uniform and adaptive.
+TEST_F(ClrtCommand, ForecastsHoldWhatComes) {
+    constexpr unsigned FIRST = 32;
+    const std::pair<const char*, const char*> cases[] = {
+        {"cornell_box", "4%"}, {"spheres_over_plane", "17%"}, {"still_life", "6%"}, {"colour_bleeding", "4%"},
+        {"caustic", "15%"},
+    };
+    int made = 0, held = 0;
+    for (const auto& [scene, error] : cases)
+        for (const char* adaptive : {"", "--adaptive=relative"}) {
+            std::vector<std::string> arguments = {std::string(CLRT_SCENES_FOLDER "/") + scene + "/" + scene +
+                                                      ".obj",
+                                                  "-r",
+                                                  "64x48",
+                                                  "--aov",
+                                                  "none",
+                                                  "--stats",
+                                                  "s.json",
+                                                  "--spp",
+                                                  "4096",
+                                                  "--error",
+                                                  error};
+            if (*adaptive)
+                arguments.emplace_back(adaptive);
+            const CommandResult result = clrt(arguments);
+            ASSERT_EQ(result.exit_code, 0) << result.err;
+            const nlohmann::json stats = nlohmann::json::parse(folder.read("s.json"));
+            for (const nlohmann::json& forecast : stats["stop"]["forecasts"]) {
+                if (forecast["at_spp"] < FIRST)
+                    continue;
+                ++made;
+                held += forecast["spp_low"] <= stats["spp"] &&
+                        (forecast["spp_high"].is_null() || stats["spp"] <= forecast["spp_high"]);
+            }
+        }
+    std::printf("%d of %d forecasts hold what came\n", held, made);
+    EXPECT_GE(made, 20);
+    EXPECT_GE(held, 0.8 * made);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Price,
                          testing::Values("cornell_box", "still_life", "colour_bleeding", "spheres_over_plane",
                                          "textured_interior", "caustic"),

@@ -105,6 +105,7 @@ TEST(ErrorPrice, TheIntervalOfSamplesIsThatOfTheSlope) {
     EXPECT_GT(*far->high_samples, far->samples);
     EXPECT_LT(far->low_seconds, far->seconds);
     EXPECT_GT(*far->high_seconds, far->seconds);
+    EXPECT_DOUBLE_EQ(far->low_seconds * PACE_SPREAD, 10 * (double(far->low_samples) / 128 - 1));
     // By the slope's 10 % and 90 % quantiles.
     const ErrorForecast forecast = *forecast_error(errors, errors.back());
     const double decades = std::log(errors.back().mean_squared / 1e-4) / 2;
