@@ -26,7 +26,7 @@ struct SamplingOptions {
     std::optional<double> error;        ///< target of the relative error
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;
-    int replicates = 8;
+    int replicates = 4;
     bool adaptive = false; ///< samples go where the picture is noisy
     SamplerChoice sampler = SamplerChoice::SOBOL;
 };
