@@ -2,6 +2,7 @@
 #include "effects/planned_scene.h"
 
 #include "effects/take_out.h"
+#include "scene/light_tables.h"
 #include "scene/sky_table.h"
 
 #include <utility>
@@ -18,6 +19,7 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
         take_out_effects(planned->effects.left_out, planned->scene, planned->options);
         planned->effects.paths = plan_paths(planned->scene, planned->options);
     }
+    tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
     return planned;
 }
 

@@ -2,6 +2,7 @@
 #include "render/render_params.h"
 
 #include "scene/camera_params.h"
+#include "scene/light_tables.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -17,9 +18,7 @@ namespace {
 
 constexpr double RADIANS = 3.14159265358979323846 / 180;
 
-/// Shares next-event estimation evenly between the kinds of light that it can find. A constant sky is left to
-/// BSDF sampling, which follows its only feature, the cosine.
-void set_lights(const Scene& scene, RenderParams& params) {
+void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) {
     const Environment& sky = scene.environment;
     params.environment = to_vec4(sky.radiance);
     if (scene.background) {
@@ -32,13 +31,10 @@ void set_lights(const Scene& scene, RenderParams& params) {
     params.environment_sin = float(std::sin(sky.rotation_degrees * RADIANS));
     params.emitter_count = u32(scene.emitters.size());
     params.light_count = u32(scene.lights.size());
-    const bool has_map =
-        !sky.texels.empty() && (sky.radiance.x > 0 || sky.radiance.y > 0 || sky.radiance.z > 0);
-    const int kinds = int(!scene.emitters.empty()) + int(has_map) + int(!scene.lights.empty());
-    const float share = kinds ? 1.0f / float(kinds) : 0.0f;
-    params.choose_emitter = scene.emitters.empty() ? 0.0f : share;
-    params.choose_environment = has_map ? share : 0.0f;
-    params.choose_light = scene.lights.empty() ? 0.0f : share;
+    const KindShares shares = kind_shares(sampler, scene);
+    params.choose_emitter = float(shares.emitters);
+    params.choose_environment = float(shares.environment);
+    params.choose_light = float(shares.lights);
 }
 
 /// A stride near the golden section of the tile count that has no factor in common with it.
@@ -91,7 +87,7 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
         throw std::logic_error("the environment map has no table for this integrator: tabulate_sky");
     RenderParams params{};
     params.camera = make_camera_params(scene.camera, scene.normalisation, options.film.size);
-    set_lights(scene, params);
+    set_lights(scene, options.sampling.light_sampler, params);
     set_window(options, params);
     set_filter(options, params);
     params.seed = options.sampling.seed;

@@ -4,6 +4,7 @@
 #include "colour.h"
 #include "error.h"
 #include "scene/alias_table.h"
+#include "scene/emission.h"
 #include "scene/normalise.h"
 #include "scene/vectors.h"
 
@@ -35,10 +36,10 @@ Light point_light(const PointOptions& option, const Normalisation& frame) {
 }
 
 /// The share of a point light's power that meets the scene: all of it from within the bounding sphere, else
-/// the sphere's solid angle over 4 pi. It makes a far light's power what a sun of its irradiance has.
+/// its solid angle over 4 pi. It makes a far light's power what a sun of its irradiance has.
 double share_that_meets_scene(const glm::dvec3& position, double radius) {
     const double distance = glm::length(position);
-    if (distance <= radius)
+    if (distance < radius)
         return 1;
     const double sine = radius / distance;
     return sine * sine / (2 * (1 + std::sqrt(1 - sine * sine))); // (1 - cos) / 2 without cancellation
@@ -68,6 +69,12 @@ Light sun_light(const SunOptions& option) {
     return light;
 }
 
+/// The irradiance of a sun at normal incidence.
+double sun_irradiance(const Light& light) {
+    const double disc = light.one_minus_cos; // pi sin^2 r = pi (1 - cos r) (1 + cos r)
+    return luminance(to_dvec3(light.emission)) * (disc > 0 ? PI * disc * (2 - disc) : 1);
+}
+
 } // namespace
 
 double triangle_area(const vec4& a, const vec4& b, const vec4& c) {
@@ -76,6 +83,25 @@ double triangle_area(const vec4& a, const vec4& b, const vec4& c) {
         glm::cross(glm::dvec3(b.x, b.y, b.z) - origin, glm::dvec3(c.x, c.y, c.z) - origin);
     const double area = 0.5 * glm::length(normal);
     return std::isfinite(area) ? area : 0;
+}
+
+void tabulate(const std::vector<double>& weights, const std::vector<double>& areas,
+              std::vector<Emitter>& emitters) {
+    const AliasTable table = build_alias_table(weights);
+    for (size_t i = 0; i < emitters.size(); ++i) {
+        emitters[i].alias = table.entries[i].alias;
+        emitters[i].threshold = table.entries[i].threshold;
+        emitters[i].pdf_a = float(table.probability[i] / areas[i]);
+    }
+}
+
+void tabulate(const std::vector<double>& weights, std::vector<Light>& lights) {
+    const AliasTable table = build_alias_table(weights);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        lights[i].probability = float(table.probability[i]);
+        lights[i].alias = table.entries[i].alias;
+        lights[i].threshold = table.entries[i].threshold;
+    }
 }
 
 Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle>& triangles,
@@ -97,21 +123,29 @@ Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle
         powers.push_back(PI * area * exitance[triangle.material]);
         result.power += powers.back();
     }
-    const AliasTable table = build_alias_table(powers);
-    for (size_t i = 0; i < result.emitters.size(); ++i) {
-        Emitter& emitter = result.emitters[i];
-        emitter.alias = table.entries[i].alias;
-        emitter.threshold = table.entries[i].threshold;
-        emitter.pdf_a = float(table.probability[i] / areas[i]);
-    }
+    tabulate(powers, areas, result.emitters);
     return result;
+}
+
+double emitter_power(const Scene& scene, const Emitter& emitter) {
+    const Triangle& t = scene.triangles[emitter.triangle];
+    return PI * triangle_area(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]) *
+           emitted_luminance(scene.materials[t.material], scene.emitted[t.material]);
+}
+
+double light_power(const Light& light, double radius) {
+    if (light.kind == LIGHT_SUN)
+        return sun_irradiance(light) * PI * radius * radius;
+    return share_that_meets_scene(to_dvec3(light.vector), radius) * 4 * PI *
+           luminance(to_dvec3(light.emission));
 }
 
 Lights build_lights(const LightOptions& options, const Normalisation& frame, double radius,
                     NoticeList& notices) {
     Lights result;
     std::vector<double> powers;
-    const auto add = [&](const Light& light, double power, const char* option) {
+    const auto add = [&](const Light& light, const char* option) {
+        const double power = light_power(light, radius);
         if (power > 0) {
             result.lights.push_back(light);
             powers.push_back(power);
@@ -120,20 +154,11 @@ Lights build_lights(const LightOptions& options, const Normalisation& frame, dou
             notices.add(fmt::format("{}: a light without power is left out", option));
         }
     };
-    for (const PointOptions& option : options.points) {
-        const Light light = point_light(option, frame);
-        const double share = share_that_meets_scene(to_normalised(frame, option.position), radius);
-        add(light, share * 4 * PI * luminance(option.intensity) * frame.scale * frame.scale, "--point");
-    }
+    for (const PointOptions& option : options.points)
+        add(point_light(option, frame), "--point");
     for (const SunOptions& option : options.suns)
-        add(sun_light(option), luminance(option.irradiance) * PI * radius * radius, "--sun");
-
-    const AliasTable table = build_alias_table(powers);
-    for (size_t i = 0; i < result.lights.size(); ++i) {
-        result.lights[i].probability = float(table.probability[i]);
-        result.lights[i].alias = table.entries[i].alias;
-        result.lights[i].threshold = table.entries[i].threshold;
-    }
+        add(sun_light(option), "--sun");
+    tabulate(powers, result.lights);
     return result;
 }
 

@@ -21,6 +21,13 @@ constexpr double SMALLEST_SUN_RADIUS = 1e-6;
 /// Area of a triangle in the frame of its corners, computed in double; 0 if a corner is not finite.
 double triangle_area(const vec4& a, const vec4& b, const vec4& c);
 
+/// Makes the table that chooses emissive triangles in proportion to weights; `areas` of the triangles.
+void tabulate(const std::vector<double>& weights, const std::vector<double>& areas,
+              std::vector<Emitter>& emitters);
+
+/// The same of point lights and suns.
+void tabulate(const std::vector<double>& weights, std::vector<Light>& lights);
+
 struct Emitters {
     std::vector<Emitter> emitters; ///< in the order of the triangles
     double power = 0;              ///< pi area luminance, summed
@@ -30,6 +37,13 @@ struct Emitters {
 /// that it emits on average over its maps, times its coverage, doubled where both sides shine; 0: dark.
 Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle>& triangles,
                         const std::vector<double>& exitance);
+
+/// Luminance that leaves an emissive triangle of this material: pi area luminance, both sides where both
+/// shine.
+double emitter_power(const Scene& scene, const Emitter& emitter);
+
+/// Luminance of a point light or sun that meets a bounding sphere of this radius.
+double light_power(const Light& light, double radius);
 
 struct Lights {
     std::vector<Light> lights;

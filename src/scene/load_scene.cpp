@@ -154,8 +154,8 @@ void load_camera_and_lights(const SceneRequest& request, const std::vector<doubl
     if (scene.is_studio)
         light = studio_light(light, scene, up, notices);
 
-    Lights lights =
-        build_lights(light, scene.normalisation, bounds.radius() * scene.normalisation.scale, notices);
+    scene.radius = bounds.radius() * scene.normalisation.scale;
+    Lights lights = build_lights(light, scene.normalisation, scene.radius, notices);
     scene.lights = std::move(lights.lights);
     scene.emitted_power = emitters.power + lights.power;
     scene.environment = load_environment(light, has_light, notices);

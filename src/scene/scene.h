@@ -39,6 +39,7 @@ struct Environment {
     double mean_radiance = 0;    ///< over the sphere, luminance, factor included
     /// What the table in the texels is made for (scene/sky_table.h); none: there is none yet.
     std::optional<SkySampling> sampling;
+    double tabulated_share = 1; ///< of the map's light: what the table is in proportion to
 };
 
 /// Radiance that a material emits, its map included.
@@ -88,6 +89,7 @@ struct Scene {
     Camera camera;
     Normalisation normalisation;
     SourcePlace first_smooth;         ///< the face that the first triangle with corner normals is from
+    double radius = 1;                ///< of the bounding sphere of the file's geometry, normalised frame
     float extent = 0;                 ///< largest |coordinate| of the file's geometry, normalised frame
     float ground_extent = 0;          ///< the same of the ground, whose triangles are the last; 0: none
     double emitted_power = 0;         ///< luminance of all lights but the environment, normalised frame

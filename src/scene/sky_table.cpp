@@ -22,8 +22,9 @@ double luminance_at(const Environment& sky, int x, int y) {
 }
 
 /// MIS compensation of weights that are luminance times solid angle and add up to `sum`: leaves of each what
-/// exceeds the mean over the sphere. Where next to nothing does, they stay as they are.
-void keep_above_mean(std::vector<double>& weights, int width, int height, double sum) {
+/// exceeds the mean over the sphere, and returns what share of all that is. Where next to nothing does, they
+/// stay as they are.
+double keep_above_mean(std::vector<double>& weights, int width, int height, double sum) {
     const auto above_mean = [&](int x, int y) {
         const double share = texel_solid_angle(y, width, height) / (4 * PI);
         return std::fmax(weights[size_t(y) * size_t(width) + size_t(x)] - sum * share, 0.0);
@@ -33,10 +34,11 @@ void keep_above_mean(std::vector<double>& weights, int width, int height, double
         for (int x = 0; x < width; ++x)
             excess += above_mean(x, y);
     if (!(excess > SMALLEST_EXCESS * sum))
-        return;
+        return 1;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             weights[size_t(y) * size_t(width) + size_t(x)] = above_mean(x, y);
+    return excess / sum;
 }
 
 } // namespace
@@ -81,8 +83,10 @@ void tabulate_sky(Environment& sky, SkySampling sampling) {
     if (sky.texels.empty() || sky.sampling == sampling)
         return;
     std::vector<double> weights = texel_weights(sky);
+    sky.tabulated_share = 1;
     if (sampling == SkySampling::BY_TABLE_AND_BSDF)
-        keep_above_mean(weights, sky.width, sky.height, std::accumulate(weights.begin(), weights.end(), 0.0));
+        sky.tabulated_share = keep_above_mean(weights, sky.width, sky.height,
+                                              std::accumulate(weights.begin(), weights.end(), 0.0));
     const AliasTable table = build_alias_table(weights);
     tbb::parallel_for(size_t(0), sky.texels.size(), [&](size_t i) {
         TEXEL_PROBABILITY(sky.texels[i]) = float(table.probability[i]);

@@ -96,6 +96,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--replicates", "0"},
         {"--replicates", "65"},
         {"--sampler", "halton"},
+        {"--light-sampler", "uniform"},
         {"--precision", "half"},
         {"--threads", "-1"},
         {"--bvh", "bvh4"},

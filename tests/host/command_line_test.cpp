@@ -35,6 +35,7 @@ const std::map<std::string, std::string>& samples() {
         {"--replicates", "8"},
         {"--adaptive", ""},
         {"--sampler", "independent"},
+        {"--light-sampler", "power"},
         {"--precision", "double"},
         {"--threads", "2"},
         {"--bvh", "bvh2"},
@@ -331,6 +332,16 @@ TEST(CommandLine, LedgerDoesNotSwallowTheScene) {
     EXPECT_EQ(parse({"--ledger"}).scene.path, "scene.obj");
     EXPECT_EQ(parse({"--ledger=absent"}).run.ledger, LedgerOf::ABSENT);
     EXPECT_NE(refusal({"--ledger=all", "s.obj"}).find("--ledger=absent"), std::string::npos);
+}
+
+TEST(CommandLine, AdaptiveNamesItsMeasureAndDoesNotSwallowTheScene) {
+    EXPECT_FALSE(parse({}).sampling.adaptive);
+    EXPECT_EQ(parse({}).sampling.measure(), ErrorMeasure::MSE);
+    EXPECT_EQ(parse({"--adaptive"}).sampling.adaptive, ErrorMeasure::MSE);
+    EXPECT_EQ(parse({"--adaptive"}).scene.path, "scene.obj");
+    EXPECT_EQ(parse({"--adaptive=mse"}).sampling.adaptive, ErrorMeasure::MSE);
+    EXPECT_EQ(parse({"--adaptive=relative"}).sampling.measure(), ErrorMeasure::RELATIVE);
+    EXPECT_NE(refusal({"--adaptive=colour", "s.obj"}).find("mse or relative"), std::string::npos);
 }
 
 TEST(CommandLine, DurationsHaveUnits) {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/light_tables.h"
+
+#include "colour.h"
+#include "scene/lights.h"
+#include "scene/vectors.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace clrt {
+namespace {
+
+double sum_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Numbers of the objects that emit, apart by material, in the order of their first triangles.
+std::vector<u32> shining_objects(const Scene& scene, u32& count) {
+    std::map<std::pair<u32, u32>, u32> numbers;
+    std::vector<u32> groups;
+    for (const Emitter& emitter : scene.emitters) {
+        const Triangle& t = scene.triangles[emitter.triangle];
+        groups.push_back(numbers.try_emplace({t.object, t.material}, u32(numbers.size())).first->second);
+    }
+    count = u32(numbers.size());
+    return groups;
+}
+
+void mix_emitters(Scene& scene) {
+    u32 objects = 0;
+    const std::vector<u32> groups = shining_objects(scene, objects);
+    if (objects < 2) // by power, as they are
+        return;
+    std::vector<double> powers, areas;
+    for (const Emitter& emitter : scene.emitters) {
+        const Triangle& t = scene.triangles[emitter.triangle];
+        powers.push_back(emitter_power(scene, emitter));
+        areas.push_back(triangle_area(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]));
+    }
+    tabulate(mixed_weights(powers, groups, objects), areas, scene.emitters);
+}
+
+void mix_lights(Scene& scene) {
+    if (scene.lights.size() < 2)
+        return;
+    std::vector<double> powers;
+    for (const Light& light : scene.lights)
+        powers.push_back(light_power(light, scene.radius));
+    std::vector<u32> groups(powers.size());
+    std::iota(groups.begin(), groups.end(), 0u);
+    tabulate(mixed_weights(powers, groups, u32(groups.size())), scene.lights);
+}
+
+/// A direction's radiance meets the sphere over a disc of its radius.
+double environment_power(const Scene& scene) {
+    const Environment& sky = scene.environment;
+    if (sky.texels.empty() || !(largest_component(sky.radiance) > 0))
+        return 0;
+    return sky.mean_radiance * sky.tabulated_share * 4 * PI * PI * scene.radius * scene.radius;
+}
+
+} // namespace
+
+std::vector<double> mixed_weights(const std::vector<double>& powers, const std::vector<u32>& groups,
+                                  u32 group_count) {
+    if (group_count < 2)
+        return powers;
+    std::vector<double> of_group(group_count);
+    for (size_t i = 0; i < powers.size(); ++i)
+        of_group[groups[i]] += powers[i];
+    const double all = sum_of(powers);
+    std::vector<double> weights(powers.size());
+    for (size_t i = 0; i < powers.size(); ++i)
+        weights[i] = 0.5 * powers[i] / all + 0.5 * (powers[i] / of_group[groups[i]]) / group_count;
+    return weights;
+}
+
+void tabulate_lights(LightSampler sampler, Scene& scene) {
+    if (sampler == LightSampler::POWER)
+        return; // as they were built
+    mix_emitters(scene);
+    mix_lights(scene);
+}
+
+KindShares kind_shares(LightSampler sampler, const Scene& scene) {
+    double emitters = 0, lights = 0;
+    for (const Emitter& emitter : scene.emitters)
+        emitters += emitter_power(scene, emitter);
+    for (const Light& light : scene.lights)
+        lights += light_power(light, scene.radius);
+    const double powers[3] = {emitters, environment_power(scene), lights};
+    const auto kinds = std::count_if(powers, powers + 3, [](double power) { return power > 0; });
+    const double all = powers[0] + powers[1] + powers[2];
+    const auto share = [&](double power) {
+        if (!(power > 0))
+            return 0.0;
+        return sampler == LightSampler::POWER ? power / all : 0.5 * power / all + 0.5 / double(kinds);
+    };
+    return {share(powers[0]), share(powers[1]), share(powers[2])};
+}
+
+} // namespace clrt

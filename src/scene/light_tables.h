@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What next-event estimation chooses lights by: power, or a mixture that no scene defeats.
+#pragma once
+
+#include "options/sampling_options.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace clrt {
+
+/// Probabilities of the kinds of light in next-event estimation; they add up to 1, or all are 0.
+struct KindShares {
+    double emitters = 0, environment = 0, lights = 0;
+};
+
+/// Half in proportion to the powers, half evenly over the groups (their numbers, each below `group_count`)
+/// and by power within a group: no light has less than half of what the better of the two rules gives it.
+/// With a single group the powers alone. `powers` are positive.
+std::vector<double> mixed_weights(const std::vector<double>& powers, const std::vector<u32>& groups,
+                                  u32 group_count);
+
+/// Tabulates emissive triangles, and point lights with suns. LightSampler::MIXTURE: the groups are the
+/// objects of the file, apart by material, and each point light and sun.
+void tabulate_lights(LightSampler sampler, Scene& scene);
+
+/// The same rule over the kinds of light that next-event estimation finds, by the luminance that each sends
+/// into the bounding sphere: a scene's size in any unit changes no share. Of an environment map it counts
+/// what the table stands for (SkySampling); a constant sky is left to BSDF sampling, which follows its only
+/// feature, the cosine.
+KindShares kind_shares(LightSampler sampler, const Scene& scene);
+
+} // namespace clrt
