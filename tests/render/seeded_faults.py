@@ -63,7 +63,7 @@ FAULTS = [
     ("lobe and direction share a number", "path/numbers.h", "sampler_partner_words(sampler, segment, SAMPLE_DIRECTION)",
      "sampler_pair_words(sampler, segment, SAMPLE_DIRECTION)", "furnace_test"),
     ("film and light sample share a pair", "numerics/sampler.h", "return sampler_words(sampler, address, is_first);",
-     "return sampler_words(sampler, address, false);", "pixel_filter_test"),
+     "return sampler_words(sampler, address, false);", "sampler_test"),
     ("filter offset", "camera/camera.h", "(u - (real2)(REAL(0.5)))", "u", "pixel_filter_test"),
     ("front and back of lamps swapped", "scattering/material.h", "return front ||", "return !front ||",
      "direct_light_test"),
