@@ -14,8 +14,10 @@ constexpr size_t FEWEST_OF_TILE =
     8; ///< a tile's pixels of the scene count as this part of its pixels at least
 
 /// The part of a single event's share from which a replicate of n stands alone. Of 8 replicates normal noise
-/// passes it in 1 of 400 pixels, of 4 in 1 of 20. Stricter, fewer replicates would miss events that stand out
-/// of some noise: so the share seen once is about the same for 4 as for 8 in shipped scenes of 16 to 256 spp.
+/// passes it in 1 of 400 pixels, of 4 in 1 of 20: stricter, fewer replicates would miss events that stand out
+/// of some noise. With it the share seen once is about the same for 4 as for 8 where noise is continuous. At
+/// edges of lamps, where a replicate's mean takes few values, 4 find more (Cornell box, 64 x 48 pixels, 64
+/// spp: 42 % of the squared error instead of 2 %).
 double alone_part(double n) {
     return 1 - 0.1 * std::min((n / 8) * (n / 8), 1.0);
 }
