@@ -30,7 +30,7 @@ REPORT = [
     ("error", "How far the picture is from the one that endless rendering would give: the differences of all pixels and "
               "colours are squared, averaged, and the root of that is divided by the picture's mean brightness (radiance), "
               "also known as relative RMSE. A picture with 10 % looks noisy, with 2 % clean, with 0.5 % no noise is left to "
-              "see. It is measured, not assumed: the samples of a run are dealt to 8 replicates (--replicates), which are "
+              "see. It is measured, not assumed: the samples of a run are dealt to 4 replicates (--replicates), which are "
               "renders of their own, with random numbers of their own, and the error of their mean follows from how they "
               "differ. The interval is where the error of this very picture is, with a confidence of 95 %."),
     ("scene", "Pixels that show nothing but what is behind the scene have hardly any noise, and are as many and as bright as "

@@ -58,7 +58,7 @@ static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* 
     real3 radiance = (real3)(REAL(0.0));
     const uint alias_word = sampler_word(sampler, node, SAMPLE_LIGHT_ALIAS);
     if (HAS(EFFECT_AREA_LIGHT) && params->emitter_count != 0u) {
-        const uint2 words = sampler_pair_words(sampler, node, SAMPLE_LIGHT);
+        const uint2 words = sampler_light_words(sampler, node);
         const LightSample light =
             emitter_sample(scene, params, from, words.x, alias_word, sampler_unit(words.y));
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random numbers by address: every number is a pure function of (seed, pixel, replicate, sample, bounce,
-// purpose). Pairs come from Owen-scrambled Sobol points (Owen 1995; hashed scrambling: Laine and Karras 2011;
-// padding with shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash.
+// purpose). Pairs, and pairs of pairs, come from Owen-scrambled digital nets (Owen 1995; hashed scrambling:
+// Laine and Karras 2011; padding with shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash.
 // -DCLRT_SAMPLER=SAMPLER_INDEPENDENT takes pairs from a hash too: white noise, to measure what the order of
-// Sobol points is worth.
+// the nets is worth.
+//
+// An address has four dimensions, a pair and its partner. Each pair is Sobol's first two dimensions, a
+// (0, 2)-sequence in base 2; the partner's index is multiplied by a matrix before, which makes all four a
+// (0, 4)-sequence in base 4: of 4^m points, every box of 4^-a by 4^-b by 4^-c by 4^-d, a + b + c + d = m,
+// holds one (Faure 1982 for prime bases, Niederreiter 1987 for powers of primes; both properties in one by
+// binary matrices: Ahmed et al. 2024, "SZ Sequences"). Sobol's dimensions 3 and 4 by Joe and Kuo's direction
+// numbers give no such four and cost 32 steps each.
 #ifndef CLRT_NUMERICS_SAMPLER_H
 #define CLRT_NUMERICS_SAMPLER_H
 
@@ -17,10 +24,9 @@
 
 /* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number,
    and what is new takes a number that no other has had. */
-#define SAMPLE_FILM 0u
-#define SAMPLE_DIRECTION 1u   /* direction within a lobe */
-#define SAMPLE_LOBE 2u        /* which lobe */
-#define SAMPLE_LIGHT 3u       /* which light, and the point on it */
+#define SAMPLE_FILM 0u        /* partner: the light sample of the first vertex */
+#define SAMPLE_DIRECTION 1u   /* direction within a lobe; partner: which lobe, and second word of an alias table */
+#define SAMPLE_LIGHT 3u       /* which light, and the point on it, of the vertices behind the first */
 #define SAMPLE_LIGHT_ALIAS 4u /* second word of an alias table */
 #define SAMPLE_SKY 5u         /* direction to the environment, where it is sampled beside the other lights */
 #define SAMPLE_ROULETTE 6u
@@ -113,38 +119,78 @@ static inline real sampler_number(const Sampler* sampler, uint bounce, uint purp
     return sampler_unit(sampler_word(sampler, bounce, purpose));
 }
 
+/* The generator matrix of the partner's index: Pascal's triangle over the field of four elements, its entry in
+   row i and column j of the base-4 digits w^(j - i) times (j choose i), w^2 = w + 1. This is D^-1 P D: D
+   multiplies digit j by w^j, P is the butterfly of sampler_pascal_reversed on digits instead of bits. */
+static inline uint sampler_partner_index(uint index)
+{
+    /* Lower bits of the digits with j mod 3 = 0, 1, 2: there D multiplies by 1, w, w^2. */
+    const uint j0 = 0x41041041u, j1 = 0x04104104u, j2 = 0x10410410u;
+    const uint swaps = j1 | j2;
+    /* w (b0, b1) = (b1, b0 + b1) and w^2 (b0, b1) = (b0 + b1, b0). */
+    index = (((index >> 1) & swaps) | ((index & swaps) << 1)) ^ (index & (3u * j0 | 2u * j1 | j2));
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    index ^= (index >> 16) & 0x0000ffffu;
+    return (((index >> 1) & swaps) | ((index & swaps) << 1)) ^ (index & (3u * j0 | j1 | 2u * j2));
+}
+
 /* A pair of words that is independent of all others. The second mixes pixel and sample in once more: a
    function of the first alone would put all pairs on one curve. */
-static inline uint2 sampler_independent_words(const Sampler* sampler, uint bounce, uint purpose)
+CLRT_INLINE uint2 sampler_independent_words(const Sampler* sampler, uint address, bool is_partner)
 {
-    const uint x = sampler_hash(sampler_word(sampler, bounce, purpose) ^ 0xa511e9b3u);
+    const uint word = sampler_hash(sampler->word_key + address * 0x9e3779b9u);
+    const uint x = sampler_hash(word ^ (is_partner ? 0x63d83595u : 0xa511e9b3u));
     return (uint2)(x, sampler_hash(x ^ sampler_hash(sampler->key + sampler->index_reversed)));
 }
 
-/* A pair of words: over a replicate's first 2^m samples, a scrambled (0, m, 2)-net. */
-static inline uint2 sampler_sobol_words(const Sampler* sampler, uint bounce, uint purpose)
+/* A pair of words: over a replicate's first 2^m samples, a scrambled (0, m, 2)-net; with its partner, over
+   the first 4^m, a (0, m, 4)-net in base 4. */
+CLRT_INLINE uint2 sampler_net_words(const Sampler* sampler, uint address, bool is_partner)
 {
-    const uint key = sampler_hash(sampler->key + sampler_address(bounce, purpose) * 0x9e3779b9u);
+    const uint key = sampler_hash(sampler->key + address * 0x9e3779b9u);
     /* Shuffle the index, so that different addresses are independent of each other. */
-    const uint index = sampler_reverse_bits(sampler_scramble_reversed(sampler->index_reversed, key));
+    const uint shuffled = sampler_reverse_bits(sampler_scramble_reversed(sampler->index_reversed, key));
+    const uint index = is_partner ? sampler_partner_index(shuffled) : shuffled;
     /* Scramble both dimensions of the Sobol point. */
-    const uint x = sampler_scramble_reversed(index, key * 0x9e3779b9u);
-    const uint y = sampler_scramble_reversed(sampler_pascal_reversed(index), key * 0x85ebca6bu);
+    const uint x = sampler_scramble_reversed(index, key * (is_partner ? 0xc2b2ae35u : 0x9e3779b9u));
+    const uint y = sampler_scramble_reversed(sampler_pascal_reversed(index),
+                                             key * (is_partner ? 0x27d4eb2fu : 0x85ebca6bu));
     return (uint2)(sampler_reverse_bits(x), sampler_reverse_bits(y));
 }
 
-/* A pair of words of the chosen kind. */
-static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
+/* A pair of words of the chosen kind, or its partner. */
+CLRT_INLINE uint2 sampler_words(const Sampler* sampler, uint address, bool is_partner)
 {
     if (CLRT_SAMPLER == SAMPLER_INDEPENDENT)
-        return sampler_independent_words(sampler, bounce, purpose);
-    return sampler_sobol_words(sampler, bounce, purpose);
+        return sampler_independent_words(sampler, address, is_partner);
+    return sampler_net_words(sampler, address, is_partner);
+}
+
+static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
+{
+    return sampler_words(sampler, sampler_address(bounce, purpose), false);
+}
+
+static inline uint2 sampler_partner_words(const Sampler* sampler, uint bounce, uint purpose)
+{
+    return sampler_words(sampler, sampler_address(bounce, purpose), true);
 }
 
 static inline real2 sampler_pair(const Sampler* sampler, uint bounce, uint purpose)
 {
     const uint2 words = sampler_pair_words(sampler, bounce, purpose);
     return (real2)(sampler_unit(words.x), sampler_unit(words.y));
+}
+
+/* The words of a light sample at a vertex; the first one, where the camera looks, is number 1. Its light
+   sample and the position on the film are one net, because together they place the edges of shadows. */
+static inline uint2 sampler_light_words(const Sampler* sampler, uint vertex)
+{
+    const bool is_first = vertex == 1u;
+    const uint address = is_first ? sampler_address(0u, SAMPLE_FILM) : sampler_address(vertex, SAMPLE_LIGHT);
+    return sampler_words(sampler, address, is_first);
 }
 
 #endif

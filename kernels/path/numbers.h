@@ -17,10 +17,12 @@ typedef struct {
 static inline PathNumbers numbers_make(const Sampler* sampler, uint segment)
 {
     PathNumbers numbers;
-    numbers.light = sampler_pair_words(sampler, segment, SAMPLE_LIGHT);
-    numbers.alias = sampler_word(sampler, segment, SAMPLE_LIGHT_ALIAS);
-    numbers.lobe = sampler_number(sampler, segment, SAMPLE_LOBE);
+    numbers.light = sampler_light_words(sampler, segment);
     numbers.direction = sampler_pair(sampler, segment, SAMPLE_DIRECTION);
+    /* In one net with the direction: each lobe's directions are even, and so are the lobes. */
+    const uint2 choices = sampler_partner_words(sampler, segment, SAMPLE_DIRECTION);
+    numbers.lobe = sampler_unit(choices.x);
+    numbers.alias = choices.y;
     return numbers;
 }
 

@@ -105,7 +105,7 @@ std::vector<OptionSpec> work_options() {
              o.sampling.first_sample = static_cast<std::uint32_t>(parse_whole(v, 0, LARGEST_U32));
          }},
         {group, "", "--replicates", "N",
-         "independent sample sequences; their spread is the error (default 8; 1 with --spp 1 alone)",
+         "independent sample sequences; their spread is the error (default 4; 1 with --spp 1 alone)",
          [](Options& o, const OptionValue& v) {
              o.sampling.replicates = static_cast<int>(parse_whole(v, 1, LARGEST_REPLICATES));
          }},

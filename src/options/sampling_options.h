@@ -47,7 +47,7 @@ struct SamplingOptions {
     std::optional<double> error;        ///< target of the error, by measure()
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;
-    int replicates = 8;
+    int replicates = 4;
     std::optional<ErrorMeasure> adaptive; ///< samples go where this error is made least
     SamplerChoice sampler = SamplerChoice::SOBOL;
     LightSampler light_sampler = LightSampler::MIXTURE;

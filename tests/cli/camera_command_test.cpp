@@ -129,7 +129,7 @@ TEST_F(CameraCommand, ASignalEndsATurnAfterItsPicture) {
     CommandSettings settings;
     settings.signals_after_file = "turn-0001.png";
     settings.signals = {{0.1, SIGINT}};
-    const CommandResult result = clrt({"pyramid.obj", "--frames", "50", "-t", "1", "-s", "4000000", "-r",
+    const CommandResult result = clrt({"pyramid.obj", "--frames", "50", "-t", "1", "-s", "2000000", "-r",
                                        "16x12", "-o", "turn.png", "--env", "1,1,1"},
                                       settings);
     EXPECT_EQ(result.exit_code, 130) << result.err;

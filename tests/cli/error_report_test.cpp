@@ -43,10 +43,10 @@ TEST_F(ErrorReport, AReachedTargetEndsWithZeroWhereSamplesAreEven) {
     EXPECT_EQ(json["stop"]["error_target"], 0.02);
     EXPECT_EQ(json["stop"]["error_reached"], true);
     const auto spp = json["spp"].get<unsigned>();
-    EXPECT_TRUE(is_good_count(spp, 8)) << spp;
+    EXPECT_TRUE(is_good_count(spp, 4)) << spp;
     EXPECT_EQ(json["passes"], spp);
     // At the good count before it was not reached yet: the render did not go on in vain.
-    const unsigned before = is_doubling(spp, 8) ? spp / 4 * 3 : spp / 3 * 2;
+    const unsigned before = is_doubling(spp, 4) ? spp / 4 * 3 : spp / 3 * 2;
     EXPECT_EQ(render({"--error", "2%", "--spp", std::to_string(before)}).exit_code, 5);
 }
 
@@ -62,18 +62,28 @@ TEST_F(ErrorReport, AReachedTargetIsTrueOnTheCornellBox) {
     };
     const ReadPicture a = box("a.exr", {"--spp", "512", "--seed", "1"}),
                       b = box("b.exr", {"--spp", "512", "--seed", "2"});
-    const ReadPicture x = box("x.exr", {"--error", "10%"});
-    double squared = 0, mean = 0;
-    for (size_t i = 0; i < x.values.size(); ++i) {
-        squared +=
-            double(x.values[i] - a.values[i]) * double(x.values[i] - b.values[i]) / double(x.values.size());
-        mean += double(x.values[i]) / double(x.values.size());
+    const auto true_error = [&](const ReadPicture& x) {
+        double squared = 0, mean = 0;
+        for (size_t i = 0; i < x.values.size(); ++i) {
+            squared += double(x.values[i] - a.values[i]) * double(x.values[i] - b.values[i]) /
+                       double(x.values.size());
+            mean += double(x.values[i]) / double(x.values.size());
+        }
+        return std::sqrt(squared) / mean;
+    };
+    for (const char* replicates : {"4", "8"}) {
+        const double error = true_error(box("x.exr", {"--error", "10%", "--replicates", replicates}));
+        const nlohmann::json said = stats()["error"];
+        const auto printed = said["rel_rmse"].get<double>();
+        std::printf("%s replicates: printed %.2f %%, true over printed %.3f\n", replicates, 100 * printed,
+                    error / printed);
+        EXPECT_LE(printed, 0.1);
+        EXPECT_GE(error, said["low"].get<double>());
+        EXPECT_LE(error, said["high"].get<double>());
+        // The edge of the lamp has most of the error: of 4 replicates it is known to 19 %, of 8 to 12 %.
+        if (replicates == std::string("8"))
+            EXPECT_NEAR(error / printed, 1, 0.15);
     }
-    const double printed = stats()["error"]["rel_rmse"];
-    std::printf("printed %.2f %%, true over printed %.3f\n", 100 * printed,
-                std::sqrt(squared) / mean / printed);
-    EXPECT_LE(printed, 0.1);
-    EXPECT_NEAR(std::sqrt(squared) / mean / printed, 1, 0.15);
 }
 
 TEST_F(ErrorReport, AMissedTargetEndsWithFiveAndThePicture) {
@@ -127,10 +137,10 @@ TEST_F(ErrorReport, VerboseAddsTheRest) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.err, {"ended after 128 spp: --spp 128 is complete"}));
     for (const std::string& line :
-         {std::string("by       path, seed 0, sobol sampler, 8 replicates\n"),
+         {std::string("by       path, seed 0, sobol sampler, 4 replicates\n"),
           std::string("stages   load [0-9.]+ s, bvh [0-9.]+ s, compile "),
           std::string("rays     [0-9.]+ a sample, "), std::string("tree     bvh"),
-          std::string("slope    -[0-9.]+ \\+- [0-9.]+ from 8 to 128 spp: twice the "),
+          std::string("slope    -[0-9.]+ \\+- [0-9.]+ from 4 to 128 spp: twice the "),
           std::string("worst    [0-9.]+ % of the picture's mean in the 32 x 32 tile at 0,0\n"),
           std::string(
               "tails    [0-9]+ % of the squared error is in the noisiest [a-z]+ of the pixels; [0-9]+ % "
@@ -150,7 +160,7 @@ TEST_F(ErrorReport, FilesHaveAllThatIsKnown) {
     EXPECT_LT(error["slope"]["value"], -0.4);
     EXPECT_EQ(error["half"]["slope_measured"], true);
     EXPECT_LT(error["half"]["rel_rmse"], 0.53 * error["rel_rmse"].get<double>());
-    EXPECT_TRUE(is_good_count(error["half"]["spp"], 8)) << error["half"];
+    EXPECT_TRUE(is_good_count(error["half"]["spp"], 4)) << error["half"];
     const double factor = error["half"]["samples_factor"];
     EXPECT_EQ(128 * factor, error["half"]["spp"]);
     EXPECT_NEAR(error["half"]["seconds"], json["seconds"]["render"].get<double>() * (factor - 1), 1e-6);
@@ -326,10 +336,10 @@ TEST_F(ErrorReport, IsThatOfThePixelsThatShowTheScene) {
 
 TEST_F(ErrorReport, WhatIsNotKnownIsNull) {
     write_lamp();
-    EXPECT_EQ(render({"--spp", "64"}).exit_code, 0);
-    EXPECT_EQ(stats()["error"]["slope"], nullptr) << "three octaves from 8 to 64";
+    EXPECT_EQ(render({"--spp", "32"}).exit_code, 0);
+    EXPECT_EQ(stats()["error"]["slope"], nullptr) << "three octaves from 4 to 32";
     EXPECT_EQ(stats()["error"]["half"]["slope_measured"], true) << "but one of the forecast";
-    EXPECT_EQ(render({"--spp", "8"}).exit_code, 0);
+    EXPECT_EQ(render({"--spp", "4"}).exit_code, 0);
     EXPECT_EQ(stats()["error"]["half"]["slope"], -0.55) << "of renders in general";
     EXPECT_EQ(stats()["error"]["half"]["slope_measured"], false);
     EXPECT_EQ(render({"--spp", "64", "--replicates", "3"}).exit_code, 0);

@@ -40,7 +40,7 @@ protected:
 
 /// A scene file and options that keep the device busy for a minute.
 const std::vector<std::string> LONG_RUN = {"scene.obj", "-r",           "64x64",           "-t",
-                                           "60",        "-s",           "4000000",         "-o",
+                                           "60",        "-s",           "2000000",         "-o",
                                            "long.exr",  "--checkpoint", "begun.film,0.01s"};
 
 /// Signals for LONG_RUN once its film shows that some passes are done, however long that takes here.

@@ -173,7 +173,7 @@ TEST_F(Fault, FoldersThatNobodyCanWriteAreErrorsForResultsAndNoneForTheCache) {
 
 TEST_F(Fault, KillsAtAnyMomentLeaveWholeFilesAndOneTemporaryFileAtMost) {
     const std::vector<std::string> words = {
-        "scene.obj", "-i", "raycast", "-t",           "60",   "-s",           "4000000",     "-r",
+        "scene.obj", "-i", "raycast", "-t",           "60",   "-s",           "2000000",     "-r",
         "256x256",   "-o", "a.pfm",   "--save-every", "0.01", "--checkpoint", "a.film,0.01", "--force"};
     ASSERT_EQ(clrt({"scene.obj", "-i", "raycast", "-s", "1", "-r", "256x256", "-o", "a.pfm", "--checkpoint",
                     "a.film"})

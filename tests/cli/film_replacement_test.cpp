@@ -137,7 +137,7 @@ TEST_F(FilmReplacement, AFilmThatAnotherRunPutThereMeanwhileIsNotReplaced) {
     settings.signals = {{0.1, SIGINT}};
     settings.signals_after_file = "moved";
     const CommandResult result =
-        clrt({"--resume", "a.film", "-t", "60", "-s", "4000000", "-o", "slow.png", "--save-every", "0.05"},
+        clrt({"--resume", "a.film", "-t", "60", "-s", "2000000", "-o", "slow.png", "--save-every", "0.05"},
              settings);
     other_run.join();
     expect_kept("a.film", result, 1, {"a.film", "seed: expected 3, found 0", "--force"}, other);

@@ -171,7 +171,7 @@ TEST_F(Pipe, ABrokenPipeOrAFullDiskIsAnError) {
 TEST_F(Pipe, AStreamThatIsClosedIsNoFileOfOurs) {
     // Their numbers are those that the next files would get.
     const CommandResult result =
-        shell("clrt scene.obj -t 60 -s 4000000 --checkpoint begun.film,0.01 <&- >&- 2>&- & "
+        shell("clrt scene.obj -t 60 -s 2000000 --checkpoint begun.film,0.01 <&- >&- 2>&- & "
               "while ! [ -e begun.film ] && kill -0 $!; do sleep .05; done; "
               "readlink /proc/$!/fd/0 /proc/$!/fd/1 /proc/$!/fd/2; kill -9 $!");
     EXPECT_EQ(result.out, "/dev/null\n/dev/null\n/dev/null\n") << result.err;

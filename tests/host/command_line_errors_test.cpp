@@ -211,8 +211,8 @@ TEST(CommandLine, ContradictionsAreNamed) {
            "option --adaptive: expected an even number of --replicates from 4");
     expect({"--adaptive", "--replicates", "5"},
            "option --adaptive: expected an even number of --replicates from 4");
-    expect({"--adaptive", "--spp", "15"},
-           "option --adaptive: expected --spp 16 or more with --replicates 8, found 15");
+    expect({"--adaptive", "--spp", "7"},
+           "option --adaptive: expected --spp 8 or more with --replicates 4, found 7");
     expect({"--adaptive", "--first-sample", "8"}, "option --adaptive: expected no --first-sample, found 8");
     expect({"--adaptive", "--aov", "c=LSDE", "-o", "a.exr"},
            "option --adaptive: expected no --aov NAME=EXPR, found the "

@@ -32,7 +32,7 @@ const std::map<std::string, std::string>& samples() {
         {"--min-contribution", "0.5%"},
         {"--seed", "4294967295"},
         {"--first-sample", "32"},
-        {"--replicates", "4"},
+        {"--replicates", "8"},
         {"--adaptive", ""},
         {"--sampler", "independent"},
         {"--light-sampler", "power"},
@@ -119,7 +119,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     EXPECT_EQ(effective_max_depth(o.transport), 4096);
     EXPECT_EQ(o.transport.roulette_depth, 5);
     EXPECT_EQ(o.transport.min_contribution, 0.002);
-    EXPECT_EQ(o.sampling.replicates, 8);
+    EXPECT_EQ(o.sampling.replicates, 4);
     EXPECT_EQ(o.sampling.sampler, SamplerChoice::SOBOL);
     EXPECT_EQ(o.film.size, glm::ivec2(800, 600));
     EXPECT_EQ(o.output.files, std::vector<std::string>{"scene.png"});

@@ -90,7 +90,7 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     EXPECT_EQ(field([](Options& o) { o.transport.integrator = Integrator::WHITTED; }), "integrator");
     EXPECT_EQ(field([](Options& o) { o.device.precision = Precision::DOUBLE; }), "precision");
     EXPECT_EQ(field([](Options& o) { o.sampling.seed = 1; }), "seed");
-    EXPECT_EQ(field([](Options& o) { o.sampling.replicates = 4; }), "replicates");
+    EXPECT_EQ(field([](Options& o) { o.sampling.replicates = 8; }), "replicates");
     EXPECT_EQ(field([](Options& o) { o.film.crop = Crop{0, 0, 8, 8}; }), "window");
     EXPECT_EQ(field([](Options& o) { o.film.filter = Filter::TENT; }), "filter");
     EXPECT_EQ(field([](Options& o) { o.film.filter_radius = 0.7; }), "filter_radius");

@@ -42,8 +42,8 @@ static inline Probe probe_sample(const RenderParams* params, uint x, uint y, uin
     const real2 within = (real2)((real)(words.x >> 22), (real)(words.y >> 22)) / REAL(1024.0);
     probe.position = (real2)((real)x, (real)y) + within;
     probe.position -= (real2)((real)params->width, (real)params->height) / REAL(2.0);
-    probe.radiance.x = sampler_number(&probe.sampler, 1u, SAMPLE_LOBE);
-    probe.radiance.y = REAL(1e6) * sampler_number(&probe.sampler, 2u, SAMPLE_LOBE);
+    probe.radiance.x = sampler_number(&probe.sampler, 1u, SAMPLE_ROULETTE);
+    probe.radiance.y = REAL(1e6) * sampler_number(&probe.sampler, 2u, SAMPLE_ROULETTE);
     probe.radiance.z = (words.x & 3u) == 0u ? REAL(3e4) : REAL(0.0);
     return probe;
 }

@@ -116,8 +116,8 @@ std::vector<Fault> planted_faults() {
         "const BsdfSample next = bsdf_sample(bsdf, path->numbers.lobe, path->numbers.direction);";
     const auto spoil_sample = [&](const char* bounce, const char* what) {
         return "const Sampler planted = " + planted + ";\n    " + sampled.substr(6) +
-               "\n    if (path->numbers.lobe == sampler_number(&planted, " + bounce +
-               ", SAMPLE_LOBE)) next." + what;
+               "\n    if (path->numbers.alias == sampler_partner_words(&planted, " + bounce +
+               ", SAMPLE_DIRECTION).y) next." + what;
     };
     const std::string light =
         "const LightSample light =\n        lights_sample(scene, params, surface, bsdf->frame.z, "
@@ -138,7 +138,8 @@ std::vector<Fault> planted_faults() {
          COUNT_OVERFLOW, 0, 0},
         {"NaN density of the light at bounce 2", "path/connect.h", light,
          "const Sampler planted = " + planted + ";\n    " + light.substr(6) +
-             "\n    if (path->numbers.alias == sampler_word(&planted, 2u, SAMPLE_LIGHT_ALIAS)) light.pdf_w = "
+             "\n    if (path->numbers.alias == sampler_partner_words(&planted, 2u, SAMPLE_DIRECTION).y) "
+             "light.pdf_w = "
              "as_float(0x7fc00000u);",
          COUNT_NAN, TRACE_LIGHT_PDF, 2},
     };

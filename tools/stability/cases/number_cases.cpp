@@ -35,7 +35,7 @@ const ProbedExpression UNIT = {"unit", 1, 1, "out[0] = sampler_unit(((uint)a << 
 const ProbedExpression STREAM = {"stream", 1, 8,
                                  "const Sampler s = sampler_make(1u, (uint)a, 0u, 0u); const uint2 p = "
                                  "sampler_pair_words(&s, 0u, SAMPLE_FILM);"
-                                 "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_LOBE)};"
+                                 "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_ROULETTE)};"
                                  "for (int k = 0; k < 4; ++k) { out[2 * k] = (real)(w[k] >> 16); out[2 * k + "
                                  "1] = (real)(w[k] & 0xffffu); }",
                                  "const uint x = (uint)a % 3840u, y = (uint)a / 3840u; const uint h = "
@@ -44,18 +44,18 @@ const ProbedExpression STREAM = {"stream", 1, 8,
                                  "Sampler s; s.key = h; s.index_reversed = 0u; s.word_key = sampler_hash(h); "
                                  "const uint2 p = sampler_pair_words(&s, 0u, "
                                  "SAMPLE_FILM);"
-                                 "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_LOBE)};"
+                                 "const uint w[4] = {s.key, p.x, p.y, sampler_word(&s, 0u, SAMPLE_ROULETTE)};"
                                  "for (int k = 0; k < 4; ++k) { out[2 * k] = (real)(w[k] >> 16); out[2 * k + "
                                  "1] = (real)(w[k] & 0xffffu); }"};
 
 /// a: pixel, b: sample, c: bounce, d: purpose. A pair. Naive: white noise.
 const ProbedExpression PAIR = {"pair", 4, 4,
                                "const Sampler s = sampler_make(7u, (uint)a, 3u, (uint)b); const uint2 p = "
-                               "sampler_sobol_words(&s, (uint)c, (uint)d);"
+                               "sampler_net_words(&s, sampler_address((uint)c, (uint)d), false);"
                                "out[0] = (real)(p.x >> 16); out[1] = (real)(p.x & 0xffffu); out[2] = "
                                "(real)(p.y >> 16); out[3] = (real)(p.y & 0xffffu);",
                                "const Sampler s = sampler_make(7u, (uint)a, 3u, (uint)b); const uint2 p = "
-                               "sampler_independent_words(&s, (uint)c, (uint)d);"
+                               "sampler_independent_words(&s, sampler_address((uint)c, (uint)d), false);"
                                "out[0] = (real)(p.x >> 16); out[1] = (real)(p.x & 0xffffu); out[2] = "
                                "(real)(p.y >> 16); out[3] = (real)(p.y & 0xffffu);"};
 
