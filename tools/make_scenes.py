@@ -17,6 +17,7 @@ import sys
 import scene_textures as textures
 from scene_head import add_head
 from scene_kit import Obj, add, png, png_pixels, polygon_normal, scale, subtract, unit
+from scene_rooms import door_ajar, hall_of_lamps
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 SPHERE_LEVEL = 4  # 5120 triangles with vertex normals: the outline errs by less than 0.1 % of the radius
@@ -155,6 +156,23 @@ def furnace():
 
 def glossy_plates():
     obj = Obj("Four metal plates of rising roughness under four lights of rising size")
+    add_plates(obj)
+    return files("glossy_plates", obj)
+
+
+def plates_far_lamp():
+    obj = Obj("The glossy plates, and far from them a lamp with nearly all the power, over a floor of its own")
+    add_plates(obj)
+    x, z = 30, 40  # behind the camera and to the side, beyond the edge of the plates' floor
+    obj.begin("far_floor", "floor")
+    obj.quad((x - 12, -0.6, z - 12), (24, 0, 0), (0, 0, 24), (0, 1, 0))
+    obj.begin("far_lamp", "far_light")
+    obj.quad((x - 1, 1, z - 1), (2, 0, 0), (0, 0, 2), (0, -1, 0))
+    return files("plates_far_lamp", obj)
+
+
+def add_plates(obj):
+    """Veach and Guibas' plates, which show lights of rising size."""
     eye, lights_middle = (0, 2.2, 9.0), (0, 4.2, -2.6)
     obj.begin("floor", "floor")
     obj.quad((-9, -0.6, -5), (18, 0, 0), (0, 0, 12), (0, 1, 0))
@@ -169,7 +187,6 @@ def glossy_plates():
     for i, (x, radius) in enumerate([(-2.4, 0.05), (-0.9, 0.15), (0.7, 0.4), (2.4, 0.75)]):
         obj.begin(f"light_{i}", f"light_{i}")
         obj.sphere(add(lights_middle, (x, 0, 0)), radius, 2, smooth=False)
-    return files("glossy_plates", obj)
 
 
 def leaves(obj, foot, count):
@@ -313,8 +330,10 @@ def still_life():
 def all_files():
     made = {}
     for scene in (cornell_box, spheres_over_plane, mirror_glass_depth10, colour_bleeding, caustic, furnace,
-                  glossy_plates, textured_interior, every_effect, still_life):
+                  glossy_plates, textured_interior, every_effect, still_life, plates_far_lamp):
         made.update(scene())
+    for room in (door_ajar, hall_of_lamps):
+        made.update(files(room.__name__, room()))
     return made
 
 

@@ -16,6 +16,7 @@ SUMMARIES = {"clrt": "render a Wavefront OBJ on any OpenCL device",
              "clrt-bench": "compare clrt's ray traversal with Embree's",
              "clrt-stability": "run clrt's catalogue of numerically hard cases",
              "clrt-compare": "compare two pictures by statistical tests",
+             "clrt-mitsuba": "render a scene of clrt with Mitsuba 3, to compare with",
              "clrt-study": "measure what accuracy costs in time"}
 HEADINGS = {"Example": "EXAMPLE", "Options file": "FILES", "Exit codes": "EXIT STATUS"}
 

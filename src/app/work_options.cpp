@@ -2,6 +2,7 @@
 // The options of the group "Work".
 #include "app/integrator_help.h"
 #include "app/option_rows.h"
+#include "film/film.h"
 
 #include <fmt/format.h>
 
@@ -69,9 +70,9 @@ std::vector<OptionSpec> work_options() {
          "that is not done in time is dropped (default: no limit)",
          [](Options& o, const OptionValue& v) { o.sampling.time_seconds = parse_duration(v); }},
         {group, "e", "--error", "X",
-         "render until the picture's relative error, root of mean squared over mean, both over the pixels "
-         "that "
-         "show the scene, is at most 0.02 or 2%, looked at where samples are even: --replicates times 2^k or "
+         "render until the picture's error, root of mean squared over mean, both over the pixels that show "
+         "the scene, is at most 0.02 or 2% (with --adaptive=relative the error relative to every pixel's "
+         "brightness), looked at where samples are even: --replicates times 2^k or "
          "3/2 2^k; whichever of -s, -t and -e comes first ends the render (default: no target)",
          [](Options& o, const OptionValue& v) {
              o.sampling.error = parse_fraction(v);
@@ -108,11 +109,16 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.sampling.replicates = static_cast<int>(parse_whole(v, 1, LARGEST_REPLICATES));
          }},
-        {group, "", "--adaptive", "",
-         "take more samples where the picture is noisy, by tiles of 16 x 16 pixels; --spp is their mean, at "
-         "least 2 for each "
-         "of the --replicates (default: the same everywhere)",
-         [](Options& o, const OptionValue&) { o.sampling.adaptive = true; }},
+        {group, "", "--adaptive", "[=mse|relative]",
+         fmt::format("take more samples where the picture is noisy, by tiles of {0} x {0} pixels, as soon as "
+                     "that is expected to pay; mse makes the mean squared error least, relative that of "
+                     "pixels relative to their own brightness, by which --error then judges too (alone: "
+                     "mse). --spp is the mean, at least 2 for each of the --replicates (default: the same "
+                     "everywhere)",
+                     ADAPTIVE_TILE_SIZE),
+         [](Options& o, const OptionValue& v) {
+             o.sampling.adaptive = v.text.empty() ? ErrorMeasure::MSE : parse_choice<ErrorMeasure>(v);
+         }},
         {group, "", "--sampler", "NAME",
          "sobol (scrambled points, even over the samples of a pixel) or independent (white noise, to compare "
          "with) (default sobol)",

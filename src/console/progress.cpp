@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <fmt/format.h>
 #include <unistd.h>
 #include <utility>
@@ -34,22 +35,54 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {:02} m", whole / 3600, whole / 60 % 60);
 }
 
+/// The same in whole seconds: a forecast is no more exact.
+std::string rough_text(double seconds) {
+    return seconds < 59.5 ? fmt::format("{:.0f} s", seconds) : duration_text(seconds);
+}
+
+/// "error about 4.2 % -> 2 % in 35 s (80 %: 28 s to 47 s)".
+std::string error_text(const ProgressState& state) {
+    std::string text =
+        fmt::format("error {}{:.1f} %", state.error_is_measured ? "" : "about ", 100 * state.error);
+    if (const std::optional<ProgressTarget>& target = state.target)
+        text += fmt::format(" -> {:g} % in {} (80 %: {})", 100 * target->error, rough_text(target->seconds),
+                            target->high < 0 ? rough_text(target->low) + " or more"
+                                             : rough_text(target->low) + " to " + rough_text(target->high));
+    return text;
+}
+
+/// What stands behind the phase.
+std::vector<std::string> line_parts(const ProgressState& state, double seconds) {
+    std::vector<std::string> parts;
+    if (state.fraction >= 0)
+        parts.push_back(
+            fmt::format("{:3}%", static_cast<int>(std::floor(100 * std::fmin(state.fraction, 1)))));
+    if (state.spp > 0)
+        parts.push_back(fmt::format("{} spp", state.spp));
+    parts.push_back(duration_text(seconds));
+    // Another limit than the error comes first, or there is no other.
+    const double to_go = seconds * (1 / state.fraction - 1);
+    if (state.fraction > 0 && state.fraction < 1 && !(state.target && to_go >= state.target->low))
+        parts.push_back("ETA " + duration_text(to_go));
+    if (state.error >= 0)
+        parts.push_back(error_text(state));
+    if (state.rays_per_second >= 0)
+        parts.push_back(fmt::format("{:.1f} Mrays/s", state.rays_per_second * 1e-6));
+    return parts;
+}
+
 } // namespace
 
-std::string progress_line(const ProgressState& state, double seconds) {
+std::string progress_line(const ProgressState& state, double seconds, size_t columns) {
     std::string line = fmt::format("{:<7} ", state.phase);
-    if (state.fraction >= 0)
-        line += fmt::format("{:3}%  ", static_cast<int>(std::floor(100 * std::fmin(state.fraction, 1))));
-    if (state.spp > 0)
-        line += fmt::format("{} spp  ", state.spp);
-    line += duration_text(seconds);
-    if (state.fraction > 0 && state.fraction < 1)
-        line += "  ETA " + duration_text(seconds * (1 / state.fraction - 1));
-    if (state.rays_per_second >= 0)
-        line += fmt::format("  {:.1f} Mrays/s", state.rays_per_second * 1e-6);
-    if (state.error >= 0)
-        line += fmt::format("  error {}{:.1f} %", state.error_is_measured ? "" : "about ", 100 * state.error);
-    return line;
+    const char* gap = "";
+    for (const std::string& part : line_parts(state, seconds)) {
+        if (line.size() + std::strlen(gap) + part.size() > columns)
+            break;
+        line += gap + part;
+        gap = "  ";
+    }
+    return line.substr(0, columns);
 }
 
 Progress::Progress(Toggle show, bool quiet, std::function<Clock::time_point()> now)
@@ -89,14 +122,14 @@ void Progress::finish() {
 }
 
 void Progress::print(Clock::time_point now) {
-    std::string line = progress_line(last_, seconds_between(phase_start_, now));
-    if (terminal_) {
-        // The last column stays free: a full line would wrap, and a wrapped line cannot be rewritten.
-        line.resize(std::min(line.size(), terminal_columns(STDERR_FILENO, DEFAULT_COLUMNS) - 1));
-        std::fprintf(stderr, "\r%s\033[K", line.c_str());
-    } else {
-        std::fprintf(stderr, "%s\n", line.c_str());
-    }
+    const double seconds = seconds_between(phase_start_, now);
+    // The last column stays free: a full line would wrap, and a wrapped line cannot be rewritten.
+    if (terminal_)
+        std::fprintf(
+            stderr, "\r%s\033[K",
+            progress_line(last_, seconds, terminal_columns(STDERR_FILENO, DEFAULT_COLUMNS) - 1).c_str());
+    else
+        std::fprintf(stderr, "%s\n", progress_line(last_, seconds).c_str());
     std::fflush(stderr);
     open_ = terminal_;
     shown_ = true;

@@ -7,9 +7,18 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 
 namespace clrt {
+
+/// When an error will be reached that is asked for.
+struct ProgressTarget {
+    double error = 0;          ///< that is asked for
+    double seconds = 0;        ///< from now
+    double low = 0, high = -1; ///< their interval; high is negative where nobody can name it
+};
 
 /// What the line shows; values that are not known yet are negative.
 struct ProgressState {
@@ -19,11 +28,15 @@ struct ProgressState {
     double rays_per_second = -1;
     double error = -1;              ///< relative
     bool error_is_measured = false; ///< at these samples; otherwise it is extrapolated
+    std::optional<ProgressTarget> target = std::nullopt;
 };
 
 /// The line for a state that its phase has reached after `seconds`, without a line end: phase, percentage,
-/// samples a pixel, seconds, estimated seconds to go, rays a second, error; what is not known is left out.
-std::string progress_line(const ProgressState& state, double seconds);
+/// samples a pixel, seconds, estimated seconds to go, error and when the one that is asked for comes, rays a
+/// second. What is not known is left out, and so is what does not fit `columns`, from the end: a number that
+/// is cut is another number.
+std::string progress_line(const ProgressState& state, double seconds,
+                          size_t columns = std::numeric_limits<size_t>::max());
 
 /// Not for several threads at once. Log lines come between two lines only: call finish() before logging.
 class Progress {

@@ -2,6 +2,7 @@
 #include "film/adaptive.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 #include <tbb/parallel_for.h>
 
@@ -95,13 +96,15 @@ size_t common_level(std::uint64_t mean, std::uint64_t pilot) {
 }
 
 /// Notes the noise of the tiles at the number of samples that they have come to.
-void note_noise(const Film& film, std::uint64_t pilot, std::vector<TileNoise>& noise) {
+void note_noise(const Film& film, std::uint64_t pilot, ErrorMeasure measure, std::vector<TileNoise>& noise) {
     for (size_t half = 0; half < 2; ++half) {
-        const std::vector<double> now = tile_noise(film, int(half));
+        const std::vector<double> now = tile_noise(film, int(half), measure);
         for (size_t tile = 0; tile < now.size(); ++tile) {
             size_t level = 0;
             while ((pilot / 2) << level < film.tile_samples[half][tile])
                 ++level;
+            if ((pilot / 2) << level != film.tile_samples[half][tile])
+                continue; // between two levels, where all tiles are equal
             while (noise.size() <= level) {
                 const std::vector<double> none(now.size(), -1.0);
                 noise.push_back({none, none});
@@ -112,11 +115,68 @@ void note_noise(const Film& film, std::uint64_t pilot, std::vector<TileNoise>& n
     }
 }
 
+/// Whether a round that ends here ends an octave: p, 2 p, 4 p, ...
+bool ends_octave(std::uint64_t end, std::uint64_t pilot) {
+    const std::uint64_t octave = end / pilot;
+    return (octave & (octave - 1)) == 0 && octave * pilot == end;
+}
+
 /// Two rounds an octave: p, 3/2 p, 2 p, 3 p, 4 p, ...
 std::uint64_t next_end(std::uint64_t end, std::uint64_t pilot) {
-    const std::uint64_t octave = end / pilot;
-    const bool is_power = (octave & (octave - 1)) == 0 && octave * pilot == end;
-    return is_power ? end / 2 * 3 : end / 3 * 4;
+    return ends_octave(end, pilot) ? end / 2 * 3 : end / 3 * 4;
+}
+
+bool is_uniform(const std::vector<std::uint32_t>& samples) {
+    return std::all_of(samples.begin(), samples.end(), [&](std::uint32_t n) { return n == samples.front(); });
+}
+
+/// The samples that the tiles of a half have after a round, by the noise of the other half. Where they are
+/// the same everywhere at 3/2 of a power of two they stay it up to the next one, to which no doubling leads.
+std::vector<std::uint32_t> half_target(const Film& film, const AdaptiveRound& round, size_t half,
+                                       const std::vector<double>& noise, std::uint64_t pilot) {
+    const std::vector<std::uint32_t>& start = round.start[half];
+    const bool pays = round.gain[1 - half] >= WORTHWHILE_GAIN;
+    if (is_uniform(start) && (!pays || !ends_octave(round.first, pilot)))
+        return std::vector<std::uint32_t>(start.size(), std::uint32_t(round.end / 2));
+    const std::vector<double> alike(noise.size(), 1.0);
+    return Allocation(film, pays ? noise : alike, start, 0.5 * double(round.end)).run();
+}
+
+/// Means of the replicates of one half.
+class HalfMeans {
+public:
+    HalfMeans(const Film& film, int half)
+        : film_(film), count_(size_t(film.replicates / 2)), first_(size_t(half) * count_ * film_plane(film)),
+          samples_(film.tile_samples[size_t(half)]) {}
+
+    /// Samples of a replicate in a tile.
+    double samples(size_t tile) const { return double(samples_[tile]) / double(count_); }
+    /// The mean of value `i` of a plane, and the variance of a replicate's.
+    double read(size_t i, double& variance) const {
+        const std::int64_t* sums = &film_.sums[first_ + i];
+        const size_t plane = film_plane(film_);
+        double mean = 0, squares = 0;
+        for (size_t k = 0; k < count_; ++k)
+            mean += double(sums[k * plane]) / double(count_);
+        for (size_t k = 0; k < count_; ++k)
+            squares += (double(sums[k * plane]) - mean) * (double(sums[k * plane]) - mean);
+        const double factor = film_.scale.quantum / samples(film_tile(film_, i / 3));
+        variance = factor * factor * squares / double(count_ - 1);
+        return factor * mean;
+    }
+
+private:
+    const Film& film_;
+    size_t count_, first_;
+    const std::vector<std::uint32_t>& samples_;
+};
+
+/// Mean radiance of a half's picture.
+double picture_mean(const Film& film, const HalfMeans& means) {
+    double sum = 0, unused = 0;
+    for (size_t i = 0; i < film_plane(film); ++i)
+        sum += means.read(i, unused);
+    return sum / double(film_plane(film));
 }
 
 } // namespace
@@ -125,8 +185,9 @@ std::uint64_t pilot_samples(int replicates) {
     return PILOT_OF_A_REPLICATE * std::uint64_t(replicates);
 }
 
-AdaptiveRound first_round(const Film& film) {
+AdaptiveRound first_round(const Film& film, ErrorMeasure measure) {
     AdaptiveRound round;
+    round.measure = measure;
     round.end = pilot_samples(film.replicates);
     for (size_t half = 0; half < 2; ++half) {
         round.start[half].assign(film_tiles(film), 0);
@@ -137,17 +198,29 @@ AdaptiveRound first_round(const Film& film) {
 
 AdaptiveRound next_round(const Film& film, const AdaptiveRound& last) {
     AdaptiveRound round;
+    round.measure = last.measure;
     round.first = last.end;
     const std::uint64_t pilot = pilot_samples(film.replicates);
     round.end = next_end(last.end, pilot);
     round.start = last.target;
     round.noise = last.noise;
-    note_noise(film, pilot, round.noise);
+    note_noise(film, pilot, round.measure, round.noise);
     const TileNoise& common = round.noise[std::min(common_level(last.end, pilot), round.noise.size() - 1)];
     for (size_t half = 0; half < 2; ++half)
-        round.target[half] =
-            Allocation(film, common[1 - half], round.start[half], 0.5 * double(round.end)).run();
+        round.gain[half] = expected_gain(common[half], tile_pixel_counts(film));
+    for (size_t half = 0; half < 2; ++half)
+        round.target[half] = half_target(film, round, half, common[1 - half], pilot);
     return round;
+}
+
+double expected_gain(const std::vector<double>& noise, const std::vector<std::uint32_t>& pixels) {
+    double mean = 0, root = 0, count = 0;
+    for (size_t tile = 0; tile < noise.size(); ++tile) {
+        mean += noise[tile] * pixels[tile];
+        root += std::sqrt(noise[tile]) * pixels[tile];
+        count += pixels[tile];
+    }
+    return root > 0 ? mean * count / (root * root) : 1;
 }
 
 TileSamples samples_within(const AdaptiveRound& round, std::uint64_t samples, int replicates) {
@@ -162,31 +235,25 @@ TileSamples samples_within(const AdaptiveRound& round, std::uint64_t samples, in
     return result;
 }
 
-std::vector<double> tile_noise(const Film& film, int half) {
+std::vector<double> tile_noise(const Film& film, int half, ErrorMeasure measure) {
     const std::vector<std::uint32_t> pixels = tile_pixel_counts(film);
     std::vector<double> noise(film_tiles(film), 0.0);
-    const size_t count = size_t(film.replicates / 2), plane = film_plane(film);
-    const size_t across = film_tiles_across(film);
+    const HalfMeans means(film, half);
+    const double picture = measure == ErrorMeasure::RELATIVE ? picture_mean(film, means) : 0;
+    const size_t width = size_t(film.width), across = film_tiles_across(film);
     // Rows of tiles are independent of each other, and within a tile the order of summation is fixed.
     tbb::parallel_for(size_t(0), noise.size() / across, [&](size_t tile_row) {
         const size_t rows = std::min<size_t>(size_t(film.height), (tile_row + 1) * ADAPTIVE_TILE_SIZE);
-        for (size_t y = tile_row * ADAPTIVE_TILE_SIZE; y < rows; ++y)
-            for (size_t value = 3 * y * size_t(film.width); value < 3 * (y + 1) * size_t(film.width);
-                 ++value) {
-                double mean = 0, squares = 0;
-                const std::int64_t* sums = &film.sums[size_t(half) * count * plane + value];
-                for (size_t k = 0; k < count; ++k)
-                    mean += double(sums[k * plane]) / double(count);
-                for (size_t k = 0; k < count; ++k)
-                    squares += (double(sums[k * plane]) - mean) * (double(sums[k * plane]) - mean);
-                noise[film_tile(film, value / 3)] += squares / double(count - 1);
-            }
+        for (size_t value = 3 * tile_row * ADAPTIVE_TILE_SIZE * width; value < 3 * rows * width; ++value) {
+            double variance = 0;
+            const double mean = means.read(value, variance);
+            noise[film_tile(film, value / 3)] +=
+                picture > 0 ? variance * relative_weight(mean, picture) : variance;
+        }
     });
-    // A replicate's sum over n / count samples has n / count times the variance of one sample.
-    for (size_t tile = 0; tile < noise.size(); ++tile) {
-        const double of_replicate = double(film.tile_samples[size_t(half)][tile]) / double(count);
-        noise[tile] *= film.scale.quantum * film.scale.quantum / (3.0 * double(pixels[tile]) * of_replicate);
-    }
+    // A replicate's mean has the variance of one sample over its samples.
+    for (size_t tile = 0; tile < noise.size(); ++tile)
+        noise[tile] *= means.samples(tile) / (3.0 * double(pixels[tile]));
     return noise;
 }
 

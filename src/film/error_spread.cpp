@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/error_spread.h"
 
-#include "film/error_pixels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -21,16 +19,17 @@ struct PixelSquares {
     double sum = 0, largest = 0; ///< over replicates
 };
 
-PixelSquares pixel_squares(const ReplicateMeans& replicates, size_t pixel, std::vector<double>& deviations,
-                           std::vector<double>& squares) {
+PixelSquares pixel_squares(const ReplicateMeans& replicates, const ErrorWeights& weights, size_t pixel,
+                           std::vector<double>& deviations, std::vector<double>& squares) {
     PixelSquares result;
     double sum = 0;
     std::fill(squares.begin(), squares.end(), 0.0);
     for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
         replicates.read_deviations(i, deviations.data(), sum);
-        result.sum += sum;
+        const double weight = weights.of(i);
+        result.sum += weight * sum;
         for (size_t k = 0; k < squares.size(); ++k)
-            squares[k] += deviations[k] * deviations[k];
+            squares[k] += weight * deviations[k] * deviations[k];
     }
     result.largest = *std::max_element(squares.begin(), squares.end());
     return result;
@@ -46,8 +45,9 @@ struct PixelErrors {
 /// Finds the pixels in which one replicate stands alone: of n deviations it holds nearly (n - 1) / n of the
 /// squares, which is what a single event gives. Such a pixel tells of an event that may as well have been
 /// missed.
-PixelErrors pixel_errors(const Film& film, const PixelChoice& scene) {
+PixelErrors pixel_errors(const Film& film, const PixelChoice& scene, ErrorMeasure measure) {
     const ReplicateMeans replicates(film);
+    const ErrorWeights weights(film, scene, measure);
     const double n = double(replicates.count());
     PixelErrors errors;
     if (replicates.count() < 2)
@@ -57,7 +57,7 @@ PixelErrors pixel_errors(const Film& film, const PixelChoice& scene) {
     for (size_t i = 0; i < errors.variance.size(); ++i) {
         if (!scene.has(i))
             continue;
-        const PixelSquares found = pixel_squares(replicates, i, deviations, squares);
+        const PixelSquares found = pixel_squares(replicates, weights, i, deviations, squares);
         const double variance = found.sum / (n * (n - 1));
         errors.variance[i] = variance;
         if (found.largest > ALONE * (n - 1) / n * found.sum) {
@@ -88,9 +88,9 @@ double tile_mean(const std::vector<double>& pixels, const Film& film, const Pixe
 
 } // namespace
 
-std::optional<ErrorSpread> film_error_spread(const Film& film) {
+std::optional<ErrorSpread> film_error_spread(const Film& film, ErrorMeasure measure) {
     const PixelChoice scene(film, ErrorPixels::SCENE);
-    PixelErrors errors = pixel_errors(film, scene);
+    PixelErrors errors = pixel_errors(film, scene, measure);
     std::vector<double>& pixels = errors.variance;
     double total = 0, radiance = 0;
     for (const double variance : pixels)

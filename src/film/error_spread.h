@@ -2,13 +2,13 @@
 // Where in a picture its error sits.
 #pragma once
 
-#include "film/film.h"
+#include "film/error_measure.h"
 
 #include <optional>
 
 namespace clrt {
 
-/// Where the error sits, over the pixels that show the scene.
+/// Where the error sits, over the pixels that show the scene; by the relative measure, in weighted squares.
 struct ErrorSpread {
     double worst_tile = 0; ///< sqrt(mean squared error of a tile's pixels) / mean radiance of all of them
     int tile_x = 0, tile_y = 0; ///< top left pixel of that tile within the window
@@ -27,6 +27,6 @@ struct ErrorSpread {
 constexpr int ERROR_TILE_SIZE = 32;
 
 /// None when there is no error or it is 0.
-std::optional<ErrorSpread> film_error_spread(const Film& film);
+std::optional<ErrorSpread> film_error_spread(const Film& film, ErrorMeasure measure = ErrorMeasure::MSE);
 
 } // namespace clrt

@@ -39,7 +39,7 @@ struct SampleRange {
 };
 
 /// Side of the tiles that an adaptive render gives samples to, pixels.
-constexpr int ADAPTIVE_TILE_SIZE = 16;
+constexpr int ADAPTIVE_TILE_SIZE = 8;
 
 /// Samples a pixel of each half of the replicates in each tile, row by row.
 using TileSamples = std::array<std::vector<std::uint32_t>, 2>;

@@ -68,21 +68,34 @@ double pixel_covariance(const std::vector<double>& deviations, size_t replicates
     return squared_covariance(trace, squares, double(replicates));
 }
 
+/// Deviations of one value's replicates from their mean, times the root of its weight, with the sum of their
+/// squares; returns the mean.
+double read_weighted(const ReplicateMeans& replicates, const ErrorWeights& weights, size_t value,
+                     double* deviations, double& squares) {
+    const double mean = replicates.read_deviations(value, deviations, squares);
+    if (const double weight = weights.of(value); weight != 1) {
+        for (size_t k = 0; k < replicates.count(); ++k)
+            deviations[k] *= std::sqrt(weight);
+        squares *= weight;
+    }
+    return mean;
+}
+
 /// Adds the chosen pixels of a range. With deviations d_k from the mean of n replicates and S = sum d_k^2,
 /// leaving out k leaves S - d_k^2 n / (n - 1).
-void add_pixels(const ReplicateMeans& replicates, const PixelChoice& choice, size_t begin, size_t end,
-                ErrorSums& sums) {
+void add_pixels(const ReplicateMeans& replicates, const PixelChoice& choice, const ErrorWeights& weights,
+                const tbb::blocked_range<size_t>& range, ErrorSums& sums) {
     const size_t count = replicates.count();
     const double n = double(count);
     std::vector<double> deviations(3 * count);
     double squares = 0;
-    for (size_t pixel = begin; pixel < end; ++pixel) {
+    for (size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
         if (!choice.has(pixel))
             continue;
         ++sums.pixels;
         for (size_t c = 0; c < 3; ++c) {
             double* of_channel = &deviations[c * count];
-            sums.mean += replicates.read_deviations(3 * pixel + c, of_channel, squares);
+            sums.mean += read_weighted(replicates, weights, 3 * pixel + c, of_channel, squares);
             sums.squared += squares / (n * (n - 1));
             for (size_t k = 0; k < sums.without.size(); ++k)
                 sums.without[k] +=
@@ -94,13 +107,14 @@ void add_pixels(const ReplicateMeans& replicates, const PixelChoice& choice, siz
 }
 
 /// That of the chosen pixels of a block, from all products d_k.d_l.
-double block_covariance(const ReplicateMeans& replicates, const std::vector<size_t>& pixels) {
+double block_covariance(const ReplicateMeans& replicates, const ErrorWeights& weights,
+                        const std::vector<size_t>& pixels) {
     const size_t count = replicates.count();
     std::vector<double> deviations(count), products(count * count, 0.0);
     double unused = 0;
     for (const size_t pixel : pixels)
         for (size_t c = 0; c < 3; ++c) {
-            replicates.read_deviations(3 * pixel + c, deviations.data(), unused);
+            read_weighted(replicates, weights, 3 * pixel + c, deviations.data(), unused);
             for (size_t k = 0; k < count; ++k)
                 for (size_t l = k; l < count; ++l)
                     products[k * count + l] += deviations[k] * deviations[l];
@@ -116,7 +130,7 @@ double block_covariance(const ReplicateMeans& replicates, const std::vector<size
 
 /// The sum over blocks of `side` x `side` pixels.
 double block_covariances(const Film& film, const ReplicateMeans& replicates, const PixelChoice& choice,
-                         int side) {
+                         const ErrorWeights& weights, int side) {
     double sum = 0;
     std::vector<size_t> pixels;
     for (int top = 0; top < film.height; top += side)
@@ -126,7 +140,7 @@ double block_covariances(const Film& film, const ReplicateMeans& replicates, con
                 for (int x = left; x < std::min(left + side, film.width); ++x)
                     if (const size_t pixel = size_t(y) * size_t(film.width) + size_t(x); choice.has(pixel))
                         pixels.push_back(pixel);
-            sum += block_covariance(replicates, pixels);
+            sum += block_covariance(replicates, weights, pixels);
         }
     return sum;
 }
@@ -144,17 +158,19 @@ double degrees_of(double squared, double covariances, double n) {
 
 } // namespace
 
-std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels, int block) {
+std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels, int block,
+                                               ErrorMeasure measure) {
     const ReplicateMeans replicates(film);
     const size_t count = replicates.count();
     if (count < 2)
         return std::nullopt;
     const PixelChoice choice(film, pixels);
+    const ErrorWeights weights(film, choice, measure);
     const ErrorSums none(count >= FEWEST_FOR_INTERVAL ? count : 0);
     const ErrorSums sums = tbb::parallel_deterministic_reduce(
         tbb::blocked_range<size_t>(0, film_plane(film) / 3, PIXELS_AT_ONCE), none,
         [&](const tbb::blocked_range<size_t>& range, ErrorSums part) {
-            add_pixels(replicates, choice, range.begin(), range.end(), part);
+            add_pixels(replicates, choice, weights, range, part);
             return part;
         },
         [](ErrorSums a, const ErrorSums& b) {
@@ -166,9 +182,10 @@ std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pix
     for (double& squared : error.without)
         squared /= values;
     if (!sums.without.empty())
-        error.degrees = degrees_of(
-            sums.squared, block > 1 ? block_covariances(film, replicates, choice, block) : sums.covariances,
-            double(count));
+        error.degrees = degrees_of(sums.squared,
+                                   block > 1 ? block_covariances(film, replicates, choice, weights, block)
+                                             : sums.covariances,
+                                   double(count));
     return error;
 }
 
@@ -186,8 +203,8 @@ std::optional<FilmError> relative_error(const SquaredError& squared) {
     return error;
 }
 
-std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels) {
-    const std::optional<SquaredError> squared = film_squared_error(film, pixels);
+std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels, ErrorMeasure measure) {
+    const std::optional<SquaredError> squared = film_squared_error(film, pixels, 1, measure);
     return squared ? relative_error(*squared) : std::nullopt;
 }
 

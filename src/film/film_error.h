@@ -4,7 +4,7 @@
 // common.
 #pragma once
 
-#include "film/error_pixels.h"
+#include "film/error_measure.h"
 
 #include <optional>
 
@@ -13,8 +13,8 @@ namespace clrt {
 /// The squared error of a picture at one moment of its render, as its replicates tell it.
 struct SquaredError {
     std::uint64_t samples = 0; ///< a pixel
-    double mean_squared = 0;   ///< mean over these pixels and channels of the variance of the mean
-    double mean_radiance = 0;  ///< over the same
+    double mean_squared = 0;   ///< mean over these pixels and channels of the variance of the mean, weighted
+    double mean_radiance = 0;  ///< over the same, not weighted
     std::vector<double>
         without; ///< mean_squared of the pictures that leave out one replicate; empty under four
     /// Of freedom, of the picture's squared error: as many equal pixels of one channel would scatter as it
@@ -28,11 +28,11 @@ struct SquaredError {
 /// squares of pixels that are taken to be independent of each other (FilmError): 1 where every sample belongs
 /// to one pixel, and where paths splat to neighbours, several times as far as these are apart.
 std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels = ErrorPixels::SCENE,
-                                               int block = 1);
+                                               int block = 1, ErrorMeasure measure = ErrorMeasure::MSE);
 
-/// Relative error of the picture: sqrt(mean over pixels and channels of the variance of the mean) / mean
-/// radiance, with a 95 % interval for the error that this very picture has, |picture - truth| instead of the
-/// variance.
+/// Error of the picture by a measure (error_measure.h): for MSE, sqrt(mean over pixels and channels of the
+/// variance of the mean) / mean radiance, with a 95 % interval for the error that this very picture has,
+/// |picture - truth| instead of the variance.
 ///
 /// Let d_k be how far the mean of replicate k of n is off, in all channels of all pixels. The picture's
 /// squared error |sum d_k|^2 / n^2 differs from its estimate by the sum over pairs of replicates of d_k.d_l /
@@ -55,6 +55,7 @@ struct FilmError {
 std::optional<FilmError> relative_error(const SquaredError& error);
 
 /// None when fewer than two replicates have samples, or the picture is black.
-std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels = ErrorPixels::SCENE);
+std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels = ErrorPixels::SCENE,
+                                    ErrorMeasure measure = ErrorMeasure::MSE);
 
 } // namespace clrt

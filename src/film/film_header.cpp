@@ -85,15 +85,17 @@ std::vector<SampleRange> read_ranges(const Json& json) {
 constexpr size_t MOST_LEVELS = 32;
 
 /// The round of an adaptive film, with room for the samples of its tiles.
-AdaptiveRound read_round(const Json& json, const Film& film) {
+AdaptiveRound read_round(const Json& json, const Film& film, ErrorMeasure measure) {
     AdaptiveRound round;
-    round.first = whole<std::uint64_t>(json.at(0));
-    round.end = whole<std::uint64_t>(json.at(1));
+    round.measure = measure;
+    round.first = whole<std::uint64_t>(json.at("first"));
+    round.end = whole<std::uint64_t>(json.at("end"));
+    json.at("gain").get_to(round.gain);
     for (TileSamples* samples : {&round.start, &round.target})
         for (std::vector<std::uint32_t>& half : *samples)
             half.resize(film_tiles(film));
     const std::vector<double> noise(film_tiles(film));
-    round.noise.assign(std::min(whole<size_t>(json.at(2)), MOST_LEVELS), {noise, noise});
+    round.noise.assign(std::min(whole<size_t>(json.at("levels")), MOST_LEVELS), {noise, noise});
     return round;
 }
 
@@ -111,7 +113,10 @@ FilmHeader film_header(const FilmFile& film) {
     for (const SampleRange& range : render.film.ranges)
         json["ranges"].push_back({range.first, range.end});
     if (is_adaptive(render.film))
-        json["round"] = {render.round.first, render.round.end, render.round.noise.size()};
+        json["round"] = {{"first", render.round.first},
+                         {"end", render.round.end},
+                         {"gain", render.round.gain},
+                         {"levels", render.round.noise.size()}};
     json["counts"] = counts_json(render.counts);
     const std::optional<double>& radiance = film.bias.cut_radiance;
     json["cut_radiance"] = radiance ? Json(*radiance) : Json(nullptr);
@@ -142,8 +147,8 @@ FilmFile film_of_header(const FilmHeader& json) {
     sums.scale = {film.identity.at("quantum"), film.identity.at("largest")};
     sums.replicates = whole<int>(json.at("replicates"));
     sums.ranges = read_ranges(json);
-    if (film.identity.value("adaptive", false))
-        film.render.round = read_round(json.at("round"), sums);
+    if (const std::optional<ErrorMeasure> measure = film_measure(film.identity))
+        film.render.round = read_round(json.at("round"), sums, *measure);
     film.render.counts = read_counts(json.at("counts"));
     if (const Json& radiance = json.at("cut_radiance"); !radiance.is_null())
         film.bias.cut_radiance = radiance.get<double>();

@@ -6,7 +6,8 @@
 //   device        on which the samples were rendered
 //   replicates    whose sums are kept apart
 //   ranges        of sample numbers inside, [first, end), in order
-//   round         with --adaptive: first and last mean samples a pixel of the present round, and n
+//   round         with --adaptive: first and end, mean samples a pixel of the present round; gain that each
+//                 half expects; levels of noise behind the tiles' samples
 //   counts        rays, cut paths and bad samples; bad_samples lists pairs of pixel and sample,
 //                 bad_pixels (absent without bad samples) pairs of pixel and count
 //   cut_radiance  what bounds the light of cut paths (render/cut_paths.h), or null

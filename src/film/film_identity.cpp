@@ -125,7 +125,9 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["precision"] = name_of(options.device.precision);
     identity["sampler"] = name_of(options.sampling.sampler);
     identity["light_sampler"] = name_of(options.sampling.light_sampler);
-    identity["adaptive"] = options.sampling.adaptive;
+    identity["adaptive"] = false;
+    if (options.sampling.adaptive)
+        identity["adaptive"] = name_of(*options.sampling.adaptive);
     identity["seed"] = params.seed;
     identity["replicates"] = params.replicates;
     identity["filter"] = name_of(options.film.filter);
@@ -147,6 +149,13 @@ FilmWindow film_window(const FilmIdentity& identity) {
     const auto window = whole<std::array<int, 4>>(identity.at("window"));
     const auto size = whole<std::array<int, 2>>(identity.at("size"));
     return {{window[0], window[1], window[2], window[3]}, {size[0], size[1]}};
+}
+
+std::optional<ErrorMeasure> film_measure(const FilmIdentity& identity) {
+    const auto adaptive = identity.find("adaptive");
+    if (adaptive == identity.end() || !adaptive->is_string())
+        return std::nullopt;
+    return find_named<ErrorMeasure>(adaptive->get<std::string>());
 }
 
 std::vector<std::string> film_layer_names(const FilmIdentity& identity) {

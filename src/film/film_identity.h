@@ -36,6 +36,9 @@ FilmWindow film_window(const FilmIdentity& identity);
 /// The background of films whose pictures want an alpha channel, which the film does not hold.
 inline constexpr const char* TRANSPARENT_BACKGROUND = "transparent";
 
+/// The error that an adaptive identity's film makes least; none of one that is not adaptive.
+std::optional<ErrorMeasure> film_measure(const FilmIdentity& identity);
+
 /// Names of the layers of paths of an identity's film.
 std::vector<std::string> film_layer_names(const FilmIdentity& identity);
 

@@ -15,6 +15,20 @@ template <>
 inline constexpr Named<SamplerChoice> NAMES<SamplerChoice>[] = {{SamplerChoice::SOBOL, "sobol"},
                                                                 {SamplerChoice::INDEPENDENT, "independent"}};
 
+/// What a picture's squared error is divided by (film/error_measure.h).
+enum class ErrorMeasure {
+    MSE,     ///< the picture's mean, squared: bright pixels decide
+    RELATIVE ///< what shines there, squared: dark ones count as much
+};
+
+template <>
+inline constexpr Named<ErrorMeasure> NAMES<ErrorMeasure>[] = {{ErrorMeasure::MSE, "mse"},
+                                                              {ErrorMeasure::RELATIVE, "relative"}};
+
+inline ErrorMeasure other_measure(ErrorMeasure measure) {
+    return measure == ErrorMeasure::MSE ? ErrorMeasure::RELATIVE : ErrorMeasure::MSE;
+}
+
 /// Samples a pixel when none of --spp, --time and --error is given.
 constexpr std::uint32_t DEFAULT_SPP = 64;
 /// Samples a pixel at most when --error is given without --spp.
@@ -30,13 +44,15 @@ inline constexpr Named<LightSampler> NAMES<LightSampler>[] = {
 struct SamplingOptions {
     std::optional<std::uint32_t> spp; ///< 64 if none of spp, time and error is given; 65536 with error alone
     std::optional<double> time_seconds; ///< bounds the render stage of this run
-    std::optional<double> error;        ///< target of the relative error
+    std::optional<double> error;        ///< target of the error, by measure()
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;
     int replicates = 8;
-    bool adaptive = false; ///< samples go where the picture is noisy
+    std::optional<ErrorMeasure> adaptive; ///< samples go where this error is made least
     SamplerChoice sampler = SamplerChoice::SOBOL;
     LightSampler light_sampler = LightSampler::TREE;
+    /// The error that reports name first and --error judges by.
+    ErrorMeasure measure() const { return adaptive.value_or(ErrorMeasure::MSE); }
 };
 
 } // namespace clrt

@@ -12,20 +12,47 @@ namespace clrt {
 namespace {
 
 constexpr double USUAL_SLOPE = -0.55,
-                 USUAL_SLOPE_SPREAD = 0.13; ///< of renders in general, one standard deviation
-constexpr double SLOPE_UNREST = 0.08;       ///< standard deviation from octave to octave
-constexpr size_t ERRORS_FOR_SLOPE = 5;      ///< the last four octaves
-constexpr double ERRORS_OF_INTERVAL = 2;    ///< half a 95 % interval is about two standard errors
-constexpr double NEARLY_HALF = 1.05;        ///< of half the error: no promise is more exact
-constexpr double LARGEST_FACTOR = 1 << 10;  ///< times the samples: beyond, nobody knows
+                 USUAL_SLOPE_SPREAD = 0.13;    ///< of renders in general, one standard deviation
+constexpr double SLOPE_UNREST = 0.08;          ///< standard deviation from octave to octave
+constexpr size_t ERRORS_FOR_SLOPE = 5;         ///< the last four octaves
+constexpr double ERRORS_OF_INTERVAL = 2;       ///< half a 95 % interval is about two standard errors
+constexpr double NEARLY_HALF = 1.05;           ///< of half the error: no promise is more exact
+constexpr double LARGEST_FACTOR = 1 << 10;     ///< times the samples: beyond, nobody knows
+constexpr double FORECAST_QUANTILE = 1.281552; ///< of a normal number: 80 % are nearer than that
 
-/// The slope of the last doublings, drawn towards the usual one as far as it is uncertain.
-double weighted_slope(const ErrorSlope& measured) {
+/// Takes the slope of the last doublings, drawn towards the usual one as far as it is uncertain.
+void weigh_slope(const ErrorSlope& measured, ErrorForecast& forecast) {
     const double standard_error = measured.reach / ERRORS_OF_INTERVAL;
     const double measured_variance = standard_error * standard_error + SLOPE_UNREST * SLOPE_UNREST;
     const double usual_variance = USUAL_SLOPE_SPREAD * USUAL_SLOPE_SPREAD;
-    return (measured.slope * usual_variance + USUAL_SLOPE * measured_variance) /
-           (usual_variance + measured_variance);
+    const double sum = usual_variance + measured_variance;
+    forecast.slope = (measured.slope * usual_variance + USUAL_SLOPE * measured_variance) / sum;
+    forecast.slope_deviation = std::sqrt(usual_variance * measured_variance / sum);
+    forecast.measured = true;
+}
+
+/// Standard deviation of the logarithm of an estimated error (FilmError tells its distribution). An error
+/// that rests on few bright samples falls when others come.
+double error_deviation(const SquaredError& error) {
+    if (!(error.degrees > 0))
+        return 0;
+    return std::sqrt(0.5 / (error.degrees * double(error.without.size() - 1)));
+}
+
+/// The smallest good count above `present` at which the error is `target` or less, if it comes out `off`
+/// standard deviations above the forecast; none if there are too many.
+std::optional<std::uint64_t> samples_for(double target, const ErrorForecast& forecast, std::uint64_t present,
+                                         int replicates, double off) {
+    const double most = LARGEST_FACTOR * double(present);
+    for (std::uint64_t samples = next_good_count(present, replicates); double(samples) < most;
+         samples = next_good_count(samples, replicates)) {
+        const double by_slope =
+            forecast.slope_deviation * std::log(double(samples) / double(forecast.samples));
+        const double deviation = std::hypot(by_slope, forecast.error_deviation);
+        if (error_at(forecast, samples, replicates) * std::exp(off * deviation) <= target)
+            return samples;
+    }
+    return std::nullopt;
 }
 
 std::optional<ErrorSlope> recent_slope(const std::vector<SquaredError>& doublings) {
@@ -41,11 +68,10 @@ std::optional<ErrorForecast> forecast_error(const std::vector<SquaredError>& dou
     const std::optional<FilmError> error = relative_error(last);
     if (!error || !(error->relative_rmse > 0))
         return std::nullopt;
-    ErrorForecast forecast{last.samples, error->relative_rmse, USUAL_SLOPE, false};
-    if (const std::optional<ErrorSlope> measured = recent_slope(doublings)) {
-        forecast.slope = weighted_slope(*measured);
-        forecast.measured = true;
-    }
+    ErrorForecast forecast{last.samples, error->relative_rmse, USUAL_SLOPE,
+                           false,        USUAL_SLOPE_SPREAD,   error_deviation(last)};
+    if (const std::optional<ErrorSlope> measured = recent_slope(doublings))
+        weigh_slope(*measured, forecast);
     return forecast;
 }
 
@@ -64,24 +90,34 @@ double error_at(const ErrorForecast& forecast, std::uint64_t samples, int replic
     return std::sqrt(law * independent);
 }
 
+std::optional<ErrorPrice> price_of_error(double target, const std::vector<SquaredError>& doublings,
+                                         const SquaredError& present, int replicates, double seconds) {
+    const std::optional<ErrorForecast> forecast = forecast_error(doublings, present);
+    if (!forecast || present.samples == 0)
+        return std::nullopt;
+    const auto samples_if = [&](double off) {
+        return samples_for(target, *forecast, present.samples, replicates, off);
+    };
+    const std::optional<std::uint64_t> samples = samples_if(0);
+    if (!samples)
+        return std::nullopt;
+    const auto factor = [&](std::uint64_t count) { return double(count) / double(present.samples); };
+    ErrorPrice price{*samples,         error_at(*forecast, *samples, replicates),
+                     factor(*samples), seconds * (factor(*samples) - 1),
+                     forecast->slope,  forecast->measured};
+    price.low_samples = samples_if(-FORECAST_QUANTILE).value_or(*samples);
+    price.low_seconds = seconds * (factor(price.low_samples) - 1);
+    if ((price.high_samples = samples_if(FORECAST_QUANTILE)))
+        price.high_seconds = seconds * (factor(*price.high_samples) - 1);
+    return price;
+}
+
 std::optional<ErrorPrice> price_of_half(const std::vector<SquaredError>& doublings,
                                         const SquaredError& present, int replicates, double seconds) {
-    const std::optional<ErrorForecast> forecast = forecast_error(doublings, present);
     const std::optional<FilmError> error = relative_error(present);
-    if (!forecast || !error || present.samples == 0)
+    if (!error)
         return std::nullopt;
-    const double most = LARGEST_FACTOR * double(present.samples);
-    std::uint64_t samples = present.samples;
-    do
-        samples = next_good_count(samples, replicates);
-    while (error_at(*forecast, samples, replicates) > NEARLY_HALF * error->relative_rmse / 2 &&
-           double(samples) < most);
-    if (!(double(samples) < most))
-        return std::nullopt;
-    const double factor = double(samples) / double(present.samples);
-    return ErrorPrice{samples,         error_at(*forecast, samples, replicates),
-                      factor,          seconds * (factor - 1),
-                      forecast->slope, forecast->measured};
+    return price_of_error(NEARLY_HALF * error->relative_rmse / 2, doublings, present, replicates, seconds);
 }
 
 } // namespace clrt

@@ -24,21 +24,52 @@ Json interval_json(const std::optional<FilmError>& error) {
             {"high", error ? optional_number(error->high) : Json(nullptr)}};
 }
 
+Json optional_price(const std::optional<ErrorPrice>& price) {
+    return price ? price_json(*price) : Json(nullptr);
+}
+
+/// The errors by all measures.
+Json measures_json(const ErrorReport& report) {
+    Json json;
+    for (const auto& row : NAMES<ErrorMeasure>)
+        json[row.name] = interval_json(row.value == report.measure ? report.error : report.other_error);
+    return json;
+}
+
 } // namespace
 
-ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y) {
+Json price_json(const ErrorPrice& price) {
+    return {{"rel_rmse", price.relative_rmse},
+            {"spp", price.samples},
+            {"spp_low", price.low_samples},
+            {"spp_high", price.high_samples ? Json(*price.high_samples) : Json(nullptr)},
+            {"samples_factor", price.factor},
+            {"seconds", price.seconds},
+            {"seconds_low", price.low_seconds},
+            {"seconds_high", optional_number(price.high_seconds)},
+            {"confidence", FORECAST_CONFIDENCE},
+            {"slope", price.slope},
+            {"slope_measured", price.measured}};
+}
+
+ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y,
+                              const std::optional<double>& target) {
     ErrorReport report;
     report.cut = cut_paths(render, bias.cut_radiance);
     report.blind_spots = bias.blind_spots;
     report.replicates = int(ReplicateMeans(render.film).count());
     report.window_x = x;
     report.window_y = y;
-    const std::optional<SquaredError> squared = film_squared_error(render.film);
+    report.measure = render.round.measure;
+    const std::optional<SquaredError> squared =
+        film_squared_error(render.film, ErrorPixels::SCENE, 1, report.measure);
     if (!squared)
         return report;
     report.error = relative_error(*squared);
+    report.other_error = film_error(render.film, ErrorPixels::SCENE, other_measure(report.measure));
     report.has_backdrop = has_backdrop(render.film);
-    report.whole_error = report.has_backdrop ? film_error(render.film, ErrorPixels::ALL) : report.error;
+    report.whole_error =
+        report.has_backdrop ? film_error(render.film, ErrorPixels::ALL, report.measure) : report.error;
     if (const std::optional<size_t> shown = film_shown_pixels(render.film))
         report.scene_share = double(*shown) / double(render.film.shown.size());
     // Between doublings samples are not even, and the error tells nothing about its slope.
@@ -48,10 +79,12 @@ ErrorReport make_error_report(const RenderProgress& render, const BiasSources& b
         doublings.push_back(*squared);
     report.slope = error_slope(doublings);
     try {
-        report.spread = film_error_spread(render.film);
+        report.spread = film_error_spread(render.film, report.measure);
     } catch (const std::bad_alloc&) { // where the error sits is not worth the picture
     }
     report.price = price_of_half(doublings, *squared, report.replicates, render.seconds);
+    if (target && report.error && report.error->relative_rmse > *target)
+        report.target_price = price_of_error(*target, doublings, *squared, report.replicates, render.seconds);
     return report;
 }
 
@@ -83,6 +116,8 @@ bool is_complete(const ErrorReport& report) {
 
 Json error_report_json(const ErrorReport& report) {
     Json json = interval_json(report.error);
+    json["measure"] = name_of(report.measure);
+    json["by_measure"] = measures_json(report);
     json["over"] = report.has_backdrop ? "scene" : "picture";
     json["scene_share"] = optional_number(report.scene_share);
     json["whole_picture"] = interval_json(report.whole_error);
@@ -95,14 +130,8 @@ Json error_report_json(const ErrorReport& report) {
                          {"high", report.slope->slope + report.slope->reach},
                          {"first_spp", report.slope->first_samples},
                          {"last_spp", report.slope->last_samples}};
-    json["half"] = nullptr;
-    if (report.price)
-        json["half"] = {{"rel_rmse", report.price->relative_rmse},
-                        {"spp", report.price->samples},
-                        {"samples_factor", report.price->factor},
-                        {"seconds", report.price->seconds},
-                        {"slope", report.price->slope},
-                        {"slope_measured", report.price->measured}};
+    json["half"] = optional_price(report.price);
+    json["target"] = optional_price(report.target_price);
     json["worst_tile"] = nullptr;
     json["tails"] = nullptr;
     if (report.spread) {
@@ -132,7 +161,11 @@ void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
     metadata.emplace_back("blind_spots", fmt::format("{}", fmt::join(spots, ", ")));
     if (!report.error)
         return;
+    metadata.emplace_back("error.measure", name_of(report.measure));
     add("error", report.error->relative_rmse);
+    if (report.other_error)
+        add(report.measure == ErrorMeasure::MSE ? "error.by_relative" : "error.by_mse",
+            report.other_error->relative_rmse);
     metadata.emplace_back("error.over", report.has_backdrop ? "scene" : "picture");
     if (report.whole_error)
         add("error.whole_picture", report.whole_error->relative_rmse);

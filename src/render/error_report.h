@@ -17,21 +17,26 @@ namespace clrt {
 
 /// The error of a film with all that belongs to it.
 struct ErrorReport {
-    std::optional<FilmError> error;       ///< over the pixels that show the scene (ErrorPixels::SCENE)
-    std::optional<FilmError> whole_error; ///< over all pixels
-    std::optional<double> scene_share;    ///< of the pixels: shows the scene; none where that is not known
-    bool has_backdrop = false;            ///< whether the two errors are of different pixels
+    ErrorMeasure measure = ErrorMeasure::MSE; ///< by which --error judges, and of all but other_error
+    std::optional<FilmError> error;           ///< over the pixels that show the scene (ErrorPixels::SCENE)
+    std::optional<FilmError> other_error;     ///< by the other measure
+    std::optional<FilmError> whole_error;     ///< over all pixels
+    std::optional<double> scene_share; ///< of the pixels: shows the scene; none where that is not known
+    bool has_backdrop = false;         ///< whether the two errors are of different pixels
     std::optional<ErrorSlope> slope;
     std::optional<ErrorSpread> spread;
-    std::optional<ErrorPrice> price;
-    CutPaths cut;                       ///< what the error does not hold: light of paths that were cut,
-    std::vector<BlindSpot> blind_spots; ///< and of paths that are never sampled
-    int replicates = 0;                 ///< with samples
-    int window_x = 0, window_y = 0;     ///< the window's place in the whole picture
+    std::optional<ErrorPrice> price;        ///< of half the error
+    std::optional<ErrorPrice> target_price; ///< of the error that is asked for, where it is not reached
+    CutPaths cut;                           ///< what the error does not hold: light of paths that were cut,
+    std::vector<BlindSpot> blind_spots;     ///< and of paths that are never sampled
+    int replicates = 0;                     ///< with samples
+    int window_x = 0, window_y = 0;         ///< the window's place in the whole picture
 };
 
-/// Makes the report of a render; (x, y) is the window's top left pixel in the whole picture.
-ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y);
+/// Makes the report of a render; (x, y) is the window's top left pixel in the whole picture, `target` the
+/// error that is asked for.
+ErrorReport make_error_report(const RenderProgress& render, const BiasSources& bias, int x, int y,
+                              const std::optional<double>& target = {});
 
 /// What the error is worth.
 enum class Verdict {
@@ -46,6 +51,9 @@ const char* verdict_name(Verdict verdict);
 
 /// Whether the error holds all that is wrong with the picture.
 bool is_complete(const ErrorReport& report);
+
+/// A price in the JSON.
+nlohmann::ordered_json price_json(const ErrorPrice& price);
 
 /// The JSON's "error".
 nlohmann::ordered_json error_report_json(const ErrorReport& report);

@@ -26,15 +26,29 @@ std::string error_line(const ErrorReport& report) {
     const FilmError& error = *report.error;
     if (!(error.relative_rmse > 0))
         return "none: all replicates give the same picture";
-    std::string text =
-        fmt::format("{} of the {}'s mean brightness (root of mean square)", percent_text(error.relative_rmse),
-                    report.has_backdrop ? "scene" : "picture");
+    const char* const picture = report.has_backdrop ? "scene" : "picture";
+    std::string text = fmt::format(
+        "{} {}", percent_text(error.relative_rmse),
+        report.measure == ErrorMeasure::MSE
+            ? fmt::format("of the {}'s mean brightness (root of mean square)", picture)
+            : fmt::format("relative to each pixel's brightness (root of mean square over the {})", picture));
     if (verdict_on(report) == Verdict::UNTRUSTED)
         return text + ", as far as can be told";
     if (error.low && error.high)
         return text + fmt::format("; with 95 % confidence {} to {}", percent_number(*error.low),
                                   percent_text(*error.high));
     return text + "; no interval: it takes four replicates";
+}
+
+/// The error by the measure that nobody has asked for.
+std::string other_line(const ErrorReport& report) {
+    if (!report.other_error || !(report.other_error->relative_rmse > 0))
+        return "";
+    return report.measure == ErrorMeasure::MSE
+               ? fmt::format("relative {} relative to each pixel's brightness\n",
+                             percent_text(report.other_error->relative_rmse))
+               : fmt::format("absolute {} of the mean brightness\n",
+                             percent_text(report.other_error->relative_rmse));
 }
 
 /// What the error is stated over, where the picture shows more than the scene.
@@ -80,17 +94,38 @@ std::string price_line(const ErrorReport& report) {
                        report.price->seconds, percent_text(report.price->relative_rmse));
 }
 
+/// What the error that was asked for still takes.
+std::string target_line(const ErrorReport& report) {
+    if (!report.target_price || verdict_on(report) == Verdict::UNTRUSTED)
+        return "";
+    const ErrorPrice& price = *report.target_price;
+    return fmt::format("target   takes {} spp, {:.1f} s more, with {:.0f} % confidence {:.1f} {}\n",
+                       price.samples, price.seconds, 100 * FORECAST_CONFIDENCE, price.low_seconds,
+                       price.high_seconds ? fmt::format("to {:.1f} s", *price.high_seconds) : "s or more");
+}
+
 } // namespace
 
 std::string percent_text(double fraction) {
     return percent_number(fraction) + " %";
 }
 
+std::string gain_text(const AdaptiveRound& round) {
+    const double gain = expected_gain(round);
+    const char* const measure = round.measure == ErrorMeasure::MSE ? "mean squared" : "relative squared";
+    const bool pays = round.gain[0] >= WORTHWHILE_GAIN || round.gain[1] >= WORTHWHILE_GAIN;
+    return fmt::format("{:.2f} times less {} error is expected of as many samples: {}", gain, measure,
+                       pays ? "more of them go where the picture is noisy"
+                            : "not worth it, they go everywhere alike");
+}
+
 std::string format_error_report(const ErrorReport& report) {
-    std::string text = fmt::format("error    {}\n", error_line(report)) + scene_line(report) +
-                       verdict_line(report) + format_cut(report.cut) + format_blind_spots(report.blind_spots);
+    std::string text = fmt::format("error    {}\n", error_line(report)) + other_line(report) +
+                       scene_line(report) + verdict_line(report) + format_cut(report.cut) +
+                       format_blind_spots(report.blind_spots);
     if (report.error && report.error->relative_rmse > 0)
         text += fmt::format("price    {}\n", price_line(report));
+    text += target_line(report);
     return text;
 }
 

@@ -3,6 +3,7 @@
 // (tools/manpage.py).
 #pragma once
 
+#include "film/adaptive.h"
 #include "render/error_report.h"
 
 #include <string>
@@ -11,6 +12,10 @@ namespace clrt {
 
 /// "8.0 %", from 1 % on with one decimal, below with two digits; never in exponent form.
 std::string percent_text(double fraction);
+
+/// What an adaptive render expects: "2.3 times less squared error with as many samples: more of them go where
+/// the picture is noisy".
+std::string gain_text(const AdaptiveRound& round);
 
 /// What everybody asks: lines "error", "verdict", "cut", "not seen" and "price".
 std::string format_error_report(const ErrorReport& report);

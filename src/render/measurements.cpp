@@ -32,11 +32,20 @@ void Measurements::measure_film(const FilmBuffers& buffers, std::uint64_t earlie
     const auto start = Clock::now();
     buffers.read_sums(render);
     buffers.read_shown(render.film);
-    error_ = film_squared_error(render.film);
+    error_ = film_squared_error(render.film, ErrorPixels::SCENE, 1, render.round.measure);
     // Beside the sums of all replicates, a few words a pixel are read in no time.
     if (const std::uint64_t samples = film_all_samples(render.film) - earlier_samples; samples > 0)
         rays_per_sample_ = rays_per_sample(buffers.read_counts(), double(samples));
     render.check_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void Measurements::forecast(const std::vector<SquaredError>& doublings, int replicates,
+                            const std::optional<double>& target) {
+    forecast_ = forecast_error(doublings, *error_);
+    const std::optional<FilmError> error = relative_error(*error_);
+    price_.reset();
+    if (target && error && error->relative_rmse > *target)
+        price_ = price_of_error(*target, doublings, *error_, replicates, double(error_->samples));
 }
 
 void Measurements::measure_rays(const FilmBuffers& buffers, const Film& film, double samples,
@@ -51,7 +60,9 @@ void Measurements::measure_rays(const FilmBuffers& buffers, const Film& film, do
 
 double Measurements::error_at(double samples) const {
     const std::optional<FilmError> error = error_ ? relative_error(*error_) : std::nullopt;
-    return error ? error->relative_rmse * std::sqrt(double(error_->samples) / samples) : -1;
+    if (!error || !forecast_)
+        return -1;
+    return error->relative_rmse * std::pow(samples / double(error_->samples), forecast_->slope);
 }
 
 double Measurements::rays_per_second(const Film& film, double samples, double seconds) const {

@@ -4,6 +4,7 @@
 #include "console/signals.h"
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
+#include "render/error_text.h"
 #include "render/good_counts.h"
 #include "seconds.h"
 
@@ -77,7 +78,8 @@ void Passes::begin_hits() {
         return;
     try {
         hit_layers_.emplace(prepared_.device, *prepared_.programs->layers, params_,
-                            options_.sampling.adaptive, prepared_.buffers, film_buffers_, result_.hits);
+                            options_.sampling.adaptive.has_value(), prepared_.buffers, film_buffers_,
+                            result_.hits);
     } catch (const DeviceError& error) {
         give_up_hits(error);
     }
@@ -195,9 +197,42 @@ bool Passes::run_tiles(double samples, double done, Launch&& launch) {
 void Passes::show(double samples) {
     const double of_run = samples_of_run(samples);
     measurements_.measure_rays(film_buffers_, result_.film, of_run, seconds());
-    progress_.update({"render", rules_.fraction(samples, seconds(), measurements_.error()),
+    progress_.update({"render", rules_.fraction(samples, seconds(), expected_samples()),
                       std::uint64_t(samples), measurements_.rays_per_second(result_.film, of_run, seconds()),
-                      measurements_.error_at(samples)});
+                      measurements_.error_at(samples), false, progress_target(samples)});
+}
+
+/// What the last measured error and those before it let expect of --error.
+void Passes::forecast_error() {
+    measurements_.forecast(result_.history, options_.sampling.replicates, options_.sampling.error);
+    const std::optional<ErrorPrice>& price = measurements_.price();
+    if (!price || !is_doubling(samples_, options_.sampling.replicates) || result_.passes == 0)
+        return;
+    const double pace = seconds() / double(result_.passes);
+    result_.forecasts.push_back({samples_, seconds(), *price});
+    ErrorPrice& noted = result_.forecasts.back().price;
+    noted.seconds *= pace;
+    noted.low_seconds *= pace;
+    if (noted.high_seconds)
+        *noted.high_seconds *= pace;
+}
+
+std::optional<std::uint64_t> Passes::expected_samples() const {
+    return measurements_.price() ? std::optional(measurements_.price()->samples) : std::nullopt;
+}
+
+/// When the render will have come to --error, at the pace of this run.
+std::optional<ProgressTarget> Passes::progress_target(double samples) const {
+    const std::optional<ErrorPrice>& price = measurements_.price();
+    const double of_run = samples_of_run(samples);
+    if (!price || !(of_run > 0))
+        return std::nullopt;
+    const auto seconds_to = [&](std::uint64_t count) {
+        return std::max(double(count) - samples, 0.0) * seconds() / of_run;
+    };
+    return ProgressTarget{*options_.sampling.error, seconds_to(price->samples),
+                          seconds_to(price->low_samples),
+                          price->high_samples ? seconds_to(*price->high_samples) : -1};
 }
 
 /// Shows what the render has come to.
@@ -211,7 +246,7 @@ void Passes::show_end() {
                         result_.error ? result_.error->relative_rmse : -1,
                         true};
     if (result_.stop == StopRule::SIGNAL)
-        state.fraction = rules_.fraction(double(samples_), seconds, measurements_.error());
+        state.fraction = rules_.fraction(double(samples_), seconds, expected_samples());
     progress_.update(state);
 }
 
@@ -219,12 +254,17 @@ void Passes::show_end() {
 void Passes::begin_round() {
     AdaptiveRound& round = result_.round;
     if (round.end == 0) {
-        round = first_round(result_.film);
+        round = first_round(result_.film, *options_.sampling.adaptive);
     } else if (samples_ == round.end) {
         const auto start = Clock::now();
         film_buffers_.read_sums(result_);
+        const bool is_first = expected_gain(round) == 0;
         round = next_round(result_.film, round);
         result_.check_seconds += seconds_between(start, Clock::now());
+        if (is_first) {
+            progress_.finish();
+            spdlog::info("adaptive sampling: {}", gain_text(round));
+        }
     }
 }
 
@@ -286,6 +326,8 @@ RenderState Passes::measured_state() {
         const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
         if (measurements_.error() && is_new && is_doubling(samples_, options_.sampling.replicates))
             result_.history.push_back(*measurements_.error());
+        if (measurements_.error())
+            forecast_error();
     }
     RenderState state;
     state.samples = samples_;
@@ -325,7 +367,7 @@ void Passes::save_when_due() {
     }
     if (picture_reminder_.due() && hooks_.save_picture) {
         read_back();
-        result_.error = film_error(result_.film);
+        result_.error = film_error(result_.film, ErrorPixels::SCENE, options_.sampling.measure());
         hooks_.save_picture(result_);
     }
 }
@@ -354,7 +396,7 @@ void Passes::finish() {
     } else {
         read_back();
     }
-    result_.error = film_error(result_.film);
+    result_.error = film_error(result_.film, ErrorPixels::SCENE, options_.sampling.measure());
 }
 
 void Passes::run() {

@@ -44,6 +44,9 @@ private:
     std::optional<StopRule> interruption(double seconds_left) const;
     void show(double samples);
     void show_end();
+    void forecast_error();
+    std::optional<ProgressTarget> progress_target(double samples) const;
+    std::optional<std::uint64_t> expected_samples() const;
     void read_back();
     void finish();
     void take_host_memory();

@@ -5,6 +5,7 @@
 #include "console/progress.h"
 #include "film/hit_sums.h"
 #include "film/render_progress.h"
+#include "render/error_price.h"
 #include "render/prepared_scene.h"
 #include "render/stop_rules.h"
 
@@ -13,6 +14,13 @@
 #include <string>
 
 namespace clrt {
+
+/// What was forecast of --error while a render went on.
+struct RenderForecast {
+    std::uint64_t samples = 0; ///< a pixel, when it was made,
+    double seconds = 0;        ///< and seconds of this run
+    ErrorPrice price;          ///< beyond them
+};
 
 /// What a render gives: film, counts, history and seconds of the whole picture, the rest of this run.
 struct Render : RenderProgress {
@@ -26,10 +34,11 @@ struct Render : RenderProgress {
     double dropped_seconds = 0; ///< of them: for a pass that was interrupted and dropped; not in `seconds`
     double overrun_seconds = 0; ///< beyond --time
     double longest_launch_seconds = 0;
-    std::optional<FilmError> error; ///< of the film as it is
-    StopRule stop = StopRule::SPP;  ///< what ended it
-    std::string stop_text;          ///< the same in words
-    int stop_signal = 0;            ///< the signal that ended it early, or 0
+    std::optional<FilmError> error;        ///< of the film as it is
+    std::vector<RenderForecast> forecasts; ///< of --error, at doublings
+    StopRule stop = StopRule::SPP;         ///< what ended it
+    std::string stop_text;                 ///< the same in words
+    int stop_signal = 0;                   ///< the signal that ended it early, or 0
 };
 
 /// What happens beside a render.

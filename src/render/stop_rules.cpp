@@ -88,19 +88,13 @@ bool StopRules::reached(const std::optional<FilmError>& error) const {
     return options_.error && error && error->relative_rmse <= *options_.error;
 }
 
-double StopRules::fraction(double samples, double seconds, const std::optional<SquaredError>& check) const {
+double StopRules::fraction(double samples, double seconds,
+                           const std::optional<std::uint64_t>& expected) const {
     double fraction = samples / double(last_samples_);
     if (options_.time_seconds)
         fraction = std::max(fraction, seconds / *options_.time_seconds);
-    // Independent samples would reach the target after this many, at the next good count.
-    const std::optional<FilmError> error = check ? relative_error(*check) : std::nullopt;
-    if (options_.error && *options_.error > 0 && error) {
-        const double needed = double(check->samples) * std::pow(error->relative_rmse / *options_.error, 2);
-        const double most =
-            std::min(std::max(std::ceil(needed), double(check->samples) + 1), double(last_samples_));
-        fraction = std::max(fraction,
-                            samples / double(next_good_count(std::uint64_t(most) - 1, options_.replicates)));
-    }
+    if (expected)
+        fraction = std::max(fraction, samples / double(*expected));
     return std::min(fraction, 1.0);
 }
 

@@ -55,9 +55,9 @@ public:
     /// Whether this error satisfies --error.
     bool reached(const std::optional<FilmError>& error) const;
 
-    /// Progress in [0, 1] by the limit that is nearest; `check` is the last measured error, if any, and at
-    /// how many samples.
-    double fraction(double samples, double seconds, const std::optional<SquaredError>& check) const;
+    /// Progress in [0, 1] by the limit that is nearest; --error is forecast to be reached at `expected`
+    /// samples a pixel, if that is known.
+    double fraction(double samples, double seconds, const std::optional<std::uint64_t>& expected) const;
     /// What ended the render, for the log and the report: "--spp 64 is complete".
     std::string describe(StopRule rule, const StopMoment& moment = {}) const;
 

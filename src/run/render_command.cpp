@@ -69,7 +69,7 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
             done.facts,
             tree.bvh,
             done.render,
-            make_error_report(done.render, bias, window.x0, window.y0),
+            make_error_report(done.render, bias, window.x0, window.y0, options.sampling.error),
             tree.reason,
             done.causes,
             job.load_seconds,

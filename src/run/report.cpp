@@ -34,6 +34,12 @@ Json stop_json(const Report& report) {
               {"error_reached", nullptr},
               {"overrun_seconds", report.render.overrun_seconds},
               {"dropped_seconds", report.render.dropped_seconds}};
+    json["forecasts"] = Json::array();
+    for (const RenderForecast& forecast : report.render.forecasts) {
+        json["forecasts"].push_back(price_json(forecast.price));
+        json["forecasts"].back()["at_spp"] = forecast.samples;
+        json["forecasts"].back()["at_seconds"] = forecast.seconds;
+    }
     if (report.options.sampling.error) {
         json["error_target"] = *report.options.sampling.error;
         json["error_reached"] = error_reached(report);
@@ -69,11 +75,15 @@ void add_facts(const Report& report, Metadata& metadata) {
 }
 
 /// Null where all tiles have the same number of samples.
-Json adaptive_json(const Film& film) {
+Json adaptive_json(const RenderProgress& render) {
+    const Film& film = render.film;
     if (!is_adaptive(film))
         return nullptr;
     const TileSpread spread = tile_spread(film);
-    return {{"tile_size", ADAPTIVE_TILE_SIZE},
+    return {{"measure", name_of(render.round.measure)},
+            {"expected_gain",
+             expected_gain(render.round) > 0 ? Json(expected_gain(render.round)) : Json(nullptr)},
+            {"tile_size", ADAPTIVE_TILE_SIZE},
             {"mean_spp", spread.mean},
             {"fewest_spp", spread.fewest},
             {"most_spp", spread.most}};
@@ -126,7 +136,7 @@ std::string report_json(const Report& report) {
                                  ? Json(nullptr)
                                  : Json(film_samples(render.film) - render.passes);
     json["first_sample"] = report.options.sampling.first_sample;
-    json["adaptive"] = adaptive_json(render.film);
+    json["adaptive"] = adaptive_json(render);
     json["sampler"] = name_of(report.options.sampling.sampler);
     json["light_sampler"] = name_of(report.options.sampling.light_sampler);
     json["seed"] = report.options.sampling.seed;

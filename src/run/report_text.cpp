@@ -32,6 +32,11 @@ std::string picture_line(const Report& report) {
                        samples, report.render.stop_text);
 }
 
+std::string adaptive_line(const Report& report) {
+    const AdaptiveRound& round = report.render.round;
+    return expected_gain(round) > 0 ? fmt::format("adaptive {}\n", gain_text(round)) : "";
+}
+
 std::string time_line(const Report& report) {
     return fmt::format("time     {:.1f} s, {:.1f} s of it rendering, on {}\n", report.total_seconds,
                        report.render.run_seconds, report.device.name);
@@ -104,7 +109,8 @@ std::string proof_lines(const Report& report) {
 
 std::string format_report(const Report& report) {
     std::string text =
-        picture_line(report) + time_line(report) + format_error_report(report.error) + missed_line(report) +
+        picture_line(report) + adaptive_line(report) + time_line(report) + format_error_report(report.error) +
+        missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         left_out_lines(report) + bad_lines(report);
     if (report.options.run.verbosity > 0)

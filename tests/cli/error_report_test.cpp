@@ -98,6 +98,7 @@ TEST_F(ErrorReport, TheReportLeadsWithWhatPeopleAsk) {
         "time     [0-9.]+ s, [0-9.]+ s of it rendering, on .*\n"
         "error    [0-9.]+ % of the picture's mean brightness \\(root of mean square\\); with 95 % confidence "
         "[0-9.]+ to [0-9.]+ %\n"
+        "relative [0-9.]+ % relative to each pixel's brightness\n"
         "verdict  trust the error\n"
         "price    half the error takes [0-9]+ spp, [0-9.]+ s more, and comes to [0-9.]+ %\n"
         "memory   [0-9]+ MB at most\n"

@@ -189,14 +189,15 @@ TEST_F(FilmCommand, AnAdaptiveRunGoesOnButDoesNotMerge) {
         return arguments;
     };
     render_part("whole", 0, 64, with({"-j", "1", "--stats", "s.json"}));
-    EXPECT_TRUE(holds(folder.read("s.json"), {"\"spp\": 64", "\"adaptive\": {", "\"tile_size\": 16"}));
+    EXPECT_TRUE(holds(folder.read("s.json"),
+                      {"\"spp\": 64", "\"adaptive\": {", "\"measure\": \"mse\"", "\"tile_size\": 8"}));
     // Stop in the middle of rounds.
     render_part("a", 0, 20, adaptive);
     EXPECT_EQ(clrt({"--resume", "a.film", "-s", "43", "-o", "b.exr", "--checkpoint", "b.film"}).exit_code, 0);
     const CommandResult result =
         clrt({"--resume", "b.film", "-s", "64", "-o", "c.exr", "--checkpoint", "c.film"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(holds(result.out, {" spp on average, ", " by tiles of 16 x 16"}));
+    EXPECT_TRUE(holds(result.out, {" spp on average, ", " by tiles of 8 x 8"}));
     expect_same_film("c.film", "whole.film");
     expect_same_picture("c.exr", "whole.exr");
     EXPECT_EQ(merge({"c.film", "-o", "alone.exr"}).exit_code, 0);

@@ -15,6 +15,7 @@ TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "t
 sys.path.insert(0, TOOLS)
 from clrt_tools import study_runs  # noqa: E402
 from clrt_tools.clrt_choices import Choices  # noqa: E402
+from clrt_tools.study_methods import SWITCHES, Method  # noqa: E402
 
 FAKE_CLRT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support", "fake_clrt.py")
 CLRT = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "clrt"
@@ -62,7 +63,15 @@ class StudyCommand(unittest.TestCase):
 
     def study(self, *arguments):
         return self.run_command("scene.obj", "--clrt", CLRT, "-d", DEVICE, "-i", "path", "-p", "single", "-r", "16x12",
-                                "--repeats", "2", *arguments)
+                                "--repeats", "2", *self.usual_ways(arguments), *arguments)
+
+    @staticmethod
+    def usual_ways(arguments):
+        """Leaves the ways to find the light as they are, but for those that the arguments name."""
+        choices = Choices(CLRT)
+        return [word for switch in SWITCHES.values()
+                if not switch.combined and choices.has(switch.option) and "--" + switch.plural not in arguments
+                for word in ("--" + switch.plural, choices.default(switch.option))]
 
     def test_makes_a_table_and_a_page_that_needs_no_network(self):
         done = self.study("--spp", "2,4", "--reference-spp", "32", "-o", "page.html", "--", "--exposure", "1")
@@ -96,13 +105,13 @@ class StudyCommand(unittest.TestCase):
         parts.feed(text)
         for source in parts.sources:
             self.assertRegex(source, r"^(data:image/png;base64,|#)")
-        self.assertEqual(parts.tags["svg"], 3)
+        self.assertEqual(parts.tags["svg"], 4)
         self.assertEqual(parts.tags["figure"], 5)
         self.assertEqual(text.count('<tr class="number">'), 4)
         self.assertEqual(text.count('<tr class="ratio">'), 1)
-        # The answer comes first: the sentence, then the table of seconds, then everything else.
-        self.assertLess(text.index(headline), text.index('<table id="times">'))
-        self.assertLess(text.index('<table id="times">'), text.index('<table id="ratios">'))
+        # The answer comes first: the sentence, the table of seconds, what each change buys, then everything else.
+        order = [text.index(part) for part in (headline, '<table id="times">', 'id="gains-chart"', '<table id="ratios">')]
+        self.assertEqual(order, sorted(order))
         self.assertIn("path, single, independent", text)
         self.assertIn("--sampler independent", text)
 
@@ -154,6 +163,21 @@ class StudyCommand(unittest.TestCase):
         self.check_seconds(done, 30)
         self.assertRegex(done.stdout, r"note: (\d+ of \d+ runs were )?dropped")
 
+    def test_measures_a_way_to_find_the_light_where_clrt_takes_it(self):
+        done = self.study("--samplers", "sobol", "--adaptive", "off," + Choices(CLRT).names("--adaptive")[1], "--spp", "2,32",
+                          "--repeats", "1", "--reference-spp", "32", "-o", "page.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"note: path, single, sobol, adaptive \w+: not with 2 spp\. clrt: error: .*--adaptive")
+        with open(os.path.join(self.folder, "page.csv"), newline="", encoding="utf-8") as file:
+            rows = {(row["adaptive"], row["spp"]): row["command"] for row in csv.DictReader(file)}
+        self.assertEqual(sorted(spp for _, spp in rows), ["2", "32", "32"])
+        self.assertEqual(sorted("--adaptive" in command for command in rows.values()), [False, False, True])
+
+    def test_says_which_switch_this_clrt_lacks(self):
+        done = self.run_command("scene.obj", "--clrt", FAKE_CLRT, "--guides", "on")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("option --guides: expected a clrt that has --guide, found one without", done.stderr)
+
     def test_says_its_version_and_helps(self):
         done = self.run_command("--version")
         self.assertRegex(done.stdout, r"^clrt-study \d+\.\d+\.\d+\n$")
@@ -170,11 +194,14 @@ class StudyCommand(unittest.TestCase):
         self.assertEqual(choices.names("--integrator"), ["path", "whitted", "raycast"])
         self.assertEqual(choices.names("--precision"), ["single", "double", "fast"])
         self.assertEqual(choices.names("--sampler"), ["sobol", "independent"])
-        self.assertEqual(study_runs.CLRT_DEFAULT, study_runs.Method(*map(choices.default, ("--integrator", "--precision", "--sampler"))))
-        for option, found in (("-i", "path,pth"), ("-p", "half"), ("--samplers", "sobol,sobol")):
+        self.assertEqual(choices.names("--adaptive")[0], "off")
+        default = choices.default_method()
+        self.assertEqual((default.integrator, default.precision, default.sampler, default.adaptive), ("path", "single", "sobol", "off"))
+        self.assertEqual(study_runs.REFERENCE_METHOD, Method("path", "single", "sobol"))
+        for option, found in (("-i", "path,pth"), ("-p", "half"), ("--samplers", "sobol,sobol"), ("--adaptive", "of")):
             done = self.run_command("scene.obj", "--clrt", CLRT, option, found)
             self.assertEqual(done.returncode, 2)
-            self.assertRegex(done.stderr, f"s: expected a list out of [a-z, ]+, found '{found}'$")
+            self.assertRegex(done.stderr, f"option --[a-z-]+: expected a list out of [a-z, ]+, found '{found}'$")
 
     def test_says_what_it_cannot_do(self):
         for arguments, code in (((), 2), (("none.obj",), 2), (("scene.obj", "--spp", "0"), 2), (("scene.obj", "--clrt", CLRT, "-i", "none"), 2),

@@ -64,13 +64,14 @@ AdaptiveRound selfish_round(const Film& film, const AdaptiveRound& last) {
 }
 
 /// Mean of pictures of rare light after six decisions; their expectation is 1.
-Moments mean_radiances(AdaptiveRound (*next)(const Film&, const AdaptiveRound&), unsigned runs) {
-    const std::vector<double> rates = {0.0004, 0.0004, 0.002, 0.02};
+Moments mean_radiances(AdaptiveRound (*next)(const Film&, const AdaptiveRound&), ErrorMeasure measure,
+                       unsigned runs) {
+    const std::vector<double> rates = {0.0016, 0.0016, 0.008, 0.08};
     std::vector<double> means;
     std::mt19937 random(7);
     for (unsigned run = 0; run < runs; ++run) {
-        Film film = empty_adaptive_film(64, 16);
-        AdaptiveRound round = first_round(film);
+        Film film = empty_adaptive_film(32, 8);
+        AdaptiveRound round = first_round(film, measure);
         add_rare_light(film, round.target, rates, random);
         for (int i = 0; i < 6; ++i) {
             round = next(film, round);
@@ -100,7 +101,7 @@ Film noisy_film(const std::array<std::vector<double>, 2>& sigmas, int width, int
 } // namespace
 
 TEST(Adaptive, TheFirstRoundIsTheSameEverywhere) {
-    const AdaptiveRound round = first_round(empty_adaptive_film(40, 20));
+    const AdaptiveRound round = first_round(empty_adaptive_film(24, 12));
     EXPECT_EQ(round.end, 16u);
     ASSERT_EQ(round.target[0].size(), 6u);
     for (const auto& half : round.target)
@@ -110,11 +111,11 @@ TEST(Adaptive, TheFirstRoundIsTheSameEverywhere) {
 TEST(Adaptive, NoiseOfASampleIsMeasured) {
     // A sum of two samples with a deviation of 2 each is a number with a deviation of 2 sqrt(2).
     const std::vector<double> sigma(6, 2 * std::sqrt(2.0));
-    const Film film = noisy_film({sigma, sigma}, 40, 20);
+    const Film film = noisy_film({sigma, sigma}, 24, 12);
     for (int half = 0; half < 2; ++half)
         for (const double noise : tile_noise(film, half))
             EXPECT_NEAR(noise, 4, 1.5);
-    EXPECT_NEAR(tile_noise(film, 0)[0], 4, 6 * 4 * std::sqrt(2.0 / (3 * 768)));
+    EXPECT_NEAR(tile_noise(film, 0)[0], 4, 6 * 4 * std::sqrt(2.0 / (3 * 192)));
 }
 
 TEST(Adaptive, TheOtherHalfDecides) {
@@ -122,7 +123,8 @@ TEST(Adaptive, TheOtherHalfDecides) {
     sigmas.fill(std::vector<double>(8, 1.0));
     sigmas[0][2] = 50; // noise that only the first half has seen
     sigmas[1][2] = 0.1;
-    const Film film = noisy_film(sigmas, 64, 32);
+    sigmas[1][5] = 4;
+    const Film film = noisy_film(sigmas, 32, 16);
     const AdaptiveRound round = next_round(film, first_round(film));
     EXPECT_EQ(round.first, 16u);
     EXPECT_EQ(round.end, 24u);
@@ -135,9 +137,9 @@ TEST(Adaptive, TheOtherHalfDecides) {
 TEST(Adaptive, RoundsKeepTheirMeanAndTheirBounds) {
     std::array<std::vector<double>, 2> sigmas;
     sigmas.fill({1, 4, 0, 30, 2, 0.1, 100, 0.5, 7});
-    Film film = noisy_film(sigmas, 40, 45); // no side is a multiple of 16
+    Film film = noisy_film(sigmas, 20, 22); // no side is a multiple of 8
     const std::vector<std::uint32_t> pixels = tile_pixel_counts(film);
-    EXPECT_EQ(std::accumulate(pixels.begin(), pixels.end(), 0u), 40u * 45u);
+    EXPECT_EQ(std::accumulate(pixels.begin(), pixels.end(), 0u), 20u * 22u);
     AdaptiveRound round = first_round(film);
     for (int i = 0; i < 6; ++i) {
         const AdaptiveRound last = round;
@@ -155,8 +157,8 @@ TEST(Adaptive, RoundsKeepTheirMeanAndTheirBounds) {
                 EXPECT_GE(n, 0.5 * mean);
                 sum += double(n) * pixels[tile];
             }
-            EXPECT_LE(sum, mean * 40 * 45);
-            EXPECT_GE(sum, 0.8 * mean * 40 * 45);
+            EXPECT_LE(sum, mean * 20 * 22);
+            EXPECT_GE(sum, 0.8 * mean * 20 * 22);
         }
     }
     EXPECT_GT(round.target[0][6], round.target[0][0]);
@@ -164,12 +166,63 @@ TEST(Adaptive, RoundsKeepTheirMeanAndTheirBounds) {
 
 TEST(Adaptive, AWholePictureWithoutNoiseStaysUniform) {
     const std::vector<double> none(8, 0.0);
-    Film film = noisy_film({none, none}, 64, 32);
+    Film film = noisy_film({none, none}, 32, 16);
     AdaptiveRound round = next_round(film, first_round(film));
     film.tile_samples = round.target;
     round = next_round(film, round);
     for (const auto& half : round.target)
         EXPECT_EQ(half, std::vector<std::uint32_t>(8, 16));
+}
+
+TEST(Adaptive, TheGainIsThatOfTheRootOfTheNoise) {
+    // Samples 1 : 3 in two tiles instead of 2 : 2 make 1/2 + 9/2 of 1 + 9/3.
+    EXPECT_DOUBLE_EQ(expected_gain({1, 9}, {64, 64}), 5.0 / 4);
+    EXPECT_DOUBLE_EQ(expected_gain({1, 1, 9}, {32, 32, 64}), 5.0 / 4);
+    EXPECT_DOUBLE_EQ(expected_gain({4, 4}, {64, 1}), 1);
+    EXPECT_DOUBLE_EQ(expected_gain({0, 0}, {64, 64}), 1);
+}
+
+TEST(Adaptive, WithoutAGainTheSamplesStayTheSameEverywhere) {
+    const std::vector<double> alike(8, 1.0);
+    std::vector<double> noisy = alike;
+    noisy[3] = 9;
+    Film film = noisy_film({alike, alike}, 32, 16);
+    AdaptiveRound round = next_round(film, first_round(film));
+    EXPECT_GT(expected_gain(round), 1);
+    EXPECT_LT(expected_gain(round), WORTHWHILE_GAIN);
+    for (const auto& half : round.target)
+        EXPECT_EQ(half, std::vector<std::uint32_t>(8, 12));
+    // What one half has seen among its first 16 samples decides for the other one as soon as these are what
+    // all tiles must have, at a power of two.
+    film = noisy_film({noisy, alike}, 32, 16);
+    for (const std::uint32_t mean : {16, 24, 32}) {
+        film.tile_samples = round.target;
+        round = next_round(film, round);
+        for (const auto& half : round.target)
+            EXPECT_EQ(half, std::vector<std::uint32_t>(8, mean));
+    }
+    film.tile_samples = round.target;
+    round = next_round(film, round);
+    EXPECT_LT(round.gain[1], WORTHWHILE_GAIN);
+    EXPECT_GT(round.gain[0], WORTHWHILE_GAIN);
+    EXPECT_EQ(round.target[0], std::vector<std::uint32_t>(8, 48));
+    EXPECT_EQ(round.target[1][3], 64u);
+}
+
+TEST(Adaptive, RelativeNoiseIsThatOfABrightnessOfOne) {
+    // Half of the tiles are a hundredth as bright, and their noise is too.
+    Film film = noisy_film({std::vector<double>(8, 10.0), std::vector<double>(8, 10.0)}, 32, 16);
+    for (size_t i = 0; i < film.sums.size(); ++i)
+        if (film_tile(film, i / 3 % 512) >= 4)
+            film.sums[i] /= 100;
+    const double mean = 0.5 * (50 + 0.5), bright = 50, dark = 0.5; // of a sample; a sum holds two
+    const double of_bright = 50 * mean * mean / (bright * bright + 0.01 * mean * mean);
+    const double of_dark = 0.005 * mean * mean / (dark * dark + 0.01 * mean * mean);
+    const std::vector<double> noise = tile_noise(film, 1, ErrorMeasure::RELATIVE);
+    for (size_t tile = 0; tile < 8; ++tile) {
+        const double expected = tile < 4 ? of_bright : of_dark;
+        EXPECT_NEAR(noise[tile], expected, 0.3 * expected) << tile;
+    }
 }
 
 TEST(Adaptive, TilesGoTheirWaysTogether) {
@@ -191,14 +244,14 @@ TEST(Adaptive, TilesGoTheirWaysTogether) {
 }
 
 TEST(Adaptive, HalvesWeighTheSameWhateverTheirSamples) {
-    Film film = empty_adaptive_film(16, 16);
+    Film film = empty_adaptive_film(8, 8);
     film.tile_samples = {std::vector<std::uint32_t>{8}, std::vector<std::uint32_t>{64}};
     film.ranges = {{0, 72}};
     for (size_t i = 0; i < film.sums.size(); ++i) // means of 1 and 3
         film.sums[i] = std::int64_t((i < film.sums.size() / 2 ? 2.0 : 3 * 16.0) / film.scale.quantum);
-    EXPECT_EQ(film_mean(film), std::vector<float>(768, 2.0f));
-    EXPECT_EQ(film_pixel_samples(film), std::vector<float>(256, 72.0f));
-    EXPECT_EQ(film_all_samples(film), 72u * 256u);
+    EXPECT_EQ(film_mean(film), std::vector<float>(192, 2.0f));
+    EXPECT_EQ(film_pixel_samples(film), std::vector<float>(64, 72.0f));
+    EXPECT_EQ(film_all_samples(film), 72u * 64u);
     double means[REPLICATES];
     ReplicateMeans(film).read(5, means);
     EXPECT_EQ(means[0], 1);
@@ -208,12 +261,15 @@ TEST(Adaptive, HalvesWeighTheSameWhateverTheirSamples) {
 // The promise: which samples are taken says nothing about what they are. Where a half's own noise decides,
 // tiles that have seen no bright sample stay as they are, and the picture is too dark.
 TEST(Adaptive, PicturesOfRareLightAreUnbiased) {
-    const Moments fair = mean_radiances(next_round, 3000);
-    const Moments selfish = mean_radiances(selfish_round, 600);
-    std::printf("mean of pictures %.4f +- %.4f, where a half's own noise decides %.4f +- %.4f\n", fair.mean,
-                std::sqrt(fair.variance_of_mean()), selfish.mean, std::sqrt(selfish.variance_of_mean()));
-    EXPECT_LE(std::abs(z_of_mean(fair, 1)), 4);
-    EXPECT_LE(z_of_mean(selfish, 1), -6) << "the test has lost its power";
+    for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE}) {
+        const Moments fair = mean_radiances(next_round, measure, 3000);
+        const Moments selfish = mean_radiances(selfish_round, measure, 2500);
+        std::printf("%s: mean of pictures %.4f +- %.4f, where a half's own noise decides %.4f +- %.4f\n",
+                    name_of(measure), fair.mean, std::sqrt(fair.variance_of_mean()), selfish.mean,
+                    std::sqrt(selfish.variance_of_mean()));
+        EXPECT_LE(std::abs(z_of_mean(fair, 1)), 4);
+        EXPECT_LE(z_of_mean(selfish, 1), -6) << "the test has lost its power";
+    }
 }
 
 } // namespace clrt

@@ -334,6 +334,16 @@ TEST(CommandLine, LedgerDoesNotSwallowTheScene) {
     EXPECT_NE(refusal({"--ledger=all", "s.obj"}).find("--ledger=absent"), std::string::npos);
 }
 
+TEST(CommandLine, AdaptiveNamesItsMeasureAndDoesNotSwallowTheScene) {
+    EXPECT_FALSE(parse({}).sampling.adaptive);
+    EXPECT_EQ(parse({}).sampling.measure(), ErrorMeasure::MSE);
+    EXPECT_EQ(parse({"--adaptive"}).sampling.adaptive, ErrorMeasure::MSE);
+    EXPECT_EQ(parse({"--adaptive"}).scene.path, "scene.obj");
+    EXPECT_EQ(parse({"--adaptive=mse"}).sampling.adaptive, ErrorMeasure::MSE);
+    EXPECT_EQ(parse({"--adaptive=relative"}).sampling.measure(), ErrorMeasure::RELATIVE);
+    EXPECT_NE(refusal({"--adaptive=colour", "s.obj"}).find("mse or relative"), std::string::npos);
+}
+
 TEST(CommandLine, DurationsHaveUnits) {
     EXPECT_EQ(parse({"-t", "90s"}).sampling.time_seconds, 90.0);
     EXPECT_EQ(parse({"-t", "5m"}).sampling.time_seconds, 300.0);

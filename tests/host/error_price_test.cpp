@@ -87,6 +87,43 @@ TEST(ErrorPrice, ThreeHalvesOfADoublingAreWorseThanTheLaw) {
     EXPECT_DOUBLE_EQ(error_at(independent, 192, REPLICATES), 0.1 / std::sqrt(1.5));
 }
 
+TEST(ErrorPrice, OfAnyErrorIsTheGoodCountThatReachesIt) {
+    const std::vector<SquaredError> errors = falling(-0.6, 4); // 9.5 % at 128
+    const auto price = price_of_error(0.03, errors, errors.back(), REPLICATES, 10);
+    ASSERT_TRUE(price);
+    const ErrorForecast forecast = *forecast_error(errors, errors.back());
+    EXPECT_LE(error_at(forecast, price->samples, REPLICATES), 0.03);
+    EXPECT_GT(error_at(forecast, price->samples * 2 / 3, REPLICATES), 0.03) << "two thirds do not";
+    EXPECT_DOUBLE_EQ(price->seconds, 10 * (double(price->samples) / 128 - 1));
+}
+
+TEST(ErrorPrice, TheIntervalOfSamplesIsThatOfTheSlope) {
+    const std::vector<SquaredError> errors = falling(-0.6, 4);
+    const auto far = price_of_error(0.01, errors, errors.back(), REPLICATES, 10);
+    ASSERT_TRUE(far && far->high_samples && far->high_seconds);
+    EXPECT_LT(far->low_samples, far->samples);
+    EXPECT_GT(*far->high_samples, far->samples);
+    EXPECT_LT(far->low_seconds, far->seconds);
+    EXPECT_GT(*far->high_seconds, far->seconds);
+    // By the slope's 10 % and 90 % quantiles.
+    const ErrorForecast forecast = *forecast_error(errors, errors.back());
+    const double decades = std::log(errors.back().mean_squared / 1e-4) / 2;
+    for (const auto& [samples, side] : {std::pair{far->low_samples, -1.0}, {*far->high_samples, 1.0}}) {
+        const double slope = forecast.slope + side * 1.2816 * forecast.slope_deviation;
+        const double law = 128 * std::exp(decades / -slope);
+        EXPECT_GE(double(samples), law * 0.99) << side;
+        EXPECT_LE(double(samples), law * 1.6) << "the good count above";
+    }
+    // Without a history it is wider, and errors on which few pixels decide are uncertain themselves.
+    const auto alone = price_of_error(0.01, {errors.back()}, errors.back(), REPLICATES, 10);
+    EXPECT_LE(alone->low_samples, far->low_samples);
+    EXPECT_TRUE(!alone->high_samples || *alone->high_samples > *far->high_samples);
+    std::vector<SquaredError> tails = errors;
+    tails.back().degrees = 2;
+    EXPECT_LT(price_of_error(0.09, tails, tails.back(), REPLICATES, 10)->low_samples,
+              *price_of_error(0.09, tails, tails.back(), REPLICATES, 10)->high_samples);
+}
+
 TEST(ErrorPrice, WhatCannotBeNamedIsNone) {
     EXPECT_FALSE(price_of_half({}, squared(64, 0), REPLICATES, 1)) << "no error";
     SquaredError black = squared(64, 0.1);

@@ -51,6 +51,38 @@ std::vector<SquaredError> falling_errors(double first, double power, int octaves
 
 } // namespace
 
+TEST(FilmError, RelativeErrorsAreWeighedByTheBrightnessOfTiles) {
+    std::mt19937 random(3);
+    Film film = empty_film(20, 8, 8, 0, 80); // tiles of 8, 8 and 4 pixels a row
+    fill_with_noise(film, 10, 1, random);
+    const double shades[] = {1, 0.1, 0.001};
+    for (size_t i = 0; i < film.sums.size(); ++i)
+        film.sums[i] = std::llround(double(film.sums[i]) * shades[i / 3 % 20 / 8]);
+    // In double, tile by tile.
+    double means[3] = {}, mean = 0, expected = 0, without = 0;
+    for (size_t i = 0; i < film_plane(film); ++i) {
+        const size_t tile = i / 3 % 20 / 8;
+        const Moments moments = moments_of(replicate_means(film, i));
+        means[tile] += moments.mean / (tile < 2 ? 192 : 96);
+        mean += moments.mean / 480;
+    }
+    for (size_t i = 0; i < film_plane(film); ++i) { // channels are as bright as each other, nearly
+        const size_t tile = i / 3 % 20 / 8;
+        std::vector<double> values = replicate_means(film, i);
+        const double reference = means[tile] * means[tile] + 0.01 * mean * mean;
+        expected += moments_of(values).variance_of_mean() / reference / 480;
+        values.erase(values.begin() + 5);
+        without += moments_of(values).variance_of_mean() / reference / 480;
+    }
+    const auto squared = film_squared_error(film, ErrorPixels::SCENE, 1, ErrorMeasure::RELATIVE);
+    ASSERT_TRUE(squared);
+    EXPECT_NEAR(relative_error(*squared)->relative_rmse / std::sqrt(expected), 1, 1e-3);
+    EXPECT_NEAR(squared->without[5] / squared->mean_squared, without / expected, 1e-3);
+    EXPECT_NEAR(squared->mean_radiance, mean, 1e-9);
+    EXPECT_NEAR(film_error(film, ErrorPixels::SCENE, ErrorMeasure::RELATIVE)->relative_rmse,
+                std::sqrt(expected), 1e-3 * std::sqrt(expected));
+}
+
 TEST(FilmError, TheErrorIsRootMeanSquareOverTheMean) {
     std::mt19937 random(3);
     Film film = empty_film(6, 5, 8, 0, 80);

@@ -96,7 +96,8 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     EXPECT_EQ(field([](Options& o) { o.film.filter_radius = 0.7; }), "filter_radius");
     EXPECT_EQ(field([](Options& o) { o.transport.max_depth = 5; }), "max_depth");
     EXPECT_EQ(field([](Options& o) { o.transport.roulette_depth = 9; }), "roulette_depth");
-    EXPECT_EQ(field([](Options& o) { o.sampling.adaptive = true; }), "adaptive");
+    for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
+        EXPECT_EQ(field([&](Options& o) { o.sampling.adaptive = measure; }), "adaptive");
     EXPECT_EQ(field([](Options& o) { o.sampling.sampler = SamplerChoice::INDEPENDENT; }), "sampler");
     EXPECT_EQ(field([](Options& o) { o.sampling.light_sampler = LightSampler::POWER; }), "light_sampler");
     EXPECT_EQ(field([](Options& o) { o.transport.min_contribution = 0.1; }), "min_contribution");

@@ -26,10 +26,16 @@ class Metrics(unittest.TestCase):
     def test_equal_their_formulas(self):
         self.assertAlmostEqual(value("RMSE", self.A, self.B), ((0.1 ** 2 + 3 * 0.5 ** 2) / 6) ** 0.5)
         self.assertAlmostEqual(value("rel. RMSE", self.A, self.B), ((0.1 ** 2 + 3 * 0.5 ** 2) / 6) ** 0.5 / 0.35)
-        self.assertAlmostEqual(value("relMSE", self.A, self.B), (0.01 / (0.04 + 0.01) + 3 * 0.25 / (0.25 + 0.01)) / 6)
+        small = 0.035 ** 2
+        self.assertAlmostEqual(value("relMSE", self.A, self.B), (0.01 / (0.04 + small) + 3 * 0.25 / (0.25 + small)) / 6)
         self.assertAlmostEqual(value("MAPE", self.A, self.B), (0.1 / 0.21 + 3 * 0.5 / 0.51) / 6)
         self.assertAlmostEqual(value("SMAPE", self.A, self.B), (2 * 0.1 / 0.51 + 3 * 2 * 0.5 / 1.51) / 6)
         self.assertAlmostEqual(value("bias", self.A, self.B), 3.7 / 2.1 - 1)
+
+    def test_the_relative_squared_error_does_not_know_the_unit_of_light(self):
+        a, b = (1024 * numpy.array(picture) for picture in (self.A, self.B))
+        self.assertAlmostEqual(value("relMSE", a, b), value("relMSE", self.A, self.B))
+        self.assertEqual(value("relMSE", [[1, 1, 1]], [[0, 0, 0]]), 1)
 
     def test_are_not_relative_to_a_black_picture(self):
         black = [[0, 0, 0]]

@@ -94,6 +94,33 @@ TEST(ProgressLine, AnErrorIsAboutRightUntilItIsMeasured) {
     EXPECT_EQ(progress_line(state, 7), "render  100%  64 spp  7.0 s  error 8.0 %");
 }
 
+TEST(ProgressLine, SaysWhenTheErrorThatIsAskedForComes) {
+    ProgressState state = at("render", 0.25, 64, 12.34e6);
+    state.error = 0.042;
+    state.target = ProgressTarget{0.02, 30, 24, 47};
+    EXPECT_EQ(
+        progress_line(state, 10),
+        "render   25%  64 spp  10.0 s  error about 4.2 % -> 2 % in 30 s (80 %: 24 s to 47 s)  12.3 Mrays/s");
+    state.target->high = 75;
+    EXPECT_NE(progress_line(state, 10).find("(80 %: 24 s to 1 m 15 s)"), std::string::npos);
+    state.target->high = -1;
+    EXPECT_NE(progress_line(state, 10).find("(80 %: 24 s or more)"), std::string::npos)
+        << "nobody can name it";
+    state.fraction = 0.5; // --spp or --time comes first
+    EXPECT_NE(progress_line(state, 10).find("  10.0 s  ETA 10.0 s  error about"), std::string::npos);
+}
+
+TEST(ProgressLine, NoNumberIsCut) {
+    ProgressState state = at("render", 0.25, 64, 12.34e6);
+    state.error = 0.042;
+    state.target = ProgressTarget{0.02, 30, 24, 47};
+    EXPECT_EQ(progress_line(state, 10, 40), "render   25%  64 spp  10.0 s");
+    EXPECT_EQ(progress_line(state, 10, 84),
+              "render   25%  64 spp  10.0 s  error about 4.2 % -> 2 % in 30 s (80 %: 24 s to 47 s)");
+    EXPECT_EQ(progress_line(state, 10, 18), "render   25%");
+    EXPECT_EQ(progress_line(state, 10, 5), "rende");
+}
+
 TEST(ProgressLine, PercentagesAreRoundedDown) {
     EXPECT_NE(progress_line(at("render", 0.9999), 1).find(" 99%"), std::string::npos);
     EXPECT_NE(progress_line(at("render", 0.999), 1).find(" 99%"), std::string::npos);
@@ -191,7 +218,7 @@ TEST(Progress, LineIsCutToTheTerminal) {
     Progress progress(Toggle::AUTO, false);
     progress.update(at("render", 0.25, 123456, 1e9));
     const std::string text = terminal.end();
-    EXPECT_EQ(text, "\rrender   25%  12345\033[K");
+    EXPECT_EQ(text, "\rrender   25%\033[K") << "a number that is cut is another number";
 }
 
 } // namespace clrt

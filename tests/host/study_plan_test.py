@@ -8,7 +8,8 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools"))
 from clrt_tools import study_plan  # noqa: E402
 from clrt_tools.study_plan import Budget, Speed  # noqa: E402
-from clrt_tools.study_runs import Method, Point  # noqa: E402
+from clrt_tools.study_methods import Method  # noqa: E402
+from clrt_tools.study_runs import Point  # noqa: E402
 
 SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "independent")
 METHODS = [SOBOL, WHITE, Method("path", "double", "sobol"), Method("path", "fast", "sobol")]

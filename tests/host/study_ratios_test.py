@@ -9,9 +9,10 @@ import numpy
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools"))
-from clrt_tools import study_ratios, study_report, study_results, study_sentence  # noqa: E402
+from clrt_tools import study_page, study_ratios, study_report, study_results, study_sentence  # noqa: E402
 from clrt_tools.study_ratios import Interval, OwnSize  # noqa: E402
-from clrt_tools.study_runs import Method, Point, Run  # noqa: E402
+from clrt_tools.study_methods import Method  # noqa: E402
+from clrt_tools.study_runs import Point, Run  # noqa: E402
 
 SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "independent")
 DOUBLE, WHITTED = Method("path", "double", "sobol"), Method("whitted", "single", "sobol")
@@ -27,8 +28,9 @@ class Figures:
         self.random, self.noise = numpy.random.default_rng(seed), numpy.random.default_rng(-seed % 1000)
         self.runs, self.shared = [], {}
 
-    def add(self, method, counts, error, slope, second, repeats=3, jitter=0.0, own=1.0, like=None):
-        """`error`: relative, of one sample; `second`: of a sample; `like`: a method whose random numbers it shares."""
+    def add(self, method, counts, error, slope, second, repeats=3, jitter=0.0, own=1.0, like=None, relative=1.0):
+        """`error`: relative, of one sample; `second`: of a sample; `like`: a method whose random numbers it shares;
+        `relative`: its relative MSE over its MSE."""
         for seed in range(1, repeats + 1):
             for spp in counts:
                 deviation = 0.5 * error * spp ** slope
@@ -41,6 +43,7 @@ class Figures:
                 squares = deviation ** 2 * noise
                 run.mse = run.relmse = float(squares.mean())
                 run.noise_blocks = study_results.block_sums((own * deviation) ** 2 * self.noise.gamma(4, 0.25, SHAPE))
+                run.relative_blocks = study_results.block_sums(relative * squares)
                 run.blocks, run.rel_rmse = study_results.block_sums(squares), study_results.relative_root(run.mse, REFERENCE)
                 self.runs.append(run)
         return self
@@ -73,6 +76,21 @@ class Ratios(unittest.TestCase):
         study = Figures().add(SOBOL, (16,), 1, -0.5, 0.1).add(DOUBLE, (16,), 1.0001, -0.5, 0.14, like=SOBOL).conclude()
         self.assertLess(abs(study.ratios[DOUBLE].error.value - 1.0001), 1e-9)
         self.assertLess(study.ratios[DOUBLE].error.high - study.ratios[DOUBLE].error.low, 1e-6)
+
+    def test_are_of_both_squared_errors(self):
+        adaptive = Method("path", "single", "sobol", adaptive="relative")
+        study = Figures().add(SOBOL, (16,), 1, -0.5, 0.1, 4).add(adaptive, (16,), 2, -0.5, 0.1, 4, relative=0.1).conclude()
+        ratio = study.ratios[adaptive]
+        self.assertAlmostEqual(ratio.cost.value, 4, delta=0.4)
+        self.assertAlmostEqual(ratio.relative_cost.value, 0.4, delta=0.04)
+        self.assertTrue(ratio.relative_cost.low < 0.4 < ratio.relative_cost.high, ratio.relative_cost)
+
+    def test_what_a_change_buys_is_the_inverse_of_its_cost(self):
+        study = Figures().add(SOBOL, (16,), 1, -0.5, 0.1, 4).add(WHITE, (16,), 2, -0.5, 0.1, 4, relative=4).conclude()
+        both = study_page.gains(study, {WHITE: "white"})["white"]
+        self.assertAlmostEqual(both[0].value, 1 / 4, delta=0.03)
+        self.assertAlmostEqual(both[1].value, 1 / 16, delta=0.01)
+        self.assertTrue(all(gain.low < gain.value < gain.high for gain in both), both)
 
     def test_without_a_pair_of_runs_have_no_interval_of_seconds(self):
         seconds = Figures().add(SOBOL, (16,), 1, -0.5, 0.1, 1).add(WHITE, (16,), 2, -0.5, 0.1, 1).conclude().ratios[WHITE].seconds
@@ -154,6 +172,12 @@ class Words(unittest.TestCase):
         self.assertRegex(self.headline({"method": WHITE, "error": 2}), r"Sobol points are 6\.\d times \([\d.]+ - [\d.]+\) better than "
                                                                        r"white noise\.$")
         self.assertRegex(self.headline({"method": WHITE, "error": 0.4}), "White noise is 4 times .* better than Sobol points")
+
+    def test_judge_a_change_by_the_error_that_it_aims_at(self):
+        default, aim = (Method("path", "single", "sobol", adaptive=name) for name in ("off", "relative"))
+        figures = Figures().add(default, (4, 16), 0.8, -0.5, 0.1, 4, 0.02).add(aim, (4, 16), 1.6, -0.5, 0.1, 4, 0.02, relative=0.1)
+        self.assertRegex(figures.conclude().headline, r"Adaptive sampling for the relative error is 2\.\d times \(.*\) better than "
+                                                      r"even sampling\.$")
 
     def test_say_about_the_same_where_nothing_differs(self):
         self.assertIn("Sobol points and white noise cost about the same", self.headline({"method": WHITE, "error": 0.8}))

@@ -4,7 +4,6 @@ import os
 import sys
 import tempfile
 import time
-import types
 import unittest
 import unittest.mock
 
@@ -14,7 +13,9 @@ import OpenImageIO
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from noisy_pictures import write_exr  # noqa: E402
 from clrt_tools import study_pictures, study_results, study_runs  # noqa: E402
-from clrt_tools.study_runs import Method, Point, Run  # noqa: E402
+from clrt_tools.clrt_choices import Choices  # noqa: E402
+from clrt_tools.study_methods import SWITCHES, Method, combinations  # noqa: E402
+from clrt_tools.study_runs import Point, Run  # noqa: E402
 
 SOBOL, WHITE = Method("path", "single", "sobol"), Method("path", "single", "independent")
 
@@ -35,14 +36,76 @@ class Sweep(unittest.TestCase):
         self.assertEqual([p.method for p in points if p.cold], [SOBOL, WHITE])
         self.assertFalse({p.seed for p in points} & set(study_runs.REFERENCE_SEEDS))
 
+    NAMES = {"integrator": ["path", "whitted"], "precision": ["single", "double"], "sampler": ["independent", "sobol"]}
+
     def test_of_a_quick_study_changes_one_thing_at_a_time(self):
-        options = types.SimpleNamespace(integrators=["path", "whitted"], precisions=["single", "double"],
-                                        samplers=["independent", "sobol"], quick=True)
         one_change = [SOBOL, WHITE, Method("path", "double", "sobol"), Method("whitted", "single", "sobol")]
-        self.assertEqual(study_runs.combinations(options), one_change)
-        options.quick = False
-        every = study_runs.combinations(options)
+        self.assertEqual(combinations(self.NAMES, set(), True, SOBOL), one_change)
+        every = combinations(self.NAMES, set(), False, SOBOL)
         self.assertEqual((every[:4], len(every), len(set(every))), (one_change, 8, 8))
+
+    def test_combines_a_way_to_find_the_light_only_where_it_is_asked_for(self):
+        names = {**self.NAMES, "guide": ["auto", "on", "off"], "adaptive": ["off", "mse", "relative"]}
+        default = Method("path", "single", "sobol", guide="auto", adaptive="off")
+        methods = combinations(names, set(), False, default)
+        self.assertEqual((methods[0], len(methods), len(set(methods))), (default, 8 + 2 + 2, 12))
+        self.assertEqual([m.label(default) for m in methods[1:6]],
+                         ["independent", "guide on", "guide off", "adaptive mse", "adaptive relative"])
+        methods = combinations(names, {"guide"}, False, default)
+        self.assertEqual((len(methods), len(set(methods))), (8 * 3 + 2, 26))
+        self.assertEqual(len(combinations(names, {"guide"}, True, default)), 1 + 1 + 2 + 2 + 1 + 1)
+
+    def test_a_default_that_is_not_among_the_names_gives_way(self):
+        self.assertEqual(combinations({"integrator": ["whitted"], "precision": ["single"], "sampler": ["sobol"]}, set(), True, SOBOL),
+                         [Method("whitted", "single", "sobol")])
+
+
+class AMethod(unittest.TestCase):
+    def test_is_said_as_clrt_takes_it(self):
+        method = Method("path", "single", "sobol", guide="on", adaptive="relative")
+        self.assertEqual(method.words(), ["--integrator", "path", "--precision", "single", "--sampler", "sobol", "--guide", "on",
+                                          "--adaptive=relative"])
+        self.assertEqual(Method(adaptive="off").words(), [])
+        self.assertEqual(Method(adaptive="on").words(), ["--adaptive"])
+
+    def test_has_a_name_of_its_own(self):
+        self.assertEqual(str(Method("path", "single", "sobol", guide="auto", adaptive="off")), "path, single, sobol")
+        self.assertEqual(str(Method("path", "single", "sobol", guide="off", adaptive="mse")),
+                         "path, single, sobol, guide off, adaptive mse")
+
+    def test_every_switch_has_its_place_among_the_changes(self):
+        self.assertEqual(sorted(switch.rank for switch in SWITCHES.values()), list(range(1, len(SWITCHES) + 1)))
+
+
+class TheNamesThatClrtTakes(unittest.TestCase):
+    HELP = """Work:
+  -i, --integrator NAME        path (all light), or so, or whitted (default path)
+      --sampler NAME           sobol or independent (white noise, to
+                               compare with) (default sobol)
+      --light-sampler NAME     how a light is chosen: tree (by a, or b; `path`
+                               alone), mixture (half: half) or power (default
+                               tree)
+      --guide auto|on|off      learns where light comes from
+      --adaptive%s
+                               take more samples where it is noisy (default: the same)
+"""
+
+    def choices(self, adaptive):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "clrt")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write(f"#!/bin/sh\ncat <<'END'\n{self.HELP % adaptive}END\n")
+            os.chmod(program, 0o755)
+            return Choices(program)
+
+    def test_are_read_from_every_form_of_its_help(self):
+        choices = self.choices("[=mse|relative]")
+        self.assertEqual(choices.names("--light-sampler"), ["tree", "mixture", "power"])
+        self.assertEqual(choices.names("--sampler"), ["sobol", "independent"])
+        self.assertEqual(choices.names("--guide"), ["auto", "on", "off"])
+        self.assertEqual(choices.names("--adaptive"), ["off", "mse", "relative"])
+        self.assertEqual(self.choices("").names("--adaptive"), ["off", "on"])
+        self.assertEqual(choices.default_method(), Method("path", None, "sobol", "tree", "auto", "off"))
 
 
 class Pictures(unittest.TestCase):
@@ -93,7 +156,7 @@ class Errors(unittest.TestCase):
         # Of relMSE only in the numerator: there the reference is the better picture, as it should be.
         run = self.run_of("x.exr", 0.05)
         for files in (["a.exr", "b.exr"], ["a.exr"]):
-            for noise, metric, expected in ((0.1, "rel_rmse", 0.05 / 0.5), (0.02, "relmse", 0.05 ** 2 / 0.26)):
+            for noise, metric, expected in ((0.1, "rel_rmse", 0.05 / 0.5), (0.02, "relmse", 0.05 ** 2 / (1.01 * 0.25))):
                 reference = study_results.reference_of_files([self.noisy(name, noise) for name in files])
                 study_results.measure(run, reference)
                 self.assertAlmostEqual(getattr(run, metric) / expected, 1, delta=0.06, msg=f"{files} {metric}")
@@ -125,6 +188,12 @@ class Errors(unittest.TestCase):
         self.assertAlmostEqual(summary.high, 0.1, delta=0.002)
         self.assertEqual((summary.seconds, summary.repeats), (2.0, 3))
         self.assertAlmostEqual(summary.blocks.sum() / truth_pixels(self.truth), summary.error ** 2 * 0.25)
+
+    def test_of_blocks_add_up_to_those_of_the_picture(self):
+        run = self.run_of("x.exr", 0.05)
+        study_results.measure(run, study_results.Reference(self.truth))
+        for blocks, error in ((run.blocks, run.mse), (run.relative_blocks, run.relmse)):
+            self.assertAlmostEqual(blocks.sum() / truth_pixels(self.truth) / error, 1)
 
     def test_below_the_references_noise_have_no_number(self):
         self.assertIsNone(study_results.relative_root(-1e-9, study_results.Reference(self.truth)))

@@ -175,7 +175,7 @@ TEST(CutPaths, DoNotChangeThePictureUpToTheirDepth) {
     for (int i = 0; i < 63; ++i)
         up_to_64 = i == 0 ? "D" : "D(" + up_to_64 + ")?";
     room.options.transport.paths = "L(" + up_to_64 + ")?E";
-    room.options.sampling.adaptive = false;
+    room.options.sampling.adaptive.reset();
     EXPECT_TRUE(room.render().film.sums == at_64.sums);
 }
 

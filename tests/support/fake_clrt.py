@@ -46,7 +46,7 @@ def main():
     width, height = map(int, option("-r", OWN_SIZE).split("x"))
     crop = option("--crop")
     x0, y0, x1, y1 = map(int, crop.split(",")) if crop else (0, 0, width, height)
-    spp, sampler, precision = int(option("-s")), option("--sampler"), option("--precision")
+    spp, sampler, precision = int(option("-s")), option("--sampler", "sobol"), option("--precision")
     slow = SLOWER if calls_so_far() > int(os.environ.get("FAKE_CLRT_SLOW_AFTER", "1000000")) else 1
     slow *= 2 if precision == "double" else 1
     second = slow * (x1 - x0) * (y1 - y0) / float(os.environ["FAKE_CLRT_SAMPLES"])  # of a sample a pixel
@@ -62,8 +62,9 @@ def main():
              "nonfinite": {"nan": 0, "infinite": 0, "negative": 0, "overflow": 0},
              "seconds": {"load": 0.0, "bvh": 0.0, "compile": 0.0, "first_launch": 0.0, "render": spp * second,
                          "total": time.monotonic() - begin}}
-    with open(option("--stats"), "w", encoding="utf-8") as file:
-        json.dump(stats, file)
+    if option("--stats"):
+        with open(option("--stats"), "w", encoding="utf-8") as file:
+            json.dump(stats, file)
 
 
 if __name__ == "__main__":

@@ -3,22 +3,44 @@
 import re
 import subprocess
 
+from clrt_tools.study_methods import OFF, ON, SWITCHES, Method
 from clrt_tools.study_runs import RunError
+
+SWITCH_OF = {switch.option: switch for switch in SWITCHES.values()}
 
 
 class Choices:
-    """The names in the help of options such as --integrator: "path (...), whitted (...) or raycast (...) (default path)"."""
+    """The names in the help of options such as `--sampler NAME  how points are chosen: sobol (...) or independent (default sobol)`,
+    `--guide auto|on|off` and `--adaptive[=mse|relative]`."""
 
     def __init__(self, program):
         done = subprocess.run([program, "--help"], check=False, capture_output=True, text=True)
         if done.returncode != 0:
             raise RunError(f"{program} --help: expected the page of clrt, found exit code {done.returncode}")
         entries = re.split(r"(?m)^ {2,6}(?:-\w, )?(?=--[a-z])", done.stdout)
-        self._texts = {entry.split(None, 1)[0]: " ".join(entry.split()[2:]) for entry in entries[1:]}
+        self._entries = {re.match(r"--[a-z-]+", entry).group(): entry for entry in entries[1:]}
+
+    def has(self, option):
+        return option in self._entries
 
     def names(self, option):
-        """All names, in the order of the help."""
-        return re.split(", | or ", re.sub(r" \([^()]*\)", "", self._texts[option]))
+        """All names, in the order of the help; of an option that stands alone, OFF and its names, or OFF and ON."""
+        head = self._entries[option].split(None, 2)
+        if SWITCH_OF[option].bare:
+            listed = re.fullmatch(r"--[a-z-]+\[=(.+)\]", head[0])
+            return [OFF] + (listed.group(1).split("|") if listed else [ON])
+        if "|" in head[1]:
+            return head[1].split("|")
+        listed = re.sub(r" \([^()]*\)", "", " ".join(head[2].split()))
+        return re.split(", | or ", listed.split(": ")[-1])
 
     def default(self, option):
-        return re.search(r"\(default (\S+)\)", self._texts[option]).group(1)
+        """The name that the help calls so, else the first."""
+        if SWITCH_OF[option].bare:
+            return OFF
+        said = re.search(r"\(default (\w+)", " ".join(self._entries[option].split()))
+        return said.group(1) if said else self.names(option)[0]
+
+    def default_method(self):
+        """What clrt does without options."""
+        return Method(**{field: self.default(switch.option) for field, switch in SWITCHES.items() if self.has(switch.option)})

@@ -6,9 +6,12 @@ from typing import Optional
 
 import numpy
 
-# Keeps dark pixels from ruling relative metrics: of radiance, and of its square.
+# Keeps dark pixels from ruling MAPE and SMAPE: radiance.
 SMALL_RADIANCE = 0.01
-SMALL_SQUARE = 0.01
+# Part of a picture's mean that keeps dark pixels from ruling its relative squared error: the eye adapts to the whole, and a
+# picture twice as bright has the same error.
+DARK_SHARE = 0.1
+RELATIVE_MSE_FORMULA = f"mean (a-b)^2 / (b^2 + ({DARK_SHARE} mean b)^2)"
 
 
 @dataclasses.dataclass
@@ -20,9 +23,15 @@ class Metric:
     remark: str = ""
 
 
+def relative_weight(b):
+    """What makes a squared difference from b a relative one: 1 / (b^2 + (DARK_SHARE mean b)^2); ones of a black b."""
+    scale = b ** 2 + (DARK_SHARE * b.mean()) ** 2
+    return 1 / numpy.where(scale > 0, scale, 1)
+
+
 def relative_mse(a, b):
-    """mean (a-b)^2 / (b^2 + SMALL_SQUARE), over pixels and channels."""
-    return float(numpy.mean((a - b) ** 2 / (b ** 2 + SMALL_SQUARE)))
+    """RELATIVE_MSE_FORMULA, over pixels and channels."""
+    return float(numpy.mean((a - b) ** 2 * relative_weight(b)))
 
 
 def all_metrics(a, b, radiance=True):
@@ -45,7 +54,7 @@ def all_metrics(a, b, radiance=True):
     return [
         Metric("RMSE", "sqrt(mean (a-b)^2)", rmse),
         relative[0],
-        Metric("relMSE", f"mean (a-b)^2 / (b^2 + {SMALL_SQUARE})", relative_mse(a, b)),
+        Metric("relMSE", RELATIVE_MSE_FORMULA, relative_mse(a, b)),
         Metric("MAPE", f"mean |a-b| / (|b| + {SMALL_RADIANCE})",
                float(numpy.mean(distance / (numpy.abs(b) + SMALL_RADIANCE)))),
         Metric("SMAPE", f"mean 2|a-b| / (|a| + |b| + {SMALL_RADIANCE})",

@@ -4,15 +4,15 @@ import argparse
 import os
 
 from clrt_tools.help_page import CommandLine
+from clrt_tools.study_methods import SWITCHES
 
 QUICK_SECONDS = 150  # of the 3 minutes that --help promises; the rest is for the page
-NAMES_OF = {"integrators": "--integrator", "precisions": "--precision", "samplers": "--sampler"}  # of clrt
 LARGEST_COUNT = 2 ** 32 - 1  # of samples that clrt takes
 
 PURPOSE = """Measures what accuracy costs: renders a scene with every combination of integrator, precision, sampler and number of
-samples, compares the pictures with a reference, and says in a sentence and a table how many seconds an error of 10, 5, 2 and 1 %
-costs. Writes one HTML page that opens without a network, and a table of all runs (CSV). Options after -- go to clrt as they
-are."""
+samples, and with the other ways to find the light one by one, compares the pictures with a reference, and says in a sentence and
+a table how many seconds an error of 10, 5, 2 and 1 % costs and what each change buys. Writes one HTML page that opens without a
+network, and a table of all runs (CSV). Options after -- go to clrt as they are."""
 EXAMPLES = ("clrt-study scene.obj --quick",
             "clrt-study scene.obj -i path,whitted --spp 16,64,256 --repeats 5 -o room.html -- --exposure 1")
 EXIT_CODES = ((0, "the page and the table are written"),
@@ -47,10 +47,8 @@ def _command_line():
     add("--quick", action="store_true",
         help="at most 3 minutes: measures the machine's speed first and chooses a smaller picture, samples and repeats that fit; "
              "only the default and one change at a time; what does not fit is dropped and named")
-    add("-i", "--integrators", type=_names, metavar="LIST",
-        help="those of clrt that are compared (default path,whitted; quick: path)")
-    add("-p", "--precisions", type=_names, metavar="LIST", help="likewise (default: all)")
-    add("--samplers", type=_names, metavar="LIST", help="likewise (default: all)")
+    for field, switch in SWITCHES.items():
+        add(*filter(None, (switch.short, "--" + switch.plural)), dest=field, type=_names, metavar="LIST", help=switch.about)
     add("-s", "--spp", type=_counts, metavar="LIST",
         help="samples a pixel (default 4,16,64,256; quick: as many of 4,16,64,256 as fit)")
     add("--repeats", type=_count, metavar="N", help="runs of each combination, with seeds 1 to N (default 3; quick: 1 to 3)")
@@ -58,6 +56,9 @@ def _command_line():
     add("-d", "--device", metavar="NAME", help="as for clrt")
     add("--reference", nargs="+", metavar="FILE",
         help="one picture, or two independent halves (default: renders both, path, single, sobol)")
+    add("--against", metavar="DIR", action="append", default=[],
+        help="another renderer's pictures of the scene, drawn and compared beside clrt's: a folder of EXR files and series.json, as "
+             "clrt-mitsuba writes them; their size is that of the study; repeatable")
     add("--reference-spp", type=_count, metavar="N", help="samples of both halves (default 16 times the most; quick: 8 times)")
     add("--budget", type=_count, metavar="SECONDS",
         help="all renders end within so many seconds of wall time; what does not fit is dropped and named (default: no limit; "
@@ -77,7 +78,8 @@ def parse_arguments(words):
     options.extra = tuple(extra)
     if options.reference and len(options.reference) > 2:
         line.error("option --reference: expected one picture or two halves")
-    options.integrators = options.integrators or (["path"] if options.quick else ["path", "whitted"])
+    options.given = {field for field in SWITCHES if getattr(options, field)}
+    options.integrator = options.integrator or (["path"] if options.quick else ["path", "whitted"])
     options.budget = options.budget or (QUICK_SECONDS if options.quick else None)
     stem = os.path.splitext(os.path.basename(options.scene))[0]
     options.output = options.output or f"{stem}-study.html"
@@ -89,11 +91,15 @@ def parse_arguments(words):
 
 
 def check_names(options, choices):
-    """Says what is wrong with the lists of names, given those that clrt takes, or nothing; fills in lists that were not given."""
-    for kind, option in NAMES_OF.items():
-        known, given = choices.names(option), getattr(options, kind)
-        if given is None:
-            setattr(options, kind, known)
-        elif not set(given) <= set(known) or len(set(given)) != len(given):
-            return f"option --{kind}: expected a list out of {', '.join(known)}, found '{','.join(given)}'"
+    """Says what is wrong with the lists of names, given those that clrt takes, or nothing; fills in `names`, the list of each
+    switch that this clrt has."""
+    options.names = {}
+    for field, switch in SWITCHES.items():
+        given, known = getattr(options, field), choices.names(switch.option) if choices.has(switch.option) else []
+        if given and not known:
+            return f"option --{switch.plural}: expected a clrt that has {switch.option}, found one without"
+        if given and (not set(given) <= set(known) or len(set(given)) != len(given)):
+            return f"option --{switch.plural}: expected a list out of {', '.join(known)}, found '{','.join(given)}'"
+        if known:
+            options.names[field] = given or known
     return ""

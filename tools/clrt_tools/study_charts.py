@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The curves and bars of a study, as SVG text to put into the page."""
+import dataclasses
 import io
 import re
+import textwrap
 
 import matplotlib
 import numpy
@@ -9,16 +11,23 @@ import numpy
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402 (needs the backend above)
 
-from clrt_tools.metrics import SMALL_RADIANCE  # noqa: E402
+from clrt_tools.study_methods import Method  # noqa: E402
 
 # Okabe and Ito's colours, which people who see fewer colours tell apart as well.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31"]
+# Drawn in this colour, which nothing else has, is what takes the colour of the page's text, dark or light.
+INK = "#010203"
 SAMPLER_STYLES = {"sobol": ("-", "o"), "independent": ("--", "s")}
+RIVAL_STYLE = (INK, "-.", "D")
+# Letters of a line beside a row, and in a legend of two columns.
+ROW_LETTERS, LEGEND_LETTERS = 22, 30
+# The two errors of a gain: words, colour, marker, and place beside the middle of its row.
+ERRORS = (("squared error", COLOURS[0], "o", -0.13), ("relative squared error", COLOURS[1], "D", 0.13))
+# How far a bar reaches, as a factor, where an end of its interval is not known.
+UNKNOWN = 10
 STAGES = [("load", "load scene"), ("bvh", "build tree"), ("compile", "compile"), ("first_launch", "first launch"),
           ("render", "render")]
 STAGE_COLOURS = ["#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#0072b2"]
-# Drawn in this colour, which nothing else has, is what takes the colour of the page's text, dark or light.
-INK = "#010203"
 # Inches of a drawing: narrow, so that its letters can still be read at the width of a telephone.
 WIDTH = 7.0
 matplotlib.rcParams.update({"svg.hashsalt": "clrt", "font.size": 12, "axes.grid": True, "grid.alpha": 0.35, "grid.color": "#888888",
@@ -38,10 +47,14 @@ def svg(figure):
 
 
 def _styles(methods):
-    """A colour for integrator and precision, a line and a marker for the sampler."""
-    kinds = list(dict.fromkeys((m.integrator, m.precision) for m in methods))
-    return {m: (COLOURS[kinds.index((m.integrator, m.precision)) % len(COLOURS)],
-                *SAMPLER_STYLES.get(m.sampler, (":", "^"))) for m in methods}
+    """A line and a marker for the sampler, a colour for all else; other renderers look like nothing of clrt's."""
+    def kind(method):
+        return dataclasses.replace(method, sampler=None)
+
+    own = [method for method in methods if isinstance(method, Method)]
+    kinds = list(dict.fromkeys(map(kind, own)))
+    return {**{m: (COLOURS[kinds.index(kind(m)) % len(COLOURS)], *SAMPLER_STYLES.get(m.sampler, (":", "^"))) for m in own},
+            **{rival: RIVAL_STYLE for rival in methods if rival not in own}}
 
 
 def _plain(axis):
@@ -63,7 +76,8 @@ def error_chart(summaries, labels):
         y_range = [[e - 100 * s.low for e, s in zip(errors, known)], [100 * s.high - e for e, s in zip(errors, known)]]
         x_range = [[s.seconds - s.seconds_low for s in known], [s.seconds_high - s.seconds for s in known]]
         axes.errorbar(seconds, errors, yerr=numpy.maximum(y_range, 0), xerr=x_range, color=style[0], linestyle=style[1],
-                      marker=style[2], markersize=5, capsize=3, linewidth=1.6, elinewidth=0.9, label=labels[method])
+                      marker=style[2], markersize=5, capsize=3, linewidth=1.6, elinewidth=0.9,
+                      label=textwrap.fill(labels[method], LEGEND_LETTERS))
     axes.set_xscale("log")
     axes.set_yscale("log")
     if points:
@@ -88,6 +102,30 @@ def _draw_guides(axes, points):
                   label="slope -1/2" if step == 0 else None)
     axes.set_xlim(x0, x1)
     axes.set_ylim(y0, y1)
+
+
+def gains_chart(gains):
+    """What each change buys: accuracy a second over the default's, by both errors. `gains`: {words: (Interval or None of the
+    squared error, likewise of the relative squared error)}."""
+    figure, axes = pyplot.subplots(figsize=(WIDTH, 1.5 + 0.5 * len(gains)), layout="constrained")
+    axes.axvline(1, color=INK, linewidth=1)
+    for which, (label, colour, marker, shift) in enumerate(ERRORS):
+        known = [(row + shift, pair[which]) for row, pair in enumerate(gains.values()) if pair[which]]
+        values = numpy.array([gain.value for _, gain in known])
+        ends = numpy.array([(max(gain.low, gain.value / UNKNOWN), min(gain.high, gain.value * UNKNOWN)) for _, gain in known])
+        axes.errorbar(values, [row for row, _ in known], xerr=abs(ends.reshape(-1, 2).T - values), fmt=marker, color=colour,
+                      markersize=6, capsize=3, linewidth=1.6, label=label)
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    axes.set_xlim(min(low, 0.5), max(high, 2))
+    axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    _plain(axes.xaxis)
+    axes.set_yticks(range(len(gains)), [textwrap.fill(words, ROW_LETTERS) for words in gains])
+    axes.set_ylim(len(gains) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+    axes.set_xlabel("accuracy a second over the default's")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=11, frameon=False)
+    return svg(figure)
 
 
 def stages_chart(rows, labels):

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """One HTML page with everything inside: it opens from disk without a network."""
+import math
 import os
 
 import jinja2
 
 from clrt_tools import study_charts, study_pictures, study_sentence
-from clrt_tools.metrics import SMALL_SQUARE
+from clrt_tools.metrics import DARK_SHARE
 from clrt_tools.picture_file import read_picture
 from clrt_tools.study_ratios import TARGETS
 
@@ -22,6 +23,11 @@ def _shown(summaries, default):
         methods, common = [default], {summaries[default][-1].spp}
     spp = max(common)
     return [(method, next(s for s in summaries[method] if s.spp == spp)) for method in methods]
+
+
+def _nearest(points, summary):
+    """The first run of the points whose seconds are nearest to those of a summary."""
+    return min(points, key=lambda point: abs(math.log(point.seconds / summary.seconds))).runs[0]
 
 
 def _of_runs(runs, default, exposure):
@@ -51,6 +57,7 @@ def _pictures(study):
     reference = study.reference.mean
     exposure = study_pictures.exposure_for(reference)
     runs = [min(summary.runs, key=lambda run: run.point.seed) for _, summary in _shown(study.summaries, study.default)]
+    runs += [_nearest(points, study.summaries[study.default][-1]) for points in study.rivals.values()]
     if len(study.own_runs) > 1:
         shown = _of_runs(study.own_runs, study.default, exposure)
     else:
@@ -64,6 +71,13 @@ def _pictures(study):
             "largest": scale}
 
 
+def gains(study, labels):
+    """{words: accuracy a second over the default's, by both errors} of every single change to the default and of
+    other renderers."""
+    return {labels[method]: tuple(cost and cost.inverse() for cost in (ratio.cost, ratio.relative_cost))
+            for method, ratio in study.ratios.items() if method in study.rivals or len(method.changes(study.default)) == 1}
+
+
 def page(title, study):
     """The page's text, of a study_report.Study."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(FOLDER), autoescape=True, undefined=jinja2.StrictUndefined,
@@ -71,10 +85,12 @@ def page(title, study):
     environment.filters.update(number=study_sentence.number, duration=study_sentence.duration, ends=study_sentence.ends,
                                time_words=study_sentence.time_words, cost_words=study_sentence.cost_words)
     first = study.runs[0].stats
-    labels = {method: method.label(study.default) for method in study.summaries}
+    curves = {**study.summaries, **study.rivals}
+    labels = {method: method.label(study.default) for method in curves}
     return environment.get_template("study_page.html.jinja").render(
-        title=title, study=study, labels=labels, targets=TARGETS, cores=os.cpu_count(), small=SMALL_SQUARE,
+        title=title, study=study, curves=curves, labels=labels, targets=TARGETS, cores=os.cpu_count(), dark=DARK_SHARE,
         device=first["device"], version=first["version"], width=first["width"], height=first["height"],
         triangles=first.get("triangles"), **_pictures(study),
-        error_chart=study_charts.error_chart(study.summaries, labels), stages_chart=study_charts.stages_chart(study.stages, labels),
+        gains_chart=study_charts.gains_chart(gains(study, labels)),
+        error_chart=study_charts.error_chart(curves, labels), stages_chart=study_charts.stages_chart(study.stages, labels),
         stages=study.stages[study.default][1])

@@ -38,6 +38,10 @@ class Interval:
         return Interval(1 / self.value, 1 / self.high, 1 / self.low if self.low > 0 else math.inf)
 
 
+    def root(self):
+        return Interval(math.sqrt(self.value), math.sqrt(self.low), math.sqrt(self.high))
+
+
 def of_logarithm(value, half_width):
     """The interval of exp(value) whose logarithm is known to +- half_width; None: not known."""
     if half_width is None or not math.isfinite(half_width):
@@ -72,12 +76,13 @@ def _log(value):
 
 @dataclasses.dataclass
 class Ratio:
-    """A method over the default, both at the same samples a pixel."""
+    """A method over the default, both at the same samples a pixel; a rival at about the same seconds."""
     method: object
-    spp: int
+    spp: object                  # a pixel; of a rival: `its v the default's`
     error: Optional[Interval]    # RMSE over RMSE; None: lost in the reference's noise
-    seconds: Interval            # a sample
+    seconds: Interval            # a sample; of a rival: of the picture
     cost: Optional[Interval]     # MSE x seconds: seconds for the same error, where it falls with the root of the samples
+    relative_cost: Optional[Interval] = None  # likewise of the relative MSE
     floor: Optional[float] = None  # relative error at which it levels off: it does not simulate what the reference shows
 
 
@@ -93,11 +98,39 @@ def compare(summaries, default):
     return ratios
 
 
+def compare_rival(rival, points, default_points):
+    """The Ratio of another renderer's pictures to the default's, at the counts of samples that take about the same seconds."""
+    its = default_points[-1]
+    own = min(points, key=lambda point: abs(_log(point.seconds / its.seconds)))
+    ratio = _ratio(rival, own, its, _quotient_of_seconds(own, its))
+    ratio.spp, ratio.floor = f"{own.spp} v {its.spp}", floor(points)
+    return ratio
+
+
+def _quotient_of_seconds(own, its):
+    """Of two renderers' runs, which did not alternate: Welch's interval of the difference of the mean logarithms."""
+    logs = [numpy.log([run.render_seconds for run in summary.runs]) for summary in (own, its)]
+    value = float(logs[0].mean() - logs[1].mean())
+    if min(len(each) for each in logs) < 2:
+        return Interval(math.exp(value))
+    squares = [float(each.var(ddof=1)) / len(each) for each in logs]
+    if sum(squares) == 0:
+        return Interval(math.exp(value), math.exp(value), math.exp(value))
+    degrees = sum(squares) ** 2 / sum(square ** 2 / (len(each) - 1) for square, each in zip(squares, logs))
+    return of_logarithm(value, float(stdtrit(degrees, 0.975)) * math.sqrt(sum(squares)))
+
+
 def _ratio(method, own, its, seconds):
-    value, width = jackknife(lambda mse: 0.5 * (_log(mse[0]) - _log(mse[1])), numpy.array([own.blocks, its.blocks]))
-    error = of_logarithm(value, width) if math.isfinite(value) else None
-    cost = product(of_logarithm(2 * value, None if width is None else 2 * width), seconds) if error else None
-    return Ratio(method, own.spp, error, seconds, cost)
+    squared = _quotient(own.blocks, its.blocks)
+    relative = _quotient(own.relative_blocks, its.relative_blocks)
+    return Ratio(method, own.spp, squared and squared.root(), seconds, squared and product(squared, seconds),
+                 relative and product(relative, seconds))
+
+
+def _quotient(own, its):
+    """Of two mean squared errors, from those of the blocks; None where one is lost in the reference's noise."""
+    value, width = jackknife(lambda mse: _log(mse[0]) - _log(mse[1]), numpy.array([own, its]))
+    return of_logarithm(value, width) if math.isfinite(value) else None
 
 
 def _seconds_ratio(points, default_points):

@@ -17,6 +17,7 @@ class Study:
     ratios: dict
     times: dict
     stages: dict                # {method: (samples a pixel, seconds of each stage)}
+    rivals: dict                # {Rival: [Summary]} of other renderers' pictures; they are in `times` and `ratios` too
     own_runs: list              # renders at the size asked for, the default first
     notes: list
 
@@ -36,16 +37,19 @@ class Study:
         return study_ratios.slope_at_end(tuple(zip(*known))) if len(known) > 1 else None
 
 
-def conclude(runs, reference, cold, own_runs, asked_size, notes):
+def conclude(runs, reference, cold, own_runs, asked_size, notes, series=()):
     """The findings. `cold`: {method: seconds of a run that compiled}; `own_runs`: of the default first, at the size asked for;
-    `asked_size`: (width, height)."""
+    `asked_size`: (width, height); `series`: of other renderers, measured."""
     summaries = study_results.summarise(runs, reference)
     default = next(iter(summaries))
+    rivals = study_results.summarise([run for each in series for run in each.runs], reference)
+    notes = [*notes, *filter(None, (each.brightness_note() for each in series))]
     size = carry_over(summaries[default], runs[0].stats, own_runs[0] if own_runs else None, asked_size)
     times = {method: [study_ratios.time_to(points, target, size) for target in study_ratios.TARGETS]
-             for method, points in summaries.items()}
+             for method, points in {**summaries, **rivals}.items()}
     ratios = {method: ratio for method, ratio in study_ratios.compare(summaries, default).items() if method != default}
-    return Study(runs, reference, default, size, summaries, ratios, times, stage_seconds(summaries, cold), own_runs, list(notes))
+    ratios.update({rival: study_ratios.compare_rival(rival, points, summaries[default]) for rival, points in rivals.items()})
+    return Study(runs, reference, default, size, summaries, ratios, times, stage_seconds(summaries, cold), rivals, own_runs, notes)
 
 
 def stage_seconds(summaries, cold):

@@ -10,8 +10,9 @@ from typing import Optional
 import numpy
 
 from clrt_tools.atomic_text import write_text
-from clrt_tools.metrics import SMALL_SQUARE
+from clrt_tools.metrics import relative_weight
 from clrt_tools.picture_file import read_picture
+from clrt_tools.study_methods import SWITCHES, Method
 from clrt_tools.verdict import tile_sums
 
 # Parts of a picture, along its longer side, whose errors are taken as independent: enough for a jackknife over them.
@@ -53,16 +54,17 @@ def measure(run, reference):
     picture = read_picture(run.picture)
     x = picture.mean
     if x.shape != reference.mean.shape:
-        raise ValueError(f"expected a reference of {x.shape[1]}x{x.shape[0]} pixels like the renders, found "
-                         f"{reference.mean.shape[1]}x{reference.mean.shape[0]}")
-    weight = 1 / (reference.mean ** 2 + SMALL_SQUARE)
+        raise ValueError(f"{run.picture}: expected {reference.mean.shape[1]}x{reference.mean.shape[0]} pixels like the reference, "
+                         f"found {x.shape[1]}x{x.shape[0]}")
+    run.brightness = float(x.mean() / reference.mean.mean()) if reference.mean.any() else 1.0
+    weight = relative_weight(reference.mean)
     if reference.halves:
         a, b = reference.halves
         square = (x - a) * (x - b)
     else:
         square = (x - reference.mean) ** 2 - (0 if reference.variance is None else reference.variance)
     run.mse, run.relmse = float(square.mean()), float((square * weight).mean())
-    run.blocks = block_sums(square.mean(axis=-1))
+    run.blocks, run.relative_blocks = (block_sums(values.mean(axis=-1)) for values in (square, square * weight))
     run.noise_blocks = None if picture.variance is None else block_sums(picture.variance.mean(axis=-1))
     run.rel_rmse = relative_root(run.mse, reference)
 
@@ -91,7 +93,7 @@ class Summary:
     seconds: float              # median of the render stage
     seconds_low: float
     seconds_high: float
-    cpu_seconds: float          # median, of the whole process
+    cpu_seconds: Optional[float]  # median, of the whole process; None where not known
     own_error: Optional[float]  # what clrt itself says, root of the mean square
 
     @property
@@ -102,6 +104,11 @@ class Summary:
     def blocks(self):
         """Squared errors of the blocks of the picture, mean of the repeats."""
         return sum(run.blocks for run in self.runs) / len(self.runs)
+
+    @property
+    def relative_blocks(self):
+        """Likewise of relative squared errors."""
+        return sum(run.relative_blocks for run in self.runs) / len(self.runs)
 
     @property
     def noise_blocks(self):
@@ -122,37 +129,41 @@ def summarise(runs, reference):
 def _summary(spp, group, reference):
     error = relative_root(statistics.fmean(run.mse for run in group), reference)
     each = [run.rel_rmse for run in group if run.rel_rmse is not None]
-    own = [run.own_error for run in group]
+    own, cpu = [run.own_error for run in group], [run.cpu_seconds for run in group]
     seconds = [run.render_seconds for run in group]
     return Summary(spp, group, error, min(each, default=None), max(each, default=None),
                    statistics.fmean(run.relmse for run in group), statistics.median(seconds), min(seconds), max(seconds),
-                   statistics.median(run.cpu_seconds for run in group),
+                   statistics.median(cpu) if None not in cpu else None,
                    math.sqrt(statistics.fmean(e * e for e in own)) if all(own) else None)
 
 
-COLUMNS = ["scene", "device", "integrator", "precision", "sampler", "seed", "spp", "width", "height", "cold", "load_s", "bvh_s",
-           "compile_s", "first_launch_s", "render_s", "total_s", "process_cpu_s", "mse", "rel_rmse", "relmse", "own_rel_rmse",
-           "nonfinite", "command"]
-
-
+STAGES = ("load", "bvh", "compile", "first_launch", "render", "total")
+COLUMNS = ["scene", "renderer", "device", *SWITCHES, "seed", "spp", "width", "height", "cold", *(f"{stage}_s" for stage in STAGES),
+           "process_cpu_s", "mse", "rel_rmse", "relmse", "own_rel_rmse", "nonfinite", "command"]
 # Kinds of samples that a film leaves out.
 BAD_SAMPLES = ("nan", "infinite", "negative", "overflow")
 
 
 def _row(run, scene):
+    """{column: value} of a run; of another renderer's what is known."""
     stats, point = run.stats, run.point
-    seconds = stats["seconds"]
-    return [scene, stats["device"]["name"], point.method.integrator, point.method.precision, point.method.sampler, point.seed,
-            point.spp, stats["width"], stats["height"], int(point.cold), *(f"{seconds[name]:.6f}" for name in (
-                "load", "bvh", "compile", "first_launch", "render", "total")), f"{run.cpu_seconds:.6f}",
-            repr(run.mse), "" if run.rel_rmse is None else repr(run.rel_rmse), repr(run.relmse),
-            run.own_error or "", sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES), run.command]
+    row = {"scene": scene, "renderer": "clrt", "seed": point.seed, "spp": point.spp, "width": stats["width"],
+           "height": stats["height"], "mse": repr(run.mse), "relmse": repr(run.relmse), "command": run.command,
+           **{f"{stage}_s": f"{stats['seconds'][stage]:.6f}" for stage in STAGES if stage in stats["seconds"]}}
+    if run.cpu_seconds is not None:
+        row["process_cpu_s"] = f"{run.cpu_seconds:.6f}"
+    if run.rel_rmse is not None:
+        row["rel_rmse"] = repr(run.rel_rmse)
+    if not isinstance(point.method, Method):
+        return {**row, "renderer": str(point.method)}
+    return {**row, **point.method.names(), "device": stats["device"]["name"], "cold": int(point.cold),
+            "own_rel_rmse": run.own_error or "", "nonfinite": sum(stats["nonfinite"][kind] for kind in BAD_SAMPLES)}
 
 
 def write_csv(path, runs, scene):
     """One row a run; an error below the reference's noise leaves rel_rmse empty."""
     table = io.StringIO()
-    writer = csv.writer(table, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    writer = csv.DictWriter(table, COLUMNS, restval="", lineterminator="\n")
+    writer.writeheader()
     writer.writerows(_row(run, scene) for run in runs)
     write_text(path, table.getvalue())

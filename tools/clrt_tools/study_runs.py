@@ -10,41 +10,30 @@ from typing import Optional
 
 import numpy
 
+from clrt_tools.study_methods import Method
+
 # Seeds of the reference's halves: far from those of the repeats, which count from 1.
 REFERENCE_SEEDS = (1000001, 1000002)
+# What renders them.
+REFERENCE_METHOD = Method("path", "single", "sobol")
 # Folders of compiled kernels: clrt's own and PoCL's (XDG), PoCL's where it is set by hand, NVIDIA's, Intel's for GPUs.
 CACHE_VARIABLES = ("XDG_CACHE_HOME", "POCL_CACHE_DIR", "CUDA_CACHE_PATH", "NEO_CACHE_DIR")
+
+
+# clrt's exit code for a command line that it cannot follow.
+USAGE_ERROR = 2
 
 
 class RunError(Exception):
     """clrt ended without a picture; the message is its own."""
 
 
+class Refused(RunError):
+    """clrt does not take these options together, such as so few samples with --adaptive."""
+
+
 class OutOfTime(Exception):
     """The run was ended because its time was over."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Method:
-    """What is compared."""
-    integrator: str
-    precision: str
-    sampler: str
-
-    def __str__(self):
-        return f"{self.integrator}, {self.precision}, {self.sampler}"
-
-    def changes(self, other):
-        """{field: value of this method} where it differs from the other."""
-        return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)
-                if getattr(self, field.name) != getattr(other, field.name)}
-
-    def label(self, default):
-        """The method in few words: what differs from the default."""
-        return ", ".join(self.changes(default).values()) or f"default ({self})"
-
-
-CLRT_DEFAULT = Method("path", "single", "sobol")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,11 +52,13 @@ class Run:
     command: str
     picture: str                # path of the EXR
     stats: dict                 # clrt --stats
-    cpu_seconds: float          # user and system time of the process
+    cpu_seconds: Optional[float]  # user and system time of the process; None where not known
+    brightness: Optional[float] = None      # mean over the reference's
     mse: Optional[float] = None
     rel_rmse: Optional[float] = None
     relmse: Optional[float] = None
     blocks: Optional[numpy.ndarray] = None  # sums of the squared error over blocks of the picture
+    relative_blocks: Optional[numpy.ndarray] = None  # likewise of the relative squared error
     noise_blocks: Optional[numpy.ndarray] = None  # of the variance that clrt itself estimates
 
     @property
@@ -93,8 +84,8 @@ class Runner:
     caches: Optional[str] = None  # folder of compiled kernels, empty at first: each program compiles once, whatever ran before
 
     def command(self, name, point, size=None):
-        words = [self.program, self.scene, "-q", "-s", str(point.spp), "--seed", str(point.seed), "-i", point.method.integrator,
-                 "--precision", point.method.precision, "--sampler", point.method.sampler, "--aov", "variance,samples"]
+        words = [self.program, self.scene, "-q", "-s", str(point.spp), "--seed", str(point.seed), *point.method.words(),
+                 "--aov", "variance,samples"]
         size = size or self.size
         words += ["-r", size] if size else []
         words += ["-d", self.device] if self.device else []
@@ -108,7 +99,8 @@ class Runner:
         code, said, cpu_seconds = self._call(words, seconds)
         if code != 0:
             lines = said.strip().splitlines()
-            raise RunError(lines[-1] if lines else f"{self.program} ended with exit code {code}")
+            error = Refused if code == USAGE_ERROR else RunError
+            raise error(lines[-1] if lines else f"{self.program} ended with exit code {code}")
         with open(path + ".json", encoding="utf-8") as file:
             stats = json.load(file)
         return Run(point, shlex.join(words), path + ".exr", stats, cpu_seconds)
@@ -135,19 +127,6 @@ class Runner:
         if late.is_set() and process.returncode != 0:
             raise OutOfTime(f"ended after {seconds:.0f} s")
         return process.returncode, said, usage.ru_utime + usage.ru_stime
-
-
-def combinations(options):
-    """The methods of a study, the default first: all combinations, or in quick studies one change at a time."""
-    every = [Method(i, p, s) for i in options.integrators for p in options.precisions for s in options.samplers]
-    default = CLRT_DEFAULT if CLRT_DEFAULT in every else every[0]
-    # Samplers first, then precisions, then integrators: the last are dropped first where time is short.
-    order = ("sampler", "precision", "integrator")
-    one_change = [default] + sorted((m for m in every if len(m.changes(default)) == 1),
-                                    key=lambda m: order.index(*m.changes(default)))
-    if options.quick:
-        return one_change
-    return one_change + [method for method in every if method not in one_change]
 
 
 def sweep(methods, samples, repeats):

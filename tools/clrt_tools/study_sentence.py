@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The figures of a study in words. Nothing is called better that is not so at 95 %."""
+from clrt_tools.study_methods import Method
 from clrt_tools.study_ratios import BELOW, EXTRAPOLATED, MEASURED, NEVER
 
 # The error, relative, that the sentence tells the price of, and what it takes where that was not measured.
@@ -9,8 +10,22 @@ SAME_ERROR, SAME_SECONDS = 1.01, 1.05
 # Widest interval, over or below 1, that is still called about the same.
 WIDEST_SAME = 2.0
 
-NAMES = {"sobol": "Sobol points", "independent": "white noise", "double": "double precision", "single": "single precision",
-         "fast": "fast maths"}
+# What changes of a method are called, where their names do not say enough.
+NAMES = {"sampler": {"sobol": "Sobol points", "independent": "white noise"},
+         "precision": {"double": "double precision", "single": "single precision", "fast": "fast maths"},
+         "lights": {"tree": "the light tree", "mixture": "choosing lights by power and evenly",
+                    "power": "choosing lights by power alone"},
+         "guide": {"on": "path guiding", "off": "no path guiding", "auto": "path guiding by a pilot's choice"},
+         "adaptive": {"off": "even sampling", "on": "adaptive sampling", "mse": "adaptive sampling for the squared error",
+                      "relative": "adaptive sampling for the relative error"}}
+# The change that aims at the relative squared error, and is judged by it.
+FOR_RELATIVE = ("adaptive", "relative")
+THE_DEFAULT = "clrt's default"
+
+
+def change_name(field, name):
+    """A name of a switch in words."""
+    return NAMES.get(field, {}).get(name, name if field == "integrator" else f"{field} {name}")
 
 
 def number(value):
@@ -86,7 +101,7 @@ def _than(name, other, cost):
     better, worse, factor = (other, name, cost) if cost.value > 1 else (name, other, cost.inverse())
     if factor.value < SAME_SECONDS:
         return f"{other} and {name} cost about the same"
-    verb = "are" if better == NAMES["sobol"] else "is"
+    verb = "are" if better == NAMES["sampler"]["sobol"] else "is"
     return f"{better} {verb} {number(factor.value)} times{_in_brackets(ends(factor))} better than {worse}"
 
 
@@ -108,23 +123,44 @@ def _precision(name, ratio):
 def _clause(ratio, default):
     """What one change to the default does."""
     (field, value), = ratio.method.changes(default).items()
-    name = NAMES.get(value, value)
+    name = change_name(field, value)
     if ratio.floor:
         return f"{name} levels off at {number(100 * ratio.floor)} %: it does not simulate all that the reference shows"
     if ratio.error is None:
         return f"{name} lies below the noise of the reference"
     if field == "precision":
         return _precision(name, ratio)
-    return _than(name, NAMES.get(getattr(default, field), getattr(default, field)), ratio.cost)
+    other = change_name(field, getattr(default, field))
+    if (field, value) == FOR_RELATIVE and ratio.relative_cost:
+        return _than(name, other, ratio.relative_cost)
+    return _than(name, other, ratio.cost)
+
+
+def _rival_clause(ratio):
+    """How another renderer compares with the default."""
+    if ratio.floor:
+        return f"{ratio.method} levels off at {number(100 * ratio.floor)} %: it does not render what the reference shows"
+    known = [(cost, words) for cost, words in ((ratio.cost, "squared error"), (ratio.relative_cost, "relative squared error")) if cost]
+    if not known:
+        return f"{ratio.method} lies below the noise of the reference"
+    return f"{THE_DEFAULT} and {ratio.method}: " + ", ".join(f"{_times_as_accurate(cost)} by the {words}" for cost, words in known)
+
+
+def _times_as_accurate(cost):
+    """`1.4 times (1.2 - 1.6) the accuracy a second`, of the default over the rival whose cost it is."""
+    if cost.includes_one:
+        return _same(cost)
+    return f"{number(cost.value)} times{_in_brackets(ends(cost))} its accuracy a second"
 
 
 def headline(times, size, ratios, default):
-    """What a study says, in two sentences: the price of an error, and what each single change to the default does."""
-    clauses = [_clause(ratio, default) for method, ratio in ratios.items() if len(method.changes(default)) == 1]
+    """What a study says: the price of an error, what each single change to the default does, how other renderers compare."""
+    methods = {method: ratio for method, ratio in ratios.items() if isinstance(method, Method)}
+    clauses = [_clause(ratio, default) for method, ratio in methods.items() if len(method.changes(default)) == 1]
     sentence = price_sentence(times, size)
     if clauses:
         sentence += " " + clauses[0][0].upper() + "; ".join(clauses)[1:] + "."
-    return sentence
+    return " ".join([sentence] + [_rival_clause(ratio) + "." for method, ratio in ratios.items() if method not in methods])
 
 
 def time_words(time):

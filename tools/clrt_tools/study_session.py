@@ -7,7 +7,8 @@ import sys
 
 from clrt_tools import study_plan, study_results
 from clrt_tools.picture_file import read_picture
-from clrt_tools.study_runs import CLRT_DEFAULT, REFERENCE_SEEDS, OutOfTime, Point, RunError, combinations, sweep
+from clrt_tools.study_methods import combinations
+from clrt_tools.study_runs import REFERENCE_METHOD, REFERENCE_SEEDS, OutOfTime, Point, Refused, RunError, sweep
 
 COUNTS, REPEATS = (4, 16, 64, 256), 3  # of studies that are not quick
 REFERENCE_FACTOR = 8  # samples of each half, over the most of a run
@@ -44,10 +45,11 @@ class ProgressLine:
 class Session:
     """Runs what a study needs, within its budget."""
 
-    def __init__(self, options, runner, budget):
-        self.options, self.runner, self.budget = options, runner, budget
+    def __init__(self, options, runner, budget, default):
+        """`default`: the Method of clrt without options."""
+        self.options, self.runner, self.budget, self.default = options, runner, budget, default
         self.progress = ProgressLine(budget)
-        self.runs, self.notes, self.failed, self.skipped = [], [], {}, []
+        self.runs, self.notes, self.failed, self.refused, self.skipped = [], [], {}, {}, []
         self.cold = {}  # method: seconds of the stages of its first run, which compiled
         load = os.getloadavg()[0] / (os.cpu_count() or 1)
         if load > BUSY:
@@ -56,7 +58,8 @@ class Session:
 
     def plan(self):
         """What to run: as the options say, or, of a quick study, what fits."""
-        options, methods = self.options, combinations(self.options)
+        options = self.options
+        methods = combinations(options.names, options.given, options.quick, self.default)
         if not options.quick:
             counts = tuple(options.spp or COUNTS)
             half = max(1, options.reference_spp // 2) if options.reference_spp else REFERENCE_FACTOR * max(counts)
@@ -68,8 +71,8 @@ class Session:
             given.update(reference_spp=0, size=(window.full_width, window.full_height))
         elif options.reference_spp:
             given["reference_spp"] = max(1, options.reference_spp // 2)
-        if "--crop" in options.extra:
-            given["size"] = own_size  # its numbers are pixels of that size
+        if "--crop" in options.extra or options.against:
+            given["size"] = own_size  # numbers of the crop are pixels of that size; another renderer's pictures have it
         plan = study_plan.choose_plan(speed, self.budget.left(), own_size, methods, given)
         self.notes += plan.notes
         return plan, own_size
@@ -130,7 +133,7 @@ class Session:
 
     def _run_all(self, points, first=0):
         for index, point in enumerate(points, first):
-            if point.method in self.failed:
+            if point.method in self.failed or point.spp in self.refused.get(point.method, ()):
                 self.progress.skip()
             elif not self.budget.fits(point):
                 self.progress.skip()
@@ -145,6 +148,9 @@ class Session:
             run = self.runner.run(f"run_{index:04d}", point, (), self.budget.left())
         except OutOfTime:
             self.skipped.append(point)
+            return
+        except Refused as error:
+            self.refused.setdefault(point.method, {})[point.spp] = str(error)
             return
         except RunError as error:
             self.failed[point.method] = str(error)
@@ -163,20 +169,22 @@ class Session:
             self.progress.step(f"reference, half {half}: {plan.reference_spp} spp")
             limit = ("-t", f"{self.budget.seconds * HALF_REFERENCE_SHARE:g}") if self.budget.seconds else ()
             try:
-                halves.append(self.runner.run(f"reference_{half}", Point(CLRT_DEFAULT, plan.reference_spp, seed), limit,
+                halves.append(self.runner.run(f"reference_{half}", Point(REFERENCE_METHOD, plan.reference_spp, seed), limit,
                                               self.budget.left()))
             except OutOfTime:
                 if not halves:
                     raise
                 self.notes.append("no time for the second half of the reference: the variance layer of the first tells its noise")
         reference = study_results.reference_of_files([run.picture for run in halves])
-        reference.text = (f"{CLRT_DEFAULT}, {' and '.join(str(run.stats['spp']) for run in halves)} spp, seeds "
+        reference.text = (f"{REFERENCE_METHOD}, {' and '.join(str(run.stats['spp']) for run in halves)} spp, seeds "
                           f"{' and '.join(str(run.point.seed) for run in halves)}")
         reference.seconds = sum(run.render_seconds for run in halves)
         return reference
 
     def _note_what_is_missing(self, total):
         self.notes += [f"{method}: not measured. {message}" for method, message in self.failed.items()]
+        self.notes += [f"{method}: not with {' and '.join(map(str, counts))} spp. {next(iter(counts.values()))}"
+                       for method, counts in self.refused.items() if method not in self.failed]
         if self.skipped:
             made = {run.point.method for run in self.runs}
             lost = list(dict.fromkeys(str(point.method) for point in self.skipped if point.method not in made))
