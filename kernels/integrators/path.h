@@ -19,13 +19,14 @@ static inline void path_escape(const Scene* scene, const RenderParams* params, u
         return;
     const real3 direction = path->ray.direction;
     const real pdf_w = path->pdf_w;
-    const real3 sky = vertex_sky(scene, params, segment, &path->ray, pdf_w, path_accepted(path));
+    const real3 sky = vertex_sky(scene, params, segment, &path->view, &path->ray, pdf_w, path_accepted(path));
     vertex_add(scene, path->throughput * sky, &sample->radiance);
     if (PATH_LAYERS == 0)
         return;
-    path_add_layers(path, KIND_SKY, lights_outside(scene, params, segment, direction, pdf_w, KIND_SKY),
+    const LightView* view = &path->view;
+    path_add_layers(path, KIND_SKY, lights_outside(scene, params, segment, view, direction, pdf_w, KIND_SKY),
                     &sample->layers);
-    path_add_layers(path, KIND_SUN, lights_outside(scene, params, segment, direction, pdf_w, KIND_SUN),
+    path_add_layers(path, KIND_SUN, lights_outside(scene, params, segment, view, direction, pdf_w, KIND_SUN),
                     &sample->layers);
 }
 
@@ -92,7 +93,7 @@ static inline void path_draw(const Scene* scene, const RenderParams* params, con
     numbers_draw(&numbers, segment, list->count);
     for (uint i = 0; i < list->count; ++i) {
         paths[list->at[i]].numbers = numbers_of(&numbers, i);
-        environment_prefetch_slot(scene, params, numbers.light_x[i]);
+        environment_prefetch_slot(scene, params, paths[list->at[i]].numbers.light);
     }
 }
 
@@ -107,7 +108,7 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
     for (uint i = 0; i < alive->count; ++i) {
         const uint k = alive->at[i];
         paths[k].hit = vertex_hit(scene, params, &samples[k].sampler, segment, 0u, &paths[k].ray);
-        environment_prefetch_texel(scene, params, paths[k].numbers.light.x, paths[k].numbers.alias);
+        environment_prefetch_texel(scene, params, paths[k].numbers.light, paths[k].numbers.alias);
         CLRT_PREFETCH((ulong)scene->triangles + sizeof(Triangle) * paths[k].hit.triangle);
     }
 

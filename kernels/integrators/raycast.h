@@ -15,7 +15,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     if (hit.triangle == NO_INDEX) {
         ++rays->missed;
         if (!nan_carry(scene, nan_of_miss(&hit), &radiance))
-            vertex_add(scene, vertex_sky(scene, params, 1u, &ray, REAL(0.0), KINDS_ALL), &radiance);
+            vertex_add(scene, vertex_sky(scene, params, 1u, 0, &ray, REAL(0.0), KINDS_ALL), &radiance);
         return radiance;
     }
     const real3 wo = -ray.direction;

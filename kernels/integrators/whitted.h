@@ -109,7 +109,7 @@ static inline void whitted_escape(const Scene* scene, const RenderParams* params
     rays->missed += current->segment == 1u ? 1u : 0u;
     if (nan_carry(scene, nan_of_miss(hit), radiance))
         return;
-    const real3 sky = vertex_sky(scene, params, current->segment, &current->ray, REAL(0.0), KINDS_ALL);
+    const real3 sky = vertex_sky(scene, params, current->segment, 0, &current->ray, REAL(0.0), KINDS_ALL);
     vertex_add(scene, current->weight * sky, radiance);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emissive triangles: chosen by power, sampled by solid angle where they look large, else by area.
+// Emissive triangles: chosen by a table or by the tree, sampled by solid angle where they look large, else by area.
 #ifndef CLRT_LIGHTS_EMITTER_H
 #define CLRT_LIGHTS_EMITTER_H
 
@@ -14,30 +14,31 @@ static inline real emitter_pdf_w(real pdf_a, real distance_squared, real cos_l)
 }
 
 /* Density per steradian where the point is uniform in the triangle's solid angle. */
-static inline real emitter_pdf_of_angle(global const Emitter* emitter, real3 normal, real solid_angle)
+static inline real emitter_pdf_of_angle(real pdf_a, real3 normal, real solid_angle)
 {
     const real area = vector_length(normal) * (REAL(0.5) / (SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE));
-    return (real)emitter->pdf_a * area / solid_angle;
+    return pdf_a * area / solid_angle;
 }
 
-/* Chooses a triangle by the alias table and a point on it. `word` gives the index and, by its rest, the
-   point's first coordinate; v is the second. */
-CLRT_GIVES_STRUCT LightSample emitter_sample(const Scene* scene, const RenderParams* params, real3 position,
-                                             uint word, uint alias_word, real v)
+/* Index of the emitter that a word and an alias word choose by the table. */
+static inline uint emitter_choose(const Scene* scene, const RenderParams* params, uint word, uint alias_word)
+{
+    const uint slot = warp_index(word, params->emitter_count);
+    return alias_word < scene->emitters[slot].threshold ? slot : scene->emitters[slot].alias;
+}
+
+/* A point on a triangle that was chosen with probability pdf_a over its area. */
+CLRT_GIVES_STRUCT LightSample emitter_sample_chosen(const Scene* scene, uint chosen, real pdf_a,
+                                                    real3 position, real2 u)
 {
     LightSample sample = light_sample_none();
-    /* Choose. */
-    const uint slot = warp_index(word, params->emitter_count);
-    const uint chosen = alias_word < scene->emitters[slot].threshold ? slot : scene->emitters[slot].alias;
     global const Emitter* emitter = scene->emitters + chosen;
     global const Triangle* triangle = scene->triangles + emitter->triangle;
-    /* A point on it. */
     real3 p0, p1, p2;
     surface_corners(scene, triangle, &p0, &p1, &p2);
     const real3 e1 = p1 - p0;
     const real3 e2 = p2 - p0;
     const real3 normal = surface_cross(e1, e2);
-    const real2 u = (real2)(warp_rest(word, params->emitter_count, alias_word), v);
     real2 b = warp_triangle(u);
     real solid_angle = REAL(0.0);
     if (spherical_triangle_is_near(p0 - position, e1, e2, normal)) {
@@ -64,8 +65,8 @@ CLRT_GIVES_STRUCT LightSample emitter_sample(const Scene* scene, const RenderPar
     sample.is_distant = false;
     sample.is_delta = false;
     /* facing is cos_l times the lengths of way and normal. */
-    sample.pdf_w = solid_angle > REAL(0.0) ? emitter_pdf_of_angle(emitter, normal, solid_angle)
-                                           : (real)emitter->pdf_a * distance * distance *
+    sample.pdf_w = solid_angle > REAL(0.0) ? emitter_pdf_of_angle(pdf_a, normal, solid_angle)
+                                           : pdf_a * distance * distance *
                                                  (distance * vector_length(normal) / fabs(facing));
     float2 uv = (float2)(0.0f);
     if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
@@ -79,10 +80,20 @@ CLRT_GIVES_STRUCT LightSample emitter_sample(const Scene* scene, const RenderPar
     return sample;
 }
 
-/* Density with which emitter_sample at `from` chooses the direction to a point of an emitter that was hit at
-   distance t. */
-static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real3 from, real t,
-                                            real3 wo)
+/* Chooses a triangle by the table and a point on it. `word` gives the index and, by its rest, the point's
+   first coordinate; v is the second. */
+static inline LightSample emitter_sample(const Scene* scene, const RenderParams* params, real3 position,
+                                         uint word, uint alias_word, real v)
+{
+    const uint chosen = emitter_choose(scene, params, word, alias_word);
+    const real2 u = (real2)(warp_rest(word, params->emitter_count, alias_word), v);
+    return emitter_sample_chosen(scene, chosen, (real)scene->emitters[chosen].pdf_a, position, u);
+}
+
+/* Density with which emitter_sample_chosen at `from` finds the direction to a point of an emitter that was
+   hit at distance t. */
+static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real pdf_a, real3 from,
+                                            real t, real3 wo)
 {
     global const Emitter* emitter = scene->emitters + surface->emitter;
     real3 p0, p1, p2;
@@ -91,23 +102,23 @@ static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* s
     if (spherical_triangle_is_near(p0 - from, p1 - p0, p2 - p0, normal)) {
         const SphericalTriangle seen = spherical_triangle_make(p0 - from, p1 - from, p2 - from, normal);
         if (seen.solid_angle > REAL(0.0))
-            return emitter_pdf_of_angle(emitter, normal, seen.solid_angle);
+            return emitter_pdf_of_angle(pdf_a, normal, seen.solid_angle);
     }
     const real cos_l = vector_dot(surface->normal_g, wo);
-    return cos_l > REAL(0.0) ? emitter_pdf_w((real)emitter->pdf_a, t * t, cos_l) : REAL(0.0);
+    return cos_l > REAL(0.0) ? emitter_pdf_w(pdf_a, t * t, cos_l) : REAL(0.0);
 }
 
 /* The same for a ray that crossed a curved surface and so did not start at `from`, where light is sampled,
    but at the plane (light_from_plane). */
-static CLRT_NOINLINE real emitter_crossed_pdf_w(const Scene* scene, const Surface* surface, real3 from,
-                                                real t, real3 wo)
+static CLRT_NOINLINE real emitter_crossed_pdf_w(const Scene* scene, const Surface* surface, real pdf_a,
+                                                real3 from, real t, real3 wo)
 {
     const real3 way = surface->position - from;
     const real distance = vector_length(way);
     const real ratio = light_density_ratio(-t * wo, way, surface->normal_g);
     if (!(ratio > REAL(0.0) && ratio < REAL_FAR))
         return REAL(0.0);
-    return ratio * emitter_hit_pdf_w(scene, surface, from, distance, way / -distance);
+    return ratio * emitter_hit_pdf_w(scene, surface, pdf_a, from, distance, way / -distance);
 }
 
 #endif

@@ -97,21 +97,28 @@ static inline bool environment_is_searched(const RenderParams* params)
            params->environment_width != 0u;
 }
 
+/* Of a pair of words, the one that chooses the texel: the tree spends the first on the choice of the light. */
+static inline uint environment_word(const RenderParams* params, uint2 words)
+{
+    return HAS(EFFECT_LIGHT_TREE) && LIGHT_TREE_IS_USED(*params) != 0.0f ? words.y : words.x;
+}
+
 /* Starts to load the texel that environment_map_sample will choose for these words, and those above and below
    for the lookup. A map is larger than caches are, and these are all over it. environment_prefetch_slot comes
    first: by the time of the second call the slot has arrived. */
-static inline void environment_prefetch_slot(const Scene* scene, const RenderParams* params, uint word)
+static inline void environment_prefetch_slot(const Scene* scene, const RenderParams* params, uint2 words)
 {
     if (environment_is_searched(params))
-        CLRT_PREFETCH(scene->environment + environment_slot(params, word));
+        CLRT_PREFETCH(scene->environment + environment_slot(params, environment_word(params, words)));
 }
 
-static inline void environment_prefetch_texel(const Scene* scene, const RenderParams* params, uint word,
+static inline void environment_prefetch_texel(const Scene* scene, const RenderParams* params, uint2 words,
                                               uint alias_word)
 {
     if (!environment_is_searched(params))
         return;
-    const uint chosen = environment_texel(scene, environment_slot(params, word), alias_word);
+    const uint slot = environment_slot(params, environment_word(params, words));
+    const uint chosen = environment_texel(scene, slot, alias_word);
     const ulong texel = (ulong)(scene->environment + chosen);
     const ulong row = sizeof(EnvironmentTexel) * params->environment_width;
     CLRT_PREFETCH(texel - row);

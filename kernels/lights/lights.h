@@ -4,39 +4,39 @@
 #ifndef CLRT_LIGHTS_LIGHTS_H
 #define CLRT_LIGHTS_LIGHTS_H
 
-#include "delta_light.h"
-#include "emitter.h"
-#include "environment.h"
+#include "light_choice.h"
 #include "numerics/mis.h"
 #include "numerics/sampler.h"
 
-/* Chooses a kind of light (emissive triangles, environment, points and suns) by the host's probabilities,
-   then a light of that kind, then a point on it, as seen from the point where rays start that the surface
-   reflects. The probability of the choice is in pdf_w. One pair of words serves all: what is left of the
-   first after choosing the light, and of the second after choosing the kind, gives the point. */
-static inline LightSample lights_sample(const Scene* scene, const RenderParams* params,
-                                        const Surface* surface, real3 n, uint2 words, uint alias_word)
+/* A surface as light sampling sees it: from the point where rays start that it reflects. `normal` as in
+   LightView. */
+static inline LightView lights_view(const Surface* surface, real3 normal)
 {
-    const real v = sampler_unit(words.y);
-    const real emitter = (real)params->choose_emitter;
-    const real sky = (real)params->choose_environment;
-    const real light = (real)params->choose_light;
-    const real3 from = surface_lifted(surface);
+    const LightView view = {surface_lifted(surface), normal};
+    return view;
+}
+
+/* Chooses a light, then a point on it. The probability of the choice is in pdf_w. `normal` as in
+   LightView. */
+static inline LightSample lights_sample(const Scene* scene, const RenderParams* params,
+                                        const Surface* surface, real3 normal, uint2 words, uint alias_word)
+{
+    const LightView view = lights_view(surface, normal);
+    const LightChoice choice = light_choose(scene, params, &view, words, alias_word);
     LightSample sample = light_sample_none();
-    if (HAS(EFFECT_AREA_LIGHT) && v < emitter) {
-        sample = emitter_sample(scene, params, from, words.x, alias_word, v / emitter);
-        sample.pdf_w *= emitter;
+    if (HAS(EFFECT_AREA_LIGHT) && choice.light < params->emitter_count) {
+        sample = emitter_sample_chosen(scene, choice.light, choice.probability, view.position,
+                                       (real2)(sampler_unit(choice.word), choice.v));
         sample.kind = KIND_AREA;
-    } else if (HAS(EFFECT_ENVIRONMENT_MAP) && v < emitter + sky) {
-        sample = environment_sample(scene, params, n, words.x, alias_word, (v - emitter) / sky);
-        sample.pdf_w *= sky;
+    } else if (HAS(EFFECT_ENVIRONMENT_MAP) && choice.light == light_of_sky(params)) {
+        sample = environment_map_sample(scene, params, choice.word, choice.alias_word, choice.v);
+        sample.pdf_w *= choice.probability;
         sample.kind = KIND_SKY;
-    } else if (HAS(EFFECT_DELTA_LIGHT) && light > REAL(0.0)) {
-        const uint index = delta_light_choose(scene, params, words.x, alias_word);
-        const real2 u =
-            (real2)(warp_rest(words.x, params->light_count, alias_word), (v - emitter - sky) / light);
-        sample = delta_light_sample(scene, index, from, u);
-        sample.pdf_w *= light * (real)scene->lights[index].probability;
+    } else if (HAS(EFFECT_DELTA_LIGHT) && choice.light != NO_INDEX) {
+        const uint index = choice.light - params->emitter_count;
+        const real2 u = (real2)(sampler_unit(choice.word), choice.v);
+        sample = delta_light_sample(scene, index, view.position, u);
+        sample.pdf_w *= choice.probability;
         sample.kind = scene->lights[index].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
     }
     light_choose_side(scene, surface, &sample);
@@ -44,16 +44,17 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
 }
 
 /* Radiance from outside the scene along wi: the environment and the discs of suns, as far as `kinds` (KIND_*)
-   names them. pdf_w is the density with which the direction was sampled, 0 for camera rays and delta lobes;
-   each part is weighted against next-event estimation. */
-static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams* params, real3 wi, real pdf_w,
-                                         uint kinds)
+   names them. pdf_w is the density with which the direction was sampled at the vertex of `view`, 0 for camera
+   rays and delta lobes, which need no view; each part is weighted against next-event estimation there. */
+static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams* params,
+                                         const LightView* view, real3 wi, real pdf_w, uint kinds)
 {
     real3 radiance = (real3)(REAL(0.0));
     if (HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY)) {
         real light_pdf_w = REAL(0.0);
         if (HAS(EFFECT_ENVIRONMENT_MAP) && pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
-            light_pdf_w = (real)params->choose_environment * environment_map_pdf_w(scene, params, wi);
+            light_pdf_w =
+                light_probability_of_sky(scene, params, view) * environment_map_pdf_w(scene, params, wi);
         radiance = environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);
     }
     if (!HAS(EFFECT_DELTA_LIGHT) || !(kinds & KIND_SUN))
@@ -61,8 +62,10 @@ static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams*
     for (uint i = 0; i < params->light_count; ++i) {
         if (!delta_light_covers(scene, i, wi))
             continue;
-        const real choose = (real)(params->choose_light * scene->lights[i].probability);
-        const real light_pdf_w = choose * warp_cone_pdf_w((real)scene->lights[i].one_minus_cos);
+        real light_pdf_w = REAL(0.0);
+        if (pdf_w > REAL(0.0))
+            light_pdf_w = light_probability_of_delta(scene, params, view, i) *
+                          warp_cone_pdf_w((real)scene->lights[i].one_minus_cos);
         radiance += vector_from(scene->lights[i].emission) * mis_weight(pdf_w, light_pdf_w);
     }
     return radiance;
@@ -70,11 +73,11 @@ static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams*
 
 /* Radiance from outside the scene to the ray of a path's segment, as lights_escape gives it; but a camera ray
    sees the background, where there is one, which counts as KIND_SKY. */
-static inline real3 lights_outside(const Scene* scene, const RenderParams* params, uint segment, real3 wi,
-                                   real pdf_w, uint kinds)
+static inline real3 lights_outside(const Scene* scene, const RenderParams* params, uint segment,
+                                   const LightView* view, real3 wi, real pdf_w, uint kinds)
 {
     if (segment > 1u || BACKGROUND_IS_SEEN(*params) == 0.0f)
-        return lights_escape(scene, params, wi, pdf_w, kinds);
+        return lights_escape(scene, params, view, wi, pdf_w, kinds);
     return HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY) ? vector_from(params->background)
                                                          : (real3)(REAL(0.0));
 }

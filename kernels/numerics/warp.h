@@ -66,11 +66,17 @@ static inline real2 warp_triangle(real2 u)
 /* An index below count from a word, each with the probability of its share of 2^32. */
 static inline uint warp_index(uint word, uint count) { return mul_hi(word, count); }
 
-/* The number in (0, 1) that is left of a word after warp_index took its share; `fill` replaces the digits
-   that a large count has used up. */
+/* The word that is left of a word after warp_index took its share; `fill` replaces the digits that a large
+   count has used up. */
+static inline uint warp_rest_word(uint word, uint count, uint fill)
+{
+    return word * count + mul_hi(fill, count);
+}
+
+/* The same as a number in (0, 1). */
 static inline real warp_rest(uint word, uint count, uint fill)
 {
-    return sampler_unit(word * count + mul_hi(fill, count));
+    return sampler_unit(warp_rest_word(word, count, fill));
 }
 
 #endif

@@ -16,11 +16,11 @@ static inline real3 path_emission(const Scene* scene, const RenderParams* params
     if (pdf_w == REAL(0.0))
         return emitted;
     const real t = path->hit.t;
-    const real point_pdf_w =
+    const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
+    const real light_pdf_w =
         HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
-            ? emitter_crossed_pdf_w(scene, surface, path->from, t, wo)
-            : emitter_hit_pdf_w(scene, surface, path->from, t, wo);
-    const real light_pdf_w = (real)params->choose_emitter * point_pdf_w;
+            ? emitter_crossed_pdf_w(scene, surface, pdf_a, path->view.position, t, wo)
+            : emitter_hit_pdf_w(scene, surface, pdf_a, path->view.position, t, wo);
     TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, mis_weight(pdf_w, light_pdf_w));
     return emitted * mis_weight(pdf_w, light_pdf_w);
@@ -56,8 +56,8 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
         return;
     if (HAS(EFFECT_PATH_FILTER) && !filter_wants_light(step, bsdf))
         return;
-    const LightSample light =
-        lights_sample(scene, params, surface, bsdf->frame.z, path->numbers.light, path->numbers.alias);
+    const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),
+                                            path->numbers.light, path->numbers.alias);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);
     if (light.pdf_w == REAL(0.0))

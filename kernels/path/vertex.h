@@ -34,10 +34,10 @@ static inline Bsdf vertex_bsdf(const Scene* scene, const Surface* surface, real3
 }
 
 /* The light from outside the scene to a ray that has left it (lights_outside). */
-static inline real3 vertex_sky(const Scene* scene, const RenderParams* params, uint segment, const Ray* ray,
-                               real pdf_w, uint kinds)
+static inline real3 vertex_sky(const Scene* scene, const RenderParams* params, uint segment,
+                               const LightView* view, const Ray* ray, real pdf_w, uint kinds)
 {
-    const real3 sky = lights_outside(scene, params, segment, ray->direction, pdf_w, kinds);
+    const real3 sky = lights_outside(scene, params, segment, view, ray->direction, pdf_w, kinds);
     TRACE_VECTOR(scene, TRACE_SKY, sky);
     return sky;
 }

@@ -16,7 +16,7 @@ typedef struct {
     Ray ray;                 /* the segment to trace */
     Hit hit;                 /* where it ended */
     PathNumbers numbers;     /* of the vertex there */
-    real3 from;              /* whence the surface that it left looked at lights; unused for camera rays */
+    LightView view;          /* whence the surface that it left looked at lights; unused for camera rays */
     bool has_crossed_curved; /* it did not start there but at the plane below */
     real3 throughput;        /* of the path so far: product of BSDF times cosine over pdf */
     real eta_squared;        /* product of the squared index ratios crossed */
@@ -32,7 +32,8 @@ typedef struct {
 static inline void path_begin(Path* path, const Ray* ray)
 {
     path->ray = *ray;
-    path->from = ray->origin;
+    path->view.position = ray->origin;
+    path->view.normal = (real3)(REAL(0.0));
     path->has_crossed_curved = false;
     path->throughput = (real3)(REAL(1.0));
     path->watched = (real3)(REAL(0.0));
@@ -128,7 +129,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     path->eta_squared *= next->eta * next->eta;
     path->is_alive = path_survives(scene, params, sampler, segment, path);
     path->ray = surface_ray(surface, next->reflects, next->wi);
-    path->from = surface_lifted(surface);
+    path->view = lights_view(surface, bsdf_light_normal(bsdf));
     path->has_crossed_curved = surface->is_curved && !next->reflects;
 }
 

@@ -93,6 +93,13 @@ static inline real bsdf_shading_factor(const Bsdf* bsdf, real3 wi_world, real3 w
     return below == REAL(0.0) ? REAL(0.0) : fabs(bsdf->wo.z * vector_dot(wi_world, bsdf->normal_g)) / below;
 }
 
+/* The normal above whose horizon all light comes from that the lobes scatter to wo; 0 where some lobe
+   scatters light from below. */
+static inline real3 bsdf_light_normal(const Bsdf* bsdf)
+{
+    return HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) ? (real3)(REAL(0.0)) : bsdf->frame.z;
+}
+
 /* Sum of all lobes for a world direction. */
 static inline BsdfValue bsdf_eval(const Bsdf* bsdf, real3 wi_world)
 {

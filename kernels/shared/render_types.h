@@ -18,7 +18,7 @@ SHARED_BEGIN
 
 typedef struct {
     CameraParams camera;
-    vec4 environment; /* rgb: radiance of a constant environment, or factor of the map; w: unused, 0 */
+    vec4 environment; /* rgb: radiance of a constant environment, or factor of the map; w: LIGHT_TREE_IS_USED */
     vec4 background;  /* rgb: radiance that camera rays see outside the scene; w: BACKGROUND_IS_SEEN */
 
     u32 width, height;          /* of the whole picture, pixels */
@@ -54,6 +54,9 @@ typedef struct {
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
 } RenderParams;
 ASSERT_SIZE(RenderParams, 256);
+
+/* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
+#define LIGHT_TREE_IS_USED(params) ((params).environment.w)
 
 /* 1 where camera rays see the background, 0 where they see sky and suns. */
 #define BACKGROUND_IS_SEEN(params) ((params).background.w)

@@ -26,7 +26,9 @@
     ROW(u32, texel_words, texel_words)                                                                       \
     ROW(Emitter, emitters, emitters)                                                                         \
     ROW(Light, lights, lights)                                                                               \
-    ROW(EnvironmentTexel, environment, environment.texels)
+    ROW(EnvironmentTexel, environment, environment.texels)                                                   \
+    ROW(LightPair, light_pairs, light_tree.pairs)                                                            \
+    ROW(LightPlace, light_places, light_tree.places)
 
 /* The arrays lie in a few buffers, the heaps, so that kernels do not get an argument more for every array. A
    device promises buffers of a quarter of its memory. Where each array goes to the emptiest heap, the largest

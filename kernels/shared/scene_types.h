@@ -113,6 +113,37 @@ ASSERT_SIZE(EnvironmentTexel, 32);
 /* Of choosing the texel. */
 #define TEXEL_PROBABILITY(texel) ((texel).radiance.w)
 
+/* Two siblings of the light tree (kernels/lights/light_tree.h): sphere and cone around what is below each, its
+   power, and where it is. The root is the pair 0. */
+typedef struct {
+    vec2 x, y, z;                /* centres of the spheres around the lights */
+    vec2 radius;
+    vec2 axis_x, axis_y, axis_z; /* unit axes of the cones around their normals */
+    vec2 cos_spread;             /* of the cones' half angles; -1 where normals lie anywhere */
+    vec2 power;                  /* over that of the strongest light: radiance times area, intensity, ... */
+    u32 first, second;           /* LIGHT_LINK_* */
+    u32 first_share;             /* of the first child in the pair's power, over 2^24, from 1 to 2^24 - 1 */
+    u32 unused0, unused1, unused2;
+} LightPair;
+ASSERT_SIZE(LightPair, 96);
+
+/* A link leads to a pair, or to the first light of a leaf. */
+#define LIGHT_LINK_LEAF 0x80000000u
+#define LIGHT_LINK_BOTH_SIDES 0x40000000u /* some light below shines on both sides of its plane */
+#define LIGHT_LINK_INDEX 0x3fffffffu
+
+/* Where a light is in the tree: the way from the root, a bit for each pair, set for the second child. Leaves
+   hold lights of successive numbers, chosen by fixed shares. */
+typedef struct {
+    u32 trail_low, trail_high;
+    u32 end;       /* sum of the shares of the leaf's lights up to this one, over 2^32; LIGHT_LEAF_END: all;
+                      0: the light is not in the tree */
+    float density; /* of an emissive triangle: 1 over its area; of others: 1 */
+} LightPlace;
+ASSERT_SIZE(LightPlace, 16);
+
+#define LIGHT_LEAF_END 0xffffffffu
+
 SHARED_END
 
 #endif

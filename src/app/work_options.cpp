@@ -124,9 +124,8 @@ std::vector<OptionSpec> work_options() {
          "with) (default sobol)",
          [](Options& o, const OptionValue& v) { o.sampling.sampler = parse_choice<SamplerChoice>(v); }},
         {group, "", "--light-sampler", "NAME",
-         "how a light is chosen: power (by what it emits) or mixture (half by that, half evenly over kinds "
-         "of "
-         "light and the objects that shine) (default mixture)",
+         "how a light is chosen: tree (by what it may send to the surface; `path` alone), mixture (half by "
+         "power, half evenly over kinds of light and the objects that shine) or power (default tree)",
          [](Options& o, const OptionValue& v) { o.sampling.light_sampler = parse_choice<LightSampler>(v); }},
         {group, "", "--precision", "NAME",
          "single, double (needs fp64) or fast (relaxed maths) (default single)",

@@ -38,6 +38,8 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_CUT_OUT, "cut-outs", 0, 0, "surfaces are opaque"},
         {EFFECT_FILTER, "pixel filter", 0, 0, "a box of one pixel"},
         {EFFECT_PATH_FILTER, "path filter", 0, 0, "all paths, and no layers of paths"},
+        {EFFECT_LIGHT_TREE, "light tree", 0, EFFECT_AREA_LIGHT | EFFECT_DELTA_LIGHT,
+         "lights are chosen by tables, as by --light-sampler mixture"},
         {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
          "direct light only: paths of two segments"},
     };

@@ -3,6 +3,7 @@
 
 #include "colour.h"
 #include "paths/path_report.h"
+#include "scene/light_leaves.h"
 #include "scene/lobes.h"
 #include "scene/material_override.h"
 #include "scene/material_table.h"
@@ -191,6 +192,22 @@ void find_filter(const Options& options, EffectFinder& finder) {
                 place_of(options, "--filter"));
 }
 
+void find_light_tree(const Scene& scene, const Options& options, unsigned kinds, EffectFinder& finder) {
+    const char* const option = "--light-sampler";
+    const Integrator integrator = options.transport.integrator;
+    if (integrator_row(integrator).connections != Connections::ONE_LIGHT)
+        finder.fact(EFFECT_LIGHT_TREE, false, fmt::format("{} connects to every light", name_of(integrator)));
+    else if (options.sampling.light_sampler != LightSampler::TREE)
+        finder.fact(
+            EFFECT_LIGHT_TREE, false,
+            fmt::format("{} {}", describe_option(options, option), name_of(options.sampling.light_sampler)),
+            place_of(options, option));
+    else if (has_several_leaves(scene, kinds))
+        finder.fact(EFFECT_LIGHT_TREE, true, "several lights, chosen for each surface point");
+    else
+        finder.fact(EFFECT_LIGHT_TREE, false, "no two lights to choose between");
+}
+
 /// A path of three segments scatters twice.
 void find_interreflection(const Scene& scene, const Options& options, EffectFinder& finder) {
     const int depth = effective_max_depth(options.transport);
@@ -229,6 +246,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     effects.paths = plan_paths(scene, options);
     finder.fact(EFFECT_PATH_FILTER, effects.paths.is_filter, path_summary(effects.paths),
                 place_of(options, "--paths"));
+    find_light_tree(scene, options, accepted_kinds(effects.paths), finder);
     find_interreflection(scene, options, finder);
 
     effects.list = std::move(finder.list);

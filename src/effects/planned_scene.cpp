@@ -3,6 +3,7 @@
 
 #include "effects/take_out.h"
 #include "scene/light_tables.h"
+#include "scene/light_tree.h"
 #include "scene/sky_table.h"
 
 #include <utility>
@@ -20,6 +21,8 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
         planned->effects.paths = plan_paths(planned->scene, planned->options);
     }
     tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
+    if (planned->effects.needed & ~planned->effects.left_out & EFFECT_LIGHT_TREE)
+        planned->scene.light_tree = build_light_tree(planned->scene, accepted_kinds(planned->effects.paths));
     return planned;
 }
 

@@ -152,6 +152,8 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
         options.transport.paths.clear();
         options.output.path_layers.clear();
     }
+    if ((effects & EFFECT_LIGHT_TREE) && options.sampling.light_sampler == LightSampler::TREE)
+        options.sampling.light_sampler = LightSampler::MIXTURE;
     if (effects & EFFECT_INTERREFLECTION)
         options.transport.max_depth = std::min(effective_max_depth(options.transport), 2);
 }

@@ -46,6 +46,9 @@ struct PathDepths {
 /// multiple importance sampling weighs the two.
 enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
 
+/// Lights that a vertex is connected to: every one, or one that is chosen (--light-sampler).
+enum class Connections { EVERY_LIGHT, ONE_LIGHT };
+
 /// Pixels that a work-item adds light to: its own, or any, by atomics.
 enum class FilmAccess { GATHER, SPLAT };
 
@@ -58,6 +61,7 @@ struct IntegratorRow {
     SimulatedPaths paths;
     PathDepths depth;
     SkySampling sky;
+    Connections connections;
     FilmAccess film;
     unsigned takes; ///< IntegratorOption
 };
@@ -81,6 +85,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      {"LD?E", "LE", "LDE"},
      {DIRECT_LIGHT_DEPTH, DIRECT_LIGHT_DEPTH},
      SkySampling::BY_TABLE,
+     Connections::EVERY_LIGHT,
      FilmAccess::GATHER,
      0},
     {Integrator::WHITTED,
@@ -90,6 +95,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      {"LD?S*E", "LS*E", "LDS*E"},
      {USUAL_TREE_DEPTH, WHITTED_MAX_DEPTH},
      SkySampling::BY_TABLE,
+     Connections::EVERY_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION},
     {Integrator::PATH,
@@ -99,6 +105,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E"},
      {USUAL_PATH_DEPTH, LARGEST_DEPTH},
      SkySampling::BY_TABLE_AND_BSDF,
+     Connections::ONE_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS},
 };

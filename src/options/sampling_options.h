@@ -34,12 +34,12 @@ constexpr std::uint32_t DEFAULT_SPP = 64;
 /// Samples a pixel at most when --error is given without --spp.
 constexpr std::uint32_t DEFAULT_SPP_WITH_ERROR = 65536;
 
-/// How next-event estimation chooses among the lights (scene/light_tables.h).
-enum class LightSampler { POWER, MIXTURE };
+/// How next-event estimation chooses among the lights (scene/light_tables.h, scene/light_tree.h).
+enum class LightSampler { POWER, MIXTURE, TREE };
 
 template <>
-inline constexpr Named<LightSampler> NAMES<LightSampler>[] = {{LightSampler::POWER, "power"},
-                                                              {LightSampler::MIXTURE, "mixture"}};
+inline constexpr Named<LightSampler> NAMES<LightSampler>[] = {
+    {LightSampler::POWER, "power"}, {LightSampler::MIXTURE, "mixture"}, {LightSampler::TREE, "tree"}};
 
 struct SamplingOptions {
     std::optional<std::uint32_t> spp; ///< 64 if none of spp, time and error is given; 65536 with error alone
@@ -50,7 +50,7 @@ struct SamplingOptions {
     int replicates = 4;
     std::optional<ErrorMeasure> adaptive; ///< samples go where this error is made least
     SamplerChoice sampler = SamplerChoice::SOBOL;
-    LightSampler light_sampler = LightSampler::MIXTURE;
+    LightSampler light_sampler = LightSampler::TREE;
     /// The error that reports name first and --error judges by.
     ErrorMeasure measure() const { return adaptive.value_or(ErrorMeasure::MSE); }
 };

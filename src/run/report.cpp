@@ -138,6 +138,7 @@ std::string report_json(const Report& report) {
     json["first_sample"] = report.options.sampling.first_sample;
     json["adaptive"] = adaptive_json(render);
     json["sampler"] = name_of(report.options.sampling.sampler);
+    json["light_sampler"] = name_of(report.options.sampling.light_sampler);
     json["seed"] = report.options.sampling.seed;
     json["replicates"] = render.film.replicates;
     json["triangles"] = file_triangles(report.scene);

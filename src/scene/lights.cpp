@@ -69,12 +69,6 @@ Light sun_light(const SunOptions& option) {
     return light;
 }
 
-/// The irradiance of a sun at normal incidence.
-double sun_irradiance(const Light& light) {
-    const double disc = light.one_minus_cos; // pi sin^2 r = pi (1 - cos r) (1 + cos r)
-    return luminance(to_dvec3(light.emission)) * (disc > 0 ? PI * disc * (2 - disc) : 1);
-}
-
 } // namespace
 
 double triangle_area(const vec4& a, const vec4& b, const vec4& c) {
@@ -131,6 +125,11 @@ double emitter_power(const Scene& scene, const Emitter& emitter) {
     const Triangle& t = scene.triangles[emitter.triangle];
     return PI * triangle_area(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]) *
            emitted_luminance(scene.materials[t.material], scene.emitted[t.material]);
+}
+
+double sun_irradiance(const Light& sun) {
+    const double disc = sun.one_minus_cos; // pi sin^2 r = pi (1 - cos r) (1 + cos r)
+    return luminance(to_dvec3(sun.emission)) * (disc > 0 ? PI * disc * (2 - disc) : 1);
 }
 
 double light_power(const Light& light, double radius) {

@@ -42,6 +42,9 @@ Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle
 /// shine.
 double emitter_power(const Scene& scene, const Emitter& emitter);
 
+/// The irradiance, luminance, of a sun at normal incidence.
+double sun_irradiance(const Light& sun);
+
 /// Luminance of a point light or sun that meets a bounding sphere of this radius.
 double light_power(const Light& light, double radius);
 

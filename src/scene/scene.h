@@ -42,6 +42,12 @@ struct Environment {
     double tabulated_share = 1; ///< of the map's light: what the table is in proportion to
 };
 
+/// The tree that chooses lights (scene/light_tree.h); empty: tables do.
+struct LightTree {
+    std::vector<LightPair> pairs;
+    std::vector<LightPlace> places; ///< of the emitters, then the lights, then the environment
+};
+
 /// Radiance that a material emits, its map included.
 struct EmittedRadiance {
     glm::dvec3 mean{0};    ///< over the map's picture
@@ -82,6 +88,7 @@ struct Scene {
     std::vector<SourcePlace> texture_places; ///< the map_* statement of each
     std::vector<Emitter> emitters;
     std::vector<Light> lights;
+    LightTree light_tree;
     Environment environment;
     std::optional<glm::dvec3>
         background;         ///< radiance that camera rays see outside the scene, not sky and suns

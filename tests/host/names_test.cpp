@@ -42,7 +42,7 @@ void expect_counted_names(const char* option, T last) {
 TEST(Names, EveryValueHasOneThatItsOptionTakes) {
     expect_counted_names("--integrator", std::rbegin(INTEGRATOR_ROWS)->value);
     expect_counted_names("--sampler", SamplerChoice::INDEPENDENT);
-    expect_counted_names("--light-sampler", LightSampler::MIXTURE);
+    expect_counted_names("--light-sampler", LightSampler::TREE);
     expect_counted_names("--precision", Precision::FAST);
     expect_counted_names("--mtl", MtlReading::PLAIN);
     expect_counted_names("--material", MaterialOverride::CLAY);

@@ -43,7 +43,7 @@ SceneProbe& probe() {
         // a: direction, density of the other technique
         made.add(
             "escape",
-            "first = probe_vec4(lights_escape(scene, params, vector_from(a), (real)a.w, KINDS_ALL), "
+            "first = probe_vec4(lights_escape(scene, params, 0, vector_from(a), (real)a.w, KINDS_ALL), "
             "REAL(0.0));"
             "second.x = params->environment_width ? environment_map_pdf_w(scene, params, vector_from(a)) : 0;"
             "second.yzw = convert_float3(environment_eval(scene, params, vector_from(a)));");

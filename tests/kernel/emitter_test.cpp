@@ -33,7 +33,8 @@ SceneProbe& probe() {
                             "hit.triangle = as_uint(a.z);"
                             "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
                             "const Surface surface = surface_at(scene, &hit, &ray_there);"
-                            "first.x = emitter_hit_pdf_w(scene, &surface, vector_from(c), hit.t, "
+                            "first.x = emitter_hit_pdf_w(scene, &surface, "
+                            "(real)scene->emitters[surface.emitter].pdf_a, vector_from(c), hit.t, "
                             "vector_from(b));");
         made.add("pdf", "first.x = emitter_pdf_w((real)a.x, (real)a.y, (real)a.z);");
         // b.z: the light's triangle. first.x: the shadow ray meets it; first.y: the unbounded line does.

@@ -64,8 +64,8 @@ std::vector<Place> path_places() {
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
         {"path/connect.h",
-         "const LightSample light =\n        lights_sample(scene, params, surface, bsdf->frame.z, "
-         "path->numbers.light, path->numbers.alias);",
+         "const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),\n"
+         "                                            path->numbers.light, path->numbers.alias);",
          light_values(), Reached::IF_LIT},
     };
 }

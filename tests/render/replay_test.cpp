@@ -120,8 +120,8 @@ std::vector<Fault> planted_faults() {
                ", SAMPLE_DIRECTION).y) next." + what;
     };
     const std::string light =
-        "const LightSample light =\n        lights_sample(scene, params, surface, bsdf->frame.z, "
-        "path->numbers.light, path->numbers.alias);";
+        "const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),\n"
+        "                                            path->numbers.light, path->numbers.alias);";
     const char* const walk = "path/walk.h";
     return {
         {"NaN weight at bounce 2", walk, sampled, spoil_sample("2u", "weight.y = as_float(0x7fc00000u);"),

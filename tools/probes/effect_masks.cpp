@@ -18,9 +18,11 @@ bool is_permitted(u32 effects) {
 
 namespace {
 
-/// The set with what it cannot be without; matte where any lobe would do.
+/// The set with what it cannot be without; matte where any lobe would do, lamps where any light.
 u32 completed(u32 effects) {
     effects = with_implied(effects);
+    if ((effects & EFFECT_LIGHT_TREE) && !is_permitted(effects))
+        effects |= EFFECT_AREA_LIGHT;
     return is_permitted(effects) ? effects : with_implied(effects | EFFECT_MATTE);
 }
 
@@ -115,6 +117,7 @@ SceneOfEffects::SceneOfEffects(u32 effects) : effects_(effects) {
         options.film.filter = Filter::GAUSSIAN;
     if (has(EFFECT_PATH_FILTER))
         options.transport.paths = "L(D|S)?E";
+    options.sampling.light_sampler = has(EFFECT_LIGHT_TREE) ? LightSampler::TREE : LightSampler::MIXTURE;
     add_materials();
     add_bodies();
     add_lights();
@@ -177,6 +180,8 @@ void SceneOfEffects::add_lights() {
     options.light.environment = glm::dvec3(0);
     if (has(EFFECT_AREA_LIGHT))
         build.use("lamp").textured_quad({{-0.6, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.6, 2, 0.4}});
+    if (has(EFFECT_AREA_LIGHT) && has(EFFECT_LIGHT_TREE)) // there is another to choose
+        build.textured_quad({{1.2, 1.8, -0.4}, {1.4, 1.8, -0.4}, {1.4, 1.8, 0.4}, {1.2, 1.8, 0.4}});
     if (has(EFFECT_DELTA_LIGHT)) {
         options.light.suns.push_back({{1, 2, 1}, {3, 3, 2}, 3});
         options.light.points.push_back({{-1, 2, 1}, {2, 2, 4}});

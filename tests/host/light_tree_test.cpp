@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light tree as the host builds it: leaves, trails, bounds, and the same bits on any number of threads.
+#include "scene/light_tree.h"
+
+#include "kernels/shared/path_types.h"
+#include "support/lamps.h"
+
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <set>
+#include <tbb/global_control.h>
+
+using namespace clrt;
+using glm::dvec3;
+
+namespace {
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+/// The leaf to which a light's trail leads: the number of its first light.
+u32 leaf_of(const LightTree& tree, u32 light) {
+    const LightPlace& place = tree.places[light];
+    std::uint64_t trail = std::uint64_t(place.trail_high) << 32 | place.trail_low;
+    u32 link = 0;
+    while (!(link & LIGHT_LINK_LEAF)) {
+        const LightPair& pair = tree.pairs.at(link & LIGHT_LINK_INDEX);
+        link = trail & 1 ? pair.second : pair.first;
+        trail >>= 1;
+    }
+    EXPECT_EQ(trail, 0u);
+    return link & LIGHT_LINK_INDEX;
+}
+
+} // namespace
+
+TEST(LightTree, AFlatPolygonIsOneLeafAndNothingToChoose) {
+    Lamps lamps;
+    lamps.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, dvec3(2));
+    lamps.finish();
+    EXPECT_EQ(fan_end(lamps.scene, 0), 2u);
+    EXPECT_FALSE(has_several_leaves(lamps.scene, KINDS_ALL));
+    EXPECT_TRUE(build_light_tree(lamps.scene, KINDS_ALL).pairs.empty());
+    // Another object, another plane or no common vertex begins another leaf.
+    lamps.quad({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, dvec3(2));
+    lamps.finish();
+    EXPECT_EQ(fan_end(lamps.scene, 0), 2u);
+    EXPECT_EQ(fan_end(lamps.scene, 2), 4u);
+    EXPECT_EQ(build_light_tree(lamps.scene, KINDS_ALL).pairs.size(), 1u);
+    lamps.scene.positions[2].z = 0.1f;
+    EXPECT_EQ(fan_end(lamps.scene, 0), 1u) << "bent along the diagonal";
+}
+
+TEST(LightTree, OnlyKindsThatAreAskedForAreInIt) {
+    Lamps lamps = random_lamps(3, 1);
+    lamps.point({0, 0, 1}, dvec3(1));
+    lamps.sun({0, 1, 0}, dvec3(1), 0);
+    lamps.sky();
+    EXPECT_EQ(build_light_tree(lamps.scene, KINDS_ALL).pairs.size(), 5u);
+    EXPECT_EQ(build_light_tree(lamps.scene, KIND_AREA | KIND_SKY).pairs.size(), 3u);
+    EXPECT_EQ(build_light_tree(lamps.scene, KIND_POINT | KIND_SUN).pairs.size(), 1u);
+    EXPECT_TRUE(build_light_tree(lamps.scene, KIND_SUN).pairs.empty());
+    const LightTree tree = build_light_tree(lamps.scene, KIND_AREA);
+    EXPECT_EQ(tree.places[6].end, 0u) << "the point";
+    EXPECT_EQ(tree.places[8].end, 0u) << "the sky";
+    lamps.scene.environment.texels.clear();
+    EXPECT_TRUE(build_light_tree(lamps.scene, KIND_SKY | KIND_SUN).pairs.empty()) << "constant: no candidate";
+}
+
+TEST(LightTree, TrailsLeadToEveryLight) {
+    Lamps lamps = random_lamps(700, 2);
+    lamps.point({0, 0, 0}, dvec3(1));
+    lamps.sun({0, 1, 0}, dvec3(1), 0.01);
+    lamps.sun({0, 1, 1}, dvec3(1), 0);
+    lamps.sky();
+    const LightTree tree = build_light_tree(lamps.scene, KINDS_ALL);
+    std::set<u32> leaves;
+    for (u32 light = 0; light < tree.places.size(); ++light) {
+        const u32 first = leaf_of(tree, light);
+        EXPECT_LE(light - first, 1u);
+        leaves.insert(first);
+    }
+    EXPECT_EQ(leaves.size(), tree.pairs.size() + 1);
+}
+
+TEST(LightTree, NoTrailIsLongerThanItsBits) {
+    // Ever closer and brighter lamps, which splits by cost peel off one by one; lamps of one place.
+    Lamps chain, pile;
+    for (int i = 0; i < 120; ++i)
+        chain.point(dvec3(std::pow(0.7, i), 0, 0), dvec3(std::pow(1.5, i)));
+    for (int i = 0; i < 5000; ++i)
+        pile.point(dvec3(0.3, 0.2, 0.1), dvec3(1));
+    for (const Lamps& lamps : {chain, pile}) {
+        const LightTree tree = build_light_tree(lamps.scene, KINDS_ALL);
+        EXPECT_LE(light_tree_depth(tree), 64);
+        for (u32 light = 0; light < lamps.scene.lights.size(); ++light)
+            EXPECT_EQ(leaf_of(tree, light), light);
+    }
+}
+
+TEST(LightTree, SpheresHoldAllLightsBelow) {
+    const Lamps lamps = random_lamps(300, 3);
+    const LightTree tree = build_light_tree(lamps.scene, KINDS_ALL);
+    for (u32 light = 0; light < lamps.scene.emitters.size(); ++light) {
+        const Triangle& t = lamps.scene.triangles[lamps.scene.emitters[light].triangle];
+        const dvec3 p0 = to_dvec3(lamps.scene.positions[t.v0]), p1 = to_dvec3(lamps.scene.positions[t.v1]),
+                    p2 = to_dvec3(lamps.scene.positions[t.v2]),
+                    normal = glm::normalize(glm::cross(p1 - p0, p2 - p0));
+        std::uint64_t trail =
+            std::uint64_t(tree.places[light].trail_high) << 32 | tree.places[light].trail_low;
+        u32 link = 0;
+        while (!(link & LIGHT_LINK_LEAF)) {
+            const LightPair& pair = tree.pairs[link & LIGHT_LINK_INDEX];
+            const bool second = trail & 1;
+            trail >>= 1;
+            const auto of = [&](const vec2& v) { return double(second ? v.y : v.x); };
+            for (const dvec3& p : {p0, p1, p2})
+                ASSERT_LE(glm::length(p - dvec3(of(pair.x), of(pair.y), of(pair.z))), of(pair.radius) + 1e-6);
+            link = second ? pair.second : pair.first;
+            double cosine = glm::dot(normal, dvec3(of(pair.axis_x), of(pair.axis_y), of(pair.axis_z)));
+            if (link & LIGHT_LINK_BOTH_SIDES)
+                cosine = std::abs(cosine);
+            ASSERT_GE(cosine, of(pair.cos_spread) - 1e-5);
+            ASSERT_GT(of(pair.power), 0);
+        }
+    }
+}
+
+TEST(LightTree, ThreadsAndUnitsChangeNoBit) {
+    Lamps lamps = random_lamps(20000, 4);
+    const LightTree tree = build_light_tree(lamps.scene, KINDS_ALL);
+    {
+        tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+        const LightTree alone = build_light_tree(lamps.scene, KINDS_ALL);
+        EXPECT_TRUE(same_bytes(tree.pairs, alone.pairs) && same_bytes(tree.places, alone.places));
+    }
+    for (EmittedRadiance& emitted : lamps.scene.emitted)
+        emitted.mean *= 1048576;
+    const LightTree brighter = build_light_tree(lamps.scene, KINDS_ALL);
+    EXPECT_TRUE(same_bytes(tree.pairs, brighter.pairs));
+}
+
+TEST(LightTree, SharesWithinALeafRiseToTheWhole) {
+    Lamps lamps;
+    lamps.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, dvec3(2));
+    lamps.point({0, 0, 3}, dvec3(1));
+    lamps.finish();
+    const LightTree tree = build_light_tree(lamps.scene, KINDS_ALL);
+    EXPECT_EQ(tree.places[0].end, 0x80000000u);
+    EXPECT_EQ(tree.places[1].end, LIGHT_LEAF_END);
+    EXPECT_EQ(tree.places[2].end, LIGHT_LEAF_END);
+    EXPECT_FLOAT_EQ(tree.places[0].density, 0.5f);
+    EXPECT_EQ(tree.places[2].density, 1.0f);
+}
