@@ -51,7 +51,7 @@ static inline float2 light_importances(global const LightPair* pair, const Light
     const float3 n = convert_float3(view->normal);
     const float2 dx = pair->x - p.x, dy = pair->y - p.y, dz = pair->z - p.z;
     const float2 square = fmax(dx * dx + dy * dy + dz * dz, LIGHT_NEAREST_SQUARED);
-    const float2 distance = sqrt(square);
+    const float2 distance = real_sqrt(square);
     const float2 radius = pair->radius;
     const float2 radius_squared = radius * radius;
     const float2 margin = fma(distance, LIGHT_COS_MARGIN, radius);
@@ -62,9 +62,9 @@ static inline float2 light_importances(global const LightPair* pair, const Light
     const float2 ahead = -(dx * pair->axis_x + dy * pair->axis_y + dz * pair->axis_z);
     const int2 both_sides = (int2)(pair->first, pair->second) << 1;
     const float2 along = select(ahead, fabs(ahead), both_sides);
-    const float2 across = sqrt(fmax(square - along * along, 0.0f));
+    const float2 across = real_sqrt(fmax(square - along * along, 0.0f));
     const float2 cos_spread = pair->cos_spread;
-    const float2 sin_spread = sqrt(fmax(1.0f - cos_spread * cos_spread, 0.0f));
+    const float2 sin_spread = real_sqrt(fmax(1.0f - cos_spread * cos_spread, 0.0f));
     const float2 turned = along * cos_spread + across * sin_spread;
     const float2 nearest = select(turned, distance, along >= cos_spread * distance);
     const float2 emitted = fmin(fmax(nearest + margin, 0.0f), distance);

@@ -10,6 +10,10 @@
 namespace clrt {
 namespace {
 
+/// By so much a cone's cosine is lowered in every union: more than what rounding it and the axis to floats
+/// takes from the cone, which near a cosine of 1 is 3e-4 of an angle.
+constexpr float CONE_ROUNDING = 0x1p-22f;
+
 struct Cone {
     glm::dvec3 axis;
     double spread; ///< half angle, radians
@@ -53,7 +57,7 @@ LightBounds united(const LightBounds& a, const LightBounds& b) {
         other.axis = -other.axis;
     const Cone cone = cone_around(cone_of(a), other);
     sum.axis = glm::vec3(cone.axis);
-    sum.cos_spread = float(std::cos(cone.spread));
+    sum.cos_spread = std::max(float(std::cos(cone.spread)) - CONE_ROUNDING, -1.0f);
     return sum;
 }
 

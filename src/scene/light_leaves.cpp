@@ -3,6 +3,7 @@
 
 #include "colour.h"
 #include "kernels/shared/path_types.h"
+#include "scene/light_tables.h"
 #include "scene/lights.h"
 #include "scene/vectors.h"
 
@@ -12,7 +13,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <tbb/parallel_for.h>
+#include <utility>
 
 namespace clrt {
 namespace {
@@ -20,6 +23,10 @@ namespace {
 /// Distance of suns in the normalised frame. Spheres around them hold the whole scene, so no vertex takes one
 /// for behind its horizon that is not.
 constexpr double FAR_AWAY = 1048576;
+
+/// The part of the choice that is even over objects, whatever their power: what is strong and near may yet be
+/// hidden, and no bound knows that.
+constexpr double EVEN_SHARE = 0.25;
 
 /// cos of the largest angle between normals of one plane.
 constexpr double SAME_PLANE_COS = 0.9999;
@@ -130,6 +137,48 @@ void add_fans(const Scene& scene, std::vector<LightLeaf>& leaves) {
                       [&](size_t i) { leaves[i] = fan_leaf(scene, i == 0 ? 0 : ends[i - 1], ends[i]); });
 }
 
+/// What a leaf's lights send into the bounding sphere.
+double flux_of(const Scene& scene, const LightLeaf& leaf) {
+    const u32 emitters = u32(scene.emitters.size());
+    if (leaf.range == LightRange::SKY)
+        return environment_power(scene);
+    if (leaf.first >= emitters)
+        return light_power(scene.lights[leaf.first - emitters], scene.radius);
+    double flux = 0;
+    for (u32 i = leaf.first; i < leaf.first + leaf.count; ++i)
+        flux += emitter_power(scene, scene.emitters[i]);
+    return flux;
+}
+
+/// Numbers of the leaves' objects: those of the file apart by material, and each other light.
+std::vector<u32> objects_of(const Scene& scene, const std::vector<LightLeaf>& leaves, u32& count) {
+    std::map<std::pair<u32, u32>, u32> numbers;
+    std::vector<u32> objects;
+    for (const LightLeaf& leaf : leaves) {
+        std::pair<u32, u32> key = {leaf.first, NO_INDEX};
+        if (leaf.first < scene.emitters.size()) {
+            const Triangle& t = triangle_of(scene, leaf.first);
+            key = {t.object, t.material};
+        }
+        objects.push_back(numbers.try_emplace(key, u32(numbers.size())).first->second);
+    }
+    count = u32(numbers.size());
+    return objects;
+}
+
+/// Raises the power of what is weak (mixed_weights).
+void mix_powers(const Scene& scene, std::vector<LightLeaf>& leaves) {
+    std::vector<double> fluxes;
+    for (const LightLeaf& leaf : leaves)
+        fluxes.push_back(flux_of(scene, leaf));
+    u32 objects = 0;
+    const std::vector<u32> numbers = objects_of(scene, leaves, objects);
+    const std::vector<double> weights = mixed_weights(fluxes, numbers, objects, EVEN_SHARE);
+    for (size_t i = 0; i < leaves.size(); ++i)
+        if (fluxes[i] > 0)
+            leaves[i].bounds.power *= float(weights[i] / fluxes[i]);
+}
+
 /// Powers as shares of the largest, so that no unit brings them near the ends of the floats.
 void scale_powers(std::vector<LightLeaf>& leaves) {
     constexpr float SMALLEST = 1e-30f;
@@ -178,6 +227,7 @@ std::vector<LightLeaf> light_leaves(const Scene& scene, unsigned kinds) {
     if (is_chosen(scene.environment, kinds))
         leaves.push_back(far_leaf(emitters + u32(scene.lights.size()), LightRange::SKY, glm::dvec3(0),
                                   FAR_AWAY, sky_irradiance(scene.environment)));
+    mix_powers(scene, leaves);
     scale_powers(leaves);
     return leaves;
 }

@@ -54,18 +54,18 @@ void mix_lights(Scene& scene) {
     tabulate(mixed_weights(powers, groups, u32(groups.size())), scene.lights);
 }
 
-/// A direction's radiance meets the sphere over a disc of its radius.
+} // namespace
+
 double environment_power(const Scene& scene) {
     const Environment& sky = scene.environment;
     if (sky.texels.empty() || !(largest_component(sky.radiance) > 0))
         return 0;
+    // A direction's radiance meets the sphere over a disc of its radius.
     return sky.mean_radiance * sky.tabulated_share * 4 * PI * PI * scene.radius * scene.radius;
 }
 
-} // namespace
-
 std::vector<double> mixed_weights(const std::vector<double>& powers, const std::vector<u32>& groups,
-                                  u32 group_count) {
+                                  u32 group_count, double even) {
     if (group_count < 2)
         return powers;
     std::vector<double> of_group(group_count);
@@ -74,7 +74,7 @@ std::vector<double> mixed_weights(const std::vector<double>& powers, const std::
     const double all = sum_of(powers);
     std::vector<double> weights(powers.size());
     for (size_t i = 0; i < powers.size(); ++i)
-        weights[i] = 0.5 * powers[i] / all + 0.5 * (powers[i] / of_group[groups[i]]) / group_count;
+        weights[i] = (1 - even) * powers[i] / all + even * (powers[i] / of_group[groups[i]]) / group_count;
     return weights;
 }
 

@@ -14,11 +14,14 @@ struct KindShares {
     double emitters = 0, environment = 0, lights = 0;
 };
 
-/// Half in proportion to the powers, half evenly over the groups (their numbers, each below `group_count`)
-/// and by power within a group: no light has less than half of what the better of the two rules gives it.
-/// With a single group the powers alone. `powers` are positive.
+/// The part `even` evenly over the groups (their numbers, each below `group_count`) and by power within a
+/// group, the rest in proportion to the powers: with a half, no light has less than half of what the better
+/// of the two rules gives it. With a single group the powers alone. `powers` are positive.
 std::vector<double> mixed_weights(const std::vector<double>& powers, const std::vector<u32>& groups,
-                                  u32 group_count);
+                                  u32 group_count, double even = 0.5);
+
+/// What the table of an environment map sends into the bounding sphere; 0 for a constant sky, which has none.
+double environment_power(const Scene& scene);
 
 /// Tabulates emissive triangles, and point lights with suns. LightSampler::MIXTURE: the groups are the
 /// objects of the file, apart by material, and each point light and sun.
