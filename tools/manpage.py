@@ -33,6 +33,12 @@ REPORT = [
               "see. It is measured, not assumed: the samples of a run are dealt to 4 replicates (--replicates), which are "
               "renders of their own, with random numbers of their own, and the error of their mean follows from how they "
               "differ. The interval is where the error of this very picture is, with a confidence of 95 %."),
+    ("relative, absolute", "The error by the other measure. Relative: each difference is divided by the brightness around its "
+                           "pixel, tiles of 8 x 8, and by a tenth of the picture's mean where that is more, so that noise in the "
+                           "dark counts as it is seen; --adaptive=relative makes it least, and --error then judges by it. "
+                           "Absolute: what stands under `error' otherwise."),
+    ("adaptive", "What taking samples where the noise is promises, from the film of the first samples: so many times less squared "
+                 "error at equal samples. Below 1.1 samples stay even."),
     ("scene", "Pixels that show nothing but what is behind the scene have hardly any noise, and are as many and as bright as "
               "one likes. Where there are such pixels the error is that of the others, over their mean brightness; the line "
               "says how many they are, and the error over all pixels."),
@@ -47,6 +53,7 @@ REPORT = [
               "there, as a rule within 15 %. Samples are counted where they are even: the replicates times a power of two, "
               "or 3/2 of that. In between a picture can be worse than with fewer samples, since Sobol points fill the unit "
               "cube evenly at powers of two; --error looks and stops at these numbers only, --time at any whole pass."),
+    ("target", "What the error that --error asks for takes, where the render ended before it, with an interval of 80 %."),
     ("memory", "The most memory of this computer that was in use; a graphics card has its own."),
     ("left out", "What the picture lacks although the scene has it, because of --effects or of the integrator. Effects that "
                  "are not in the scene are proved absent and change nothing: -v names them, --explain says why."),

@@ -8,9 +8,8 @@
 // An address has four dimensions, a pair and its partner. Each pair is Sobol's first two dimensions, a
 // (0, 2)-sequence in base 2; the partner's index is multiplied by a matrix before, which makes all four a
 // (0, 4)-sequence in base 4: of 4^m points, every box of 4^-a by 4^-b by 4^-c by 4^-d, a + b + c + d = m,
-// holds one (Faure 1982 for prime bases, Niederreiter 1987 for powers of primes; both properties in one by
-// binary matrices: Ahmed et al. 2024, "SZ Sequences"). Sobol's dimensions 3 and 4 by Joe and Kuo's direction
-// numbers give no such four and cost 32 steps each.
+// holds one (Faure 1982 for prime bases, Niederreiter 1987 for powers of primes). Sobol's dimensions 3 and 4
+// by Joe and Kuo's direction numbers give no such four and cost 32 steps each.
 #ifndef CLRT_NUMERICS_SAMPLER_H
 #define CLRT_NUMERICS_SAMPLER_H
 

@@ -67,7 +67,7 @@ class CompareCommand(unittest.TestCase):
             found, out, _ = self.run_command(a, self.exr("b.exr", level, deviation, 1), "--margin", margin)
             self.assertEqual(found, code, out)
             self.assertIn("verdict   " + word, out)
-            self.assertIn("mean (a-b)^2 / (b^2 + 0.01)", out)
+            self.assertIn("mean (a-b)^2 / (b^2 + (0.1 mean b)^2)", out)
             self.assertIn("pixels taken as independent", out)
 
     def test_films_bring_their_replicates(self):

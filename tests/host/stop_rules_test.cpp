@@ -78,7 +78,7 @@ TEST(StopRules, TheErrorEndsTheRenderWhereItIsMeasured) {
     EXPECT_FALSE(rules.ended(state(64))) << "not measured";
     EXPECT_FALSE(rules.ended(state(64, 0, 0.1, 0.021)));
     EXPECT_EQ(rules.ended(state(64, 0, 0.1, 0.02)), StopRule::ERROR);
-    EXPECT_FALSE(rules.ended(state(8, 0, 0.1, 0.001))) << "one sample in every replicate";
+    EXPECT_FALSE(rules.ended(state(4, 0, 0.1, 0.001))) << "one sample in every replicate";
     options.error.reset();
     EXPECT_FALSE(StopRules(options, FILM_LIMIT).ended(state(32, 0, 0.1, 0))) << "no target";
 }

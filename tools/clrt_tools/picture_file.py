@@ -9,7 +9,7 @@ import numpy
 from clrt_tools import film_file
 
 # clrt's default; taken where a file does not say how many replicates its variance comes from.
-DEFAULT_REPLICATES = 8
+DEFAULT_REPLICATES = 4
 
 
 class UnreadableFile(Exception):

@@ -165,8 +165,8 @@ void uniforms(CaseRun& run) {
     const auto got = number_probes(run.device).run(Build::SINGLE, "stream", {pixels});
     for (size_t i = 0; i < pixels.size(); ++i) {
         const u32 key = host_hash(u32(pixels[i]) ^ host_hash(0 + host_hash(1 + 0x9e3779b9u)));
-        const u32 lobe = host_hash(host_hash(key) + 2u * 0x9e3779b9u);
-        words[Build::SINGLE].count(word_of(got, 0, i) != key || word_of(got, 6, i) != lobe,
+        const u32 roulette = host_hash(host_hash(key) + 6u * 0x9e3779b9u);
+        words[Build::SINGLE].count(word_of(got, 0, i) != key || word_of(got, 6, i) != roulette,
                                    [&] { return fmt::format("pixel {}", pixels[i]); });
     }
 }
