@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emissive triangles: chosen by a table or by the tree, sampled by solid angle where they look large, else by area.
+// Emissive triangles: chosen by a table or by the tree, sampled by solid angle where they look large, else by
+// area.
 #ifndef CLRT_LIGHTS_EMITTER_H
 #define CLRT_LIGHTS_EMITTER_H
 
@@ -92,8 +93,8 @@ static inline LightSample emitter_sample(const Scene* scene, const RenderParams*
 
 /* Density with which emitter_sample_chosen at `from` finds the direction to a point of an emitter that was
    hit at distance t. */
-static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real pdf_a, real3 from,
-                                            real t, real3 wo)
+static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* surface, real pdf_a,
+                                            real3 from, real t, real3 wo)
 {
     global const Emitter* emitter = scene->emitters + surface->emitter;
     real3 p0, p1, p2;

@@ -97,7 +97,8 @@ static inline bool environment_is_searched(const RenderParams* params)
            params->environment_width != 0u;
 }
 
-/* Of a pair of words, the one that chooses the texel: the tree spends the first on the choice of the light. */
+/* Of a pair of words, the one that chooses the texel: the tree spends the first on the choice of the
+   light. */
 static inline uint environment_word(const RenderParams* params, uint2 words)
 {
     return HAS(EFFECT_LIGHT_TREE) && LIGHT_TREE_IS_USED(*params) != 0.0f ? words.y : words.x;

@@ -56,7 +56,8 @@ static inline LightChoice light_choose_by_tables(const Scene* scene, const Rende
         const uint chosen = delta_light_choose(scene, params, words.x, alias_word);
         return light_choice_make(params->emitter_count + chosen,
                                  warp_rest_word(words.x, params->light_count, alias_word), alias_word,
-                                 (v - emitter - sky) / light, light * (real)scene->lights[chosen].probability);
+                                 (v - emitter - sky) / light,
+                                 light * (real)scene->lights[chosen].probability);
     }
     return light_choice_make(NO_INDEX, 0u, 0u, v, REAL(0.0));
 }

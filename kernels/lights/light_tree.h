@@ -42,9 +42,9 @@ typedef struct {
 
 /* Bounds of what the lights below a pair's children send to the vertex if nothing is in between, but for one
    factor: power times the cosines at the vertex and at the light over the squared distance, or over the
-   squared radius of their sphere where that is more. Of cosines, those of the centre and of the nearest normal
-   in the cone, plus the sine of half the sphere's angle, at most 1: that is 0 where the largest cosine of the
-   sphere's points is, and only there, so a child is 0 only if none of its lights can add anything. */
+   squared radius of their sphere where that is more. Of cosines, those of the centre and of the nearest
+   normal in the cone, plus the sine of half the sphere's angle, at most 1: that is 0 where the largest cosine
+   of the sphere's points is, and only there, so a child is 0 only if none of its lights can add anything. */
 static inline float2 light_importances(global const LightPair* pair, const LightView* view, int2* is_narrow)
 {
     const float3 p = convert_float3(view->position);
@@ -73,7 +73,8 @@ static inline float2 light_importances(global const LightPair* pair, const Light
 }
 
 /* Cuts an interval by importance. A child with any has at least 2^-24 of it. */
-static inline LightCut light_cut_by_importance(global const LightPair* pair, const LightView* view, ulong width)
+static inline LightCut light_cut_by_importance(global const LightPair* pair, const LightView* view,
+                                               ulong width)
 {
     LightCut cut;
     const float2 importances = light_importances(pair, view, &cut.is_narrow);

@@ -24,7 +24,7 @@
 /* What a number is for. A bounce owns SAMPLER_PURPOSES addresses; removing an effect moves no other number,
    and what is new takes a number that no other has had. */
 #define SAMPLE_FILM 0u        /* partner: the light sample of the first vertex */
-#define SAMPLE_DIRECTION 1u   /* direction within a lobe; partner: which lobe, and second word of an alias table */
+#define SAMPLE_DIRECTION 1u   /* direction within a lobe; partner: which lobe, and an alias table's second */
 #define SAMPLE_LIGHT 3u       /* which light, and the point on it, of the vertices behind the first */
 #define SAMPLE_LIGHT_ALIAS 4u /* second word of an alias table */
 #define SAMPLE_SKY 5u         /* direction to the environment, where it is sampled beside the other lights */
@@ -118,8 +118,8 @@ static inline real sampler_number(const Sampler* sampler, uint bounce, uint purp
     return sampler_unit(sampler_word(sampler, bounce, purpose));
 }
 
-/* The generator matrix of the partner's index: Pascal's triangle over the field of four elements, its entry in
-   row i and column j of the base-4 digits w^(j - i) times (j choose i), w^2 = w + 1. This is D^-1 P D: D
+/* The generator matrix of the partner's index: Pascal's triangle over the field of four elements, its entry
+   in row i and column j of the base-4 digits w^(j - i) times (j choose i), w^2 = w + 1. This is D^-1 P D: D
    multiplies digit j by w^j, P is the butterfly of sampler_pascal_reversed on digits instead of bits. */
 static inline uint sampler_partner_index(uint index)
 {

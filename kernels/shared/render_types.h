@@ -18,7 +18,8 @@ SHARED_BEGIN
 
 typedef struct {
     CameraParams camera;
-    vec4 environment; /* rgb: radiance of a constant environment, or factor of the map; w: LIGHT_TREE_IS_USED */
+    vec4 environment; /* rgb: radiance of a constant environment, or factor of the map;
+                         w: LIGHT_TREE_IS_USED */
     vec4 background;  /* rgb: radiance that camera rays see outside the scene; w: BACKGROUND_IS_SEEN */
 
     u32 width, height;          /* of the whole picture, pixels */

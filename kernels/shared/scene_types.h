@@ -113,8 +113,8 @@ ASSERT_SIZE(EnvironmentTexel, 32);
 /* Of choosing the texel. */
 #define TEXEL_PROBABILITY(texel) ((texel).radiance.w)
 
-/* Two siblings of the light tree (kernels/lights/light_tree.h): sphere and cone around what is below each, its
-   power, and where it is. The root is the pair 0. */
+/* Two siblings of the light tree (kernels/lights/light_tree.h): sphere and cone around what is below each,
+   its power, and where it is. The root is the pair 0. */
 typedef struct {
     vec2 x, y, z;                /* centres of the spheres around the lights */
     vec2 radius;

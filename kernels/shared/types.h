@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types that C++ and OpenCL C lay out alike. Everything in kernels/shared is compiled by both sides.
-// Members of shared structs are vec4, vec2, float, i32 and u32 only: a three-component vector takes 16 bytes in
-// OpenCL C and 12 in C++, and the size of bool, enum and size_t is the compiler's choice.
+// Members of shared structs are vec4, vec2, float, i32 and u32 only: a three-component vector takes 16 bytes
+// in OpenCL C and 12 in C++, and the size of bool, enum and size_t is the compiler's choice.
 #ifndef CLRT_SHARED_TYPES_H
 #define CLRT_SHARED_TYPES_H
 
