@@ -118,8 +118,9 @@ const Layout ARRAY_PLACES = {
 // clang-format on
 
 const std::vector<Layout> LAYOUTS = {
-    TRIANGLE,      MATERIAL,           TEXTURE,     EMITTER, LIGHT, ENVIRONMENT_TEXEL, LIGHT_PAIR, LIGHT_PLACE, CAMERA_PARAMS,
-    RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES};
+    TRIANGLE,           MATERIAL,    TEXTURE,     EMITTER,       LIGHT,
+    ENVIRONMENT_TEXEL,  LIGHT_PAIR,  LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
+    ARRAY_PLACE_LAYOUT, ARRAY_PLACES};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.
