@@ -83,7 +83,7 @@ TEST_F(TimeLimit, TheProgressLineSaysWhatIsKnown) {
     const std::string text = run(arguments);
     // The line that a render of more than a second leaves behind.
     const std::regex line(
-        R"(render  +\d+%  (\d+) spp  ([0-9.]+) s (?: ETA [^M]*)? ([0-9.]+) Mrays/s  error ([0-9.]+) %)");
+        R"(render  +\d+%  (\d+) spp  ([0-9.]+) s (?: ETA [^e]*)? error ([0-9.]+) %  ([0-9.]+) Mrays/s)");
     std::smatch found;
     ASSERT_TRUE(std::regex_search(text, found, line)) << text;
     EXPECT_EQ(std::stoull(found[1]), stats["spp"]);
@@ -95,7 +95,7 @@ TEST_F(TimeLimit, TheProgressLineSaysWhatIsKnown) {
     for (const char* kind : {"primary", "secondary", "shadow"})
         rays += stats["rays"][kind].get<double>();
     const double expected = 1e-6 * rays / stats["seconds"]["render"].get<double>();
-    EXPECT_NEAR(std::stod(found[3]) / expected, 1, 0.15);
+    EXPECT_NEAR(std::stod(found[4]) / expected, 1, 0.15);
 }
 
 TEST_F(TimeLimit, TheLastProgressLineIsTheFinalState) {
