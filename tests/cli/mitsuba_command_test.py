@@ -39,6 +39,10 @@ class MitsubaCommand(unittest.TestCase):
     def listed(self):
         return os.listdir(os.path.join(self.folder, "series"))
 
+    def test_one_thread_renders_but_does_not_write(self):
+        done = self.series("-j", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_makes_a_series_that_clrt_study_draws(self):
         done = self.series()
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -22,16 +22,19 @@ def samples_of_a_pass(spp, pixels):
 
 
 class Renderer:
-    """A scene in Mitsuba. `mitsuba`, `drjit`: the modules, a variant set."""
+    """A scene in Mitsuba. `mitsuba`, `drjit`: the modules, a variant set. `threads`: that render; None: all."""
 
-    def __init__(self, mitsuba, drjit, words):
+    def __init__(self, mitsuba, drjit, words, threads=None):
         self.mitsuba, self.drjit = mitsuba, drjit
+        self.all_threads = drjit.thread_count()
+        self.threads = threads or self.all_threads
         self.pixels = words["sensor"]["film"]["width"] * words["sensor"]["film"]["height"]
         self.scene = mitsuba.load_dict(words)
 
     def render(self, spp, seed):
         """(picture, wall seconds, user and system seconds). Passes of one picture have seeds of their own."""
         each = samples_of_a_pass(spp, self.pixels)
+        self.drjit.set_thread_count(self.threads)
         before, begin = _cpu_seconds(), time.perf_counter()
         picture = 0
         for number in range(spp // each):
@@ -40,7 +43,10 @@ class Renderer:
         picture = picture / (spp // each)
         self.drjit.eval(picture)
         self.drjit.sync_thread()
-        return picture, time.perf_counter() - begin, _cpu_seconds() - before
+        seconds, cpu_seconds = time.perf_counter() - begin, _cpu_seconds() - before
+        # Mitsuba reads and writes EXR by a second thread, for which it would wait for ever.
+        self.drjit.set_thread_count(max(self.all_threads, 2))
+        return picture, seconds, cpu_seconds
 
     def series(self, counts, repeats, folder, say):
         """Renders all; writes the pictures into `folder`. Returns what series.json says of them, and (spp, mean) of each."""

@@ -10,5 +10,13 @@ def sync_thread():
     pass
 
 
-def set_thread_count(_):
-    pass
+def set_thread_count(count):
+    global threads
+    threads = count
+
+
+def thread_count():
+    return threads
+
+
+threads = 2

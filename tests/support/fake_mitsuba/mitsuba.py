@@ -4,6 +4,7 @@ of known size. Takes what clrt-mitsuba gives."""
 import os
 import sys
 
+import drjit
 import numpy
 import OpenImageIO
 
@@ -53,4 +54,6 @@ class Bitmap:
         return numpy.asarray(self.pixels, dtype)
 
     def write(self, path):
+        if drjit.thread_count() < 2:
+            raise RuntimeError("Mitsuba would wait for ever")
         write_exr(path, self.pixels)
