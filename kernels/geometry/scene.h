@@ -7,18 +7,32 @@
 #include "shared/scene_arrays.h"
 #include "shared/render_types.h"
 #include "shared/effects.h"
+#include "shared/guide_types.h"
 #include "numerics/vector.h"
 #include "trace/trace.h"
+
+/* Whether directions are guided by what paths have found (path/guide.h). */
+#ifndef PATH_GUIDE
+#define PATH_GUIDE 0
+#endif
 
 #ifndef BVH_LAYOUT
 #define BVH_LAYOUT BVH_LAYOUT_BVH8
 #endif
+
+/* What guided paths read, and the sums that they add to. */
+typedef struct {
+    global const GuideNode* restrict nodes;
+    global const GuideCell* restrict cells;
+    global long* sums;
+} GuideArrays;
 
 typedef struct {
 #define SCENE_ARRAY(type, name, member) global const type* restrict name;
     BVH_ARRAYS(SCENE_ARRAY)
     SCENE_ARRAYS(SCENE_ARRAY)
 #undef SCENE_ARRAY
+    GuideArrays guide; /* unset without PATH_GUIDE */
 #ifdef CLRT_COUNT_VISITS
     uint* visits; /* of the rays so far: nodes, leaves, triangles; to be set by whoever counts */
 #endif

@@ -9,6 +9,18 @@
 
 #include "pixel.h"
 
+/* What a kernel that guides paths takes besides. */
+#if PATH_GUIDE
+#define GUIDE_PARAMS \
+    , global const GuideNode* restrict guide_nodes, global const GuideCell* restrict guide_cells, \
+        global long* guide_sums
+#define GUIDE_SET(scene) \
+    ((scene).guide.nodes = guide_nodes, (scene).guide.cells = guide_cells, (scene).guide.sums = guide_sums)
+#else
+#define GUIDE_PARAMS
+#define GUIDE_SET(scene)
+#endif
+
 #ifdef CLRT_TRACE
 #include "replay.h"
 #else
@@ -35,12 +47,13 @@ static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* p
 
 CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void INTEGRATOR_KERNEL(
     const RenderParams params, SCENE_PARAMS, global long* restrict film, global uint* restrict pixel_rays,
-    global volatile uint* counters)
+    global volatile uint* counters GUIDE_PARAMS)
 {
     TilePixel place;
     if (!tile_pixel(&params, &place))
         return;
-    const Scene scene = SCENE_MAKE;
+    Scene scene = SCENE_MAKE;
+    GUIDE_SET(scene);
     pixel_render(&scene, &params, place, film, pixel_rays, counters);
 }
 

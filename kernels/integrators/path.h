@@ -49,6 +49,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const real3 wo = -path->ray.direction;
     const Sampler* sampler = &sample->sampler;
     path->is_alive = path->is_connected = false;
+    guide_note_radiance(sample->radiance, &path->guided);
     if (path->hit.triangle == NO_INDEX) {
         path_escape(scene, params, segment, path, sample, rays);
         return;
@@ -64,10 +65,11 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const bool continues = path_filter(scene, params, sampler, segment, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
-    const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, path);
+    Guide guide = guide_at(scene, params, surface.position, &bsdf);
+    const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
     path_connect(scene, params, &surface, &bsdf, &step, path);
     if (next.is_valid && continues)
-        path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &next, path);
+        path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
 }
 
 /* Some of a group's paths, by number and without gaps: asking each path whether it takes part would be a
@@ -90,7 +92,7 @@ static inline void path_draw(const Scene* scene, const RenderParams* params, con
     NumberLanes numbers;
     for (uint i = 0; i < list->count || i % DEVICE_LANES != 0u; ++i)
         numbers_set_sampler(&numbers, i, &samples[list->at[min(i, list->count - 1u)]].sampler);
-    numbers_draw(&numbers, segment, list->count);
+    numbers_draw(&numbers, segment, params->epoch, list->count);
     for (uint i = 0; i < list->count; ++i) {
         paths[list->at[i]].numbers = numbers_of(&numbers, i);
         environment_prefetch_slot(scene, params, paths[list->at[i]].numbers.light);
@@ -147,6 +149,8 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
         path_advance(scene, params, segment, paths, samples, &alive, rays);
     for (uint k = 0; k < count; ++k)
         nan_carry(scene, nan_of_vector(paths[k].throughput + paths[k].watched), &samples[k].radiance);
+    for (uint k = 0; k < count; ++k)
+        guide_learn(scene, params, samples[k].radiance, &paths[k].guided);
 }
 
 #endif

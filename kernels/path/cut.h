@@ -27,7 +27,7 @@ static CLRT_NOINLINE void path_cut(const Scene* scene, const RenderParams* param
         return;
     longer.throughput *= next.weight;
     longer.eta_squared *= next.eta * next.eta;
-    if (!path_survives(scene, params, sampler, segment, &longer))
+    if (!path_survives(scene, params, sampler, segment, REAL(0.0), &longer))
         return;
     TRACE_CHOICE(scene, TRACE_CUT, 1u);
     film_count_cut(longer.throughput, rays);

@@ -6,6 +6,9 @@
 
 #include "numerics/sampler.h"
 
+/* More than a path has. */
+#define NUMBERS_BOUNCES 131072u
+
 /* Those of one vertex. */
 typedef struct {
     uint2 light;
@@ -14,13 +17,17 @@ typedef struct {
     real2 direction;
 } PathNumbers;
 
-static inline PathNumbers numbers_make(const Sampler* sampler, uint segment)
+/* Every epoch of a guided render has nets of its own (path/guide.h): later points of a net fill the gaps of
+   its earlier ones, which the guide knows of. The net of the film and the first light sample goes on, because
+   what it decides does not depend on the guide. */
+static inline PathNumbers numbers_make(const Sampler* sampler, uint segment, uint epoch)
 {
+    const uint bounce = segment + NUMBERS_BOUNCES * epoch;
     PathNumbers numbers;
-    numbers.light = sampler_light_words(sampler, segment);
-    numbers.direction = sampler_pair(sampler, segment, SAMPLE_DIRECTION);
+    numbers.light = sampler_light_words(sampler, segment == 1u ? segment : bounce);
+    numbers.direction = sampler_pair(sampler, bounce, SAMPLE_DIRECTION);
     /* In one net with the direction: each lobe's directions are even, and so are the lobes. */
-    const uint2 choices = sampler_partner_words(sampler, segment, SAMPLE_DIRECTION);
+    const uint2 choices = sampler_partner_words(sampler, bounce, SAMPLE_DIRECTION);
     numbers.lobe = sampler_unit(choices.x);
     numbers.alias = choices.y;
     return numbers;
@@ -41,11 +48,11 @@ static inline void numbers_set_sampler(NumberLanes* lanes, uint i, const Sampler
 }
 
 /* Draws the numbers of whole vectors of paths, from number `first` on. */
-static inline void numbers_draw_vector(NumberLanes* lanes, uint segment, uint first)
+static inline void numbers_draw_vector(NumberLanes* lanes, uint segment, uint epoch, uint first)
 {
     for (uint i = first; i < first + DEVICE_LANES; ++i) {
         const Sampler sampler = {lanes->key[i], lanes->index_reversed[i], lanes->word_key[i]};
-        const PathNumbers numbers = numbers_make(&sampler, segment);
+        const PathNumbers numbers = numbers_make(&sampler, segment, epoch);
         lanes->light_x[i] = numbers.light.x;
         lanes->light_y[i] = numbers.light.y;
         lanes->alias[i] = numbers.alias;
@@ -57,10 +64,10 @@ static inline void numbers_draw_vector(NumberLanes* lanes, uint segment, uint fi
 
 /* Draws those of `count` paths at the end of the same segment; behind the last one, samplers are filled up to
    a whole vector. */
-static CLRT_NOINLINE void numbers_draw(NumberLanes* lanes, uint segment, uint count)
+static CLRT_NOINLINE void numbers_draw(NumberLanes* lanes, uint segment, uint epoch, uint count)
 {
     for (uint first = 0u; first < count; first += DEVICE_LANES)
-        numbers_draw_vector(lanes, segment, first);
+        numbers_draw_vector(lanes, segment, epoch, first);
 }
 
 static inline PathNumbers numbers_of(const NumberLanes* lanes, uint i)

@@ -4,6 +4,7 @@
 #define CLRT_PATH_WALK_H
 
 #include "filter.h"
+#include "guide_learn.h"
 #include "layers.h"
 #include "numbers.h"
 #include "vertex.h"
@@ -26,6 +27,7 @@ typedef struct {
     real3 watched;           /* sum of directions and normals, for NaNs among them */
     uint state;              /* of the automaton, behind all vertices so far */
     LayerPath layers;
+    GuidePath guided;
     bool is_alive, is_connected;
 } Path;
 
@@ -41,6 +43,7 @@ static inline void path_begin(Path* path, const Ray* ray)
     path->pdf_w = REAL(0.0);
     path->state = STATE_START;
     layers_begin_path(&path->layers);
+    guide_begin(&path->guided);
     path->is_alive = true;
 }
 
@@ -60,9 +63,11 @@ static inline void path_add_layers(const Path* path, uint kind, real3 radiance, 
 
 /* Samples the next direction. `continues`: whether a ray by any lobe can find light (filter_continues). */
 static inline BsdfSample path_sample(const Scene* scene, const Surface* surface, const Bsdf* bsdf,
-                                     bool continues, Path* path)
+                                     bool continues, Guide* guide, Path* path)
 {
-    const BsdfSample next = bsdf_sample(bsdf, path->numbers.lobe, path->numbers.direction);
+    const BsdfSample next =
+        guide_sample(scene, bsdf, path->numbers.lobe, path->numbers.direction, guide);
+    guide_note(guide, &next, path->throughput, &path->guided);
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
     TRACE_VECTOR(scene, TRACE_WI, next.wi);
     TRACE_VECTOR(scene, TRACE_WEIGHT, next.weight);
@@ -97,15 +102,16 @@ static inline bool path_follow(const Scene* scene, const Sampler* sampler, uint 
     return true;
 }
 
-/* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. The index ratios
-   crossed so far are taken out: light inside glass is not lost, only compressed. */
+/* Ends paths of small weight without bias; the throughput of a survivor grows accordingly. `worth` is what a
+   guide says of the path, 0 where none does; else its throughput tells, the index ratios crossed so far taken
+   out: light inside glass is not lost, only compressed. */
 static inline bool path_survives(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                 uint segment, Path* path)
+                                 uint segment, real worth, Path* path)
 {
     if (segment < params->roulette_depth)
         return true;
-    const real survival =
-        clamp(vector_max_component(path->throughput) / path->eta_squared, PATH_SMALLEST_SURVIVAL, REAL(1.0));
+    const real size = worth > REAL(0.0) ? worth : vector_max_component(path->throughput) / path->eta_squared;
+    const real survival = clamp(size, PATH_SMALLEST_SURVIVAL, REAL(1.0));
     const bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);
     TRACE_NUMBER(scene, TRACE_SURVIVAL, survival);
     TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
@@ -119,15 +125,16 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
    path. */
 static inline void path_leave(const Scene* scene, const RenderParams* params, const Sampler* sampler,
                               uint segment, const Surface* surface, const Bsdf* bsdf,
-                              const AutomatonStep* step, const BsdfSample* next, Path* path)
+                              const AutomatonStep* step, const Guide* guide, const BsdfSample* next, Path* path)
 {
+    const real worth = guide_worth(guide, path->throughput, &path->guided);
     path->throughput *= next->weight;
     if (HAS(EFFECT_PATH_FILTER) && !path_follow(scene, sampler, segment, bsdf, step, next, path))
         return;
     TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->throughput);
     path->pdf_w = next->pdf_w;
     path->eta_squared *= next->eta * next->eta;
-    path->is_alive = path_survives(scene, params, sampler, segment, path);
+    path->is_alive = path_survives(scene, params, sampler, segment, worth, path);
     path->ray = surface_ray(surface, next->reflects, next->wi);
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
     path->has_crossed_curved = surface->is_curved && !next->reflects;

@@ -33,6 +33,7 @@ typedef struct {
     u32 first_replicate, dealt_replicates;
     u32 film_replicates;        /* that have sums of their own: a power of two, at most `replicates` */
     u32 seed;
+    u32 epoch;                  /* of a guided render (path/numbers.h), else 0 */
     u32 max_depth;              /* path segments */
     float min_contribution;     /* whitted: smallest weight worth a ray */
     u32 filter;                 /* FILTER_* */
@@ -53,8 +54,9 @@ typedef struct {
     u32 tiles_x;                /* tiles a row */
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
+    u32 unused[3];
 } RenderParams;
-ASSERT_SIZE(RenderParams, 256);
+ASSERT_SIZE(RenderParams, 272);
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)

@@ -86,6 +86,9 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) {
              o.transport.max_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
          }},
+        {group, "", "--guide", "auto|on|off",
+         "sample directions where paths have found light before",
+         [](Options& o, const OptionValue& v) { o.transport.guide = parse_choice<Toggle>(v); }},
         {group, "", "--roulette-depth", "N",
          fmt::format("{}first segment that Russian roulette may end (default {})",
                      takers(TAKES_ROULETTE_DEPTH), defaults.roulette_depth),

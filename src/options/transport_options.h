@@ -3,6 +3,7 @@
 #pragma once
 
 #include "options/integrators.h"
+#include "options/toggle.h"
 
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@ struct TransportOptions {
     std::optional<int> max_depth;    ///< path segments; none: as many as the integrator's row says
     int roulette_depth = 5;          ///< first segment that Russian roulette may end
     double min_contribution = 0.002; ///< smallest weight worth a ray
+    Toggle guide = Toggle::OFF; ///< directions where paths have found light
     std::string paths;               ///< path notation (paths/path_expression.h); empty: every path
 };
 

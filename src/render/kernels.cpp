@@ -79,6 +79,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     RenderPrograms programs;
     std::vector<std::string> of_picture = path_defines(paths);
     append(of_picture, film_defines(device.info, integrator_row(options.transport.integrator).film));
+    if (options.transport.guide == Toggle::ON)
+        append(of_picture, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
     programs.picture = build(name_of(options.transport.integrator), of_picture);
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});

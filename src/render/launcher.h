@@ -31,6 +31,9 @@ public:
     /// [first_tile, end_tile), and waits.
     void run_half(int half, u32 first_tile, u32 end_tile);
 
+    /// The next launches belong to this epoch of a guided render.
+    void set_epoch(u32 epoch) { params_.epoch = epoch; }
+
     /// Of all launches so far, as run_groups counts them.
     double device_seconds() const { return device_seconds_; }
 
@@ -39,7 +42,7 @@ private:
 
     const Device& device_;
     Kernel kernel_;
-    const RenderParams params_;
+    RenderParams params_;
     double device_seconds_ = 0;
 };
 

@@ -44,6 +44,10 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
                          : std::optional(options_.film_file.checkpoint_seconds)),
       launch_size_(prepared.device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
+    if (options_.transport.guide == Toggle::ON) {
+        guide_.emplace(prepared.device, params.scene_extent);
+        guide_->bind(launcher_.kernel());
+    }
     take_host_memory();
     first_ = options_.sampling.first_sample;
     if (!result.film.ranges.empty()) {
@@ -117,6 +121,8 @@ std::uint32_t Passes::next_samples(const RenderState& state) const {
     std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
     if (options_.sampling.adaptive)
         end = std::min(end, result_.round.end);
+    if (guide_)
+        end = std::min(end, epoch_end_);
     double samples = 1;
     if (result_.passes > 0) {
         const double pass = std::max(state.pass_seconds, 1e-6);
@@ -379,6 +385,11 @@ StopRule Passes::run_until_stopped() {
             return *rule;
         if (options_.sampling.adaptive)
             begin_round();
+        if (guide_ && samples_ >= epoch_end_) {
+            if (samples_ > 0) guide_->advance();
+            epoch_end_ = samples_ == 0 ? (getenv("G_FIRST") ? atoi(getenv("G_FIRST")) : 4) : u32(getenv("G_GROW") ? atoi(getenv("G_GROW")) : 4) * samples_;
+            launcher_.set_epoch(++epoch_);
+        }
         const std::uint32_t samples = next_samples(state);
         keep_film(state, samples);
         if (!run_launches(samples))

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "film/film_buffers.h"
+#include "guide/guide_buffers.h"
 #include "render/hit_layers.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
@@ -65,6 +66,8 @@ private:
     Render& result_;
     FilmBuffers film_buffers_;
     Launcher launcher_;
+    std::optional<GuideBuffers> guide_;
+    std::uint64_t epoch_end_ = 0; u32 epoch_ = 0;
     std::optional<HitLayers> hit_layers_;
     StopRules rules_;
     Measurements measurements_;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path guiding: directions are sampled where paths have found light before. Every cell of space (cell.h) has
+// a distribution of directions (guide_bins.h), in proportion to radiance times BSDF times cosine as paths
+// have met them. A direction is sampled by the BSDF or by the cell and weighted by the density of the mixture,
+// so the estimate is unbiased whatever the cell has learnt (Mueller, Gross and Novak 2017). What paths find is
+// summed while they are traced (guide_learn.h); the host makes the next distributions of the sums, between
+// launches.
+#ifndef CLRT_PATH_GUIDE_H
+#define CLRT_PATH_GUIDE_H
+
+#include "cell.h"
+#include "guide_bins.h"
+#include "scattering/bsdf.h"
+
+/* Lobes sharper than this are sampled by themselves alone. */
+#define GUIDE_SMALLEST_ALPHA REAL(0.15)
+
+/* Of those that random numbers are: 1 - 2^-24. */
+#define GUIDE_LARGEST_NUMBER REAL(0.999999940395355224609375)
+
+/* What a vertex knows of its cell. */
+typedef struct {
+    uint cell;     /* NO_INDEX: the vertex is not guided */
+    uint bin;      /* of the sampled direction; */
+    real part;     /* the cell's density there over that of the mixture */
+    real share;    /* probability of sampling a direction by the cell */
+    real radiance; /* that paths find behind such vertices, the mean; 0: not known */
+} Guide;
+
+/* Whether a material scatters widely enough to be guided. */
+static inline bool guide_suits(const Bsdf* bsdf)
+{
+    return (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE)) ||
+           ((bsdf->lobes & LOBES_ROUGH) && fmin(bsdf->alpha_x, bsdf->alpha_y) >= GUIDE_SMALLEST_ALPHA);
+}
+
+/* The guide of a vertex. */
+static inline Guide guide_at(const Scene* scene, const RenderParams* params, real3 position, const Bsdf* bsdf)
+{
+    Guide guide = {NO_INDEX, 0u, REAL(0.0), REAL(0.0), REAL(0.0)};
+    if (!PATH_GUIDE || !guide_suits(bsdf))
+        return guide;
+    guide.cell = cell_at(scene->guide.nodes, (real)params->scene_extent, position, bsdf->frame.z);
+    guide.share = (real)scene->guide.cells[guide.cell].share;
+    guide.radiance = (real)scene->guide.cells[guide.cell].radiance;
+    return guide;
+}
+
+/* The density with which the cell samples a direction, and the direction's bin. */
+static inline real guide_pdf_w(const Scene* scene, const Guide* guide, real3 wi, uint* number)
+{
+    const real3 point = bins_point(wi);
+    const real2 place = bins_square(point) * (real)GUIDE_SIDE;
+    const GuideBin bin = bins_find(scene->guide.cells + guide->cell, min((uint)place.x, GUIDE_SIDE - 1u),
+                                   min((uint)place.y, GUIDE_SIDE - 1u));
+    *number = bin.number;
+    return bin_pdf_w(&bin, point);
+}
+
+/* Samples a direction by the cell; u in (0, 1)^2. */
+static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf, real2 u, Guide* guide)
+{
+    const real scaled = u.x * (real)GUIDE_BINS;
+    guide->bin = (uint)scaled;
+    const GuideBin bin = bins_take(scene->guide.cells + guide->cell, guide->bin);
+    const real3 point = bins_octahedron(bin_place(&bin, (real2)(scaled - (real)guide->bin, u.y)));
+    const real pdf_w = bin_pdf_w(&bin, point);
+    BsdfSample next;
+    next.wi = point / vector_length(point);
+    const BsdfValue value = bsdf_eval(bsdf, next.wi);
+    const real mixture = mix(value.pdf_w, pdf_w, guide->share);
+    guide->part = pdf_w / mixture;
+    next.pdf_w = value.pdf_w;
+    next.weight = value.value / mixture;
+    next.reflects = bsdf_reflects(bsdf, next.wi);
+    next.eta = next.reflects ? REAL(1.0) : bsdf->eta;
+    next.is_weighted = true;
+    next.is_valid = value.pdf_w > REAL(0.0) && !vector_is_black(value.value);
+    TRACE_SET(next.lobe, 0u);
+    return next;
+}
+
+/* Samples a direction by the mixture. One number chooses between cell and BSDF, and what is left of it the
+   lobe. The density that it says is that of the BSDF alone: emission that is met is weighted against light
+   sampling as if nothing were guided, so that light sampling need not ask the cell. */
+static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real u_lobe, real2 u, Guide* guide)
+{
+    if (!PATH_GUIDE || guide->cell == NO_INDEX)
+        return bsdf_sample(bsdf, u_lobe, u);
+    if (u_lobe < guide->share)
+        return guide_sample_cell(scene, bsdf, u, guide);
+    const real rest = REAL(1.0) - guide->share;
+    BsdfSample next = bsdf_sample(bsdf, fmin((u_lobe - guide->share) / rest, GUIDE_LARGEST_NUMBER), u);
+    if (next.pdf_w == REAL(0.0)) {
+        next.weight /= rest;
+        return next;
+    }
+    const real pdf_w = guide_pdf_w(scene, guide, next.wi, &guide->bin);
+    const real mixture = mix(next.pdf_w, pdf_w, guide->share);
+    guide->part = pdf_w / mixture;
+    next.weight *= next.pdf_w / mixture;
+    return next;
+}
+
+#endif

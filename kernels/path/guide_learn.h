@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a path teaches the cells that it went through: the light that it found behind each of its first
+// vertices, as seen from there. Sums are integers, so they are the same in any order; and they hold no more
+// of a path than 2^GUIDE_RECORD_BITS quanta, which keeps outliers from the guide, not from the picture.
+#ifndef CLRT_PATH_GUIDE_LEARN_H
+#define CLRT_PATH_GUIDE_LEARN_H
+
+#include "film/sum.h"
+#include "guide.h"
+
+/* Vertices of a path that learn from it: those behind are rarely reached, and their light is small. */
+#define GUIDE_VERTICES 12
+
+/* Of a record: 2^43, more than a square of the largest and less than the sums of 2^20 overflow at. */
+#define GUIDE_LARGEST_MOMENT REAL(8796093022208.0)
+
+#if PATH_GUIDE
+/* A vertex that will learn from its path. */
+typedef struct {
+    uint cell, bin; /* of the sampled direction */
+    real weight;    /* of radiance behind it: 1 / throughput in front of it */
+    real radiance;  /* that the path had found before it went on */
+    real share;     /* of the cell in the mixture, */
+    real part;      /* and its density in the direction over that of the mixture */
+} GuideVertex;
+
+/* What a path carries for its cells. */
+typedef struct {
+    GuideVertex vertices[GUIDE_VERTICES];
+    uint count;
+    bool is_open;  /* the last one's radiance is to be set */
+    real expected; /* contribution of the path behind its first vertex that knew; 0: none did */
+} GuidePath;
+#else
+typedef struct {
+    uint unused;
+} GuidePath;
+#endif
+
+static inline void guide_begin(GuidePath* path)
+{
+#if PATH_GUIDE
+    path->count = 0u;
+    path->is_open = false;
+    path->expected = REAL(0.0);
+#endif
+}
+
+static inline real guide_size(real3 radiance) { return radiance.x + radiance.y + radiance.z; }
+
+/* By what factor the contribution that is expected behind a vertex is smaller than it was behind the path's
+   first: what the path is worth (Vorba and Krivanek 2016). 0: not known. */
+static inline real guide_worth(const Guide* guide, real3 throughput, GuidePath* path)
+{
+#if PATH_GUIDE
+    if (guide->radiance == REAL(0.0))
+        return REAL(0.0);
+    const real expected = guide_size(throughput) * guide->radiance;
+    if (path->expected == REAL(0.0))
+        path->expected = expected;
+    return expected / path->expected;
+#else
+    return REAL(0.0);
+#endif
+}
+
+/* Notes a vertex and its sampled direction; `throughput`: of the path in front of it. Delta lobes teach
+   nothing. */
+static inline void guide_note(const Guide* guide, const BsdfSample* next, real3 throughput, GuidePath* path)
+{
+#if PATH_GUIDE
+    path->is_open = false;
+    if (guide->cell == NO_INDEX || path->count == GUIDE_VERTICES || next->pdf_w == REAL(0.0))
+        return;
+    GuideVertex* vertex = &path->vertices[path->count++];
+    vertex->cell = guide->cell;
+    vertex->bin = guide->bin;
+    vertex->share = guide->share;
+    vertex->part = guide->part;
+    vertex->weight = REAL(1.0) / guide_size(throughput);
+    vertex->radiance = REAL_FAR; /* a path that ends here finds nothing behind */
+    path->is_open = true;
+#endif
+}
+
+/* Notes what the path has found before it meets its next vertex. */
+static inline void guide_note_radiance(real3 radiance, GuidePath* path)
+{
+#if PATH_GUIDE
+    if (path->is_open)
+        path->vertices[path->count - 1u].radiance = guide_size(radiance);
+#endif
+}
+
+#if PATH_GUIDE
+/* Adds a vertex's record of light to the second moments of the mixtures by other shares: its square times
+   density over theirs. */
+static inline void guide_add_moments(const GuideVertex* vertex, real quanta, global long* sums)
+{
+    const real scaled = quanta * (REAL(1.0) / (real)(1u << GUIDE_SQUARE_BITS));
+    const real rest = (REAL(1.0) - vertex->share * vertex->part) / (REAL(1.0) - vertex->share);
+    for (uint k = 0; k < GUIDE_SHARES; ++k) {
+        const real share = ((real)k + REAL(0.5)) * (REAL(1.0) / (real)GUIDE_SHARES);
+        const real moment = scaled * scaled / mix(fmax(rest, REAL(0.0)), vertex->part, share);
+        sum_add_modulo(sums + GUIDE_SUM_MOMENTS + k, (ulong)fmin(moment, GUIDE_LARGEST_MOMENT));
+    }
+}
+#endif
+
+/* Adds what a finished path has found to the sums of its vertices. */
+static inline void guide_learn(const Scene* scene, const RenderParams* params, real3 radiance,
+                               const GuidePath* path)
+{
+#if PATH_GUIDE
+    const real whole = guide_size(radiance);
+    for (uint i = 0; i < path->count; ++i) {
+        const GuideVertex* vertex = &path->vertices[i];
+        global long* sums = scene->guide.sums + (ulong)vertex->cell * GUIDE_SUMS;
+        sum_add_modulo(sums + GUIDE_SUM_VERTICES, 1ul);
+        const real found = (whole - vertex->radiance) * vertex->weight * (real)params->inverse_quantum;
+        if (!(found >= REAL(1.0)))
+            continue;
+        const real quanta = fmin(found, (real)(1u << GUIDE_RECORD_BITS));
+        sum_add_modulo(sums + vertex->bin, (1ul << GUIDE_SUM_BITS) + (ulong)quanta);
+        guide_add_moments(vertex, quanta, sums);
+    }
+#endif
+}
+
+#endif
