@@ -21,8 +21,7 @@
 /* What a vertex knows of its cell. */
 typedef struct {
     uint cell;     /* NO_INDEX: the vertex is not guided */
-    uint bin;      /* of the sampled direction; */
-    real part;     /* the cell's density there over that of the mixture */
+    uint bin;      /* of the sampled direction */
     real share;    /* probability of sampling a direction by the cell */
     real radiance; /* that paths find behind such vertices, the mean; 0: not known */
 } Guide;
@@ -37,7 +36,7 @@ static inline bool guide_suits(const Bsdf* bsdf)
 /* The guide of a vertex. */
 static inline Guide guide_at(const Scene* scene, const RenderParams* params, real3 position, const Bsdf* bsdf)
 {
-    Guide guide = {NO_INDEX, 0u, REAL(0.0), REAL(0.0), REAL(0.0)};
+    Guide guide = {NO_INDEX, 0u, REAL(0.0), REAL(0.0)};
     if (!PATH_GUIDE || !guide_suits(bsdf))
         return guide;
     guide.cell = cell_at(scene->guide.nodes, (real)params->scene_extent, position, bsdf->frame.z);
@@ -68,10 +67,8 @@ static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf,
     BsdfSample next;
     next.wi = point / vector_length(point);
     const BsdfValue value = bsdf_eval(bsdf, next.wi);
-    const real mixture = mix(value.pdf_w, pdf_w, guide->share);
-    guide->part = pdf_w / mixture;
     next.pdf_w = value.pdf_w;
-    next.weight = value.value / mixture;
+    next.weight = value.value / mix(value.pdf_w, pdf_w, guide->share);
     next.reflects = bsdf_reflects(bsdf, next.wi);
     next.eta = next.reflects ? REAL(1.0) : bsdf->eta;
     next.is_weighted = true;
@@ -96,9 +93,7 @@ static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real
         return next;
     }
     const real pdf_w = guide_pdf_w(scene, guide, next.wi, &guide->bin);
-    const real mixture = mix(next.pdf_w, pdf_w, guide->share);
-    guide->part = pdf_w / mixture;
-    next.weight *= next.pdf_w / mixture;
+    next.weight *= next.pdf_w / mix(next.pdf_w, pdf_w, guide->share);
     return next;
 }
 

@@ -41,36 +41,33 @@ static inline real3 bins_octahedron(real2 place)
     return vector_make(unfolded.x, unfolded.y, z);
 }
 
-/* Split number `node` of a piece of the tree. */
-static inline uint bins_split(global const GuideCell* cell, uint piece, uint node)
+/* The split of an inner node. */
+static inline uint bins_split(global const GuideCell* cell, uint node)
 {
-    return (cell->splits[GUIDE_PIECE_WORDS * piece + (node >> 1)] >> (16u * (node & 1u))) & 0xffffu;
+    return (cell->splits[node >> 1] >> (16u * (node & 1u))) & 0xffffu;
 }
 
-/* The tree of bins is gone down without branches: which child comes next is chance. */
+/* The tree of bins is gone down without branches: which child comes next is chance. A node's children are
+   2 node + 1 and 2 node + 2. */
 
 /* The bin at a place of the square, in units of 2^-16. */
 static inline GuideBin bins_find(global const GuideCell* cell, uint x, uint y)
 {
     GuideBin bin = {0u, 0u, GUIDE_SIDE, 0u, GUIDE_SIDE};
-    uint piece = 0u;
-    for (uint below = 0u; below < 2u; ++below) {
-        uint node = 0u;
-        for (uint level = 0u; level < GUIDE_PIECE_LEVELS; level += 2u) {
-            const uint at_x = bins_split(cell, piece, node);
-            const bool is_right = x >= at_x;
-            bin.low_x = is_right ? at_x : bin.low_x;
-            bin.high_x = is_right ? bin.high_x : at_x;
-            node = 2u * node + (is_right ? 2u : 1u);
-            const uint at_y = bins_split(cell, piece, node);
-            const bool is_above = y >= at_y;
-            bin.low_y = is_above ? at_y : bin.low_y;
-            bin.high_y = is_above ? bin.high_y : at_y;
-            node = 2u * node + (is_above ? 2u : 1u);
-        }
-        bin.number = GUIDE_PIECE_LEAVES * bin.number + node - (GUIDE_PIECE_LEAVES - 1u);
-        piece = 1u + bin.number;
+    uint node = 0u;
+    for (uint level = 0u; level < GUIDE_LEVELS; level += 2u) {
+        const uint at_x = bins_split(cell, node);
+        const bool is_right = x >= at_x;
+        bin.low_x = is_right ? at_x : bin.low_x;
+        bin.high_x = is_right ? bin.high_x : at_x;
+        node = 2u * node + (is_right ? 2u : 1u);
+        const uint at_y = bins_split(cell, node);
+        const bool is_above = y >= at_y;
+        bin.low_y = is_above ? at_y : bin.low_y;
+        bin.high_y = is_above ? bin.high_y : at_y;
+        node = 2u * node + (is_above ? 2u : 1u);
     }
+    bin.number = node - (GUIDE_BINS - 1u);
     return bin;
 }
 
@@ -78,23 +75,16 @@ static inline GuideBin bins_find(global const GuideCell* cell, uint x, uint y)
 static inline GuideBin bins_take(global const GuideCell* cell, uint number)
 {
     GuideBin bin = {number, 0u, GUIDE_SIDE, 0u, GUIDE_SIDE};
-    uint piece = 0u;
-    for (uint below = 0u; below < 2u; ++below) {
-        const uint leaf = below == 0u ? number / GUIDE_PIECE_LEAVES : number % GUIDE_PIECE_LEAVES;
-        uint node = 0u;
-        for (uint level = 0u; level < GUIDE_PIECE_LEVELS; level += 2u) {
-            const uint at_x = bins_split(cell, piece, node);
-            const bool is_right = (leaf & (8u >> level)) != 0u;
-            bin.low_x = is_right ? at_x : bin.low_x;
-            bin.high_x = is_right ? bin.high_x : at_x;
-            node = 2u * node + (is_right ? 2u : 1u);
-            const uint at_y = bins_split(cell, piece, node);
-            const bool is_above = (leaf & (4u >> level)) != 0u;
-            bin.low_y = is_above ? at_y : bin.low_y;
-            bin.high_y = is_above ? bin.high_y : at_y;
-            node = 2u * node + (is_above ? 2u : 1u);
-        }
-        piece = 1u + leaf;
+    for (uint level = 0u; level < GUIDE_LEVELS; level += 2u) {
+        /* The bits above those of this level say which node it is. */
+        const uint at_x = bins_split(cell, (1u << level) - 1u + (number >> (GUIDE_LEVELS - level)));
+        const bool is_right = ((number >> (GUIDE_LEVELS - 1u - level)) & 1u) != 0u;
+        bin.low_x = is_right ? at_x : bin.low_x;
+        bin.high_x = is_right ? bin.high_x : at_x;
+        const uint at_y = bins_split(cell, (2u << level) - 1u + (number >> (GUIDE_LEVELS - 1u - level)));
+        const bool is_above = ((number >> (GUIDE_LEVELS - 2u - level)) & 1u) != 0u;
+        bin.low_y = is_above ? at_y : bin.low_y;
+        bin.high_y = is_above ? bin.high_y : at_y;
     }
     return bin;
 }

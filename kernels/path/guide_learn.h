@@ -11,17 +11,12 @@
 /* Vertices of a path that learn from it: those behind are rarely reached, and their light is small. */
 #define GUIDE_VERTICES 12
 
-/* Of a record: 2^43, more than a square of the largest and less than the sums of 2^20 overflow at. */
-#define GUIDE_LARGEST_MOMENT REAL(8796093022208.0)
-
 #if PATH_GUIDE
 /* A vertex that will learn from its path. */
 typedef struct {
     uint cell, bin; /* of the sampled direction */
     real weight;    /* of radiance behind it: 1 / throughput in front of it */
     real radiance;  /* that the path had found before it went on */
-    real share;     /* of the cell in the mixture, */
-    real part;      /* and its density in the direction over that of the mixture */
 } GuideVertex;
 
 /* What a path carries for its cells. */
@@ -75,8 +70,6 @@ static inline void guide_note(const Guide* guide, const BsdfSample* next, real3 
     GuideVertex* vertex = &path->vertices[path->count++];
     vertex->cell = guide->cell;
     vertex->bin = guide->bin;
-    vertex->share = guide->share;
-    vertex->part = guide->part;
     vertex->weight = REAL(1.0) / guide_size(throughput);
     vertex->radiance = REAL_FAR; /* a path that ends here finds nothing behind */
     path->is_open = true;
@@ -91,21 +84,6 @@ static inline void guide_note_radiance(real3 radiance, GuidePath* path)
         path->vertices[path->count - 1u].radiance = guide_size(radiance);
 #endif
 }
-
-#if PATH_GUIDE
-/* Adds a vertex's record of light to the second moments of the mixtures by other shares: its square times
-   density over theirs. */
-static inline void guide_add_moments(const GuideVertex* vertex, real quanta, global long* sums)
-{
-    const real scaled = quanta * (REAL(1.0) / (real)(1u << GUIDE_SQUARE_BITS));
-    const real rest = (REAL(1.0) - vertex->share * vertex->part) / (REAL(1.0) - vertex->share);
-    for (uint k = 0; k < GUIDE_SHARES; ++k) {
-        const real share = ((real)k + REAL(0.5)) * (REAL(1.0) / (real)GUIDE_SHARES);
-        const real moment = scaled * scaled / mix(fmax(rest, REAL(0.0)), vertex->part, share);
-        sum_add_modulo(sums + GUIDE_SUM_MOMENTS + k, (ulong)fmin(moment, GUIDE_LARGEST_MOMENT));
-    }
-}
-#endif
 
 /* Adds what a finished path has found to the sums of its vertices. */
 static inline void guide_learn(const Scene* scene, const RenderParams* params, real3 radiance,
@@ -122,7 +100,6 @@ static inline void guide_learn(const Scene* scene, const RenderParams* params, r
             continue;
         const real quanta = fmin(found, (real)(1u << GUIDE_RECORD_BITS));
         sum_add_modulo(sums + vertex->bin, (1ul << GUIDE_SUM_BITS) + (ulong)quanta);
-        guide_add_moments(vertex, quanta, sums);
     }
 #endif
 }

@@ -65,8 +65,7 @@ static inline void path_add_layers(const Path* path, uint kind, real3 radiance, 
 static inline BsdfSample path_sample(const Scene* scene, const Surface* surface, const Bsdf* bsdf,
                                      bool continues, Guide* guide, Path* path)
 {
-    const BsdfSample next =
-        guide_sample(scene, bsdf, path->numbers.lobe, path->numbers.direction, guide);
+    const BsdfSample next = guide_sample(scene, bsdf, path->numbers.lobe, path->numbers.direction, guide);
     guide_note(guide, &next, path->throughput, &path->guided);
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
     TRACE_VECTOR(scene, TRACE_WI, next.wi);
@@ -125,7 +124,8 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
    path. */
 static inline void path_leave(const Scene* scene, const RenderParams* params, const Sampler* sampler,
                               uint segment, const Surface* surface, const Bsdf* bsdf,
-                              const AutomatonStep* step, const Guide* guide, const BsdfSample* next, Path* path)
+                              const AutomatonStep* step, const Guide* guide, const BsdfSample* next,
+                              Path* path)
 {
     const real worth = guide_worth(guide, path->throughput, &path->guided);
     path->throughput *= next->weight;

@@ -35,36 +35,22 @@ ASSERT_SIZE(GuideNode, 8);
 /* Coordinates in the square are multiples of 2^-16: the square's side in them. */
 #define GUIDE_SIDE 65536u
 
-/* The tree of bins in pieces of four levels, 15 splits each, two in a word: first the upper one, then those
-   below its 16 leaves. */
-#define GUIDE_PIECE_LEVELS 4
-#define GUIDE_PIECE_LEAVES 16
-#define GUIDE_PIECE_WORDS 8
-#define GUIDE_PIECES (1 + GUIDE_PIECE_LEAVES)
-
-/* What is asked first is in one cache line, the rest in another. */
 typedef struct {
-    float share;    /* probability of sampling a direction here instead of by the BSDF */
-    float radiance; /* that a path finds behind a vertex, the mean; 0 where too little is known */
-    u32 unused[6];
-    u32 splits[GUIDE_PIECES * GUIDE_PIECE_WORDS]; /* of the inner nodes: below them lies the first child */
+    float share;                /* probability of sampling a direction here instead of by the BSDF */
+    float radiance;             /* that a path finds behind a vertex, the mean; 0 where too little is known */
+    u32 splits[GUIDE_BINS / 2]; /* of the inner nodes, the root first and its children next, two in a word: what
+                                   is below belongs to the first child */
 } GuideCell;
-ASSERT_SIZE(GuideCell, 576);
+ASSERT_SIZE(GuideCell, 520);
 
-/* Sums of a cell, 64 bits each: of the bins; then the number of vertices, whether they found light or not;
-   then for each of a few shares of the guide in the mixture, (k + 1/2) / GUIDE_SHARES, what the second moment
-   of the records would be. */
-#define GUIDE_SHARES 4
+/* Sums of a cell, 64 bits each: of the bins, and the number of vertices, whether they found light or not. */
 #define GUIDE_SUM_VERTICES GUIDE_BINS
-#define GUIDE_SUM_MOMENTS (GUIDE_BINS + 1)
-#define GUIDE_SUMS (GUIDE_SUM_MOMENTS + GUIDE_SHARES)
+#define GUIDE_SUMS (GUIDE_BINS + 1)
 
 /* Sum of a bin: the number of records of light in the upper bits, and below them their sum in quanta of the
-   film (src/film/film.h). A record counts as at most 2^GUIDE_RECORD_BITS quanta: outliers would rule a bin.
-   Their squares are in units of 2^GUIDE_SQUARE_BITS quanta, squared. */
+   film (src/film/film.h). A record counts as at most 2^GUIDE_RECORD_BITS quanta: outliers would rule a bin. */
 #define GUIDE_SUM_BITS 44
 #define GUIDE_RECORD_BITS 30
-#define GUIDE_SQUARE_BITS 10
 
 SHARED_END
 

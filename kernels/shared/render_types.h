@@ -54,7 +54,7 @@ typedef struct {
     u32 tiles_x;                /* tiles a row */
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
-    u32 unused[3];
+    u32 unused0, unused1, unused2;
 } RenderParams;
 ASSERT_SIZE(RenderParams, 272);
 

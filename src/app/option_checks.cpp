@@ -5,6 +5,7 @@
 #include "app/option_values.h"
 #include "error.h"
 #include "film/adaptive.h"
+#include "options/guide_refusal.h"
 #include "output/file_name.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
@@ -148,6 +149,15 @@ void check_adaptive(const Options& options) {
                         "of equal samples");
 }
 
+/// What is asked for by name is done or refused.
+void check_guide(const Options& options) {
+    const std::optional<GuideRefusal> refusal = guide_refusal(options);
+    if (refusal && options.transport.guide == Toggle::ON &&
+        takes_option(options.transport.integrator, TAKES_GUIDE))
+        reject(options, std::string("options --guide on and ") + refusal->option +
+                            ": expected one of them, found both; " + refusal->reason);
+}
+
 /// Placeholders that are known; {frame} where there are frames.
 void check_name(const Options& options, const char* option, const std::string& name) {
     bool has_frame = false;
@@ -253,6 +263,7 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
+    check_guide(options);
     check_names(options);
     check_frames(options);
     check_written_files(files_to_write(options), files_to_read(options));

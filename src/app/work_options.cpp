@@ -87,7 +87,11 @@ std::vector<OptionSpec> work_options() {
              o.transport.max_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
          }},
         {group, "", "--guide", "auto|on|off",
-         "sample directions where paths have found light before",
+         takers(TAKES_GUIDE) +
+             "sample directions where paths have found light before: off, on, or auto: where a pilot is "
+             "noisy, "
+             "as long as that lowers noise times rays; a film of guided samples goes on by --resume and does "
+             "not merge (default off)",
          [](Options& o, const OptionValue& v) { o.transport.guide = parse_choice<Toggle>(v); }},
         {group, "", "--roulette-depth", "N",
          fmt::format("{}first segment that Russian roulette may end (default {})",

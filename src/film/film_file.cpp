@@ -20,7 +20,7 @@ using Json = FilmHeader;
 
 constexpr char MAGIC[] = "CLRTFILM";
 constexpr size_t MAGIC_BYTES = 8, START_BYTES = 16, CHECKSUM_BYTES = 16;
-constexpr std::uint32_t FORMAT_VERSION = 2;
+constexpr std::uint32_t FORMAT_VERSION = 3;
 /// Larger than any header; keeps a damaged length from asking for all memory.
 constexpr std::uint32_t LARGEST_HEADER = 1u << 26;
 
@@ -61,6 +61,15 @@ private:
     std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
 
+/// Of what a guide's cells have learnt.
+std::uint64_t guide_bytes(const GuideProgress& progress) {
+    if (!progress.guide)
+        return 0;
+    return progress.guide->nodes().size() * sizeof(GuideNode) +
+           progress.guide->lore().size() * (sizeof(DirectionSplits) + 3 * sizeof(double)) +
+           progress.sums.size() * sizeof progress.sums[0];
+}
+
 /// A film file that is being read.
 class FilmReader {
 public:
@@ -97,8 +106,8 @@ public:
         const std::uint64_t plane = film_plane(render.film),
                             count = std::uint64_t(render.film.replicates) * plane;
         const std::uint64_t tiles = render.round.start[0].size() * (1 + render.round.noise.size());
-        const std::uint64_t expected =
-            position_ + 8 * (count + render.path_layers.size() * plane) + 16 * tiles + CHECKSUM_BYTES;
+        const std::uint64_t expected = position_ + 8 * (count + render.path_layers.size() * plane) +
+                                       16 * tiles + guide_bytes(render.guide) + CHECKSUM_BYTES;
         if (size_ != expected)
             reject(fmt::format("{}: expected {} bytes, found {}", size_ < expected ? "truncated" : "damaged",
                                expected, size_));
@@ -114,6 +123,8 @@ public:
         for (TileNoise& noise : render.round.noise)
             for (std::vector<double>& half : noise)
                 take(half.data(), 8 * half.size());
+        if (render.guide.guide)
+            guide(render.guide);
         const std::string computed = checksum_.text();
         if (take(CHECKSUM_BYTES) != computed)
             reject("damaged: the checksum at its end differs from that of its content");
@@ -122,6 +133,19 @@ public:
     [[noreturn]] void reject(const std::string& message) const { throw SceneError(path_, 0, message); }
 
 private:
+    /// Reads what the cells have learnt.
+    void guide(GuideProgress& progress) {
+        std::vector<GuideNode> nodes = progress.guide->nodes();
+        std::vector<GuideLore> lore = progress.guide->lore();
+        take(nodes.data(), nodes.size() * sizeof(GuideNode));
+        for (GuideLore& cell : lore) {
+            take(cell.splits.data(), sizeof cell.splits);
+            for (double* number : {&cell.weight.sum, &cell.weight.count, &cell.vertices})
+                take(number, sizeof *number);
+        }
+        take(progress.sums.data(), progress.sums.size() * sizeof progress.sums[0]);
+        progress.guide.emplace(progress.guide->extent(), std::move(nodes), std::move(lore));
+    }
     void take(void* bytes, size_t count) {
         input_.read(static_cast<char*>(bytes), std::streamsize(count));
         if (size_t(input_.gcount()) != count)
@@ -183,6 +207,16 @@ void write_film_file(const std::string& path, const FilmFile& film) {
         for (const TileNoise& noise : film.render.round.noise)
             for (const std::vector<double>& half : noise)
                 append(half.data(), half.size() * sizeof(double));
+    }
+    if (const GuideProgress& progress = film.render.guide; progress.guide) {
+        const std::vector<GuideNode>& nodes = progress.guide->nodes();
+        append(nodes.data(), nodes.size() * sizeof(GuideNode));
+        for (const GuideLore& cell : progress.guide->lore()) {
+            append(cell.splits.data(), sizeof cell.splits);
+            for (const double* number : {&cell.weight.sum, &cell.weight.count, &cell.vertices})
+                append(number, sizeof *number);
+        }
+        append(progress.sums.data(), progress.sums.size() * sizeof progress.sums[0]);
     }
     const std::string end = checksum.text();
     append(end.data(), end.size());

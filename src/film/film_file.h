@@ -4,7 +4,7 @@
 //
 //   bytes        what
 //   8            "CLRTFILM"
-//   4            version of this format, 2
+//   4            version of this format, 3
 //   4            n, the length of the header
 //   n            the header, a JSON object in UTF-8 (film_header.h)
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:
@@ -15,6 +15,11 @@
 //                the round
 //   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first
 //                half, second half
+//   8 n          of a guided film: n nodes of the trees over space (kernels/shared/guide_types.h)
+//   534 c        of its c cells: 255 splits as unsigned 16-bit integers (guide/direction_bins.h), then sum
+//   and
+//                number of records and number of vertices as 64-bit floating point numbers
+//   2056 c       sums of the present epoch as unsigned 64-bit integers
 //   16           XXH3-128 of all bytes before it, canonical (most significant byte first)
 //
 // Integers are little endian.

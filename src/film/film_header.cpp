@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film_header.h"
 
+#include "film/guide_header.h"
 #include "film/whole_numbers.h"
 
 #include <algorithm>
@@ -117,6 +118,8 @@ FilmHeader film_header(const FilmFile& film) {
                          {"end", render.round.end},
                          {"gain", render.round.gain},
                          {"levels", render.round.noise.size()}};
+    if (render.guide.end != 0)
+        json["guide"] = guide_header(render.guide);
     json["counts"] = counts_json(render.counts);
     const std::optional<double>& radiance = film.bias.cut_radiance;
     json["cut_radiance"] = radiance ? Json(*radiance) : Json(nullptr);
@@ -149,6 +152,8 @@ FilmFile film_of_header(const FilmHeader& json) {
     sums.ranges = read_ranges(json);
     if (const std::optional<ErrorMeasure> measure = film_measure(film.identity))
         film.render.round = read_round(json.at("round"), sums, *measure);
+    if (json.contains("guide"))
+        film.render.guide = guide_of_header(json.at("guide"));
     film.render.counts = read_counts(json.at("counts"));
     if (const Json& radiance = json.at("cut_radiance"); !radiance.is_null())
         film.bias.cut_radiance = radiance.get<double>();

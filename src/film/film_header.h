@@ -8,6 +8,9 @@
 //   ranges        of sample numbers inside, [first, end), in order
 //   round         with --adaptive: first and end, mean samples a pixel of the present round; gain that each
 //                 half expects; levels of noise behind the tiles' samples
+//   guide         where paths are or may be guided: stage and epoch (guide/guide_progress.h), numbers of
+//   nodes
+//                 and cells
 //   counts        rays, cut paths and bad samples; bad_samples lists pairs of pixel and sample,
 //                 bad_pixels (absent without bad samples) pairs of pixel and count
 //   cut_radiance  what bounds the light of cut paths (render/cut_paths.h), or null

@@ -125,6 +125,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["precision"] = name_of(options.device.precision);
     identity["sampler"] = name_of(options.sampling.sampler);
     identity["light_sampler"] = name_of(options.sampling.light_sampler);
+    identity["guide"] = options.transport.guide == Toggle::ON;
     identity["adaptive"] = false;
     if (options.sampling.adaptive)
         identity["adaptive"] = name_of(*options.sampling.adaptive);

@@ -5,6 +5,7 @@
 #include "film/adaptive.h"
 #include "film/film.h"
 #include "film/film_error.h"
+#include "guide/guide_progress.h"
 
 #include <cstdint>
 #include <map>
@@ -36,6 +37,7 @@ struct RenderProgress {
     std::vector<Film> path_layers;     ///< light of each layer NAME=EXPR in one replicate
     std::vector<SquaredError> history; ///< errors at doublings, for the slope
     AdaptiveRound round;               ///< of an adaptive render: the present one
+    GuideProgress guide;               ///< of a render that may guide paths
     double seconds = 0;                ///< of rendering them
 };
 

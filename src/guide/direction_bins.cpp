@@ -63,14 +63,19 @@ std::uint32_t median(const Pieces& pieces, size_t axis, const Piece& box, size_t
     double all = 0;
     for (const Piece& piece : pieces)
         all += piece.mass;
-    while (low < high) {
-        const std::uint32_t middle = (low + high) / 2;
-        if (mass_below(pieces, axis, middle) < 0.5 * all)
-            low = middle + 1;
-        else
-            high = middle;
+    double below_low = mass_below(pieces, axis, low), below_high = mass_below(pieces, axis, high);
+    if (below_low >= 0.5 * all)
+        return low;
+    // Alternate between where a line through both ends meets the half, and the middle.
+    for (bool is_secant = true; high - low > 1; is_secant = !is_secant) {
+        const double part = is_secant ? (0.5 * all - below_low) / (below_high - below_low) : 0.5;
+        const std::uint32_t at =
+            std::clamp(low + std::uint32_t(part * double(high - low)), low + 1, high - 1);
+        const double below = mass_below(pieces, axis, at);
+        (below < 0.5 * all ? low : high) = at;
+        (below < 0.5 * all ? below_low : below_high) = below;
     }
-    return low;
+    return high;
 }
 
 /// The part of a piece within [low, high] of an axis goes to `parts`.
@@ -113,14 +118,6 @@ void split_evenly(Pieces pieces, size_t level, size_t i, const Piece& box, Direc
     split_evenly(std::move(high), level + 1, 2 * i + 1, above, splits);
 }
 
-/// Where a cell keeps a split: node `i` of its level.
-size_t place_of_node(size_t level, size_t i) {
-    if (level < GUIDE_PIECE_LEVELS)
-        return node_number(level, i);
-    const size_t below = level - GUIDE_PIECE_LEVELS, piece = 1 + (i >> below);
-    return 2 * GUIDE_PIECE_WORDS * piece + node_number(below, i & ((size_t(1) << below) - 1));
-}
-
 } // namespace
 
 DirectionSplits even_splits() {
@@ -152,11 +149,8 @@ DirectionSplits learn_splits(const DirectionSplits& old, const DirectionWeight& 
 }
 
 void pack_splits(const DirectionSplits& splits, GuideCell& cell) {
-    for (size_t level = 0; level < GUIDE_LEVELS; ++level)
-        for (size_t i = 0; i < size_t(1) << level; ++i) {
-            const size_t place = place_of_node(level, i);
-            cell.splits[place / 2] |= u32(splits[node_number(level, i)]) << (16 * (place % 2));
-        }
+    for (size_t node = 0; node < splits.size(); ++node)
+        cell.splits[node / 2] |= u32(splits[node]) << (16 * (node % 2));
 }
 
 } // namespace clrt

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A distribution of directions: rectangles of equal probability in the square of an octahedral map, the leaves
-// of a complete tree of splits (kernels/path/guide_bins.h). No OpenCL here.
+// A distribution of directions: rectangles of equal probability in the square of an octahedral map, the
+// leaves of a complete tree of splits (kernels/path/guide_bins.h). No OpenCL here.
 #pragma once
 
 #include "kernels/shared/guide_types.h"

@@ -2,7 +2,6 @@
 #include "guide/guide.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <tbb/parallel_for.h>
 #include <utility>
 
@@ -10,19 +9,14 @@ namespace clrt {
 
 namespace {
 
-double env(const char* name, double otherwise) {
-    const char* text = std::getenv(name);
-    return text ? std::atof(text) : otherwise;
-}
-
 /// What the last epochs have left counts so much beside the next.
 constexpr double KEPT = 0.5;
 /// A cell is divided until it has at most so many records.
 constexpr double MOST_RECORDS = 200;
-/// Records of which a cell knows enough for half of what it could be trusted with.
+/// With so many records a cell chooses half as many directions as it does with very many.
 constexpr double FEW_RECORDS = 64;
-/// The part of the directions that cells choose where nothing is known of the best one.
-constexpr double USUAL_SHARE = 0.5;
+/// The part of the directions that a cell chooses at most: what it has not seen is left to the BSDF.
+constexpr double LARGEST_SHARE = 0.5;
 
 /// What an epoch adds to what a cell knew.
 void learn_cell(const std::uint64_t* sums, GuideLore& lore) {
@@ -32,31 +26,16 @@ void learn_cell(const std::uint64_t* sums, GuideLore& lore) {
     const DirectionWeight found = weight_of_sums(sums);
     if (!(found.sum > 0))
         return;
-    const bool was_guided = lore.weight.count > 0;
     lore.splits = learn_splits(lore.splits, lore.weight, sums);
     lore.weight.sum += found.sum;
     lore.weight.count += found.count;
-    for (size_t k = 0; was_guided && k < GUIDE_SHARES; ++k)
-        lore.moments[k] = KEPT * lore.moments[k] + double(sums[GUIDE_SUM_MOMENTS + k]);
-}
-
-/// The share by which the records would have had the least second moment.
-double best_share(const GuideLore& lore) {
-    static const double FIXED = env("G_SHARE", -1);
-    if (FIXED >= 0)
-        return FIXED;
-    if (!(lore.moments[0] > 0))
-        return USUAL_SHARE;
-    const auto least = std::min_element(lore.moments.begin(), lore.moments.end());
-    return (double(least - lore.moments.begin()) + 0.5) / GUIDE_SHARES;
 }
 
 GuideCell make_cell(const GuideLore& lore) {
-    static const double RR = env("G_RR", 1);
     const double count = lore.weight.count;
     GuideCell cell{};
-    cell.share = float(best_share(lore) * count / (count + FEW_RECORDS));
-    cell.radiance = RR && count >= FEW_RECORDS ? float(lore.weight.sum / lore.vertices) : 0;
+    cell.share = float(LARGEST_SHARE * count / (count + FEW_RECORDS));
+    cell.radiance = count >= FEW_RECORDS ? float(lore.weight.sum / lore.vertices) : 0;
     pack_splits(lore.splits, cell);
     return cell;
 }
@@ -70,11 +49,14 @@ Guide::Guide(double extent) : nodes_(GUIDE_SIDES), lore_(GUIDE_SIDES), extent_(f
         lore.splits = even_splits();
 }
 
-std::vector<GuideCell> Guide::cells() const {
+std::vector<GuideCell> Guide::device_cells() const {
     std::vector<GuideCell> cells(lore_.size());
     std::transform(lore_.begin(), lore_.end(), cells.begin(), make_cell);
     return cells;
 }
+
+Guide::Guide(double extent, std::vector<GuideNode> nodes, std::vector<GuideLore> lore)
+    : nodes_(std::move(nodes)), lore_(std::move(lore)), extent_(float(extent)) {}
 
 /// The node of a place of the grid, or the leaf above.
 GuideNode Guide::grid_node(u32 place) const {
@@ -92,7 +74,7 @@ GuideNode Guide::grid_node(u32 place) const {
     return node;
 }
 
-std::vector<GuideNode> Guide::nodes() const {
+std::vector<GuideNode> Guide::device_nodes() const {
     std::vector<GuideNode> nodes(GUIDE_GRID_PLACES);
     for (u32 place = 0; place < GUIDE_GRID_PLACES; ++place)
         nodes[place] = grid_node(place);
@@ -133,21 +115,14 @@ void Guide::divide(size_t node, const Box& box, double most) {
 void Guide::learn(const std::vector<std::uint64_t>& epoch) {
     tbb::parallel_for(size_t(0), lore_.size(),
                       [&](size_t cell) { learn_cell(&epoch[cell * GUIDE_SUMS], lore_[cell]); });
-    // So many records are in a cell at least that all of them are enough for everyone.
+    // Halves of what is divided have more than half of so many, so the cells are enough for all records.
     double records = 0;
     for (const GuideLore& lore : lore_)
         records += lore.weight.count;
-    static const double MOST = env("G_MOST", MOST_RECORDS);
-    const double most = std::max(MOST, 2 * records / GUIDE_CELLS);
+    const double most = std::max(MOST_RECORDS, 2 * records / GUIDE_CELLS);
     const Box whole = {{-extent_, -extent_, -extent_}, {extent_, extent_, extent_}};
     for (size_t side = 0; side < GUIDE_SIDES; ++side)
         divide(side, whole, most);
-    if (getenv("G_PRINT")) {
-        double mean = 0, n = 0;
-        int hist[5] = {};
-        for (auto& l : lore_) { mean += best_share(l) * l.weight.count; n += l.weight.count; hist[l.moments[0] > 0 ? int(best_share(l) * 4) : 4]++; }
-        fprintf(stderr, "cells %zu records %g share %g  %d %d %d %d  (none %d)\n", lore_.size(), n, mean / n, hist[0], hist[1], hist[2], hist[3], hist[4]);
-    }
 }
 
 } // namespace clrt

@@ -16,9 +16,8 @@ namespace clrt {
 /// worse.
 struct GuideLore {
     DirectionSplits splits = {};
-    DirectionWeight weight;                       ///< of its records of light
-    double vertices = 0;                          ///< that could have found some
-    std::array<double, GUIDE_SHARES> moments = {}; ///< as in kernels/shared/guide_types.h
+    DirectionWeight weight; ///< of its records of light
+    double vertices = 0;    ///< that could have found some
 };
 
 /// Trees over space, with a distribution of directions in every leaf.
@@ -26,12 +25,20 @@ class Guide {
 public:
     /// One cell a side for the scene's box, [-extent, extent] along each axis; nothing is learnt yet.
     explicit Guide(double extent);
+    /// What nodes() and lore() of another have been.
+    Guide(double extent, std::vector<GuideNode> nodes, std::vector<GuideLore> lore);
+
+    /// The trees, the roots first; children are numbered without the grid.
+    const std::vector<GuideNode>& nodes() const { return nodes_; }
+    /// Half the side of the scene's box.
+    double extent() const { return double(extent_); }
+    /// What each cell has learnt.
+    const std::vector<GuideLore>& lore() const { return lore_; }
 
     /// Grid and nodes as the device holds them.
-    std::vector<GuideNode> nodes() const;
+    std::vector<GuideNode> device_nodes() const;
     /// The distributions of all cells.
-    std::vector<GuideCell> cells() const;
-    size_t cell_count() const { return lore_.size(); }
+    std::vector<GuideCell> device_cells() const;
 
     /// Learns the sums of an epoch, GUIDE_SUMS of one cell after the other, and divides cells in which paths
     /// have found much.
@@ -44,7 +51,7 @@ private:
     GuideNode grid_node(u32 place) const;
     void divide(size_t node, const Box& box, double most);
 
-    std::vector<GuideNode> nodes_; ///< the roots first
+    std::vector<GuideNode> nodes_;
     std::vector<GuideLore> lore_;
     float extent_;
 };

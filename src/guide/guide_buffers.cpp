@@ -7,17 +7,21 @@ namespace clrt {
 
 namespace {
 
-constexpr size_t SUMS = size_t(GUIDE_CELLS) * GUIDE_SUMS;
+constexpr size_t NODE_BYTES = GUIDE_NODES * sizeof(GuideNode);
+constexpr size_t CELL_BYTES = GUIDE_CELLS * sizeof(GuideCell);
+constexpr size_t SUM_BYTES = size_t(GUIDE_CELLS) * GUIDE_SUMS * sizeof(std::uint64_t);
+
+template <class T>
+void write_buffer(const Device& device, const cl::Buffer& buffer, const std::vector<T>& values) {
+    device.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
+}
 
 } // namespace
 
-GuideBuffers::GuideBuffers(const Device& device, double extent)
-    : device_(device), guide_(extent),
-      nodes_(create_buffer(device, "guide_nodes", GUIDE_NODES * sizeof(GuideNode))),
-      cells_(create_buffer(device, "guide_cells", GUIDE_CELLS * sizeof(GuideCell))),
-      sums_(create_buffer(device, "guide_sums", SUMS * sizeof(std::uint64_t))) {
-    write();
-}
+GuideBuffers::GuideBuffers(const Device& device)
+    : device_(device), nodes_(create_buffer(device, "guide_nodes", NODE_BYTES)),
+      cells_(create_buffer(device, "guide_cells", CELL_BYTES)),
+      sums_(create_buffer(device, "guide_sums", SUM_BYTES)) {}
 
 void GuideBuffers::bind(Kernel& kernel) const {
     kernel.set("guide_nodes", nodes_);
@@ -25,26 +29,25 @@ void GuideBuffers::bind(Kernel& kernel) const {
     kernel.set("guide_sums", sums_);
 }
 
-void GuideBuffers::write() const {
-    const std::vector<GuideCell> cells = guide_.cells();
-    const std::vector<GuideNode> nodes = guide_.nodes();
+void GuideBuffers::write(const Guide& guide, const std::vector<std::uint64_t>& sums) const {
+    const std::vector<std::uint64_t> zeros(sums.empty() ? guide.lore().size() * GUIDE_SUMS : 0);
     check_opencl("writing the guide", [&] {
-        device_.queue.enqueueWriteBuffer(nodes_, CL_TRUE, 0, nodes.size() * sizeof(nodes[0]), nodes.data());
-        device_.queue.enqueueWriteBuffer(cells_, CL_TRUE, 0, cells.size() * sizeof(cells[0]), cells.data());
+        write_buffer(device_, nodes_, guide.device_nodes());
+        write_buffer(device_, cells_, guide.device_cells());
+        write_buffer(device_, sums_, sums.empty() ? zeros : sums);
     });
 }
 
-void GuideBuffers::advance() {
-    std::vector<std::uint64_t> sums(guide_.cell_count() * GUIDE_SUMS);
+std::vector<std::uint64_t> GuideBuffers::read_sums(size_t cells) const {
+    std::vector<std::uint64_t> sums(cells * GUIDE_SUMS);
     check_opencl("reading the guide", [&] {
         device_.queue.enqueueReadBuffer(sums_, CL_TRUE, 0, sums.size() * sizeof(sums[0]), sums.data());
     });
-    guide_.learn(sums);
-    write();
-    sums.assign(sums.size(), 0);
-    check_opencl("clearing the guide", [&] {
-        device_.queue.enqueueWriteBuffer(sums_, CL_TRUE, 0, sums.size() * sizeof(sums[0]), sums.data());
-    });
+    return sums;
+}
+
+size_t guide_device_bytes() {
+    return NODE_BYTES + CELL_BYTES + SUM_BYTES;
 }
 
 } // namespace clrt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guide on the device.
+// A guide on the device.
 #pragma once
 
 #include "device/program.h"
@@ -7,22 +7,24 @@
 
 namespace clrt {
 
-/// A guide, and its buffers on a device. Refers to the device.
+/// What guided kernels read, and the sums that they add to. Refers to the device.
 class GuideBuffers {
 public:
-    /// Has learnt nothing. Throws DeviceError where the device has no memory for it.
-    GuideBuffers(const Device& device, double extent);
+    /// Takes memory for as many cells as there can be. Throws DeviceError.
+    explicit GuideBuffers(const Device& device);
     /// Binds the arguments of a kernel that guides.
     void bind(Kernel& kernel) const;
-    /// Learns what the paths since the last time have found.
-    void advance();
+    /// Writes a guide and the sums of its cells; none: zeros.
+    void write(const Guide& guide, const std::vector<std::uint64_t>& sums = {}) const;
+    /// Reads the sums of so many cells, GUIDE_SUMS each.
+    std::vector<std::uint64_t> read_sums(size_t cells) const;
 
 private:
-    void write() const;
-
     const Device& device_;
-    Guide guide_;
     cl::Buffer nodes_, cells_, sums_;
 };
+
+/// Bytes that they take on a device.
+size_t guide_device_bytes();
 
 } // namespace clrt

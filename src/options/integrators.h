@@ -19,6 +19,7 @@ enum IntegratorOption : unsigned {
     TAKES_ROULETTE_DEPTH = 2,
     TAKES_MIN_CONTRIBUTION = 4,
     TAKES_PATHS = 8, ///< tells paths apart by their automaton: --paths, --aov NAME=EXPR
+    TAKES_GUIDE = 16,
 };
 
 template <>
@@ -26,7 +27,8 @@ inline constexpr Named<IntegratorOption> NAMES<IntegratorOption>[] = {
     {TAKES_MAX_DEPTH, "--max-depth"},
     {TAKES_ROULETTE_DEPTH, "--roulette-depth"},
     {TAKES_MIN_CONTRIBUTION, "--min-contribution"},
-    {TAKES_PATHS, "--paths"}};
+    {TAKES_PATHS, "--paths"},
+    {TAKES_GUIDE, "--guide"}};
 
 /// Paths in path notation (paths/path_expression.h): those that an integrator simulates, and those that its
 /// techniques find. What is simulated and not found is a blind spot (paths/blind_spots.h).
@@ -107,7 +109,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE_AND_BSDF,
      Connections::ONE_LIGHT,
      FilmAccess::GATHER,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE},
 };
 
 template <>

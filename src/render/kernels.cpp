@@ -14,8 +14,9 @@ namespace clrt {
 
 namespace {
 
-/// The program of the layers of hits, and what tells the program of a replay from the picture's.
-const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay";
+/// The program of the layers of hits, and what tells the programs of a replay and of guided paths from the
+/// picture's.
+const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay", GUIDED_ENDING = "_guided";
 
 /// For programs that do not simulate several samples of a pixel side by side (kernels/integrators/pixel.h).
 const std::string ONE_SAMPLE_AT_ONCE = "SAMPLES_AT_ONCE=1";
@@ -45,6 +46,26 @@ ProgramRequest make_request(const KernelFiles& files, const std::string& name, c
     return request;
 }
 
+/// The same for programs that simulate as many samples of a pixel side by side as the device likes.
+ProgramRequest launched_request(const Device& device, const KernelFiles& files, const std::string& name,
+                                const Options& options, u32 effects, BvhLayout layout,
+                                const std::vector<std::string>& defines) {
+    ProgramRequest request = make_request(files, name, options, effects, layout);
+    // A CPU's core fills the waits of one with the others, a GPU has other work-items for that.
+    if (device.info.type != "CPU")
+        request.defines.push_back(ONE_SAMPLE_AT_ONCE);
+    append(request.defines, defines);
+    return request;
+}
+
+/// What the program of the picture is built with besides.
+std::vector<std::string> picture_defines(const Device& device, const Options& options,
+                                         const PathPlan& paths) {
+    std::vector<std::string> defines = path_defines(paths);
+    append(defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
+    return defines;
+}
+
 } // namespace
 
 BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device) {
@@ -69,23 +90,26 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     const auto start = std::chrono::steady_clock::now();
     const KernelFiles files = kernel_files(options);
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
-        ProgramRequest request = make_request(files, name, options, effects, layout);
-        // A CPU's core fills the waits of one with the others, a GPU has other work-items for that.
-        if (device.info.type != "CPU")
-            request.defines.push_back(ONE_SAMPLE_AT_ONCE);
-        append(request.defines, defines);
-        return build_program(device, request);
+        return build_program(device,
+                             launched_request(device, files, name, options, effects, layout, defines));
     };
     RenderPrograms programs;
-    std::vector<std::string> of_picture = path_defines(paths);
-    append(of_picture, film_defines(device.info, integrator_row(options.transport.integrator).film));
-    if (options.transport.guide == Toggle::ON)
-        append(of_picture, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
-    programs.picture = build(name_of(options.transport.integrator), of_picture);
+    programs.picture = build(name_of(options.transport.integrator), picture_defines(device, options, paths));
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return programs;
+}
+
+Program build_guided_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
+                             const PathPlan& paths) {
+    std::vector<std::string> defines = picture_defines(device, options, paths);
+    append(defines, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
+    ProgramRequest request =
+        launched_request(device, kernel_files(options), name_of(options.transport.integrator), options,
+                         effects, layout, defines);
+    request.name += GUIDED_ENDING;
+    return build_program(device, request);
 }
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
@@ -96,8 +120,7 @@ Program build_replay_program(const Device& device, const Options& options, Preci
     request.name += REPLAY_ENDING;
     request.precision = precision;
     request.defines.emplace_back("CLRT_TRACE=1");
-    append(request.defines, path_defines(paths));
-    append(request.defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
+    append(request.defines, picture_defines(device, options, paths));
     return build_program(device, request);
 }
 
@@ -106,7 +129,8 @@ std::vector<std::string> dumped_files(const Options& options) {
     if (options.device.dump_folder.empty())
         return paths;
     const std::string integrator = name_of(options.transport.integrator);
-    for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING}) {
+    for (const std::string& name :
+         {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING, integrator + GUIDED_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});
     }

@@ -33,6 +33,10 @@ std::vector<std::string> dumped_files(const Options& options);
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
                                      BvhLayout layout, const PathPlan& paths = {});
 
+/// Compiles the same integrator so that it guides paths (kernels/path/guide.h).
+Program build_guided_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
+                             const PathPlan& paths);
+
 /// Compiles the same integrator so that it records what single samples do (kernels/trace), in a precision of
 /// its own.
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,

@@ -4,6 +4,7 @@
 #include "console/signals.h"
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
+#include "options/guide_refusal.h"
 #include "render/error_text.h"
 #include "render/good_counts.h"
 #include "seconds.h"
@@ -44,10 +45,6 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
                          : std::optional(options_.film_file.checkpoint_seconds)),
       launch_size_(prepared.device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
-    if (options_.transport.guide == Toggle::ON) {
-        guide_.emplace(prepared.device, params.scene_extent);
-        guide_->bind(launcher_.kernel());
-    }
     take_host_memory();
     first_ = options_.sampling.first_sample;
     if (!result.film.ranges.empty()) {
@@ -58,6 +55,10 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
     }
     earlier_counts_ = result.counts;
     earlier_seconds_ = result.seconds;
+    if (may_guide(options_)) {
+        guiding_.emplace(prepared, params_, film_buffers_, result);
+        launcher_.set_epoch(guiding_->epoch());
+    }
 
     // A launch without samples makes the driver finish its compilation.
     const auto start = Clock::now();
@@ -121,8 +122,8 @@ std::uint32_t Passes::next_samples(const RenderState& state) const {
     std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
     if (options_.sampling.adaptive)
         end = std::min(end, result_.round.end);
-    if (guide_)
-        end = std::min(end, epoch_end_);
+    if (guiding_)
+        end = std::min(end, guiding_->end());
     double samples = 1;
     if (result_.passes > 0) {
         const double pass = std::max(state.pass_seconds, 1e-6);
@@ -274,6 +275,30 @@ void Passes::begin_round() {
     }
 }
 
+/// Decides at the end of an epoch whether the next one is guided, and by what.
+void Passes::begin_epoch() {
+    if (samples_ < guiding_->end())
+        return;
+    const auto start = Clock::now();
+    guiding_->advance(samples_, counts());
+    launcher_.set_epoch(guiding_->epoch());
+    result_.check_seconds += seconds_between(start, Clock::now());
+}
+
+/// Of the program that the next samples are taken by.
+Launcher& Passes::launcher() {
+    Launcher* const guided = guiding_ ? guiding_->launcher() : nullptr;
+    return guided ? *guided : launcher_;
+}
+
+/// Of the whole film.
+RenderCounts Passes::counts() const {
+    RenderCounts counts = film_buffers_.read_counts();
+    counts.primary = film_all_samples(result_.film) - earlier_samples_;
+    counts.add(earlier_counts_);
+    return counts;
+}
+
 /// Takes the tiles of both halves to where they are when the mean is `end` samples a pixel.
 bool Passes::run_adaptive(std::uint64_t end) {
     const int replicates = options_.sampling.replicates;
@@ -300,7 +325,7 @@ bool Passes::run_launches(std::uint32_t samples) {
     const bool done = options_.sampling.adaptive
                           ? run_adaptive(samples_ + samples)
                           : run_tiles(samples, double(samples_), [&](u32 tile, u32 end) {
-                                launcher_.run(std::uint32_t(first_), samples, tile, end);
+                                launcher().run(std::uint32_t(first_), samples, tile, end);
                             });
     if (!done)
         return false;
@@ -357,11 +382,13 @@ double Passes::samples_of_run(double samples) const {
 void Passes::read_back() {
     film_buffers_.read_sums(result_);
     film_buffers_.read_shown(result_.film);
-    result_.counts = film_buffers_.read_counts();
-    result_.counts.primary = film_all_samples(result_.film) - earlier_samples_;
-    result_.counts.add(earlier_counts_);
+    result_.counts = counts();
+    if (guiding_)
+        guiding_->read_back();
     result_.run_seconds = seconds();
     result_.device_seconds = launcher_.device_seconds() - first_device_seconds_;
+    if (guiding_)
+        result_.device_seconds += guiding_->device_seconds();
     result_.seconds = earlier_seconds_ + result_.run_seconds;
 }
 
@@ -385,11 +412,8 @@ StopRule Passes::run_until_stopped() {
             return *rule;
         if (options_.sampling.adaptive)
             begin_round();
-        if (guide_ && samples_ >= epoch_end_) {
-            if (samples_ > 0) guide_->advance();
-            epoch_end_ = samples_ == 0 ? (getenv("G_FIRST") ? atoi(getenv("G_FIRST")) : 4) : u32(getenv("G_GROW") ? atoi(getenv("G_GROW")) : 4) * samples_;
-            launcher_.set_epoch(++epoch_);
-        }
+        if (guiding_)
+            begin_epoch();
         const std::uint32_t samples = next_samples(state);
         keep_film(state, samples);
         if (!run_launches(samples))

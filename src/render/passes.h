@@ -3,7 +3,7 @@
 #pragma once
 
 #include "film/film_buffers.h"
-#include "guide/guide_buffers.h"
+#include "render/guiding.h"
 #include "render/hit_layers.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
@@ -39,6 +39,9 @@ private:
     template <class Launch>
     bool run_tiles(double samples, double done, Launch&& launch);
     void begin_round();
+    void begin_epoch();
+    Launcher& launcher();
+    RenderCounts counts() const;
     bool run_adaptive(std::uint64_t end);
     void keep_film(const RenderState& state, std::uint32_t samples);
     bool may_be_interrupted(const RenderState& state, std::uint32_t samples) const;
@@ -66,8 +69,7 @@ private:
     Render& result_;
     FilmBuffers film_buffers_;
     Launcher launcher_;
-    std::optional<GuideBuffers> guide_;
-    std::uint64_t epoch_end_ = 0; u32 epoch_ = 0;
+    std::optional<Guiding> guiding_;
     std::optional<HitLayers> hit_layers_;
     StopRules rules_;
     Measurements measurements_;

@@ -51,6 +51,12 @@ PreparedScene prepare_render(const Device& device, std::shared_ptr<const Planned
     return prepare_scene(device, std::move(planned), std::move(parts));
 }
 
+Program build_guided_program(const PreparedScene& prepared) {
+    const PlannedScene& planned = *prepared.planned;
+    return build_guided_program(prepared.device, planned.options, planned.effects.mask,
+                                prepared.tree->bvh.layout, planned.effects.paths);
+}
+
 Program build_replay_program(const PreparedScene& prepared, Precision precision) {
     const PlannedScene& planned = *prepared.planned;
     return build_replay_program(prepared.device, planned.options, precision, planned.effects.mask,

@@ -54,6 +54,9 @@ PreparedScene prepare_scene(const Device& device, std::shared_ptr<const PlannedS
 PreparedScene prepare_render(const Device& device, std::shared_ptr<const PlannedScene> planned,
                              PreparedParts parts = {});
 
+/// Compiles the same integrator so that it guides paths.
+Program build_guided_program(const PreparedScene& prepared);
+
 /// Compiles the same integrator so that it records what single samples do, in a precision of its own.
 Program build_replay_program(const PreparedScene& prepared, Precision precision);
 

@@ -75,6 +75,21 @@ void add_facts(const Report& report, Metadata& metadata) {
 }
 
 /// Null where all tiles have the same number of samples.
+/// null: no sample is guided.
+Json guide_json(const GuideProgress& guide) {
+    if (guide.guided_from == 0)
+        return nullptr;
+    const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
+    Json json;
+    json["from_spp"] = guide.guided_from;
+    json["pilot_squared_error"] = number(guide.pilot_error);
+    json["squared_error"] = number(guide.error);
+    json["work"] = number(guide.work);
+    json["kept"] = guide.stage == GuideStage::ON;
+    json["cells"] = guide.guide ? guide.guide->lore().size() : 0;
+    return json;
+}
+
 Json adaptive_json(const RenderProgress& render) {
     const Film& film = render.film;
     if (!is_adaptive(film))
@@ -137,6 +152,7 @@ std::string report_json(const Report& report) {
                                  : Json(film_samples(render.film) - render.passes);
     json["first_sample"] = report.options.sampling.first_sample;
     json["adaptive"] = adaptive_json(render);
+    json["guide"] = guide_json(render.guide);
     json["sampler"] = name_of(report.options.sampling.sampler);
     json["light_sampler"] = name_of(report.options.sampling.light_sampler);
     json["seed"] = report.options.sampling.seed;

@@ -4,6 +4,7 @@
 #include "output/file_name.h"
 #include "paths/path_report.h"
 #include "render/error_text.h"
+#include "render/guiding.h"
 #include "run/report.h"
 #include "run/report_facts.h"
 
@@ -35,6 +36,11 @@ std::string picture_line(const Report& report) {
 std::string adaptive_line(const Report& report) {
     const AdaptiveRound& round = report.render.round;
     return expected_gain(round) > 0 ? fmt::format("adaptive {}\n", gain_text(round)) : "";
+}
+
+std::string guide_line(const Report& report) {
+    const std::string text = guide_text(report.options, report.render.guide);
+    return text.empty() ? "" : fmt::format("guide    {}\n", text);
 }
 
 std::string time_line(const Report& report) {
@@ -109,8 +115,8 @@ std::string proof_lines(const Report& report) {
 
 std::string format_report(const Report& report) {
     std::string text =
-        picture_line(report) + adaptive_line(report) + time_line(report) + format_error_report(report.error) +
-        missed_line(report) +
+        picture_line(report) + adaptive_line(report) + guide_line(report) + time_line(report) +
+        format_error_report(report.error) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         left_out_lines(report) + bad_lines(report);
     if (report.options.run.verbosity > 0)

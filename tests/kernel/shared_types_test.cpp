@@ -97,11 +97,11 @@ const Layout RENDER_PARAMS = {
     {M(camera), M(environment), M(background), M(width), M(height),
      M(crop_x), M(crop_y), M(crop_width), M(crop_height), M(first_sample), M(sample_count), M(replicates), M(first_replicate),
      M(dealt_replicates),
-     M(film_replicates), M(seed), M(max_depth), M(min_contribution), M(filter), M(filter_radius),
+     M(film_replicates), M(seed), M(epoch), M(max_depth), M(min_contribution), M(filter), M(filter_radius),
      M(scene_extent), M(emitter_count), M(light_count), M(environment_width), M(environment_height),
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
-     M(tile_stride), M(first_tile), M(end_tile)}};
+     M(tile_stride), M(first_tile), M(end_tile), M(unused0), M(unused1), M(unused2)}};
 #undef M
 #define M(name) MEMBER(ArrayPlace, name)
 const Layout ARRAY_PLACE_LAYOUT = {

@@ -55,7 +55,7 @@ std::vector<Place> path_places() {
          "const real3 wo = -path->ray.direction;",
          {{"path->numbers.direction.x", {"matte", "glossy", "rough glass"}}}},
         {file,
-         "const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, path);",
+         "const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);",
          {{"next.wi.x"}},
          Reached::IF_CONTINUED},
         {"path/walk.h", "path->throughput *= next->weight;", {{"path->throughput.y"}}, Reached::IF_CONTINUED},

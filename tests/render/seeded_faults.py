@@ -46,6 +46,10 @@ FAULTS = [
         return light_tree_probability(light_tree_width(scene, view, emitter)) *
                (real)scene->light_places[emitter].density;
 """, "", "light_sampler_test"),
+    ("guided directions without the guide's density", "path/guide.h",
+     "value.value / mix(value.pdf_w, pdf_w, guide->share)", "value.value / value.pdf_w", "guide_test"),
+    ("directions of the BSDF as if nothing were guided", "path/guide.h",
+     "next.weight *= next.pdf_w / mix(next.pdf_w, pdf_w, guide->share);", "", "guide_test"),
     ("missing eta^2, smooth glass", "scattering/bsdf_dielectric.h", "bsdf->transmission * bsdf_cross(bsdf, REAL(1.0))",
      "bsdf->transmission", "furnace_test"),
     ("missing eta^2, whitted", "integrators/whitted.h", "bsdf_cross(bsdf, REAL(1.0) - f)", "(REAL(1.0) - f)", "glass_test"),
@@ -66,8 +70,8 @@ FAULTS = [
      "return purpose;", "interreflection_test"),
     ("lobe and roulette share a number", "path/walk.h", "!(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival)",
      "!(path->numbers.lobe >= survival)", "furnace_test"),
-    ("lobe and direction share a number", "path/numbers.h", "sampler_partner_words(sampler, segment, SAMPLE_DIRECTION)",
-     "sampler_pair_words(sampler, segment, SAMPLE_DIRECTION)", "furnace_test"),
+    ("lobe and direction share a number", "path/numbers.h", "sampler_partner_words(sampler, bounce, SAMPLE_DIRECTION)",
+     "sampler_pair_words(sampler, bounce, SAMPLE_DIRECTION)", "furnace_test"),
     ("film and light sample share a pair", "numerics/sampler.h", "return sampler_words(sampler, address, is_first);",
      "return sampler_words(sampler, address, false);", "sampler_test"),
     ("filter offset", "camera/camera.h", "(u - (real2)(REAL(0.5)))", "u", "pixel_filter_test"),

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far a guided render has come, and what a resumed one goes on from.
+#pragma once
+
+#include "guide/guide.h"
+
+#include <optional>
+
+namespace clrt {
+
+enum class GuideStage {
+    OFF,   ///< nothing is guided, or not any more
+    PILOT, ///< nothing is guided yet: how noisy the picture is will tell
+    ON
+};
+
+/// The present epoch of a guided render: a range of samples in which the guide stays the same.
+struct GuideProgress {
+    GuideStage stage = GuideStage::OFF;
+    u32 epoch = 0;                     ///< keys the nets of its samples (RenderParams::epoch)
+    std::uint64_t end = 0;             ///< samples a pixel, of the film, where it ends; 0: there is none
+    std::uint64_t guided_from = 0;     ///< samples before any were guided; 0: none are
+    std::uint64_t guided_to = 0;       ///< where that ended; 0: it has not
+    std::optional<double> pilot_error; ///< squared relative error of a sample before there was a guide
+    double plain_error = 0;            ///< squared relative error of the film before it was guided,
+    double plain_rays = 0;             ///< and rays of a sample then
+    std::optional<double> error, work; ///< squared error of a guided sample, and its rays in what they cost
+                                       ///< over those of a sample before
+    std::optional<Guide> guide;        ///< ON
+    std::vector<std::uint64_t> sums;   ///< of its cells, of this epoch, as the film was read back last
+};
+
+} // namespace clrt

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path guiding over the epochs of a render (kernels/path/guide.h).
+//
+// An epoch is a range of samples whose guide stays the same and was learnt in the epochs before. Each is as
+// long as all before it together, and has nets of its own: so, whatever the guide, the mean of every sample
+// is the truth given all that was before, replicates stay uncorrelated, and their spread is the error. All
+// samples weigh the same.
+//
+// --guide auto starts with a pilot that is not guided. Where it is noisy, the guided program is compiled, one
+// more epoch is spent on learning, and at the end of each of the first guided ones their squared error times
+// work is compared with that of the samples before. Work is counted in rays, never measured in seconds: the
+// same picture comes out everywhere.
+#pragma once
+
+#include "film/film_buffers.h"
+#include "guide/guide_buffers.h"
+#include "options/toggle.h"
+#include "render/launcher.h"
+#include "render/render.h"
+
+#include <optional>
+
+namespace clrt {
+
+/// Refers to the arguments of its constructor.
+class Guiding {
+public:
+    /// Goes on from render.guide, where the film has samples. Throws DeviceError and KernelBuildError.
+    Guiding(const PreparedScene& prepared, const RenderParams& params, const FilmBuffers& film,
+            Render& render);
+
+    /// Samples a pixel, of the film, before which nothing changes.
+    std::uint64_t end() const;
+    /// Begins the next epoch when the film has end() samples a pixel; `counts` are those of the whole film.
+    void advance(std::uint64_t samples, const RenderCounts& counts);
+    /// Of the guided program; null: nothing is guided at present.
+    Launcher* launcher();
+    /// Keys the samples of the program that does not guide.
+    u32 epoch() const { return progress_.epoch; }
+    /// Reads what was learnt in this epoch into render.guide.
+    void read_back();
+    /// Of guided launches, as run_groups counts them.
+    double device_seconds() const { return launcher_ ? launcher_->device_seconds() : 0; }
+
+private:
+    void start();
+    void switch_on();
+    void end_pilot(std::uint64_t samples);
+    void end_epoch(std::uint64_t samples, const RenderCounts& counts);
+    void judge(std::uint64_t samples, double rays);
+
+    const PreparedScene& prepared_;
+    const RenderParams& params_;
+    const FilmBuffers& film_;
+    Render& render_;
+    GuideProgress& progress_;
+    std::optional<Program> program_;
+    std::optional<Launcher> launcher_;
+    std::optional<GuideBuffers> buffers_;
+};
+
+/// What a guide did for the picture, in words; empty where there is nothing to say.
+std::string guide_text(const Options& options, const GuideProgress& guide);
+
+} // namespace clrt

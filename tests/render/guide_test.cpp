@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// --guide: guided paths bring the same light, with less noise where it is hard to find; the picture keeps its
+// bits however its samples are dealt out; a film goes on where it was; auto leaves easy scenes alone.
+#include "film/film_file.h"
+#include "probes/film_estimate.h"
+#include "options/guide_refusal.h"
+#include "render/guiding.h"
+#include "support/render_scene.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// Two rooms and a slit between them: a lamp in the one that the camera does not see, and of its walls neither
+/// what it shines at.
+void add_rooms(TestScene& scene) {
+    scene.build.material("white", "Kd 0.75 0.75 0.75").material("lamp", "Kd 0 0 0\nKe 40 36 30");
+    scene.build.material("gloss", "Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 20\nillum 2");
+    scene.build.use("white");
+    scene.build.box({-3, 0, -2}, {3, 2.5, 2}, Facing::INWARD);
+    scene.build.polygon({{0, 0, -2}, {0, 0, 1.7}, {0, 2.5, 1.7}, {0, 2.5, -2}});
+    scene.build.use("gloss").icosphere({1.6, 0.5, 0}, 0.5, 2, Facing::OUTWARD, Shading::SMOOTH);
+    scene.build.use("lamp").polygon({{-2, 2.4, -1.2}, {-1.5, 2.4, -1.2}, {-1.5, 2.4, -0.7}, {-2, 2.4, -0.7}});
+    scene.look({2.8, 1.6, 1.6}, {1, 0.9, -0.8}, 60);
+    scene.options.film.size = {32, 24};
+}
+
+/// A lamp over a floor.
+void add_lit_floor(TestScene& scene) {
+    scene.build.material("white", "Kd 0.7 0.7 0.7").material("lamp", "Kd 0 0 0\nKe 9 8 6");
+    scene.build.use("white").floor(2);
+    scene.build.use("lamp").polygon({{-0.5, 1, -0.5}, {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}});
+    scene.look({0, 2, 3}, {0, 0, 0}, 40);
+    scene.options.film.size = {32, 24};
+}
+
+Render render_guided(TestScene& scene, Toggle guide, u32 spp, int replicates) {
+    scene.options.transport.guide = guide;
+    scene.options.sampling.spp = spp;
+    scene.options.sampling.replicates = replicates;
+    return scene.render();
+}
+
+/// Mean and squared standard error of a tile of 8 x 8 pixels and channel, over the replicates.
+std::vector<Estimate> tile_means(const Film& film) {
+    std::vector<Estimate> tiles;
+    for (int y = 0; y < film.height; y += 8)
+        for (int x = 0; x < film.width; x += 8)
+            for (int channel = 0; channel < 3; ++channel)
+                tiles.push_back(film_estimate(film, channel, {x, y, x + 8, y + 8}));
+    return tiles;
+}
+
+double squares(const std::vector<Estimate>& tiles) {
+    double sum = 0;
+    for (const Estimate& tile : tiles)
+        sum += tile.error * tile.error;
+    return sum;
+}
+
+/// The film's file, written and read back.
+RenderProgress through_a_file(const Render& render, const TestScene& scene) {
+    const std::string path = scene.folder.file("guided.film");
+    FilmFile film;
+    film.identity = {{"quantum", render.film.scale.quantum}, {"largest", render.film.scale.largest}};
+    film.identity["size"] = {render.film.width, render.film.height};
+    film.identity["window"] = {0, 0, render.film.width, render.film.height};
+    film.render = render;
+    write_film_file(path, film);
+    return read_film_file(path).render;
+}
+
+} // namespace
+
+// Sixty-four replicates of which each is a mean of the truth, though all learn together: where they were
+// biased by what they share, tiles would be off by more than their spread says.
+TEST(Guide, BringsTheSameLightWithLessNoise) {
+    TestScene scene;
+    add_rooms(scene);
+    const std::vector<Estimate> plain = tile_means(render_guided(scene, Toggle::OFF, 2048, 64).film);
+    const Render render = render_guided(scene, Toggle::ON, 2048, 64);
+    const std::vector<Estimate> guided = tile_means(render.film);
+    ASSERT_TRUE(render.guide.guide);
+    EXPECT_GT(render.guide.guide->lore().size(), 100u);
+    double sum = 0;
+    for (size_t i = 0; i < plain.size(); ++i) {
+        const double z = (guided[i].mean - plain[i].mean) / std::hypot(guided[i].error, plain[i].error);
+        EXPECT_LT(std::abs(z), 5) << "tile and channel " << i;
+        sum += z * z;
+    }
+    EXPECT_LT(sum / double(plain.size()), 1.9);
+    EXPECT_LT(squares(guided), 0.5 * squares(plain));
+}
+
+TEST(Guide, KeepsItsBitsInPieces) {
+    TestScene scene;
+    add_rooms(scene);
+    const Render whole = render_guided(scene, Toggle::ON, 24, 4);
+    const Render again = render_guided(scene, Toggle::ON, 24, 4);
+    EXPECT_EQ(whole.film.sums, again.film.sums);
+
+    // Within an epoch, and where one ends.
+    for (const u32 spp : {6u, 8u, 13u}) {
+        const RenderProgress part = through_a_file(render_guided(scene, Toggle::ON, spp, 4), scene);
+        scene.options.sampling.spp = 24;
+        RenderHooks hooks;
+        hooks.resume = &part;
+        const PreparedScene prepared = prepare_loaded(test_device(), scene.load(), scene.options);
+        Progress progress(Toggle::OFF, true);
+        EXPECT_EQ(render(prepared, progress, hooks).film.sums, whole.film.sums) << spp;
+    }
+}
+
+TEST(Guide, AutoLeavesEasyScenesAlone) {
+    TestScene scene;
+    add_lit_floor(scene);
+    const Render plain = render_guided(scene, Toggle::OFF, 64, 4);
+    const Render render = render_guided(scene, Toggle::AUTO, 64, 4);
+    EXPECT_EQ(render.film.sums, plain.film.sums);
+    EXPECT_EQ(render.guide.stage, GuideStage::OFF);
+    EXPECT_EQ(render.guide.guided_from, 0u);
+    ASSERT_TRUE(render.guide.pilot_error);
+    EXPECT_LT(*render.guide.pilot_error, 4);
+}
+
+TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
+    TestScene scene;
+    add_rooms(scene);
+    const Render render = render_guided(scene, Toggle::AUTO, 256, 4);
+    EXPECT_EQ(render.guide.stage, GuideStage::ON);
+    EXPECT_EQ(render.guide.guided_from, 16u);
+    ASSERT_TRUE(render.guide.error);
+    EXPECT_LT(*render.guide.error * *render.guide.work, 1);
+    EXPECT_NE(render.film.sums, render_guided(scene, Toggle::OFF, 256, 4).film.sums);
+}
+
+TEST(Guide, SamplesOfARangeAreNotGuided) {
+    TestScene scene;
+    add_rooms(scene);
+    scene.options.sampling.first_sample = 64;
+    EXPECT_FALSE(may_guide(scene.options));
+    EXPECT_EQ(render_guided(scene, Toggle::AUTO, 32, 4).guide.end, 0u);
+}
+
+} // namespace clrt
