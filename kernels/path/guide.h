@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path guiding: directions are sampled where paths have found light before. Every cell of space (cell.h) has
-// a distribution of directions (guide_bins.h), in proportion to radiance times BSDF times cosine as paths
-// have met them. A direction is sampled by the BSDF or by the cell and weighted by the density of the mixture,
-// so the estimate is unbiased whatever the cell has learnt (Mueller, Gross and Novak 2017). What paths find is
+// a distribution of directions (guide_bins.h), in proportion to radiance times BSDF times cosine as paths have
+// met them. A direction is sampled by the BSDF or by the cell and weighted by the density of the mixture, so
+// the estimate is unbiased whatever the cell has learnt (Mueller, Gross and Novak 2017). What paths find is
 // summed while they are traced (guide_learn.h); the host makes the next distributions of the sums, between
 // launches.
 #ifndef CLRT_PATH_GUIDE_H
@@ -80,7 +80,8 @@ static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf,
 /* Samples a direction by the mixture. One number chooses between cell and BSDF, and what is left of it the
    lobe. The density that it says is that of the BSDF alone: emission that is met is weighted against light
    sampling as if nothing were guided, so that light sampling need not ask the cell. */
-static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real u_lobe, real2 u, Guide* guide)
+static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real u_lobe, real2 u,
+                                      Guide* guide)
 {
     if (!PATH_GUIDE || guide->cell == NO_INDEX)
         return bsdf_sample(bsdf, u_lobe, u);
