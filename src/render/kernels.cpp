@@ -47,6 +47,17 @@ ProgramRequest make_request(const KernelFiles& files, const std::string& name, c
 
 } // namespace
 
+std::vector<std::string> branch_defines(const TransportOptions& transport) {
+    if (!takes_option(transport.integrator, TAKES_GLOSS_RAYS))
+        return {};
+    const int waiting =
+        effective_max_depth(transport) + std::max(transport.gloss_rays, transport.translucent_rays);
+    return {fmt::format("DISTRIBUTION_SHADOW_RAYS={}u", transport.shadow_rays),
+            fmt::format("DISTRIBUTION_GLOSS_RAYS={}u", transport.gloss_rays),
+            fmt::format("DISTRIBUTION_TRANSLUCENT_RAYS={}u", transport.translucent_rays),
+            fmt::format("DISTRIBUTION_WAITING={}", waiting)};
+}
+
 BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device) {
     return choice.value_or(device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2);
 }
@@ -78,6 +89,7 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     };
     RenderPrograms programs;
     std::vector<std::string> of_picture = path_defines(paths);
+    append(of_picture, branch_defines(options.transport));
     append(of_picture, film_defines(device.info, integrator_row(options.transport.integrator).film));
     programs.picture = build(name_of(options.transport.integrator), of_picture);
     if (wants_layers(options))
@@ -95,6 +107,7 @@ Program build_replay_program(const Device& device, const Options& options, Preci
     request.precision = precision;
     request.defines.emplace_back("CLRT_TRACE=1");
     append(request.defines, path_defines(paths));
+    append(request.defines, branch_defines(options.transport));
     append(request.defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
     return build_program(device, request);
 }

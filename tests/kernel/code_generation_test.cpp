@@ -99,7 +99,7 @@ std::string include(const std::vector<std::string>& files) {
 } // namespace
 
 TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
-    const std::string text = entry_points({"path", "whitted", "raycast"}) +
+    const std::string text = entry_points({"path", "distribution", "whitted", "raycast"}) +
                              include({"integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
         expect_clean_with_and_without_effects(name_of(layout), text,
@@ -125,7 +125,7 @@ TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatRecord) {
-    for (const std::string integrator : {"path", "whitted", "raycast"})
+    for (const std::string integrator : {"path", "distribution", "whitted", "raycast"})
         expect_clean_with_and_without_effects("recording " + integrator,
                                               include({"integrators/" + integrator + ".cl"}),
                                               {"-DCLRT_TRACE=1", "-DSAMPLES_AT_ONCE=1"});

@@ -48,7 +48,7 @@ FAULTS = [
 """, "", "light_sampler_test"),
     ("missing eta^2, smooth glass", "scattering/bsdf_dielectric.h", "bsdf->transmission * bsdf_cross(bsdf, REAL(1.0))",
      "bsdf->transmission", "furnace_test"),
-    ("missing eta^2, whitted", "integrators/whitted.h", "bsdf_cross(bsdf, REAL(1.0) - f)", "(REAL(1.0) - f)", "glass_test"),
+    ("missing eta^2, whitted", "integrators/tree.h", "bsdf_cross(bsdf, REAL(1.0) - f)", "(REAL(1.0) - f)", "glass_test"),
     ("shadow ray not traced", "path/visibility.h", "while (share > REAL(0.0)) {", "while (false) {",
      "direct_light_test"),
     ("the plane's normal for shading", "scattering/material.h", "real3 n = surface->normal_s;",
