@@ -102,8 +102,9 @@ std::vector<OptionSpec> work_options() {
                      takers(TAKES_MIN_CONTRIBUTION), defaults.min_contribution),
          [](Options& o, const OptionValue& v) { o.transport.min_contribution = parse_fraction(v); }},
         {group, "", "--shadow-rays", "N",
-         fmt::format("{}shadow rays of a surface point to every lamp, sun and sky (default {}); as all of "
-                     "these three, fewer where the sample has branched before",
+         fmt::format("{}shadow rays of a surface point to all lamps together, to the sky, and to every sun "
+                     "with a disc (default {}); of these and the next two, fewer where the sample has "
+                     "branched before",
                      takers(TAKES_SHADOW_RAYS), defaults.shadow_rays),
          [](Options& o, const OptionValue& v) { o.transport.shadow_rays = parse_branch(v); }},
         {group, "", "--gloss-rays", "N",
