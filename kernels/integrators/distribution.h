@@ -127,7 +127,7 @@ static CLRT_NOINLINE uint distribution_shade(const Scene* scene, const RenderPar
     if (bsdf.lobes == 0u)
         return top;
     distribution_light(scene, params, &vertex, sample, rays);
-    top = distribution_spawn_smooth(scene, params, &vertex, stack, top);
+    top = distribution_spawn_smooth(scene, params, &vertex, stack, top, &sample->radiance);
     top = distribution_spawn_rough(scene, params, &vertex, stack, top, &sample->radiance);
     TRACE_CHOICE(scene, TRACE_WAITING, top);
     return top;

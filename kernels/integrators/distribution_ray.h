@@ -128,7 +128,8 @@ static inline uint distribution_push(const Scene* scene, const RenderParams* par
 
 /* Spawns the rays that smooth lobes send on, one each. */
 static CLRT_NOINLINE uint distribution_spawn_smooth(const Scene* scene, const RenderParams* params,
-                                                    const TreeVertex* vertex, TreeRay* stack, uint top)
+                                                    const TreeVertex* vertex, TreeRay* stack, uint top,
+                                                    real3* radiance)
 {
     const Bsdf* bsdf = vertex->bsdf;
     const uint smooth =
@@ -138,6 +139,8 @@ static CLRT_NOINLINE uint distribution_spawn_smooth(const Scene* scene, const Re
     const bool dielectric = (smooth & LOBE_DIELECTRIC) != 0u;
     const SmoothRays rays =
         tree_smooth_rays(vertex->surface, bsdf, -vertex->path->ray.direction, dielectric);
+    /* Which has no side, and so would be no ray. */
+    nan_carry(scene, nan_of_vector(rays.reflected), radiance);
     if (rays.reflects && distribution_continues(vertex, LETTER_MIRROR))
         top = distribution_push(scene, params, &vertex->sampler,
                                 distribution_child(vertex, true, rays.reflected, rays.reflected_color,

@@ -186,6 +186,34 @@ TEST(Distribution, ItEqualsPathsUnderAMapAndWithTheTableOfLamps) {
     }
 }
 
+TEST(Distribution, RaysAndShadowRaysShareALightByTheirNumbers) {
+    // Where a rough floor mirrors the edge of a lamp, and the lamp's size is that of the lobe.
+    for (const char* const keys : {"Kd 1 1 1\nPm 1\nPr 0.5", "Ni 1.5\nillum 7\nPr 0.6"}) {
+        TreeScene scene;
+        scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1").material("floor", keys).use("floor").floor(9);
+        scene.build.use("lamp").polygon({{-1.5, 1, -0.6}, {-0.5, 1, -0.6}, {-0.5, 1, 0.6}, {-1.5, 1, 0.6}});
+        scene.options.light.suns.push_back({{-1, 1.2, 1.1}, glm::dvec3(0.2), 20});
+        scene.look_at_point({1, 1, 0}, {0, 0, 0});
+        scene.options.transport.max_depth = 2;
+        scene.options.sampling.spp = 512;
+        // A table would choose this one nearly always, the tree does not.
+        scene.build.material("far", "Kd 0 0 0\nKe 40 40 40").use("far");
+        scene.build.polygon({{-30, 9, -2}, {-30, 9, 2}, {-30, 13, 2}, {-30, 13, -2}});
+        scene.options.transport.integrator = Integrator::PATH;
+        scene.options.transport.paths = SIMULATED;
+        const Estimate path = film_estimate(scene.render().film);
+        scene.options.transport.integrator = Integrator::DISTRIBUTION;
+        scene.options.transport.paths.clear();
+        for (const auto& [shadow, others] : {std::pair{1, 1}, {1, 4}, {4, 1}}) {
+            scene.branches(shadow, others, others);
+            const Estimate tree = film_estimate(scene.render().film);
+            EXPECT_LT(std::hypot(path.error, tree.error), 3e-3 * path.mean);
+            EXPECT_LT(std::abs(tree.mean - path.mean), 6 * std::hypot(path.error, tree.error))
+                << keys << ", " << shadow << " and " << others << ": " << tree.mean << ", " << path.mean;
+        }
+    }
+}
+
 TEST(Distribution, EndingRaysByChanceKeepsTheMean) {
     Room room;
     const Film whole = room.render().film;
