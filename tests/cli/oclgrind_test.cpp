@@ -85,6 +85,7 @@ TEST_F(Oclgrind, FindsNothingInAnyKernel) {
     if (!tests_are_long()) {
         expect_no_finding("path", "bvh8", "single");
         expect_no_finding("whitted", "bvh2", "double");
+        expect_no_finding("distribution", "bvh8", "double");
         expect_no_finding("raycast", "cwbvh", "single");
         return;
     }
