@@ -15,6 +15,7 @@ import pathlib
 import sys
 
 import scene_textures as textures
+from scene_effects import gloss_translucency, soft_shadows
 from scene_head import add_head
 from scene_kit import Obj, add, png, png_pixels, polygon_normal, scale, subtract, unit
 from scene_rooms import door_ajar, hall_of_lamps
@@ -332,8 +333,8 @@ def all_files():
     for scene in (cornell_box, spheres_over_plane, mirror_glass_depth10, colour_bleeding, caustic, furnace,
                   glossy_plates, textured_interior, every_effect, still_life, plates_far_lamp):
         made.update(scene())
-    for room in (door_ajar, hall_of_lamps):
-        made.update(files(room.__name__, room()))
+    for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency):
+        made.update(files(scene.__name__, scene()))
     return made
 
 

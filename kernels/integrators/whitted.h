@@ -7,31 +7,16 @@
 
 #include "direct.h"
 #include "pixel.h"
-
-/* Levels whose rays are numbered one by one: a random number's address has room for 2^28 of them
-   (sampler_address). */
-#define WHITTED_NUMBERED_LEVELS 28u
-#define WHITTED_FIRST_HASHED (1u << (WHITTED_NUMBERED_LEVELS - 1u))
+#include "tree.h"
 
 typedef struct {
     Ray ray;
     real3 weight;
     uint segment; /* of the ray, from 1 */
-    uint node;    /* number of the ray in the tree, whitted_node */
+    uint node;    /* number of the ray in the tree, tree_number */
 } WhittedRay;
 
-/* The number of a ray's reflected (which = 0) or refracted (1) child, by which its random numbers are
-   addressed. The first is 1; children of n are 2n and 2n + 1 down to the last numbered level, then a hash of
-   them on that level: a number that overflows would be the same for all deeper rays. */
-static inline uint whitted_node(uint parent, uint which)
-{
-    const uint node = 2u * parent + which;
-    return node < 2u * WHITTED_FIRST_HASHED
-               ? node
-               : WHITTED_FIRST_HASHED | (sampler_hash(node) & (WHITTED_FIRST_HASHED - 1u));
-}
-
-/* The child of a ray: same tree, one segment on. */
+/* The reflected (which = 0) or refracted (1) child of a ray: same tree, one segment on. */
 static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* surface, real3 wi,
                                        real3 weight, uint which)
 {
@@ -39,7 +24,7 @@ static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* 
     child.ray = surface_ray(surface, which == 0u, wi);
     child.weight = weight;
     child.segment = parent->segment + 1u;
-    child.node = whitted_node(parent->node, which);
+    child.node = tree_number(parent->node, 2u, which);
     return child;
 }
 
@@ -61,25 +46,16 @@ static inline uint whitted_spawn_children(const RenderParams* params, const Whit
     const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
     if (!dielectric && !mirror)
         return top;
-    const real3 n = bsdf->frame.z;
-    const real cos_o = clamp(bsdf->wo.z, REAL(0.0), REAL(1.0));
-    real cos_t = REAL(0.0);
-    const real f = dielectric ? fresnel_dielectric(cos_o, bsdf->eta, &cos_t) : REAL(1.0);
-
-    const real3 reflected = REAL(2.0) * cos_o * n - wo_world;
-    if (surface_reflects(surface, reflected)) {
-        const real3 color = dielectric ? bsdf->specular * f : bsdf_reflection_color(bsdf, cos_o);
-        top = whitted_push(params, whitted_child(parent, surface, reflected, parent->weight * color, 0u),
-                           stack, top);
-    }
-    if (f >= REAL(1.0)) /* a mirror, or total reflection */
-        return top;
-    const real3 refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
-    if (surface_reflects(surface, refracted))
-        return top;
-    const real3 color = bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
-    return whitted_push(params, whitted_child(parent, surface, refracted, parent->weight * color, 1u), stack,
-                        top);
+    const SmoothRays rays = tree_smooth_rays(surface, bsdf, wo_world, dielectric);
+    if (rays.reflects)
+        top = whitted_push(
+            params, whitted_child(parent, surface, rays.reflected, parent->weight * rays.reflected_color, 0u),
+            stack, top);
+    if (rays.refracts)
+        top = whitted_push(
+            params, whitted_child(parent, surface, rays.refracted, parent->weight * rays.refracted_color, 1u),
+            stack, top);
+    return top;
 }
 
 /* The same for a surface that is lit; the rays that wait then are part of the record. */

@@ -93,15 +93,30 @@ static inline uint sampler_pascal_reversed(uint index)
 /* Maps a word to the odd multiples of 2^-24: exact, never 0, never 1, and 1 - u is exact. */
 static inline real sampler_unit(uint word) { return (real)((word >> 8) | 1u) * REAL(5.9604644775390625e-8); }
 
+/* The same replicate's sampler of another sample, number `index`. */
+static inline Sampler sampler_at(uint key, uint index)
+{
+    Sampler sampler;
+    sampler.key = key;
+    sampler.index_reversed = sampler_reverse_bits(index);
+    sampler.word_key = sampler_hash(key ^ (index * 0x85ebca6bu));
+    return sampler;
+}
+
 /* The sampler of sample number `index` of a replicate. `pixel` counts in the whole picture. Distinct pixels
    of a replicate never share a key. */
 static inline Sampler sampler_make(uint seed, uint pixel, uint replicate, uint index)
 {
-    Sampler sampler;
-    sampler.key = sampler_hash(pixel ^ sampler_hash(replicate + sampler_hash(seed + 0x9e3779b9u)));
-    sampler.index_reversed = sampler_reverse_bits(index);
-    sampler.word_key = sampler_hash(sampler.key ^ (index * 0x85ebca6bu));
-    return sampler;
+    return sampler_at(sampler_hash(pixel ^ sampler_hash(replicate + sampler_hash(seed + 0x9e3779b9u))), index);
+}
+
+/* One of the `count` branches of a sample, which are samples count * index + which of the replicate: the
+   branches of a sample are even among themselves, and those of all samples are one net. */
+static inline Sampler sampler_branch(const Sampler* sampler, uint count, uint which)
+{
+    if (count == 1u)
+        return *sampler;
+    return sampler_at(sampler->key, sampler_reverse_bits(sampler->index_reversed) * count + which);
 }
 
 static inline uint sampler_address(uint bounce, uint purpose) { return bounce * SAMPLER_PURPOSES + purpose; }

@@ -7,14 +7,14 @@
 #include "types.h"
 
 /* Choices: integers that decide how the path goes on. */
-#define TRACE_VERTEX 1u        /* a vertex: bounce from 1, its ray's number in whitted's tree (else 0) */
+#define TRACE_VERTEX 1u        /* a vertex: bounce from 1, its ray's number in a tree of rays (else 0) */
 #define TRACE_TRIANGLE 2u      /* hit; NO_INDEX: none */
 #define TRACE_FRONT 3u         /* 1: seen from the front */
 #define TRACE_LOBE 4u          /* chosen: LOBE_*, TRACE_LOBE_REFRACTS */
 #define TRACE_CONTINUES 5u     /* 1: the sampled direction is worth a ray */
 #define TRACE_STATE 6u         /* of the automaton of --paths behind the event */
 #define TRACE_SURVIVES 7u      /* 1: Russian roulette goes on */
-#define TRACE_WAITING 8u       /* rays of whitted's tree that are still to be traced */
+#define TRACE_WAITING 8u       /* rays of a tree that are still to be traced */
 #define TRACE_LIGHT_KIND 9u    /* KIND_* of the sampled light; 0: none found */
 #define TRACE_CONNECTS 10u     /* 1: the light would arrive */
 #define TRACE_VISIBLE 11u      /* 1: and does, at least in part */

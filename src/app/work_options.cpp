@@ -19,6 +19,10 @@ void apply_text(std::string& target, const OptionValue& v) {
     target = v.text;
 }
 
+int parse_branch(const OptionValue& v) {
+    return static_cast<int>(parse_whole(v, 1, LARGEST_BRANCH));
+}
+
 std::string layouts_and_qualities() {
     std::vector<std::string> names;
     for (const auto& row : NAMES<BvhLayout>)
@@ -91,7 +95,7 @@ std::vector<OptionSpec> work_options() {
              "sample directions where paths have found light before: off, on, or auto: where a pilot is "
              "noisy, "
              "as long as that lowers noise times rays; a film of guided samples goes on by --resume and does "
-             "not merge (default off)",
+             "not merge (default auto)",
          [](Options& o, const OptionValue& v) { o.transport.guide = parse_choice<Toggle>(v); }},
         {group, "", "--roulette-depth", "N",
          fmt::format("{}first segment that Russian roulette may end (default {})",
@@ -100,9 +104,24 @@ std::vector<OptionSpec> work_options() {
              o.transport.roulette_depth = static_cast<int>(parse_whole(v, 1, LARGEST_DEPTH));
          }},
         {group, "", "--min-contribution", "X",
-         fmt::format("{}smallest weight worth a ray, also in % (default {})", takers(TAKES_MIN_CONTRIBUTION),
-                     defaults.min_contribution),
+         fmt::format("{}smallest weight worth a ray, also in %; whitted leaves smaller ones out, "
+                     "distribution most, by chance, and without bias (default {})",
+                     takers(TAKES_MIN_CONTRIBUTION), defaults.min_contribution),
          [](Options& o, const OptionValue& v) { o.transport.min_contribution = parse_fraction(v); }},
+        {group, "", "--shadow-rays", "N",
+         fmt::format("{}shadow rays of a surface point to all lamps together, to the sky, and to every sun "
+                     "with a disc (default {}); of these and the next two, fewer where the sample has "
+                     "branched before",
+                     takers(TAKES_SHADOW_RAYS), defaults.shadow_rays),
+         [](Options& o, const OptionValue& v) { o.transport.shadow_rays = parse_branch(v); }},
+        {group, "", "--gloss-rays", "N",
+         fmt::format("{}rays by which a rough reflection goes on (default {})", takers(TAKES_GLOSS_RAYS),
+                     defaults.gloss_rays),
+         [](Options& o, const OptionValue& v) { o.transport.gloss_rays = parse_branch(v); }},
+        {group, "", "--translucent-rays", "N",
+         fmt::format("{}rays by which rough glass goes on, reflected and refracted together (default {})",
+                     takers(TAKES_TRANSLUCENT_RAYS), defaults.translucent_rays),
+         [](Options& o, const OptionValue& v) { o.transport.translucent_rays = parse_branch(v); }},
         {group, "", "--seed", "N", "chooses the noise; same seed, same picture (default 0)",
          [](Options& o, const OptionValue& v) {
              o.sampling.seed = static_cast<std::uint32_t>(parse_whole(v, 0, LARGEST_U32));
@@ -131,7 +150,8 @@ std::vector<OptionSpec> work_options() {
          "with) (default sobol)",
          [](Options& o, const OptionValue& v) { o.sampling.sampler = parse_choice<SamplerChoice>(v); }},
         {group, "", "--light-sampler", "NAME",
-         "how a light is chosen: tree (by what it may send to the surface; `path` alone), mixture (half by "
+         "how a light is chosen: tree (by what it may send to the surface; `path`, and `distribution` for "
+         "lamps), mixture (half by "
          "power, half evenly over kinds of light and the objects that shine) or power (default tree)",
          [](Options& o, const OptionValue& v) { o.sampling.light_sampler = parse_choice<LightSampler>(v); }},
         {group, "", "--precision", "NAME",

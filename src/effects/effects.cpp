@@ -195,7 +195,8 @@ void find_filter(const Options& options, EffectFinder& finder) {
 void find_light_tree(const Scene& scene, const Options& options, unsigned kinds, EffectFinder& finder) {
     const char* const option = "--light-sampler";
     const Integrator integrator = options.transport.integrator;
-    if (integrator_row(integrator).connections != Connections::ONE_LIGHT)
+    kinds &= light_tree_kinds(integrator);
+    if (light_tree_kinds(integrator) == 0)
         finder.fact(EFFECT_LIGHT_TREE, false, fmt::format("{} connects to every light", name_of(integrator)));
     else if (options.sampling.light_sampler != LightSampler::TREE)
         finder.fact(

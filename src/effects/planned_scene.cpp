@@ -22,7 +22,9 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
     }
     tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
     if (planned->effects.needed & ~planned->effects.left_out & EFFECT_LIGHT_TREE)
-        planned->scene.light_tree = build_light_tree(planned->scene, accepted_kinds(planned->effects.paths));
+        planned->scene.light_tree =
+            build_light_tree(planned->scene, accepted_kinds(planned->effects.paths) &
+                                                 light_tree_kinds(planned->options.transport.integrator));
     return planned;
 }
 

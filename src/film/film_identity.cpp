@@ -136,6 +136,9 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["max_depth"] = params.max_depth;
     identity["roulette_depth"] = params.roulette_depth;
     identity["min_contribution"] = params.min_contribution;
+    identity["shadow_rays"] = options.transport.shadow_rays;
+    identity["gloss_rays"] = options.transport.gloss_rays;
+    identity["translucent_rays"] = options.transport.translucent_rays;
     identity["background"] = background_identity(scene, options);
     identity["paths"] = options.transport.paths;
     identity["layers"] = FilmIdentity::array();

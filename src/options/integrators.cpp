@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options/integrators.h"
 
+#include "kernels/shared/path_types.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -13,6 +15,18 @@ const IntegratorRow& integrator_row(Integrator integrator) {
 
 bool takes_option(Integrator integrator, IntegratorOption option) {
     return (integrator_row(integrator).takes & option) != 0;
+}
+
+unsigned light_tree_kinds(Integrator integrator) {
+    switch (integrator_row(integrator).connections) {
+    case Connections::EVERY_LIGHT:
+        return 0;
+    case Connections::EVERY_LIGHT_BY_TREE:
+        return KIND_AREA;
+    case Connections::ONE_LIGHT:
+        break;
+    }
+    return KINDS_ALL;
 }
 
 std::vector<std::string> integrators_with(IntegratorOption option) {

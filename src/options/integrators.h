@@ -11,7 +11,7 @@
 
 namespace clrt {
 
-enum class Integrator { RAYCAST, WHITTED, PATH };
+enum class Integrator { RAYCAST, WHITTED, DISTRIBUTION, PATH };
 
 /// Options that only some integrators read; bits.
 enum IntegratorOption : unsigned {
@@ -19,7 +19,10 @@ enum IntegratorOption : unsigned {
     TAKES_ROULETTE_DEPTH = 2,
     TAKES_MIN_CONTRIBUTION = 4,
     TAKES_PATHS = 8, ///< tells paths apart by their automaton: --paths, --aov NAME=EXPR
-    TAKES_GUIDE = 16,
+    TAKES_SHADOW_RAYS = 16,
+    TAKES_GLOSS_RAYS = 32,
+    TAKES_TRANSLUCENT_RAYS = 64,
+    TAKES_GUIDE = 128,
 };
 
 template <>
@@ -28,6 +31,9 @@ inline constexpr Named<IntegratorOption> NAMES<IntegratorOption>[] = {
     {TAKES_ROULETTE_DEPTH, "--roulette-depth"},
     {TAKES_MIN_CONTRIBUTION, "--min-contribution"},
     {TAKES_PATHS, "--paths"},
+    {TAKES_SHADOW_RAYS, "--shadow-rays"},
+    {TAKES_GLOSS_RAYS, "--gloss-rays"},
+    {TAKES_TRANSLUCENT_RAYS, "--translucent-rays"},
     {TAKES_GUIDE, "--guide"}};
 
 /// Paths in path notation (paths/path_expression.h): those that an integrator simulates, and those that its
@@ -48,8 +54,9 @@ struct PathDepths {
 /// multiple importance sampling weighs the two.
 enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
 
-/// Lights that a vertex is connected to: every one, or one that is chosen (--light-sampler).
-enum class Connections { EVERY_LIGHT, ONE_LIGHT };
+/// Lights that a vertex is connected to: every one, where all emissive triangles together are one light, of
+/// which a table or (--light-sampler) the tree chooses a triangle, or one that is chosen of all.
+enum class Connections { EVERY_LIGHT, EVERY_LIGHT_BY_TREE, ONE_LIGHT };
 
 /// Pixels that a work-item adds light to: its own, or any, by atomics.
 enum class FilmAccess { GATHER, SPLAT };
@@ -75,6 +82,10 @@ constexpr int LARGEST_DEPTH = 65535;
 constexpr int USUAL_PATH_DEPTH = 4096;
 /// Trees can double with every segment.
 constexpr int USUAL_TREE_DEPTH = 10;
+/// Their rays wait in private memory.
+constexpr int LARGEST_TREE_DEPTH = WHITTED_MAX_DEPTH;
+/// Rays of a branch at most: several levels have few, because they share those of the first.
+constexpr int LARGEST_BRANCH = 64;
 /// The first hit and its connection to a light.
 constexpr int DIRECT_LIGHT_DEPTH = 2;
 
@@ -95,11 +106,22 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      "mirrors, glass, shadows",
      "all indirect light but that of mirrors and smooth glass",
      {"LD?S*E", "LS*E", "LDS*E"},
-     {USUAL_TREE_DEPTH, WHITTED_MAX_DEPTH},
+     {USUAL_TREE_DEPTH, LARGEST_TREE_DEPTH},
      SkySampling::BY_TABLE,
      Connections::EVERY_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION},
+    {Integrator::DISTRIBUTION,
+     "distribution",
+     "soft shadows, gloss, translucency",
+     "light that other surfaces send to matte ones",
+     {"LD?(G|S)*E", "L(G|S)*E", "L(D|G)(G|S)*E"},
+     {USUAL_TREE_DEPTH, LARGEST_TREE_DEPTH},
+     SkySampling::BY_TABLE,
+     Connections::EVERY_LIGHT_BY_TREE,
+     FilmAccess::GATHER,
+     TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION | TAKES_PATHS | TAKES_SHADOW_RAYS | TAKES_GLOSS_RAYS |
+         TAKES_TRANSLUCENT_RAYS},
     {Integrator::PATH,
      "path",
      "global illumination",
@@ -120,6 +142,9 @@ const IntegratorRow& integrator_row(Integrator integrator);
 
 /// Whether the integrator reads the option.
 bool takes_option(Integrator integrator, IntegratorOption option);
+
+/// Kinds of light (KIND_*) among which the light tree chooses; 0: there is none.
+unsigned light_tree_kinds(Integrator integrator);
 
 /// Names of the integrators that read the option.
 std::vector<std::string> integrators_with(IntegratorOption option);

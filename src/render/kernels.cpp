@@ -62,11 +62,23 @@ ProgramRequest launched_request(const Device& device, const KernelFiles& files, 
 std::vector<std::string> picture_defines(const Device& device, const Options& options,
                                          const PathPlan& paths) {
     std::vector<std::string> defines = path_defines(paths);
+    append(defines, branch_defines(options.transport));
     append(defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
     return defines;
 }
 
 } // namespace
+
+std::vector<std::string> branch_defines(const TransportOptions& transport) {
+    if (!takes_option(transport.integrator, TAKES_GLOSS_RAYS))
+        return {};
+    const int waiting =
+        effective_max_depth(transport) + std::max(transport.gloss_rays, transport.translucent_rays);
+    return {fmt::format("DISTRIBUTION_SHADOW_RAYS={}u", transport.shadow_rays),
+            fmt::format("DISTRIBUTION_GLOSS_RAYS={}u", transport.gloss_rays),
+            fmt::format("DISTRIBUTION_TRANSLUCENT_RAYS={}u", transport.translucent_rays),
+            fmt::format("DISTRIBUTION_WAITING={}", waiting)};
+}
 
 BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device) {
     return choice.value_or(device.type == "CPU" ? BvhLayout::BVH8 : BvhLayout::BVH2);

@@ -83,6 +83,13 @@ class IntegratorPairs(unittest.TestCase):
         code, out = self.verdict(whitted, self.film(5, 64, "--max-depth", "6"))
         self.assertEqual(code, DIFFERENT, out)
 
+    def test_distribution_is_whitted_where_nothing_is_rough(self):
+        tree = self.film(6, 256, "-i", "distribution", "--max-depth", "6")
+        code, out = self.verdict(tree, self.film(7, 2048, "--paths", "LD?S*E", "--max-depth", "6"))
+        self.assertEqual(code, EQUIVALENT, out)
+        code, out = self.verdict(tree, self.film(8, 512, "-i", "raycast"))
+        self.assertEqual(code, DIFFERENT, out)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

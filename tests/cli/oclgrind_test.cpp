@@ -85,10 +85,11 @@ TEST_F(Oclgrind, FindsNothingInAnyKernel) {
     if (!tests_are_long()) {
         expect_no_finding("path", "bvh8", "single");
         expect_no_finding("whitted", "bvh2", "double");
+        expect_no_finding("distribution", "bvh8", "double");
         expect_no_finding("raycast", "cwbvh", "single");
         return;
     }
-    for (const char* integrator : {"raycast", "whitted", "path"})
+    for (const char* integrator : {"raycast", "whitted", "distribution", "path"})
         for (const char* layout : {"bvh8", "bvh2", "cwbvh"})
             for (const char* precision : {"single", "double", "fast"})
                 expect_no_finding(integrator, layout, precision);

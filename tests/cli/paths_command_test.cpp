@@ -87,9 +87,10 @@ TEST_F(PathsCommand, LayersAndExpressionsAreInTheFiles) {
 
 TEST_F(PathsCommand, WhatCannotBeDoneIsRefused) {
     const std::pair<std::vector<std::string>, const char*> cases[] = {
-        {{"--paths", "LDE", "-i", "whitted"}, "option --paths: expected --integrator path, found whitted"},
+        {{"--paths", "LDE", "-i", "whitted"},
+         "option --paths: expected --integrator distribution or path, found whitted"},
         {{"--paths", "LDE", "-i", "raycast"}, "'LD?E' alone"},
-        {{"--aov", "a=LDE", "-i", "whitted", "-o", "a.exr"}, "expected --integrator path"},
+        {{"--aov", "a=LDE", "-i", "whitted", "-o", "a.exr"}, "expected --integrator distribution or path"},
         {{"--aov", "a=LDE"}, "an output that ends in .exr for the layer 'a', found none; add -o FILE.exr"},
         {{"--aov", "albedo=LDE", "-o", "a.exr"}, "a new name of letters"},
         {{"--aov", "a=LDE,a=LE", "-o", "a.exr"}, "a new name of letters"},

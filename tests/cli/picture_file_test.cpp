@@ -220,7 +220,7 @@ TEST_F(PictureFile, StatisticsAreJsonInSiUnits) {
 
 TEST_F(PictureFile, TheNumberOfThreadsChangesNoBit) {
     write_corner_lamp();
-    for (const char* integrator : {"path", "whitted", "raycast"}) {
+    for (const char* integrator : {"path", "distribution", "whitted", "raycast"}) {
         for (const char* threads : {"1", "2"})
             ASSERT_EQ(clrt({"scene.obj", "-r", "40x30", "-s", "16", "-i", integrator, "-j", threads, "--env",
                             "1,1,1", "-o", std::string(threads) + ".exr", "-q"})

@@ -30,7 +30,7 @@ protected:
 
 TEST_F(ReplayCommand, TheRecordHasTheBitsOfAOneSampleRender) {
     write_room();
-    for (const char* const integrator : {"path", "whitted", "raycast"}) {
+    for (const char* const integrator : {"path", "distribution", "whitted", "raycast"}) {
         const CommandResult replay =
             clrt(picture({"-i", integrator, "--pixel", "5,7", "--sample", "9", "--stats", "r.json"}));
         EXPECT_EQ(replay.exit_code, 0) << replay.err;

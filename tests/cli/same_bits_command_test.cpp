@@ -82,7 +82,7 @@ void expect_same(const RenderedBits& a, const RenderedBits& b, const std::string
 TEST_F(SameBitsCommand, ThreadsAndDevicesDoNotChangeThePicture) {
     const std::vector<std::string> devices = cpu_devices();
     RecordProperty("cpu_devices", int(devices.size()));
-    for (const char* integrator : {"path", "whitted", "raycast"}) {
+    for (const char* integrator : {"path", "distribution", "whitted", "raycast"}) {
         const RenderedBits whole = render(integrator, {});
         EXPECT_TRUE(whole.promised);
         expect_same(whole, render(integrator, {"--threads", "1"}), std::string(integrator) + ", one thread");

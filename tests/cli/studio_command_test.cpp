@@ -72,7 +72,7 @@ TEST_F(StudioCommand, OffIsAWhiteSky) {
 }
 
 TEST_F(StudioCommand, TransparentPicturesHaveAlpha) {
-    for (const char* integrator : {"path", "whitted", "raycast"}) {
+    for (const char* integrator : {"path", "distribution", "whitted", "raycast"}) {
         const CommandResult result =
             render({"-i", integrator, "--env", "0.5,0.5,0.5", "--background", "transparent", "-o", "t.png",
                     "-o", "t.tga", "-o", "t.tif", "-o", "t.exr", "-o", "t.jpg", "--aov", "none"});

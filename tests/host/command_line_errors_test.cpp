@@ -90,6 +90,9 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--max-depth", "65536"},
         {"--roulette-depth", "0"},
         {"--min-contribution", "1.1"},
+        {"--shadow-rays", "0"},
+        {"--gloss-rays", "65"},
+        {"--translucent-rays", "2.5"},
         {"--min-contribution", "-1%"},
         {"--seed", "-1"},
         {"--seed", "0x10"},
@@ -175,7 +178,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         EXPECT_NE(message.find(", found '"), std::string::npos) << message;
     }
     EXPECT_EQ(refusal({"--integrator", "pth", "s.obj"}),
-              "option --integrator: expected raycast, whitted or path, found 'pth'");
+              "option --integrator: expected raycast, whitted, distribution or path, found 'pth'");
 }
 
 TEST(CommandLine, ContradictionsAreNamed) {

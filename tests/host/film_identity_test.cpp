@@ -101,6 +101,9 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     EXPECT_EQ(field([](Options& o) { o.sampling.sampler = SamplerChoice::INDEPENDENT; }), "sampler");
     EXPECT_EQ(field([](Options& o) { o.sampling.light_sampler = LightSampler::POWER; }), "light_sampler");
     EXPECT_EQ(field([](Options& o) { o.transport.min_contribution = 0.1; }), "min_contribution");
+    EXPECT_EQ(field([](Options& o) { o.transport.shadow_rays = 8; }), "shadow_rays");
+    EXPECT_EQ(field([](Options& o) { o.transport.gloss_rays = 8; }), "gloss_rays");
+    EXPECT_EQ(field([](Options& o) { o.transport.translucent_rays = 8; }), "translucent_rays");
     EXPECT_EQ(field([](Options& o) { o.transport.paths = "LDE"; }), "paths");
     EXPECT_EQ(field([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "layers");
     EXPECT_EQ(field([](Options& o) { o.film.size = {800, 599}; }), "size");

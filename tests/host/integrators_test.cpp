@@ -80,7 +80,10 @@ TEST(Integrators, KernelsReadWhatTheirRowTakes) {
     const std::pair<IntegratorOption, const char*> uses[] = {
         {TAKES_ROULETTE_DEPTH, "params->roulette_depth"},
         {TAKES_MIN_CONTRIBUTION, "params->min_contribution"},
-        {TAKES_PATHS, "AUTOMATON_STATES[path->state]"}};
+        {TAKES_PATHS, "AUTOMATON_STATES[path->state]"},
+        {TAKES_SHADOW_RAYS, "DISTRIBUTION_SHADOW_RAYS"},
+        {TAKES_GLOSS_RAYS, "DISTRIBUTION_GLOSS_RAYS"},
+        {TAKES_TRANSLUCENT_RAYS, "DISTRIBUTION_TRANSLUCENT_RAYS"}};
     for (const IntegratorRow& row : INTEGRATOR_ROWS)
         for (const auto& [option, use] : uses)
             EXPECT_EQ(holds(kernel_text(row), use), takes_option(row.value, option))
@@ -98,9 +101,9 @@ TEST(Integrators, HelpSaysWhatEachSimulatesAndTakes) {
     }
     EXPECT_TRUE(holds(page, "(default path)"));
     EXPECT_TRUE(holds(page, "--roulette-depth N path: first segment"));
-    EXPECT_TRUE(
-        holds(page, "--min-contribution X whitted: smallest weight worth a ray, also in % (default 0.002)"));
-    EXPECT_TRUE(holds(page, "--paths EXPR path: simulate only these paths"));
+    EXPECT_TRUE(holds(page, "--min-contribution X whitted, distribution: smallest weight worth a ray"));
+    EXPECT_TRUE(holds(page, "--paths EXPR distribution, path: simulate only these paths"));
+    EXPECT_TRUE(holds(page, "--shadow-rays N distribution: shadow rays of a surface point"));
 }
 
 TEST(Integrators, WhatTheyTakeAreOptions) {
@@ -140,7 +143,8 @@ TEST(Integrators, PathsAreToldApartByThoseThatTakeThem) {
             const std::string shown = option == std::string("--aov") ? "--aov NAME=EXPR" : option;
             EXPECT_EQ(message, takes_option(row.value, TAKES_PATHS)
                                    ? "accepted"
-                                   : "option " + shown + ": expected --integrator path, found " + row.name +
+                                   : "option " + shown +
+                                         ": expected --integrator distribution or path, found " + row.name +
                                          ", which simulates '" + row.paths.all + "' alone");
         }
 }
@@ -148,6 +152,7 @@ TEST(Integrators, PathsAreToldApartByThoseThatTakeThem) {
 TEST(Integrators, TechniquesFindNothingButWhatIsSimulated) {
     EXPECT_TRUE(is_part("LDE", "LD?E"));
     EXPECT_FALSE(is_part("LD*E", "LD?E"));
+    EXPECT_TRUE(is_part("LD?S*E", integrator_row(Integrator::DISTRIBUTION).paths.all)) << "whitted's";
     for (const IntegratorRow& row : INTEGRATOR_ROWS) {
         EXPECT_TRUE(is_part(row.paths.by_rays, row.paths.all)) << row.name;
         EXPECT_TRUE(is_part(row.paths.by_connection, row.paths.all)) << row.name;

@@ -8,6 +8,7 @@
 #include "probes/bsdf_probe.h"
 #include "probes/ray_device.h"
 #include "probes/scratch_folder.h"
+#include "render/kernels.h"
 #include "stability/bsdf_set.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/film_bench.h"
@@ -15,8 +16,12 @@
 #include "support/test_device.h"
 
 #include <fmt/format.h>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <iostream>
+#include <iterator>
+#include <regex>
 
 namespace clrt {
 
@@ -33,12 +38,15 @@ const Target SSE2 = {"x86-64", {"--target=x86_64-unknown-linux-gnu", "-march=x86
 const Target AVX2 = {"haswell", {"--target=x86_64-unknown-linux-gnu", "-march=haswell"}};
 const Target AVX512 = {"skylake-avx512", {"--target=x86_64-unknown-linux-gnu", "-march=skylake-avx512"}};
 
+const Target NVPTX = {"nvptx64",
+                      {"--target=nvptx64-nvidia-cuda", "-Xclang", "-target-cpu", "-Xclang", "sm_70"}};
+
 const std::vector<Target>& targets() {
     static const std::vector<Target> all = {
         SSE2,
         AVX2,
         AVX512,
-        {"nvptx64", {"--target=nvptx64-nvidia-cuda", "-Xclang", "-target-cpu", "-Xclang", "sm_70"}},
+        NVPTX,
         {"amdgcn", {"--target=amdgcn-amd-amdhsa", "-mcpu=gfx900", "-nogpulib"}},
         {"spir64", {"--target=spir64-unknown-unknown"}}};
     return all;
@@ -99,7 +107,7 @@ std::string include(const std::vector<std::string>& files) {
 } // namespace
 
 TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
-    const std::string text = entry_points({"path", "whitted", "raycast"}) +
+    const std::string text = entry_points({"path", "distribution", "whitted", "raycast"}) +
                              include({"integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
         expect_clean_with_and_without_effects(name_of(layout), text,
@@ -118,6 +126,42 @@ TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
     }
 }
 
+TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
+    // The frames of all functions together, as they lie in memory where registers do not hold them. That of a
+    // tree's rays is as large as the depth and the branches that are asked for.
+    const auto bytes = [&](const std::string& integrator, const std::vector<std::string>& defines) {
+        const std::string file = folder.write("kernels.cl", include({"integrators/" + integrator + ".cl"}));
+        const std::string code = folder.file("kernels.ptx");
+        std::vector<std::string> options = {"-cl-std=CL1.2", "-O2", "-S", "-o", code, "-DSAMPLES_AT_ONCE=1"};
+        options.insert(options.end(), NVPTX.options.begin(), NVPTX.options.end());
+        options.insert(options.end(), defines.begin(), defines.end());
+        EXPECT_EQ(clang_complaints(file, options), "") << integrator;
+        std::ifstream stream(code);
+        const std::string text{std::istreambuf_iterator<char>(stream), {}};
+        const std::regex frame(R"(\.local [^\n]*__local_depot\d+\[(\d+)\])");
+        int sum = 0;
+        for (std::sregex_iterator i(text.begin(), text.end(), frame), end; i != end; ++i)
+            sum += std::stoi((*i)[1]);
+        std::cout << integrator << " " << fmt::format("{}", fmt::join(defines, " ")) << ": " << sum
+                  << " bytes a work-item\n";
+        return sum;
+    };
+    TransportOptions usual;
+    usual.integrator = Integrator::DISTRIBUTION;
+    TransportOptions largest = usual;
+    largest.max_depth = LARGEST_TREE_DEPTH;
+    largest.gloss_rays = LARGEST_BRANCH;
+    std::vector<std::string> few, many;
+    for (const std::string& define : branch_defines(usual))
+        few.push_back("-D" + define);
+    for (const std::string& define : branch_defines(largest))
+        many.push_back("-D" + define);
+    EXPECT_LT(bytes("path", {}), 8 << 10);
+    EXPECT_LT(bytes("whitted", {}), 12 << 10);
+    EXPECT_LT(bytes("distribution", few), 8 << 10);
+    EXPECT_LT(bytes("distribution", many), 24 << 10);
+}
+
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
     for (const char* int64 : {"0", "1"})
         expect_clean(fmt::format("splats, int64 {}", int64), include({"integrators/raycast.cl"}),
@@ -125,7 +169,7 @@ TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatRecord) {
-    for (const std::string integrator : {"path", "whitted", "raycast"})
+    for (const std::string integrator : {"path", "distribution", "whitted", "raycast"})
         expect_clean_with_and_without_effects("recording " + integrator,
                                               include({"integrators/" + integrator + ".cl"}),
                                               {"-DCLRT_TRACE=1", "-DSAMPLES_AT_ONCE=1"});

@@ -14,7 +14,7 @@ namespace clrt {
 namespace {
 
 std::string all_entry_points() {
-    return entry_points({"path", "whitted", "raycast"}) + "#include \"integrators/aov.cl\"\n";
+    return entry_points({"path", "distribution", "whitted", "raycast"}) + "#include \"integrators/aov.cl\"\n";
 }
 
 /// What clang says about the kernels built with a mask; empty if nothing.
@@ -61,7 +61,7 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
 
 TEST(EffectSyntax, RecordingProgramsCompileToo) {
     const ScratchFolder folder;
-    for (const char* name : {"path", "whitted", "raycast"})
+    for (const char* name : {"path", "distribution", "whitted", "raycast"})
         for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
             const std::string file =
                 folder.write("replay.cl", fmt::format("#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n{}"

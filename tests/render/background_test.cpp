@@ -14,7 +14,8 @@ namespace clrt {
 
 namespace {
 
-const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
+const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
+                                  Integrator::RAYCAST};
 
 /// A square that fills the middle of the picture, under a sky and a sun with a disc behind it.
 class SquareBeforeSky : public TestScene {

@@ -11,7 +11,8 @@ namespace clrt {
 
 namespace {
 
-const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
+const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
+                                  Integrator::RAYCAST};
 const glm::dvec3 UP(0, 1, 0);
 
 /// Coloured lamps that face +z.

@@ -108,7 +108,8 @@ TEST(CutPaths, EndsOfPathsAreNoCuts) {
     scene.build.material("black", "Kd 0 0 0\nKe 1 1 1").use("black").floor(1);
     scene.options.light.environment = glm::dvec3(1);
     scene.look({0, 1, 2}, {0, 0, 0}, 60);
-    for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}) {
+    for (const Integrator integrator :
+         {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED, Integrator::RAYCAST}) {
         scene.options.transport.integrator = integrator;
         scene.options.transport.max_depth = 1;
         EXPECT_EQ(scene.render().counts.cut_paths, 0u);

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double KD = 0.5;
 const glm::dvec3 UP(0, 1, 0);
-const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
+const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
+                                  Integrator::RAYCAST};
 
 /// A matte floor seen where the y axis meets it, and room for lights that only shine.
 class FloorScene : public TestScene {

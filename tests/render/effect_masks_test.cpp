@@ -24,7 +24,8 @@ namespace clrt {
 namespace {
 
 std::vector<Integrator> integrators() {
-    return tests_are_long() ? std::vector{Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST}
+    return tests_are_long() ? std::vector{Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
+                                          Integrator::RAYCAST}
                             : std::vector{Integrator::PATH};
 }
 
@@ -52,12 +53,15 @@ void expect_same_bits(u32 effects) {
     for (const Integrator integrator : integrators()) {
         SceneOfEffects small(effects);
         small.options.transport.integrator = integrator;
-        if (integrator != Integrator::PATH)
+        if (!takes_option(integrator, TAKES_PATHS))
             small.options.transport.paths.clear();
         const Scene scene = small.load();
         const u32 needed = find_effects(scene, small.options).needed;
+        const bool has_tree = light_tree_kinds(integrator) &
+                              ((effects & EFFECT_AREA_LIGHT) ? KINDS_ALL : KINDS_ALL & ~KIND_AREA);
         const u32 expected = effects & ~(integrator == Integrator::RAYCAST ? EFFECT_INTERREFLECTION : 0u) &
-                             ~(integrator != Integrator::PATH ? EFFECT_PATH_FILTER : 0u);
+                             ~(takes_option(integrator, TAKES_PATHS) ? 0u : EFFECT_PATH_FILTER) &
+                             ~(has_tree ? 0u : EFFECT_LIGHT_TREE);
         EXPECT_EQ(needed, expected) << describe_effects(needed) << "\ninstead of "
                                     << describe_effects(expected);
         expect_same_bits(scene, small.options,
@@ -110,8 +114,10 @@ TEST(EffectMasks, EveryShippedSceneHasTheBitsOfTheFullProgram) {
         for (const Integrator integrator : integrators()) {
             Options options = shipped_options(path);
             options.transport.integrator = integrator;
-            if (integrator == Integrator::WHITTED)
-                options.transport.max_depth = std::min(options.transport.max_depth.value_or(10), 10);
+            const PathDepths& depth = integrator_row(integrator).depth;
+            if (depth.longest < LARGEST_DEPTH) // trees double with every segment
+                options.transport.max_depth =
+                    std::min(options.transport.max_depth.value_or(depth.usual), depth.usual);
             Progress progress(Toggle::OFF, true);
             expect_same_bits(load_scene(options, progress), options,
                              path.string() + ", " + name_of(integrator));

@@ -12,7 +12,7 @@ namespace clrt {
 
 namespace {
 
-const Integrator TREE_AND_PATH[] = {Integrator::WHITTED, Integrator::PATH};
+const Integrator TREES_AND_PATH[] = {Integrator::WHITTED, Integrator::DISTRIBUTION, Integrator::PATH};
 
 /// A slab of glass between z = -0.5 and 0.5, and a lamp at z = -2 that shines towards +z from x = `edge` on.
 class Slab : public TestScene {
@@ -44,7 +44,7 @@ TEST(Glass, ASlabHeadOnReflectsWhatItDoesNotTransmit) {
     Slab scene("Ni 1.5\nillum 7");
     scene.build.polygon({{-50, 50, 8}, {50, 50, 8}, {50, -50, 8}, {-50, -50, 8}}); // a lamp behind the camera
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
-    for (const Integrator integrator : TREE_AND_PATH) {
+    for (const Integrator integrator : TREES_AND_PATH) {
         scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-6)) << name_of(integrator);
     }
@@ -64,7 +64,7 @@ TEST(Glass, TheShallowestTreesSeeTheFirstTermsOfTheSeries) {
 TEST(Glass, EveryCrossingTints) {
     Slab scene("Ni 1.5\nillum 7\nTf 0.8 0.5 1");
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
-    for (const Integrator integrator : TREE_AND_PATH) {
+    for (const Integrator integrator : TREES_AND_PATH) {
         scene.options.transport.integrator = integrator;
         const Film film = scene.render().film;
         EXPECT_TRUE(agrees(film_estimate(film, 0), 0.64 * 0.9230769)) << name_of(integrator);
@@ -91,7 +91,7 @@ TEST(Glass, ACeilingOfWaterReflectsTotallyBeyondTheCriticalAngle) {
     for (const double degrees : {20.0, 41.0, 42.5, 60.0, 78.0}) {
         const double angle = degrees * PI / 180, f = fresnel_reflectance(std::cos(angle), 1.5);
         EXPECT_EQ(f == 1, degrees > 41.8103) << degrees;
-        for (const Integrator integrator : TREE_AND_PATH) {
+        for (const Integrator integrator : TREES_AND_PATH) {
             GlassSea scene;
             scene.look_at_point({-std::sin(angle), -std::cos(angle), 0}, {0, 0, 0});
             scene.options.transport.integrator = integrator;

@@ -99,6 +99,29 @@ std::vector<Place> whitted_places() {
     return places;
 }
 
+std::vector<Place> distribution_places() {
+    const char* const file = "integrators/distribution.h";
+    const char* const lights = "integrators/distribution_light.h";
+    return {
+        {file, "const Surface surface = visible_surface(scene, params, &path->ray, &hit);", surface_values()},
+        {file,
+         "Bsdf bsdf = vertex_bsdf(scene, surface, -path->ray.direction);",
+         {{"bsdf.wo.z"},
+          {"bsdf.frame.z.y"},
+          {"bsdf.matte.x", {"matte", "glossy"}},
+          {"bsdf.specular.y", {"glossy"}},
+          {"bsdf.alpha_x", {"glossy", "rough glass"}}}},
+        {lights,
+         "const LightSample light =\n            each_light_emitter(scene, params, vertex->surface, normal, "
+         "words, alias_word);",
+         light_values(), Reached::IF_LIT},
+        {"integrators/distribution_ray.h",
+         "TreeRay child, TreeRay* stack, uint top)\n{",
+         {{"child.weight.y"}, {"child.weight.yz = 0.0f; child.weight.x"}, {"child.ray.direction.z"}},
+         Reached::IF_CONTINUED},
+    };
+}
+
 /// Puts text behind a statement of a file; a constant that it declares can be changed there.
 KernelPatch insertion(const char* file, const std::string& statement, const std::string& text) {
     const std::string constant = "const ";
@@ -202,6 +225,10 @@ TEST(Nan, PathTracingCountsItWhereverItArises) {
 
 TEST(Nan, TheTreeOfRaysCountsItWhereverItArises) {
     expect_all_counted(Integrator::WHITTED, whitted_places());
+}
+
+TEST(Nan, DistributionCountsItWhereverItArises) {
+    expect_all_counted(Integrator::DISTRIBUTION, distribution_places());
 }
 
 TEST(Nan, RayCastingCountsItWhereverItArises) {

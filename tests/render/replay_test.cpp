@@ -20,7 +20,8 @@ namespace clrt {
 
 namespace {
 
-constexpr Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
+constexpr Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
+                                      Integrator::RAYCAST};
 
 /// A loaded scene on the test device, without programs. Its options may change where their programs do.
 struct Stage {

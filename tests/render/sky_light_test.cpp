@@ -14,7 +14,8 @@ namespace clrt {
 
 namespace {
 
-const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
+const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
+                                  Integrator::RAYCAST};
 
 /// A grey map: one value a texel, rows from +Y down.
 struct GreyMap {

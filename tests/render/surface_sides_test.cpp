@@ -16,7 +16,8 @@ namespace {
 
 using glm::dvec3;
 
-const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST};
+const Integrator INTEGRATORS[] = {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
+                                  Integrator::RAYCAST};
 
 /// Vectors along a wall that no axis is parallel to, and away from it.
 const dvec3 NORMAL = glm::normalize(dvec3(1, 2, 3)),

@@ -80,7 +80,8 @@ TEST(VertexColour, AMaterialIsMultipliedUnlessItHasAMap) {
 
 TEST(VertexColour, WhiteVerticesAreTheBitsOfNoColours) {
     const std::string none[3] = {"", "", ""}, white[3] = {"1 1 1", "1 1 1", "1 1 1"};
-    for (const Integrator integrator : {Integrator::PATH, Integrator::WHITTED, Integrator::RAYCAST})
+    for (const Integrator integrator :
+         {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED, Integrator::RAYCAST})
         for (const bool all : {true, false}) {
             Coloured plain(none, {0, 0, 0}, "usemtl grey\n"), coloured(white, {0, 0, 0}, "usemtl grey\n");
             for (Coloured* scene : {&plain, &coloured}) {
