@@ -127,6 +127,10 @@ void check_error_target(const Options& options) {
 void check_adaptive(const Options& options) {
     if (!options.sampling.adaptive)
         return;
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
+    if (integrator.film == FilmAccess::SPLAT)
+        reject(options, std::string("option --adaptive: expected an integrator that gathers, found ") +
+                            integrator.name + ", whose light paths reach all pixels at once");
     const int replicates = options.sampling.replicates;
     if (replicates < FEWEST_ADAPTIVE_REPLICATES || replicates % 2 != 0)
         reject(options, "option --adaptive: expected an even number of --replicates from " +

@@ -195,8 +195,11 @@ void find_filter(const Options& options, EffectFinder& finder) {
 void find_light_tree(const Scene& scene, const Options& options, unsigned kinds, EffectFinder& finder) {
     const char* const option = "--light-sampler";
     const Integrator integrator = options.transport.integrator;
-    if (integrator_row(integrator).connections != Connections::ONE_LIGHT)
-        finder.fact(EFFECT_LIGHT_TREE, false, fmt::format("{} connects to every light", name_of(integrator)));
+    const Connections connections = integrator_row(integrator).connections;
+    if (connections != Connections::ONE_LIGHT)
+        finder.fact(EFFECT_LIGHT_TREE, false,
+                    fmt::format("{} connects to {} light", name_of(integrator),
+                                connections == Connections::EVERY_LIGHT ? "every" : "no"));
     else if (options.sampling.light_sampler != LightSampler::TREE)
         finder.fact(
             EFFECT_LIGHT_TREE, false,

@@ -11,7 +11,7 @@
 
 namespace clrt {
 
-enum class Integrator { RAYCAST, WHITTED, PATH };
+enum class Integrator { RAYCAST, WHITTED, LIGHT, PATH };
 
 /// Options that only some integrators read; bits.
 enum IntegratorOption : unsigned {
@@ -46,8 +46,8 @@ struct PathDepths {
 /// multiple importance sampling weighs the two.
 enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
 
-/// Lights that a vertex is connected to: every one, or one that is chosen (--light-sampler).
-enum class Connections { EVERY_LIGHT, ONE_LIGHT };
+/// Lights that a vertex is connected to: none, every one, or one that is chosen (--light-sampler).
+enum class Connections { NO_LIGHT, EVERY_LIGHT, ONE_LIGHT };
 
 /// Pixels that a work-item adds light to: its own, or any, by atomics.
 enum class FilmAccess { GATHER, SPLAT };
@@ -98,6 +98,16 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      Connections::EVERY_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION},
+    {Integrator::LIGHT,
+     "light",
+     "light paths splatted on the film",
+     "all light that the eye sees by mirrors and smooth glass",
+     {"L((D|S)*D)?E", "L((D|S)*D)?E", "L(D|S)*DE"},
+     {USUAL_PATH_DEPTH, LARGEST_DEPTH},
+     SkySampling::BY_TABLE,
+     Connections::NO_LIGHT,
+     FilmAccess::SPLAT,
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
     {Integrator::PATH,
      "path",
      "global illumination",

@@ -33,4 +33,13 @@ void tabulate_lights(LightSampler sampler, Scene& scene);
 /// feature, the cosine.
 KindShares kind_shares(LightSampler sampler, const Scene& scene);
 
+/// Radius of the sphere about the origin in which all triangles are, a ground too: what distant light must
+/// meet. A little more than that, so that no rounding leaves a corner out.
+double emission_radius(const Scene& scene);
+
+/// Probabilities of the kinds of light where light paths start: in proportion to the luminance that each
+/// sends into the sphere of emission_radius. A constant sky counts, a background that only the camera sees
+/// does not.
+KindShares emission_shares(const Scene& scene);
+
 } // namespace clrt
