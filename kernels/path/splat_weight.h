@@ -27,6 +27,15 @@ typedef struct {
     real open, closed;
 } SplatWeights;
 
+/* Smaller cosines count as this in weights, so that what is divided by one can be multiplied by it. */
+#define SPLAT_SMALLEST_COS REAL(1e-6)
+
+/* Of a direction and a surface, by its plane. */
+static inline real splat_cosine(real3 normal_g, real3 w)
+{
+    return fmax(fabs(vector_dot(normal_g, w)), SPLAT_SMALLEST_COS);
+}
+
 /* Light paths a pass: one for each pixel of the whole picture. */
 static inline real splat_path_count(const RenderParams* params)
 {
@@ -37,7 +46,7 @@ static inline real splat_path_count(const RenderParams* params)
    `pdf_w`, 0 for a delta lobe. */
 static inline void splat_weights_leave(const Bsdf* bsdf, real3 wi, real pdf_w, SplatWeights* weights)
 {
-    const real cosine = fabs(vector_dot(bsdf->normal_g, wi));
+    const real cosine = splat_cosine(bsdf->normal_g, wi);
     if (pdf_w == REAL(0.0))
         weights->closed *= cosine;
     else {
@@ -84,7 +93,7 @@ static CLRT_NOINLINE real splat_light_pdf(const Scene* scene, const RenderParams
 /* A segment has met a vertex. */
 static inline void splat_weights_meet(const Surface* surface, real3 wo, SplatWeights* weights)
 {
-    const real cosine = fabs(vector_dot(surface->normal_g, wo));
+    const real cosine = splat_cosine(surface->normal_g, wo);
     weights->open /= cosine;
     weights->closed /= cosine;
 }
@@ -108,7 +117,7 @@ static inline void splat_weights_begin(const Scene* scene, const RenderParams* p
 static inline real splat_weight(const RenderParams* params, const LightVertex* vertex, real3 wi, real pdf_a,
                                 const SplatWeights* weights)
 {
-    const real density = pdf_a * fabs(vector_dot(vertex->surface.normal_g, wi));
+    const real density = pdf_a * splat_cosine(vertex->surface.normal_g, wi);
     return REAL(1.0) /
            fma(splat_weights_at(&vertex->bsdf, wi, weights), density / splat_path_count(params), REAL(1.0));
 }

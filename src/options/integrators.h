@@ -11,7 +11,7 @@
 
 namespace clrt {
 
-enum class Integrator { RAYCAST, WHITTED, LIGHT, PATH };
+enum class Integrator { RAYCAST, WHITTED, LIGHT, PATH, PATH_LIGHT };
 
 /// Options that only some integrators read; bits.
 enum IntegratorOption : unsigned {
@@ -52,7 +52,7 @@ enum class Connections { NO_LIGHT, EVERY_LIGHT, ONE_LIGHT };
 /// Pixels that a work-item adds light to: its own, or any, by atomics.
 enum class FilmAccess { GATHER, SPLAT };
 
-/// An integrator. Its kernel is "render_" + name in kernels/integrators/NAME.cl.
+/// An integrator. Its kernel is render_STEM in kernels/integrators/STEM.cl (integrator_stem).
 struct IntegratorRow {
     Integrator value;
     const char* name;    ///< as in --integrator NAME
@@ -118,6 +118,16 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      Connections::ONE_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS},
+    {Integrator::PATH_LIGHT,
+     "path+light",
+     "the same, caustics by light paths",
+     nullptr,
+     {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E|L(D|S)*DE"},
+     {USUAL_PATH_DEPTH, LARGEST_DEPTH},
+     SkySampling::BY_TABLE,
+     Connections::ONE_LIGHT,
+     FilmAccess::SPLAT,
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
 };
 
 template <>
@@ -131,6 +141,9 @@ bool takes_option(Integrator integrator, IntegratorOption option);
 
 /// Names of the integrators that read the option.
 std::vector<std::string> integrators_with(IntegratorOption option);
+
+/// The integrator's name as part of other names: with underscores for what is no letter.
+std::string integrator_stem(Integrator integrator);
 
 /// The integrator's kernel file below kernels/, "integrators/path.cl", and the name of its kernel in it.
 std::string integrator_file(Integrator integrator);

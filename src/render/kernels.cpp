@@ -79,7 +79,7 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     RenderPrograms programs;
     std::vector<std::string> of_picture = path_defines(paths);
     append(of_picture, film_defines(device.info, integrator_row(options.transport.integrator).film));
-    programs.picture = build(name_of(options.transport.integrator), of_picture);
+    programs.picture = build(integrator_stem(options.transport.integrator), of_picture);
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -89,7 +89,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
     ProgramRequest request =
-        make_request(kernel_files(options), name_of(options.transport.integrator), options, effects, layout);
+        make_request(kernel_files(options), integrator_stem(options.transport.integrator), options, effects,
+                     layout);
     request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     request.name += REPLAY_ENDING;
     request.precision = precision;
@@ -103,7 +104,7 @@ std::vector<std::string> dumped_files(const Options& options) {
     std::vector<std::string> paths;
     if (options.device.dump_folder.empty())
         return paths;
-    const std::string integrator = name_of(options.transport.integrator);
+    const std::string integrator = integrator_stem(options.transport.integrator);
     for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});

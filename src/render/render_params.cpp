@@ -39,8 +39,8 @@ void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) 
 }
 
 /// Where light paths start.
-void set_emission(const Scene& scene, RenderParams& params) {
-    const KindShares shares = emission_shares(scene);
+void set_emission(const Scene& scene, Connections connections, RenderParams& params) {
+    const KindShares shares = emission_shares(scene, connections == Connections::NO_LIGHT);
     params.emit_emitter = float(shares.emitters);
     params.emit_environment = float(shares.environment);
     params.emit_light = float(shares.lights);
@@ -98,8 +98,9 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     RenderParams params{};
     params.camera = make_camera_params(scene.camera, scene.normalisation, options.film.size);
     set_lights(scene, options.sampling.light_sampler, params);
-    if (integrator_row(options.transport.integrator).film == FilmAccess::SPLAT)
-        set_emission(scene, params);
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
+    if (integrator.film == FilmAccess::SPLAT)
+        set_emission(scene, integrator.connections, params);
     set_window(options, params);
     set_filter(options, params);
     params.seed = options.sampling.seed;

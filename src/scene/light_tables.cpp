@@ -117,7 +117,7 @@ double emission_radius(const Scene& scene) {
     return std::max(std::sqrt(square), scene.radius) * EMISSION_MARGIN;
 }
 
-KindShares emission_shares(const Scene& scene) {
+KindShares emission_shares(const Scene& scene, bool must_find_all) {
     const double radius = emission_radius(scene);
     const Environment& sky = scene.environment;
     KindShares shares;
@@ -125,7 +125,8 @@ KindShares emission_shares(const Scene& scene) {
         shares.emitters += emitter_power(scene, emitter);
     for (const Light& light : scene.lights)
         shares.lights += light_power(light, radius);
-    const double sky_mean = sky.texels.empty() ? luminance(sky.radiance) : sky.mean_radiance;
+    const double even = must_find_all ? luminance(sky.radiance) : 0;
+    const double sky_mean = sky.texels.empty() ? even : sky.mean_radiance;
     shares.environment = sky_mean * 4 * PI * PI * radius * radius;
     const double all = shares.emitters + shares.environment + shares.lights;
     if (!(all > 0))

@@ -38,8 +38,9 @@ KindShares kind_shares(LightSampler sampler, const Scene& scene);
 double emission_radius(const Scene& scene);
 
 /// Probabilities of the kinds of light where light paths start: in proportion to the luminance that each
-/// sends into the sphere of emission_radius. A constant sky counts, a background that only the camera sees
-/// does not.
-KindShares emission_shares(const Scene& scene);
+/// sends into the sphere of emission_radius. A constant sky counts where light paths must find all light; the
+/// hits of paths from the eye find its light without noise. A background that only the camera sees is no
+/// light.
+KindShares emission_shares(const Scene& scene, bool must_find_all);
 
 } // namespace clrt

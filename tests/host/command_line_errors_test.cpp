@@ -175,7 +175,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         EXPECT_NE(message.find(", found '"), std::string::npos) << message;
     }
     EXPECT_EQ(refusal({"--integrator", "pth", "s.obj"}),
-              "option --integrator: expected raycast, whitted or path, found 'pth'");
+              "option --integrator: expected raycast, whitted, light, path or path+light, found 'pth'");
 }
 
 TEST(CommandLine, ContradictionsAreNamed) {

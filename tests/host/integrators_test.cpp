@@ -97,7 +97,7 @@ TEST(Integrators, HelpSaysWhatEachSimulatesAndTakes) {
         EXPECT_TRUE(holds(page, is_default ? "(default " + depth : row.name + (always + depth))) << row.name;
     }
     EXPECT_TRUE(holds(page, "(default path)"));
-    EXPECT_TRUE(holds(page, "--roulette-depth N path: first segment"));
+    EXPECT_TRUE(holds(page, "--roulette-depth N light, path, path+light: first segment"));
     EXPECT_TRUE(
         holds(page, "--min-contribution X whitted: smallest weight worth a ray, also in % (default 0.002)"));
     EXPECT_TRUE(holds(page, "--paths EXPR path: simulate only these paths"));
