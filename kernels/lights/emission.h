@@ -204,6 +204,18 @@ static CLRT_NOINLINE Emission emission_of_delta(const Scene* scene, const Render
     return emission;
 }
 
+/* KIND_* of a light; 0: none was found. */
+static inline uint emission_kind(const Scene* scene, const RenderParams* params, uint light)
+{
+    if (light == NO_INDEX)
+        return 0u;
+    if (light < params->emitter_count)
+        return KIND_AREA;
+    if (light == light_of_sky(params))
+        return KIND_SKY;
+    return scene->lights[light - params->emitter_count].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
+}
+
 /* The numbers of a path, all in one net. */
 static inline EmissionNumbers emission_numbers(const Sampler* sampler)
 {

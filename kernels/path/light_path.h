@@ -9,7 +9,9 @@
 #include "camera/camera_splat.h"
 #include "film/splat.h"
 #include "splat_weight.h"
-#include "walk.h"
+
+/* Russian roulette never continues with less than this. */
+#define LIGHT_SMALLEST_SURVIVAL REAL(0.05)
 
 /* Where splats go, and what became of them. */
 typedef struct {
@@ -45,7 +47,7 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     path->ray.time = sampler_number(&path->sampler, 0u, SAMPLE_TIME);
 #endif
     path->throughput = (real3)(REAL(1.0));
-    TRACE_CHOICE(scene, TRACE_LIGHT_KIND, path->emission.light);
+    TRACE_CHOICE(scene, TRACE_LIGHT_KIND, emission_kind(scene, params, path->emission.light));
     TRACE_VECTOR(scene, TRACE_LIGHT_RADIANCE, path->emission.power);
     TRACE_NUMBER(scene, TRACE_LIGHT_PDF, path->emission.pdf);
     return path->emission.pdf != REAL(0.0) && !vector_is_black(path->emission.power);
@@ -99,7 +101,7 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
 {
     if (segment < params->roulette_depth)
         return true;
-    const real survival = clamp(vector_max_component(path->throughput), PATH_SMALLEST_SURVIVAL, REAL(1.0));
+    const real survival = clamp(vector_max_component(path->throughput), LIGHT_SMALLEST_SURVIVAL, REAL(1.0));
     const bool survives = !(sampler_number(&path->sampler, segment, SAMPLE_ROULETTE) >= survival);
     TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
     path->throughput /= survival;
@@ -113,7 +115,7 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     const LightVertex vertex = light_vertex_make(scene, params, &path->ray, hit);
     const Bsdf* bsdf = &vertex.bsdf;
     const real3 wo = -path->ray.direction;
-    sink->watched += vertex.surface.normal_g + bsdf->wo;
+    sink->watched += vertex.surface.position + vertex.surface.normal_g + bsdf->wo;
     if (bsdf->lobes == 0u || !light_vertex_is_seen(bsdf, wo))
         return false;
     if (SPLATS_ARE_WEIGHTED) {
@@ -123,8 +125,9 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     }
     if (bsdf_has_smooth_lobe(bsdf))
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
-    const PathNumbers numbers = numbers_make(&path->sampler, segment);
-    const BsdfSample next = bsdf_sample(bsdf, numbers.lobe, numbers.direction);
+    const real2 direction = sampler_pair(&path->sampler, segment, SAMPLE_DIRECTION);
+    const uint2 choices = sampler_partner_words(&path->sampler, segment, SAMPLE_DIRECTION);
+    const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);
     sink->watched += next.wi;
     if (!next.is_valid || !light_vertex_is_seen(bsdf, next.wi))
         return false;

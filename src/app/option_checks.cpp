@@ -229,8 +229,10 @@ void check_paths(const Options& options) {
     if ((has_paths || !options.output.path_layers.empty()) && !(integrator.takes & TAKES_PATHS))
         reject(options, std::string(has_paths ? "option --paths" : "option --aov NAME=EXPR") +
                             ": expected --integrator " + alternatives(integrators_with(TAKES_PATHS)) +
-                            ", found " + integrator.name + ", which simulates '" + integrator.paths.all +
-                            "' alone");
+                            ", found " + integrator.name +
+                            (integrator.film == FilmAccess::SPLAT
+                                 ? ", whose light paths are not told apart"
+                                 : std::string(", which simulates '") + integrator.paths.all + "' alone"));
     const bool has_exr =
         std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
     if (!options.output.path_layers.empty() && !has_exr && options.run.explain == Explain::NO &&

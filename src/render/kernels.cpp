@@ -88,9 +88,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
-    ProgramRequest request =
-        make_request(kernel_files(options), integrator_stem(options.transport.integrator), options, effects,
-                     layout);
+    ProgramRequest request = make_request(
+        kernel_files(options), integrator_stem(options.transport.integrator), options, effects, layout);
     request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     request.name += REPLAY_ENDING;
     request.precision = precision;

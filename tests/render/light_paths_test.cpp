@@ -109,10 +109,22 @@ const Lighting LIGHTINGS[] = {
          room.build.material("slide", "Kd 0 0 0\nKe 2 2 2\nmap_Ke lamp.exr").use("slide");
          room.build.textured_quad({{-0.6, 2, -0.6}, {0.6, 2, -0.6}, {0.6, 2, 0.6}, {-0.6, 2, 0.6}});
      }},
-    {"point", [](Room& room) { room.options.light.points.push_back({{0.5, 1.8, 1}, {4, 5, 6}}); }},
-    {"far point", [](Room& room) { room.options.light.points.push_back({{9, 18, 20}, {4000, 3000, 2000}}); }},
-    {"sun", [](Room& room) { room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 0}); }},
-    {"disc", [](Room& room) { room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 20}); }},
+    {"point",
+     [](Room& room) {
+         room.options.light.points.push_back({{0.5, 1.8, 1}, {4, 5, 6}});
+     }},
+    {"far point",
+     [](Room& room) {
+         room.options.light.points.push_back({{9, 18, 20}, {4000, 3000, 2000}});
+     }},
+    {"sun",
+     [](Room& room) {
+         room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 0});
+     }},
+    {"disc",
+     [](Room& room) {
+         room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 20});
+     }},
     {"even sky", [](Room& room) { room.options.light.environment = glm::dvec3(1, 2, 3); }},
     {"map",
      [](Room& room) {
@@ -248,11 +260,13 @@ TEST(LightPaths, AClosedFurnaceHasItsSeries) {
     // e / (1 - a), by light paths alone and by all three ways together.
     for (const Integrator integrator : {Integrator::LIGHT, Integrator::PATH_LIGHT}) {
         TestScene scene;
-        scene.build.material("wall", "Kd 0.5 0.5 0.5\nKe 1 1 1").use("wall").box({-1, -1, -1}, {1, 1, 1},
-                                                                              Facing::INWARD);
+        scene.build.material("wall", "Kd 0.5 0.5 0.5\nKe 1 1 1")
+            .use("wall")
+            .box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
         if (integrator == Integrator::PATH_LIGHT)
-            scene.build.material("glass", "Ni 1.5\nillum 7").use("glass").box({-0.9, -0.9, -0.9},
-                                                                             {-0.6, -0.6, -0.6});
+            scene.build.material("glass", "Ni 1.5\nillum 7")
+                .use("glass")
+                .box({-0.9, -0.9, -0.9}, {-0.6, -0.6, -0.6});
         scene.look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
         scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 2, 1e-2)) << name_of(integrator);
