@@ -53,6 +53,16 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     return path->emission.pdf != REAL(0.0) && !vector_is_black(path->emission.power);
 }
 
+/* A NaN where a connection has one, else 0; positions far beside the film may be infinite. */
+static inline real light_path_nan_of(const CameraConnection* camera)
+{
+    const real numbers[] = {camera->film.x, camera->film.y, camera->pdf_a};
+    real nan = nan_of_vector(camera->lens);
+    for (uint i = 0u; i < 3u; ++i)
+        nan += real_is_nan(numbers[i]) ? numbers[i] : REAL(0.0);
+    return nan;
+}
+
 /* Splats what the vertex sends to the camera. `segment` counts the path's segments up to the vertex. */
 static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParams* params, uint segment,
                                            const Hit* hit, const LightVertex* vertex, const LightPath* path,
@@ -61,6 +71,7 @@ static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParam
     const Surface* surface = &vertex->surface;
     const real2 lens = sampler_pair(&path->sampler, segment, SAMPLE_LENS);
     const CameraConnection camera = camera_project(&params->camera, surface->position, lens);
+    sink->watched += light_path_nan_of(&camera);
     if (!(camera.pdf_a > REAL(0.0)))
         return;
     const real3 way = camera.lens - surface->position;
@@ -115,7 +126,7 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     const LightVertex vertex = light_vertex_make(scene, params, &path->ray, hit);
     const Bsdf* bsdf = &vertex.bsdf;
     const real3 wo = -path->ray.direction;
-    sink->watched += vertex.surface.position + vertex.surface.normal_g + bsdf->wo;
+    sink->watched += vertex.surface.position + vertex.surface.normal_g + bsdf->wo + bsdf->frame.z;
     if (bsdf->lobes == 0u || !light_vertex_is_seen(bsdf, wo))
         return false;
     if (SPLATS_ARE_WEIGHTED) {
@@ -168,7 +179,7 @@ static CLRT_NOINLINE void light_path_trace(const Scene* scene, const RenderParam
         if (!light_path_vertex(scene, params, segment, &hit, &path, sink, rays))
             break;
     }
-    sink->watched += nan_of_vector(path.throughput + path.emission.power);
+    sink->watched += nan_of_vector(path.throughput + path.emission.power + path.emission.pdf);
 }
 
 #endif

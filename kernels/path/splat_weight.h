@@ -81,7 +81,8 @@ static CLRT_NOINLINE real splat_light_pdf(const Scene* scene, const RenderParams
     if (HAS(EFFECT_ENVIRONMENT) && emission->light == light_of_sky(params)) {
         if (!HAS(EFFECT_ENVIRONMENT_MAP) || !(params->choose_environment > 0.0f))
             return REAL(0.0);
-        return light_probability_of_sky(scene, params, view) * environment_map_pdf_w(scene, params, -emission->ray.direction);
+        return light_probability_of_sky(scene, params, view) *
+               environment_map_pdf_w(scene, params, -emission->ray.direction);
     }
     const uint index = emission->light - params->emitter_count;
     const real chosen = light_probability_of_delta(scene, params, view, index);

@@ -52,8 +52,8 @@ void expect_equal(const TileMeans& a, const TileMeans& b, double sharpness) {
         EXPECT_LT(std::abs(z), LARGEST_Z) << "tile " << i << ": " << a.mean[i] << ", expected " << b.mean[i];
         squares += z * z;
     }
-    // Tiles and channels depend on each other: the sum of squares spreads more than that of as many.
-    EXPECT_LT(squares / double(a.mean.size()), 2.2);
+    // Channels are nearly alike: the squares of 16 tiles have a mean of 1 +- 0.35.
+    EXPECT_LT(squares / double(a.mean.size()), 2.8);
     EXPECT_LT(std::sqrt(noise), sharpness * mean) << "too noisy to tell them apart";
 }
 
@@ -278,6 +278,7 @@ TEST(WeightedSplats, ChangeNoMeanUnderAnyKindOfLight) {
         SCOPED_TRACE(lighting.name);
         Room room;
         lighting.add(room);
+        room.options.transport.roulette_depth = 1; // it has no part in the weights
         // Of points and suns without a disc, `path` does not find what comes by mirrors and smooth glass;
         // `light` does, where the eye sees none.
         const bool is_delta = !room.options.light.points.empty() || lighting.name == std::string("sun");
