@@ -120,7 +120,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS},
     {Integrator::PATH_LIGHT,
      "path+light",
-     "the same, caustics by light paths",
+     "global illumination, caustics by light paths",
      nullptr,
      {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E|L(D|S)*DE"},
      {USUAL_PATH_DEPTH, LARGEST_DEPTH},
