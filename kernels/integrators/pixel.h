@@ -21,7 +21,8 @@ typedef struct {
     real3 radiance;
 #if FILM_SPLATS
     global long* film; /* for pixel_splat; 0 in a replay, which only looks at splats */
-    uint replicate;
+    uint place;        /* of the pixel among those of the window, row by row */
+    uint replicate, index;
     uint splat_fault; /* under which counter the last bad splat belongs, or COUNT_WORDS */
 #endif
 } CameraSample;
@@ -37,7 +38,9 @@ static CLRT_NOINLINE void pixel_aim(const RenderParams* params, global long* fil
         layers_begin(&samples[k].layers);
 #if FILM_SPLATS
         samples[k].film = film;
+        samples[k].place = (y - params->crop_y) * params->crop_width + (x - params->crop_x);
         samples[k].replicate = counter.replicate;
+        samples[k].index = counter.index;
         samples[k].splat_fault = COUNT_WORDS;
 #endif
     }

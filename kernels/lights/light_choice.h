@@ -35,22 +35,27 @@ static inline bool light_choice_is_by_tree(const RenderParams* params)
     return HAS(EFFECT_LIGHT_TREE) && LIGHT_TREE_IS_USED(*params) != 0.0f;
 }
 
+/* Probabilities of the kinds of light. */
+typedef struct {
+    real emitter, sky, light;
+} LightKinds;
+
 /* By the tables: first a kind (emissive triangles, environment, points and suns), then a light of that kind.
    What is left of the first word after choosing the light, and of the second after choosing the kind, gives
    the point. */
-static inline LightChoice light_choose_by_tables(const Scene* scene, const RenderParams* params, uint2 words,
-                                                 uint alias_word)
+static inline LightChoice light_choose_by_tables(const Scene* scene, const RenderParams* params,
+                                                 LightKinds kinds, uint2 words, uint alias_word)
 {
     const real v = sampler_unit(words.y);
-    const real emitter = (real)params->choose_emitter;
-    const real sky = (real)params->choose_environment;
-    const real light = (real)params->choose_light;
+    const real emitter = kinds.emitter;
+    const real sky = kinds.sky;
+    const real light = kinds.light;
     if (HAS(EFFECT_AREA_LIGHT) && v < emitter) {
         const uint chosen = emitter_choose(scene, params, words.x, alias_word);
         return light_choice_make(chosen, warp_rest_word(words.x, params->emitter_count, alias_word),
                                  alias_word, v / emitter, emitter * (real)scene->emitters[chosen].pdf_a);
     }
-    if (HAS(EFFECT_ENVIRONMENT_MAP) && v < emitter + sky)
+    if (HAS(EFFECT_ENVIRONMENT) && v < emitter + sky)
         return light_choice_make(light_of_sky(params), words.x, alias_word, (v - emitter) / sky, sky);
     if (HAS(EFFECT_DELTA_LIGHT) && light > REAL(0.0)) {
         const uint chosen = delta_light_choose(scene, params, words.x, alias_word);
@@ -86,7 +91,9 @@ static inline LightChoice light_choose(const Scene* scene, const RenderParams* p
 {
     if (light_choice_is_by_tree(params))
         return light_choose_by_tree(scene, params, view, words, alias_word);
-    return light_choose_by_tables(scene, params, words, alias_word);
+    const LightKinds kinds = {(real)params->choose_emitter, (real)params->choose_environment,
+                              (real)params->choose_light};
+    return light_choose_by_tables(scene, params, kinds, words, alias_word);
 }
 
 /* The probability of an emissive triangle over its area. */

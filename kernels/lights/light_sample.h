@@ -14,6 +14,7 @@ typedef struct {
     real pdf_w;     /* per steradian from the surface; 1 for a delta light, 0 where no light was found */
     uint kind;      /* KIND_*, set where lights of several kinds are chosen from */
     uint triangle;  /* of an emissive triangle, else NO_INDEX */
+    uint light;     /* its number (light_choice.h), set where lights are chosen from; NO_INDEX: none */
     bool is_distant;
     bool is_delta;
     bool reflects; /* the light is on wo's side of the surface; true until light_choose_side looks */
@@ -27,6 +28,7 @@ static inline LightSample light_sample_none(void)
     sample.radiance = (real3)(REAL(0.0));
     sample.target = (real3)(REAL(0.0));
     sample.triangle = NO_INDEX;
+    sample.light = NO_INDEX;
     sample.pdf_w = REAL(0.0);
     sample.kind = KINDS_ALL;
     sample.is_distant = true;

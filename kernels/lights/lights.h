@@ -39,6 +39,7 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
         sample.pdf_w *= choice.probability;
         sample.kind = scene->lights[index].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
     }
+    sample.light = choice.light;
     light_choose_side(scene, surface, &sample);
     return sample;
 }

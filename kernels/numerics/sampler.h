@@ -34,6 +34,7 @@
 #define SAMPLE_CLASS 9u       /* matte or glossy, where a path filter must know and both are possible */
 #define SAMPLE_LENS 10u       /* point of the lens; camera rays are bounce 0 */
 #define SAMPLE_TIME 11u       /* within the shutter's opening */
+#define SAMPLE_SPLAT 13u      /* which of the pixels around it a splat goes to */
 #define SAMPLER_PURPOSES 16u
 
 typedef struct {

@@ -33,10 +33,17 @@ static inline bool guide_suits(const Bsdf* bsdf)
            ((bsdf->lobes & LOBES_ROUGH) && fmin(bsdf->alpha_x, bsdf->alpha_y) >= GUIDE_SMALLEST_ALPHA);
 }
 
+/* Of a vertex that is not guided. */
+static inline Guide guide_none(void)
+{
+    const Guide none = {NO_INDEX, 0u, REAL(0.0), REAL(0.0)};
+    return none;
+}
+
 /* The guide of a vertex. */
 static inline Guide guide_at(const Scene* scene, const RenderParams* params, real3 position, const Bsdf* bsdf)
 {
-    Guide guide = {NO_INDEX, 0u, REAL(0.0), REAL(0.0)};
+    Guide guide = guide_none();
     if (!PATH_GUIDE || !guide_suits(bsdf))
         return guide;
     guide.cell = cell_at(scene->guide.nodes, (real)params->scene_extent, position, bsdf->frame.z);

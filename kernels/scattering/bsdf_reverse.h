@@ -32,7 +32,11 @@ static CLRT_NOINLINE Bsdf bsdf_reversed(const Bsdf* bsdf, real3 wi)
 /* Density per steradian of sampling wo from a world direction wi; 0 for delta lobes. */
 static inline real bsdf_pdf_w_reverse(const Bsdf* bsdf, real3 wi_world)
 {
-    const Bsdf reversed = bsdf_reversed(bsdf, frame_to_local(&bsdf->frame, wi_world));
+    const real3 wi = frame_to_local(&bsdf->frame, wi_world);
+    /* One lobe that looks the same from everywhere needs nothing set. */
+    if ((bsdf->lobes & BSDF_LOBES) == LOBE_MATTE)
+        return wi.z > REAL(0.0) ? warp_cosine_hemisphere_pdf_w(bsdf->wo.z) : REAL(0.0);
+    const Bsdf reversed = bsdf_reversed(bsdf, wi);
     return bsdf_eval(&reversed, frame_to_world(&bsdf->frame, bsdf->wo)).pdf_w;
 }
 

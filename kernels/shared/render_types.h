@@ -46,6 +46,9 @@ typedef struct {
     float choose_emitter, choose_environment;  /* probabilities of the kinds in next-event estimation; */
     float choose_light;                        /* they sum to 1, or are all 0 */
     u32 roulette_depth;         /* first path segment that Russian roulette may end */
+    float emit_emitter, emit_environment; /* probabilities of the kinds where light paths start; */
+    float emit_light;                     /* they sum to 1, or are all 0 */
+    float emission_radius; /* of the sphere about the origin that holds all that distant light meets */
 
     float quantum;              /* radiance of one unit of the fixed-point film; a power of two */
     float inverse_quantum;
@@ -56,7 +59,7 @@ typedef struct {
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
     u32 unused0, unused1, unused2;
 } RenderParams;
-ASSERT_SIZE(RenderParams, 272);
+ASSERT_SIZE(RenderParams, 288);
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)

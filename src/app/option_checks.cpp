@@ -128,6 +128,10 @@ void check_error_target(const Options& options) {
 void check_adaptive(const Options& options) {
     if (!options.sampling.adaptive)
         return;
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
+    if (integrator.film == FilmAccess::SPLAT)
+        reject(options, std::string("option --adaptive: expected an integrator that gathers, found ") +
+                            integrator.name + ", whose light paths reach all pixels at once");
     const int replicates = options.sampling.replicates;
     if (replicates < FEWEST_ADAPTIVE_REPLICATES || replicates % 2 != 0)
         reject(options, "option --adaptive: expected an even number of --replicates from " +
@@ -235,8 +239,10 @@ void check_paths(const Options& options) {
     if ((has_paths || !options.output.path_layers.empty()) && !(integrator.takes & TAKES_PATHS))
         reject(options, std::string(has_paths ? "option --paths" : "option --aov NAME=EXPR") +
                             ": expected --integrator " + alternatives(integrators_with(TAKES_PATHS)) +
-                            ", found " + integrator.name + ", which simulates '" + integrator.paths.all +
-                            "' alone");
+                            ", found " + integrator.name +
+                            (integrator.film == FilmAccess::SPLAT
+                                 ? ", whose light paths are not told apart"
+                                 : std::string(", which simulates '") + integrator.paths.all + "' alone"));
     const bool has_exr =
         std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
     if (!options.output.path_layers.empty() && !has_exr && options.run.explain == Explain::NO &&

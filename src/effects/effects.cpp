@@ -197,7 +197,10 @@ void find_light_tree(const Scene& scene, const Options& options, unsigned kinds,
     const Integrator integrator = options.transport.integrator;
     kinds &= light_tree_kinds(integrator);
     if (light_tree_kinds(integrator) == 0)
-        finder.fact(EFFECT_LIGHT_TREE, false, fmt::format("{} connects to every light", name_of(integrator)));
+        finder.fact(
+            EFFECT_LIGHT_TREE, false,
+            fmt::format("{} connects to {} light", name_of(integrator),
+                        integrator_row(integrator).connections == Connections::NO_LIGHT ? "no" : "every"));
     else if (options.sampling.light_sampler != LightSampler::TREE)
         finder.fact(
             EFFECT_LIGHT_TREE, false,

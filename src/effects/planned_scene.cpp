@@ -6,14 +6,37 @@
 #include "scene/light_tree.h"
 #include "scene/sky_table.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace clrt {
+
+namespace {
+
+/// The paths that light paths find best, and often alone.
+const char* const CAUSTICS = "LS+DE";
+
+/// Without caustics light paths find nothing that others do not find with less work.
+void leave_out_light_paths(Scene& scene, Options& options) {
+    if (options.transport.integrator != Integrator::PATH_LIGHT)
+        return;
+    Options of_caustics = options;
+    of_caustics.transport.paths = CAUSTICS;
+    if (!plan_paths(scene, of_caustics).is_empty)
+        return;
+    options.transport.integrator = Integrator::PATH;
+    scene.notices.push_back(fmt::format("no mirror or smooth glass casts light on a surface ({}): {} is {}",
+                                        CAUSTICS, name_of(Integrator::PATH_LIGHT),
+                                        name_of(Integrator::PATH)));
+}
+
+} // namespace
 
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
     auto planned = std::make_shared<PlannedScene>();
     planned->scene = std::move(scene);
     planned->options = std::move(options);
+    leave_out_light_paths(planned->scene, planned->options);
     tabulate_sky(planned->scene.environment, integrator_row(planned->options.transport.integrator).sky);
     planned->effects = find_effects(planned->scene, planned->options);
     if (planned->effects.left_out) {

@@ -19,7 +19,7 @@ struct PlannedScene {
     Effects effects;
 };
 
-/// Tabulates the sky as the integrator samples it, finds the effects, takes out those that are not wanted,
+/// Takes `path` for `path+light` where the scene has no caustics; tabulates the sky as the integrator samples it, finds the effects, takes out those that are not wanted,
 /// and plans the paths of what is left: the one order of these. Throws UsageError for path expressions that
 /// are wrong or too large.
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);

@@ -19,6 +19,7 @@ bool takes_option(Integrator integrator, IntegratorOption option) {
 
 unsigned light_tree_kinds(Integrator integrator) {
     switch (integrator_row(integrator).connections) {
+    case Connections::NO_LIGHT:
     case Connections::EVERY_LIGHT:
         return 0;
     case Connections::EVERY_LIGHT_BY_TREE:
@@ -37,12 +38,18 @@ std::vector<std::string> integrators_with(IntegratorOption option) {
     return names;
 }
 
+std::string integrator_stem(Integrator integrator) {
+    std::string stem = name_of(integrator);
+    std::replace(stem.begin(), stem.end(), '+', '_');
+    return stem;
+}
+
 std::string integrator_file(Integrator integrator) {
-    return std::string("integrators/") + name_of(integrator) + ".cl";
+    return "integrators/" + integrator_stem(integrator) + ".cl";
 }
 
 std::string integrator_kernel(Integrator integrator) {
-    return std::string("render_") + name_of(integrator);
+    return "render_" + integrator_stem(integrator);
 }
 
 } // namespace clrt

@@ -11,7 +11,7 @@
 
 namespace clrt {
 
-enum class Integrator { RAYCAST, WHITTED, DISTRIBUTION, PATH };
+enum class Integrator { RAYCAST, WHITTED, DISTRIBUTION, LIGHT, PATH, PATH_LIGHT };
 
 /// Options that only some integrators read; bits.
 enum IntegratorOption : unsigned {
@@ -54,14 +54,15 @@ struct PathDepths {
 /// multiple importance sampling weighs the two.
 enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
 
-/// Lights that a vertex is connected to: every one, where all emissive triangles together are one light, of
-/// which a table or (--light-sampler) the tree chooses a triangle, or one that is chosen of all.
-enum class Connections { EVERY_LIGHT, EVERY_LIGHT_BY_TREE, ONE_LIGHT };
+/// Lights that a vertex is connected to: none, every one, every one where all emissive triangles together are
+/// one light, of which a table or (--light-sampler) the tree chooses a triangle, or one that is chosen of
+/// all.
+enum class Connections { NO_LIGHT, EVERY_LIGHT, EVERY_LIGHT_BY_TREE, ONE_LIGHT };
 
 /// Pixels that a work-item adds light to: its own, or any, by atomics.
 enum class FilmAccess { GATHER, SPLAT };
 
-/// An integrator. Its kernel is "render_" + name in kernels/integrators/NAME.cl.
+/// An integrator. Its kernel is render_STEM in kernels/integrators/STEM.cl (integrator_stem).
 struct IntegratorRow {
     Integrator value;
     const char* name;    ///< as in --integrator NAME
@@ -122,6 +123,16 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION | TAKES_PATHS | TAKES_SHADOW_RAYS | TAKES_GLOSS_RAYS |
          TAKES_TRANSLUCENT_RAYS},
+    {Integrator::LIGHT,
+     "light",
+     "light paths splatted on the film",
+     "all light that the eye sees by mirrors and smooth glass",
+     {"L((D|S)*D)?E", "L((D|S)*D)?E", "L(D|S)*DE"},
+     {USUAL_PATH_DEPTH, LARGEST_DEPTH},
+     SkySampling::BY_TABLE,
+     Connections::NO_LIGHT,
+     FilmAccess::SPLAT,
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
     {Integrator::PATH,
      "path",
      "global illumination",
@@ -132,6 +143,16 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      Connections::ONE_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE},
+    {Integrator::PATH_LIGHT,
+     "path+light",
+     "global illumination, caustics by light paths",
+     nullptr,
+     {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E|L(D|S)*DE"},
+     {USUAL_PATH_DEPTH, LARGEST_DEPTH},
+     SkySampling::BY_TABLE,
+     Connections::ONE_LIGHT,
+     FilmAccess::SPLAT,
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
 };
 
 template <>
@@ -148,6 +169,9 @@ unsigned light_tree_kinds(Integrator integrator);
 
 /// Names of the integrators that read the option.
 std::vector<std::string> integrators_with(IntegratorOption option);
+
+/// The integrator's name as part of other names: with underscores for what is no letter.
+std::string integrator_stem(Integrator integrator);
 
 /// The integrator's kernel file below kernels/, "integrators/path.cl", and the name of its kernel in it.
 std::string integrator_file(Integrator integrator);

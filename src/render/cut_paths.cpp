@@ -43,9 +43,10 @@ std::optional<double> cut_radiance(const Scene& scene, unsigned kinds) {
     return (largest_radiance(scene, kinds) + *irradiance / PI) / (1 - albedo);
 }
 
-BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const RenderProgress& render) {
+BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const RenderProgress& render,
+                         FilmAccess film) {
     BiasSources sources;
-    if (render.counts.cut_paths > 0)
+    if (render.counts.cut_paths > 0 && film == FilmAccess::GATHER)
         sources.cut_radiance = cut_radiance(scene, accepted_kinds(paths));
     sources.blind_spots = paths.blind_spots;
     return sources;

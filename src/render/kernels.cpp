@@ -106,7 +106,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
                              launched_request(device, files, name, options, effects, layout, defines));
     };
     RenderPrograms programs;
-    programs.picture = build(name_of(options.transport.integrator), picture_defines(device, options, paths));
+    programs.picture =
+        build(integrator_stem(options.transport.integrator), picture_defines(device, options, paths));
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, {});
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -118,16 +119,16 @@ Program build_guided_program(const Device& device, const Options& options, u32 e
     std::vector<std::string> defines = picture_defines(device, options, paths);
     append(defines, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
     ProgramRequest request =
-        launched_request(device, kernel_files(options), name_of(options.transport.integrator), options,
-                         effects, layout, defines);
+        launched_request(device, kernel_files(options), integrator_stem(options.transport.integrator),
+                         options, effects, layout, defines);
     request.name += GUIDED_ENDING;
     return build_program(device, request);
 }
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
-    ProgramRequest request =
-        make_request(kernel_files(options), name_of(options.transport.integrator), options, effects, layout);
+    ProgramRequest request = make_request(
+        kernel_files(options), integrator_stem(options.transport.integrator), options, effects, layout);
     request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     request.name += REPLAY_ENDING;
     request.precision = precision;
@@ -140,7 +141,7 @@ std::vector<std::string> dumped_files(const Options& options) {
     std::vector<std::string> paths;
     if (options.device.dump_folder.empty())
         return paths;
-    const std::string integrator = name_of(options.transport.integrator);
+    const std::string integrator = integrator_stem(options.transport.integrator);
     for (const std::string& name :
          {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING, integrator + GUIDED_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);

@@ -38,6 +38,15 @@ void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) 
     params.choose_light = float(shares.lights);
 }
 
+/// Where light paths start.
+void set_emission(const Scene& scene, Connections connections, RenderParams& params) {
+    const KindShares shares = emission_shares(scene, connections == Connections::NO_LIGHT);
+    params.emit_emitter = float(shares.emitters);
+    params.emit_environment = float(shares.environment);
+    params.emit_light = float(shares.lights);
+    params.emission_radius = float(emission_radius(scene));
+}
+
 /// A stride near the golden section of the tile count that has no factor in common with it.
 u32 tile_stride(u32 tiles) {
     u32 stride = u32(0.6180339887 * tiles) | 1u;
@@ -89,6 +98,9 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     RenderParams params{};
     params.camera = make_camera_params(scene.camera, scene.normalisation, options.film.size);
     set_lights(scene, options.sampling.light_sampler, params);
+    const IntegratorRow& integrator = integrator_row(options.transport.integrator);
+    if (integrator.film == FilmAccess::SPLAT)
+        set_emission(scene, integrator.connections, params);
     set_window(options, params);
     set_filter(options, params);
     params.seed = options.sampling.seed;

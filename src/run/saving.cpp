@@ -152,8 +152,9 @@ void Saving::write_film(const Render& render) const {
             throw SceneError(
                 path, 0,
                 fmt::format("the film of this run is not written: {}; --force replaces it", *obstacle));
-    write_film_file(
-        path, make_film_file(render, bias_sources(scene_, paths_, render), identity, options_, device_));
+    const BiasSources bias =
+        bias_sources(scene_, paths_, render, integrator_row(options_.transport.integrator).film);
+    write_film_file(path, make_film_file(render, bias, identity, options_, device_));
 }
 
 } // namespace clrt

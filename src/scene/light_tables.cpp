@@ -6,12 +6,17 @@
 #include "scene/vectors.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
 #include <utility>
 
 namespace clrt {
 namespace {
+
+/// Positions are rounded to floats, and so are rays that start on the sphere.
+constexpr double EMISSION_MARGIN = 1 + 1e-5;
 
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -100,6 +105,33 @@ KindShares kind_shares(LightSampler sampler, const Scene& scene) {
         return sampler == LightSampler::POWER ? power / all : 0.5 * power / all + 0.5 / double(kinds);
     };
     return {share(powers[0]), share(powers[1]), share(powers[2])};
+}
+
+double emission_radius(const Scene& scene) {
+    double square = 0;
+    for (const Triangle& triangle : scene.triangles)
+        for (const u32 corner : {triangle.v0, triangle.v1, triangle.v2}) {
+            const glm::dvec3 p = to_dvec3(scene.positions[corner]);
+            square = std::max(square, glm::dot(p, p));
+        }
+    return std::max(std::sqrt(square), scene.radius) * EMISSION_MARGIN;
+}
+
+KindShares emission_shares(const Scene& scene, bool must_find_all) {
+    const double radius = emission_radius(scene);
+    const Environment& sky = scene.environment;
+    KindShares shares;
+    for (const Emitter& emitter : scene.emitters)
+        shares.emitters += emitter_power(scene, emitter);
+    for (const Light& light : scene.lights)
+        shares.lights += light_power(light, radius);
+    const double even = must_find_all ? luminance(sky.radiance) : 0;
+    const double sky_mean = sky.texels.empty() ? even : sky.mean_radiance;
+    shares.environment = sky_mean * 4 * PI * PI * radius * radius;
+    const double all = shares.emitters + shares.environment + shares.lights;
+    if (!(all > 0))
+        return {};
+    return {shares.emitters / all, shares.environment / all, shares.lights / all};
 }
 
 } // namespace clrt

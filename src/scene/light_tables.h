@@ -33,4 +33,14 @@ void tabulate_lights(LightSampler sampler, Scene& scene);
 /// feature, the cosine.
 KindShares kind_shares(LightSampler sampler, const Scene& scene);
 
+/// Radius of the sphere about the origin in which all triangles are, a ground too: what distant light must
+/// meet. A little more than that, so that no rounding leaves a corner out.
+double emission_radius(const Scene& scene);
+
+/// Probabilities of the kinds of light where light paths start: in proportion to the luminance that each
+/// sends into the sphere of emission_radius. A constant sky counts where light paths must find all light; the
+/// hits of paths from the eye find its light without noise. A background that only the camera sees is no
+/// light.
+KindShares emission_shares(const Scene& scene, bool must_find_all);
+
 } // namespace clrt

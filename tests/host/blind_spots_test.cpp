@@ -74,6 +74,14 @@ TEST(BlindSpots, APointBehindGlassIsNotSeen) {
     EXPECT_NE(spots[0].cause.find(spots[0].where), std::string::npos) << "the witness's place";
 }
 
+TEST(BlindSpots, SplatsFindThatWhereTheEyeLooksAtAMatteSurface) {
+    LitFloor scene;
+    scene.options.transport.integrator = Integrator::PATH_LIGHT;
+    EXPECT_TRUE(same_paths(scene.pane("glass").paths(), "LpS+D(D|S)*SE")) << scene.paths();
+    scene.options.transport.integrator = Integrator::LIGHT;
+    EXPECT_EQ(scene.paths(), "") << "what it never simulates is no blind spot";
+}
+
 TEST(BlindSpots, NorByMirrors) {
     LitFloor scene;
     EXPECT_EQ(scene.pane("mirror").paths(), "LpR+D(D|R)*E");

@@ -177,8 +177,10 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
             << option << " " << value << ": " << message;
         EXPECT_NE(message.find(", found '"), std::string::npos) << message;
     }
-    EXPECT_EQ(refusal({"--integrator", "pth", "s.obj"}),
-              "option --integrator: expected raycast, whitted, distribution or path, found 'pth'");
+    EXPECT_EQ(
+        refusal({"--integrator", "pth", "s.obj"}),
+        "option --integrator: expected raycast, whitted, distribution, light, path or path+light, found "
+        "'pth'");
 }
 
 TEST(CommandLine, ContradictionsAreNamed) {

@@ -80,10 +80,11 @@ TEST(Integrators, KernelsReadWhatTheirRowTakes) {
     const std::pair<IntegratorOption, const char*> uses[] = {
         {TAKES_ROULETTE_DEPTH, "params->roulette_depth"},
         {TAKES_MIN_CONTRIBUTION, "params->min_contribution"},
-        {TAKES_PATHS, "AUTOMATON_STATES[path->state]"},
+        {TAKES_PATHS, "accepted(path)"},
         {TAKES_SHADOW_RAYS, "DISTRIBUTION_SHADOW_RAYS"},
         {TAKES_GLOSS_RAYS, "DISTRIBUTION_GLOSS_RAYS"},
-        {TAKES_TRANSLUCENT_RAYS, "DISTRIBUTION_TRANSLUCENT_RAYS"}};
+        {TAKES_TRANSLUCENT_RAYS, "DISTRIBUTION_TRANSLUCENT_RAYS"},
+        {TAKES_GUIDE, "guide_at(scene"}};
     for (const IntegratorRow& row : INTEGRATOR_ROWS)
         for (const auto& [option, use] : uses)
             EXPECT_EQ(holds(kernel_text(row), use), takes_option(row.value, option))
@@ -95,12 +96,13 @@ TEST(Integrators, HelpSaysWhatEachSimulatesAndTakes) {
     for (const IntegratorRow& row : INTEGRATOR_ROWS) {
         EXPECT_TRUE(holds(page, std::string(row.name) + " (" + row.help + ")")) << row.name;
         const char* const always = takes_option(row.value, TAKES_MAX_DEPTH) ? " " : " always ";
-        const bool is_default = row.value == TransportOptions{}.integrator;
+        const int usual = integrator_row(TransportOptions{}.integrator).depth.usual;
+        const bool is_default = row.depth.usual == usual && takes_option(row.value, TAKES_MAX_DEPTH);
         const std::string depth = std::to_string(row.depth.usual);
         EXPECT_TRUE(holds(page, is_default ? "(default " + depth : row.name + (always + depth))) << row.name;
     }
     EXPECT_TRUE(holds(page, "(default path)"));
-    EXPECT_TRUE(holds(page, "--roulette-depth N path: first segment"));
+    EXPECT_TRUE(holds(page, "--roulette-depth N light, path, path+light: first segment"));
     EXPECT_TRUE(holds(page, "--min-contribution X whitted, distribution: smallest weight worth a ray"));
     EXPECT_TRUE(holds(page, "--paths EXPR distribution, path: simulate only these paths"));
     EXPECT_TRUE(holds(page, "--shadow-rays N distribution: shadow rays of a surface point"));
@@ -141,11 +143,18 @@ TEST(Integrators, PathsAreToldApartByThoseThatTakeThem) {
         for (const auto& [option, value] : {std::pair("--paths", "LDE"), std::pair("--aov", "a=LDE")}) {
             const std::string message = refusal({option, value, "-i", row.name, "-o", "a.exr", "s.obj"});
             const std::string shown = option == std::string("--aov") ? "--aov NAME=EXPR" : option;
-            EXPECT_EQ(message, takes_option(row.value, TAKES_PATHS)
-                                   ? "accepted"
-                                   : "option " + shown +
-                                         ": expected --integrator distribution or path, found " + row.name +
-                                         ", which simulates '" + row.paths.all + "' alone");
+            EXPECT_EQ(message,
+                      takes_option(row.value, TAKES_PATHS)
+                          ? "accepted"
+                          : "option " + shown + ": expected --integrator distribution or path, found " +
+                                row.name +
+                                (row.film == FilmAccess::SPLAT
+                                     ? ", whose light paths are not told apart"
+                                     : std::string(", which simulates '") + row.paths.all + "' alone"));
+            if (row.film == FilmAccess::SPLAT)
+                EXPECT_EQ(refusal({"--adaptive", "-i", row.name, "s.obj"}),
+                          std::string("option --adaptive: expected an integrator that gathers, found ") +
+                              row.name + ", whose light paths reach all pixels at once");
         }
 }
 

@@ -8,6 +8,7 @@
 #include "scene/sky_table.h"
 #include "scene/vectors.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -97,6 +98,27 @@ TEST(LightTables, OfAMapCountsWhatItsTableStandsFor) {
     const double excess = kind_shares(LightSampler::POWER, scene).environment;
     const double bright = 499 * texel_solid_angle(16, 64, 32) / (4 * PI);
     EXPECT_NEAR(excess / (1 - excess) / (whole / (1 - whole)), bright / (1 + bright), 0.01);
+}
+
+TEST(LightTables, LightPathsStartByPowerWithinASphereAroundAllTriangles) {
+    ScratchScene scratch;
+    add_lamps_and_a_strong_one(scratch);
+    scratch.options.light.suns.push_back({{0, 1, 0}, {1, 1, 1}, 0});
+    scratch.options.light.environment = glm::dvec3(0.5);
+    const Scene scene = scratch.load();
+    const double radius = emission_radius(scene);
+    for (const vec4& p : scene.positions)
+        EXPECT_LT(glm::length(to_dvec3(p)), radius);
+    EXPECT_LT(radius, 1.001 * scene.radius) << "no more than the corners need";
+
+    const KindShares all = emission_shares(scene, true), noisy = emission_shares(scene, false);
+    EXPECT_NEAR(all.emitters + all.environment + all.lights, 1, 1e-12);
+    EXPECT_NEAR(all.environment / all.lights, 0.5 * 4 * PI, 1e-9) << "radiance over the sphere, irradiance";
+    EXPECT_EQ(noisy.environment, 0) << "hits find an even sky";
+    EXPECT_NEAR(noisy.emitters / noisy.lights, all.emitters / all.lights, 1e-9);
+
+    scratch.options.light.ground = GroundOptions{glm::dvec3(0.5)};
+    EXPECT_GT(emission_radius(scratch.load()), 4 * radius) << "distant light meets the ground, too";
 }
 
 } // namespace clrt

@@ -53,6 +53,15 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
             fmt::format("#define FILM_SPLATS 1\n#define FILM_INT64_ATOMICS {}\n", int64);
         const std::string drawing = folder.write("all.cl", defines + entry_points({"path", "raycast"}));
         EXPECT_EQ(complaints(drawing, "CL1.2", EFFECT_ALL), "") << int64;
+        for (const char* name : {"light", "path_light"}) {
+            const std::string own = folder.write("own.cl", defines + entry_points({name}));
+            const std::string traced =
+                folder.write("traced.cl", "#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n" + defines +
+                                              entry_points({name}));
+            for (const u32 mask : int64 == std::string("1") ? masks() : std::vector<u32>{EFFECT_ALL})
+                EXPECT_EQ(complaints(own, "CL1.2", mask), "") << name << ", " << describe_effects(mask);
+            EXPECT_EQ(complaints(traced, "CL1.2", EFFECT_ALL), "") << name;
+        }
         const std::string recording = folder.write("replay.cl", "#define CLRT_TRACE 1\n" + defines +
                                                                     "#include \"integrators/path.cl\"\n");
         EXPECT_EQ(complaints(recording, "CL1.2", EFFECT_ALL), "") << int64;

@@ -128,6 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"adaptive_lamp", Integrator::PATH, ErrorMeasure::MSE, make_lamp},
                     Case{"relative", Integrator::PATH, ErrorMeasure::RELATIVE},
                     Case{"relative_lamp", Integrator::PATH, ErrorMeasure::RELATIVE, make_lamp},
+                    Case{"light", Integrator::LIGHT, {}}, Case{"path_light", Integrator::PATH_LIGHT, {}},
                     Case{"whitted", Integrator::WHITTED, {}}, Case{"raycast", Integrator::RAYCAST, {}}),
     [](const auto& test) { return std::string(test.param.name); });
 

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+// Entry point of the path tracer with splats.
+#define SPLATS_ARE_WEIGHTED 1
+#include "path_light.h"
+
+#define INTEGRATOR_KERNEL render_path_light
+#define INTEGRATOR_RADIANCE path_light_radiance
+#include "entry_point.h"

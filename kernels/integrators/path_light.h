@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path tracing and light tracing in one picture: hits, next-event estimation and splats are three ways to
+// find a path, weighted against each other (path/splat_weight.h); no vertex is kept, and no inner vertices
+// are connected. Simulates L(D|G|S)*E. Splats take the caustics, which paths from the eye find by chance.
+#ifndef CLRT_INTEGRATORS_PATH_LIGHT_H
+#define CLRT_INTEGRATORS_PATH_LIGHT_H
+
+#include "light_paths.h"
+#include "path/cut.h"
+#include "path/splat_connect.h"
+
+/* Adds the light from outside the scene. */
+static inline void path_light_escape(const Scene* scene, const RenderParams* params, uint segment,
+                                     const Path* path, const SplatWeights* weights, CameraSample* sample,
+                                     PixelRays* rays)
+{
+    rays->missed += segment == 1u ? 1u : 0u;
+    if (nan_carry(scene, nan_of_miss(&path->hit), &sample->radiance))
+        return;
+    const real3 sky = segment == 1u ? vertex_sky(scene, params, 1u, 0, &path->ray, REAL(0.0), KINDS_ALL)
+                                    : splat_escape(scene, params, path, weights);
+    vertex_add(scene, path->throughput * sky, &sample->radiance);
+}
+
+/* Handles the vertex at the end of a segment of the path from the eye. */
+static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderParams* params, uint segment,
+                                            Path* path, SplatWeights* weights, CameraSample* sample,
+                                            PixelRays* rays)
+{
+    const real3 wo = -path->ray.direction;
+    const Sampler* sampler = &sample->sampler;
+    path->is_alive = path->is_connected = false;
+    if (path->hit.triangle == NO_INDEX) {
+        path_light_escape(scene, params, segment, path, weights, sample, rays);
+        return;
+    }
+    const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
+    splat_eye_meets(params, sampler, segment, &surface, wo, weights);
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
+        const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
+        vertex_add(scene, path->throughput * emitted, &sample->radiance);
+    }
+    if (segment >= params->max_depth) {
+        path_end(scene, params, sampler, segment, &surface, path, rays);
+        return;
+    }
+    Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
+    AutomatonStep step;
+    path_filter(scene, params, sampler, segment, path, &step, &bsdf, rays);
+    if (bsdf.lobes == 0u)
+        return;
+    Guide guide = guide_none();
+    const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
+    splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
+    if (!next.is_valid)
+        return;
+    path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
+    if (path->is_alive)
+        splat_eye_leaves(&surface, &bsdf, wo, &next, weights);
+}
+
+/* Follows a sample's path from the eye to its end. */
+static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParams* params,
+                                           CameraSample* sample, PixelRays* rays)
+{
+    Path path;
+    SplatWeights weights = {REAL(0.0), REAL(0.0)};
+    path_begin(&path, &sample->ray);
+    for (uint segment = 1u; path.is_alive; ++segment) {
+        path.numbers = numbers_make(&sample->sampler, segment, 0u);
+        path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray);
+        path_light_vertex(scene, params, segment, &path, &weights, sample, rays);
+        rays->secondary += path.is_alive ? 1u : 0u;
+        rays->shadow += path.is_connected ? 1u : 0u;
+        if (path.is_connected)
+            path_add_connection(scene, &path, visible_share(scene, params, &path.shadow), &sample->radiance,
+                                &sample->layers);
+    }
+    nan_carry(scene, nan_of_vector(path.throughput + path.watched), &sample->radiance);
+}
+
+static CLRT_NOINLINE void path_light_radiance(const Scene* scene, const RenderParams* params,
+                                              CameraSample* samples, uint count, PixelRays* rays)
+{
+    for (uint k = 0; k < count; ++k) {
+        path_light_trace(scene, params, &samples[k], rays);
+        light_paths_trace(scene, params, &samples[k], rays);
+    }
+}
+
+#endif

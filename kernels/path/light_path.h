@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path from a light: it is followed like one from the eye, but carries importance's adjoint, power, and at
+// every vertex that scatters other than as a delta function it is connected to the camera. What arrives
+// there is splatted on the film. In builds with -DSPLATS_ARE_WEIGHTED=1 each splat is weighted against the
+// ways in which paths from the eye find the same light (path/splat_weight.h).
+#ifndef CLRT_PATH_LIGHT_PATH_H
+#define CLRT_PATH_LIGHT_PATH_H
+
+#include "camera/camera_splat.h"
+#include "film/splat.h"
+#include "splat_weight.h"
+
+/* Russian roulette never continues with less than this. */
+#define LIGHT_SMALLEST_SURVIVAL REAL(0.05)
+
+/* Where splats go, and what became of them. */
+typedef struct {
+    global long* film; /* 0: they are only looked at */
+    uint replicate;
+    uint fault; /* under which counter the last bad one belongs; COUNT_WORDS: none was bad */
+    real3 watched; /* sum of directions and normals, for NaNs among them */
+} SplatSink;
+
+/* A path on its way. */
+typedef struct {
+    Sampler sampler;
+    Emission emission;
+    Ray ray;          /* the segment to trace */
+    real3 throughput; /* product of BSDF times cosine over pdf */
+    SplatWeights weights;
+} LightPath;
+
+/* The random numbers of light path `number` of a replicate: all its paths, whichever pixel's samples they
+   accompany, are one net. No pixel has these keys: pictures have fewer. */
+static inline Sampler light_path_sampler(const RenderParams* params, uint replicate, ulong number)
+{
+    return sampler_make(params->seed, 0xffffffffu - (uint)(number >> 32), replicate, (uint)number);
+}
+
+/* Starts a path; false where no light has been found. */
+static inline bool light_path_begin(const Scene* scene, const RenderParams* params, LightPath* path)
+{
+    const EmissionNumbers numbers = emission_numbers(&path->sampler);
+    path->emission = emission_sample(scene, params, &numbers);
+    path->ray = path->emission.ray;
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    path->ray.time = sampler_number(&path->sampler, 0u, SAMPLE_TIME);
+#endif
+    path->throughput = (real3)(REAL(1.0));
+    TRACE_CHOICE(scene, TRACE_LIGHT_KIND, emission_kind(scene, params, path->emission.light));
+    TRACE_VECTOR(scene, TRACE_LIGHT_RADIANCE, path->emission.power);
+    TRACE_NUMBER(scene, TRACE_LIGHT_PDF, path->emission.pdf);
+    return path->emission.pdf != REAL(0.0) && !vector_is_black(path->emission.power);
+}
+
+/* A NaN where a connection has one, else 0; positions far beside the film may be infinite. */
+static inline real light_path_nan_of(const CameraConnection* camera)
+{
+    const real numbers[] = {camera->film.x, camera->film.y, camera->pdf_a};
+    real nan = nan_of_vector(camera->lens);
+    for (uint i = 0u; i < 3u; ++i)
+        nan += real_is_nan(numbers[i]) ? numbers[i] : REAL(0.0);
+    return nan;
+}
+
+/* Splats what the vertex sends to the camera. `segment` counts the path's segments up to the vertex. */
+static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParams* params, uint segment,
+                                           const Hit* hit, const LightVertex* vertex, const LightPath* path,
+                                           SplatSink* sink, PixelRays* rays)
+{
+    const Surface* surface = &vertex->surface;
+    const real2 lens = sampler_pair(&path->sampler, segment, SAMPLE_LENS);
+    const CameraConnection camera = camera_project(&params->camera, surface->position, lens);
+    sink->watched += light_path_nan_of(&camera);
+    if (!(camera.pdf_a > REAL(0.0)))
+        return;
+    const real3 way = camera.lens - surface->position;
+    const real3 wi = vector_normalize(way);
+    if (!light_vertex_is_seen(&vertex->bsdf, wi))
+        return;
+    if (SPLATS_ARE_WEIGHTED && light_vertex_crosses_curved(scene, vertex, hit, wi))
+        return;
+    const BsdfValue eval = bsdf_eval(&vertex->bsdf, wi);
+    TRACE_VECTOR(scene, TRACE_LIGHT_BSDF, eval.value);
+    if (vector_is_black(eval.value))
+        return;
+    const real per_pixel = camera.pdf_a / splat_path_count(params);
+    real3 radiance = path->emission.power * path->throughput * eval.value * per_pixel;
+    if (SPLATS_ARE_WEIGHTED)
+        radiance *= splat_weight(params, vertex, wi, camera.pdf_a, &path->weights);
+    /* Positions outside the window ask for no shadow ray. */
+    const real u = sampler_number(&path->sampler, segment, SAMPLE_SPLAT);
+    const CameraSplat splat = camera_splat(params, camera.film, u);
+    uint slot;
+    if (!tile_slot_at(params, splat.film, &slot))
+        return;
+    Ray shadow = surface_ray(surface, surface_reflects(surface, wi), wi);
+    shadow.direction = camera.lens - shadow.origin;
+    shadow.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
+    ++rays->shadow;
+    radiance *= splat.weight * visible_share(scene, params, &shadow);
+    TRACE_VECTOR(scene, TRACE_CONNECTION, radiance);
+    const uint fault = film_splat(params, sink->film, sink->replicate, &path->sampler, segment, splat.film,
+                                  radiance);
+    if (fault != COUNT_WORDS)
+        sink->fault = fault;
+}
+
+/* Ends paths of small throughput without bias. */
+static inline bool light_path_survives(const Scene* scene, const RenderParams* params, uint segment,
+                                       LightPath* path)
+{
+    if (segment < params->roulette_depth)
+        return true;
+    const real survival = clamp(vector_max_component(path->throughput), LIGHT_SMALLEST_SURVIVAL, REAL(1.0));
+    const bool survives = !(sampler_number(&path->sampler, segment, SAMPLE_ROULETTE) >= survival);
+    TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
+    path->throughput /= survival;
+    return survives;
+}
+
+/* Handles the vertex at the end of a segment; false where the path ends. */
+static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderParams* params, uint segment,
+                                            Hit* hit, LightPath* path, SplatSink* sink, PixelRays* rays)
+{
+    const LightVertex vertex = light_vertex_make(scene, params, &path->ray, hit);
+    const Bsdf* bsdf = &vertex.bsdf;
+    const real3 wo = -path->ray.direction;
+    sink->watched += vertex.surface.position + vertex.surface.normal_g + bsdf->wo + bsdf->frame.z;
+    if (bsdf->lobes == 0u || !light_vertex_is_seen(bsdf, wo))
+        return false;
+    if (SPLATS_ARE_WEIGHTED) {
+        if (segment == 1u)
+            splat_weights_begin(scene, params, &path->emission, &vertex, hit->t, &path->weights);
+        splat_weights_meet(&vertex.surface, wo, &path->weights);
+    }
+    if (bsdf_has_smooth_lobe(bsdf))
+        light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
+    const real2 direction = sampler_pair(&path->sampler, segment, SAMPLE_DIRECTION);
+    const uint2 choices = sampler_partner_words(&path->sampler, segment, SAMPLE_DIRECTION);
+    const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);
+    sink->watched += next.wi;
+    if (!next.is_valid || !light_vertex_is_seen(bsdf, next.wi))
+        return false;
+    if (SPLATS_ARE_WEIGHTED && next.pdf_w > REAL(0.0) &&
+        light_vertex_crosses_curved(scene, &vertex, hit, next.wi))
+        return false;
+    TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
+    TRACE_VECTOR(scene, TRACE_WI, next.wi);
+    path->throughput *= next.weight;
+    TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->throughput);
+    if (!light_path_survives(scene, params, segment, path))
+        return false;
+    if (segment + 1u >= params->max_depth) {
+        film_count_cut(path->throughput, rays);
+        return false;
+    }
+    if (SPLATS_ARE_WEIGHTED)
+        splat_weights_leave(bsdf, next.wi, next.pdf_w, &path->weights);
+    path->ray = surface_ray(&vertex.surface, next.reflects, next.wi);
+    return true;
+}
+
+/* Follows light path `number` of the sink's replicate to its end. */
+static CLRT_NOINLINE void light_path_trace(const Scene* scene, const RenderParams* params, ulong number,
+                                           SplatSink* sink, PixelRays* rays)
+{
+    LightPath path;
+    path.sampler = light_path_sampler(params, sink->replicate, number);
+    if (!light_path_begin(scene, params, &path))
+        return;
+    for (uint segment = 1u; segment < params->max_depth; ++segment) {
+        Hit hit = vertex_hit(scene, params, &path.sampler, segment, 0u, &path.ray);
+        ++rays->secondary;
+        if (hit.triangle == NO_INDEX) {
+            sink->watched += nan_of_miss(&hit);
+            break;
+        }
+        if (!light_path_vertex(scene, params, segment, &hit, &path, sink, rays))
+            break;
+    }
+    sink->watched += nan_of_vector(path.throughput + path.emission.power + path.emission.pdf);
+}
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A vertex of a path from a light, and the rule that both ends keep about what light paths can do there.
+//
+// Paths from the eye bend shading normals that they would see from behind, and let coarse meshes reflect
+// below the facet from points above it (geometry/surface.h). Neither has a counterpart from the other end.
+// So light paths take sides by facets alone and leave the horizon of shading normals alone, and what is seen
+// there is found by paths from the eye alone.
+#ifndef CLRT_PATH_LIGHT_VERTEX_H
+#define CLRT_PATH_LIGHT_VERTEX_H
+
+#include "lights/emission.h"
+#include "vertex.h"
+
+/* Nearer to the horizon of the shading normal a path may have bent it: MATERIAL_SMALLEST_COS, and room for
+   its rounding. */
+#define LIGHT_SMALLEST_COS REAL(1.01e-3)
+
+typedef struct {
+    Surface surface; /* flat: its rays start at the facet */
+    Bsdf bsdf;       /* as seen from the light's side, carrying importance */
+    LightView view;  /* whence a path from the eye would look at lights here */
+} LightVertex;
+
+/* Whether shading normals may differ from the facet's. */
+static inline bool light_vertex_is_bent(void) { return HAS(EFFECT_SMOOTH_NORMALS | EFFECT_NORMAL_MAP); }
+
+/* True if a direction is off the horizon of the shading normal. */
+static inline bool light_vertex_is_seen(const Bsdf* bsdf, real3 w)
+{
+    return !light_vertex_is_bent() || fabs(vector_dot(bsdf->frame.z, w)) >= LIGHT_SMALLEST_COS;
+}
+
+/* The vertex at the end of a light path's ray. */
+static inline LightVertex light_vertex_make(const Scene* scene, const RenderParams* params, const Ray* ray,
+                                            Hit* hit)
+{
+    LightVertex vertex;
+    vertex.surface = visible_surface(scene, params, ray, hit);
+    const real3 lifted = surface_lifted(&vertex.surface);
+    vertex.surface.is_curved = false;
+    vertex.bsdf = material_bsdf(scene, &vertex.surface, -ray->direction, TRANSPORT_IMPORTANCE);
+    vertex.view.position = lifted;
+    vertex.view.normal = bsdf_light_normal(&vertex.bsdf);
+    TRACE_VECTOR(scene, TRACE_NORMAL_S, vertex.bsdf.frame.z);
+    return vertex;
+}
+
+/* True if a direction crosses a surface that bulges on its other side. A path from the eye that crosses it
+   the other way, by a lobe with a density, looks at lights from another point than its ray starts at. */
+static inline bool light_vertex_crosses_curved(const Scene* scene, const LightVertex* vertex, const Hit* hit,
+                                               real3 wi)
+{
+    if (!HAS(EFFECT_SMOOTH_NORMALS))
+        return false;
+    if (!HAS(EFFECT_ROUGH_REFRACTION))
+        return false;
+    if (surface_reflects(&vertex->surface, wi))
+        return false;
+    const Ray back = ray_make(vertex->surface.position, -wi, surface_time(&vertex->surface));
+    const Surface other_side = surface_at(scene, hit, &back);
+    return other_side.is_curved;
+}
+
+#endif

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path from the eye that shares its light with splats: what it meets and what it is connected to, weighted
+// against light paths too (splat_weight.h).
+#ifndef CLRT_PATH_SPLAT_CONNECT_H
+#define CLRT_PATH_SPLAT_CONNECT_H
+
+#include "camera/camera.h"
+#include "connect.h"
+#include "splat_weight.h"
+
+/* True if a path from a light can pass the vertex the other way, from direction wi (light_vertex.h).
+   `is_delta`: by a delta lobe. */
+static inline bool splat_can_pass(const Surface* surface, const Bsdf* bsdf, real3 wo, real3 wi, bool is_delta)
+{
+    if (!light_vertex_is_seen(bsdf, wo) || !light_vertex_is_seen(bsdf, wi))
+        return false;
+    if (!HAS(EFFECT_SMOOTH_NORMALS) || !surface->is_curved)
+        return true;
+    const bool is_above = vector_dot(wi, surface->normal_g) >= REAL(0.0);
+    return is_above == surface_reflects(surface, wi) && (is_above || is_delta);
+}
+
+/* A segment of a path from the eye has met a surface. */
+static inline void splat_eye_meets(const RenderParams* params, const Sampler* sampler, uint segment,
+                                   const Surface* surface, real3 wo, SplatWeights* weights)
+{
+    if (segment == 1u) {
+        const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
+        const real pdf_a = camera_project(&params->camera, surface->position, lens).pdf_a;
+        weights->open = pdf_a > REAL(0.0) ? splat_path_count(params) / pdf_a : REAL(0.0);
+        weights->closed = REAL(0.0);
+    }
+    splat_weights_meet(surface, wo, weights);
+}
+
+/* It leaves the vertex in a sampled direction. */
+static inline void splat_eye_leaves(const Surface* surface, const Bsdf* bsdf, real3 wo,
+                                    const BsdfSample* next, SplatWeights* weights)
+{
+    if (!splat_can_pass(surface, bsdf, wo, next->wi, next->pdf_w == REAL(0.0)))
+        weights->open = weights->closed = REAL(0.0);
+    splat_weights_leave(bsdf, next->wi, next->pdf_w, weights);
+}
+
+/* The weight of a hit: `light_pdf_w` is the density of next-event estimation, `emission_pdf` that of the ray
+   from the light. */
+static inline real splat_hit_weight(const Path* path, const SplatWeights* weights, real light_pdf_w,
+                                    real emission_pdf)
+{
+    const real connection = path->pdf_w > REAL(0.0) ? light_pdf_w / path->pdf_w : REAL(0.0);
+    return REAL(1.0) / (REAL(1.0) + connection + weights->closed * emission_pdf);
+}
+
+/* Weighted emission of the surface that was hit. */
+static inline real3 splat_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                   const Path* path, real3 wo, const SplatWeights* weights)
+{
+    const real3 emitted = material_emitted(scene, surface);
+    real light_pdf_w = REAL(0.0);
+    if (path->pdf_w > REAL(0.0)) {
+        const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
+        light_pdf_w =
+            HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
+                ? emitter_crossed_pdf_w(scene, surface, pdf_a, path->view.position, path->hit.t, wo)
+                : emitter_hit_pdf_w(scene, surface, pdf_a, path->view.position, path->hit.t, wo);
+    }
+    const real cosine = vector_dot(surface->normal_g, wo);
+    const real emission_pdf = emission_triangle_pdf(scene, params, surface->emitter, cosine);
+    const real weight = splat_hit_weight(path, weights, light_pdf_w, emission_pdf);
+    TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
+    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, weight);
+    return emitted * weight;
+}
+
+/* Weighted light from outside the scene, behind the first segment. */
+static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* params, const Path* path,
+                                        const SplatWeights* weights)
+{
+    const real3 wi = path->ray.direction;
+    const LightView* view = &path->view;
+    real3 radiance = (real3)(REAL(0.0));
+    if (HAS(EFFECT_ENVIRONMENT)) {
+        real light_pdf_w = REAL(0.0);
+        if (HAS(EFFECT_ENVIRONMENT_MAP) && path->pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
+            light_pdf_w =
+                light_probability_of_sky(scene, params, view) * environment_map_pdf_w(scene, params, wi);
+        radiance = environment_eval(scene, params, wi) *
+                   splat_hit_weight(path, weights, light_pdf_w, emission_sky_pdf(scene, params, wi));
+    }
+    for (uint i = 0; HAS(EFFECT_DELTA_LIGHT) && i < params->light_count; ++i) {
+        if (!delta_light_covers(scene, i, wi))
+            continue;
+        real light_pdf_w = REAL(0.0);
+        if (path->pdf_w > REAL(0.0))
+            light_pdf_w = light_probability_of_delta(scene, params, view, i) *
+                          warp_cone_pdf_w((real)scene->lights[i].one_minus_cos);
+        radiance += vector_from(scene->lights[i].emission) *
+                    splat_hit_weight(path, weights, light_pdf_w, emission_delta_pdf(scene, params, i));
+    }
+    return radiance;
+}
+
+/* Density of the ray from a sampled light to the surface, over the cosine on the light: of a point over the
+   squared distance, so that it is per area across the ray as that of light at infinity is. */
+static inline real splat_sample_pdf(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                    const LightSample* light)
+{
+    if (HAS(EFFECT_AREA_LIGHT) && light->light < params->emitter_count)
+        return emission_triangle_pdf(scene, params, light->light, REAL(1.0));
+    if (HAS(EFFECT_ENVIRONMENT) && light->light == light_of_sky(params))
+        return emission_sky_pdf(scene, params, light->wi);
+    const real pdf = emission_delta_pdf(scene, params, light->light - params->emitter_count);
+    const real3 way = light->target - surface->position;
+    return light->is_distant ? pdf : pdf / vector_dot(way, way);
+}
+
+/* Samples a light and prepares the shadow ray to it, weighted against hits and splats. */
+static inline void splat_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                 const Bsdf* bsdf, real3 wo, const SplatWeights* weights, Path* path)
+{
+    if (!bsdf_has_smooth_lobe(bsdf))
+        return;
+    const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),
+                                            path->numbers.light, path->numbers.alias);
+    light_record(scene, &light);
+    nan_watch(scene, light.wi, &path->watched);
+    if (light.pdf_w == REAL(0.0))
+        return;
+    const BsdfValue eval = bsdf_eval(bsdf, light.wi);
+    const real3 arriving = eval.value * light.radiance;
+    TRACE_VECTOR(scene, TRACE_LIGHT_BSDF, eval.value);
+    TRACE_NUMBER(scene, TRACE_LIGHT_BSDF_PDF, eval.pdf_w);
+    TRACE_CHOICE(scene, TRACE_CONNECTS, vector_is_black(arriving) ? 0u : 1u);
+    if (vector_is_black(arriving))
+        return;
+    real splat = REAL(0.0);
+    if (splat_can_pass(surface, bsdf, wo, light.wi, false))
+        splat = splat_weights_at(bsdf, light.wi, weights) * splat_cosine(surface->normal_g, light.wi) *
+                splat_sample_pdf(scene, params, surface, &light);
+    const real hit = light.is_delta ? REAL(0.0) : eval.pdf_w;
+    /* The weight over the density: 1 / (1 + hit / pdf + splat / pdf) / pdf. */
+    path->connection = path->throughput * arriving / (light.pdf_w + hit + splat);
+    TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, light.pdf_w / (light.pdf_w + hit + splat));
+    TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
+    path->shadow = light_shadow_ray(surface, &light);
+    path->is_connected = true;
+}
+
+#endif
