@@ -174,3 +174,40 @@ TEST(LightTree, SharesWithinALeafRiseToTheWhole) {
     EXPECT_FLOAT_EQ(tree.places[0].density, 0.5f);
     EXPECT_EQ(tree.places[2].density, 1.0f);
 }
+
+namespace {
+
+/// A cube of lamps of one object around the origin, its sides at `half`, shining inward or outward.
+Lamps cube_of_lamps(double half, bool inward, int sides = 6) {
+    Lamps lamps;
+    for (int side = 0; side < sides; ++side) {
+        dvec3 normal(0), u(0);
+        normal[side / 2] = side % 2 ? 1 : -1;
+        u[(side / 2 + 1) % 3] = half;
+        const dvec3 v = glm::cross(inward ? -normal : normal, u);
+        lamps.quad(half * normal, u, v, dvec3(1));
+    }
+    for (Triangle& t : lamps.scene.triangles)
+        t.object = t.material = 0;
+    lamps.finish();
+    lamps.scene.radius = 1;
+    return lamps;
+}
+
+} // namespace
+
+TEST(LightTree, AGlowingDomeIsOneLampAllAround) {
+    EXPECT_TRUE(is_glowing_dome(cube_of_lamps(0.6, true).scene, KINDS_ALL));
+    EXPECT_FALSE(is_glowing_dome(cube_of_lamps(0.6, false).scene, KINDS_ALL)) << "a lamp seen from outside";
+    EXPECT_FALSE(is_glowing_dome(cube_of_lamps(0.1, true).scene, KINDS_ALL)) << "the scene is around it";
+    EXPECT_TRUE(is_glowing_dome(cube_of_lamps(0.6, true, 5).scene, KINDS_ALL)) << "open on one side";
+    for (const int sides : {1, 2, 3, 4})
+        EXPECT_FALSE(is_glowing_dome(cube_of_lamps(0.6, true, sides).scene, KINDS_ALL)) << sides;
+    Lamps two = cube_of_lamps(0.6, true);
+    two.scene.triangles.back().object = 1;
+    EXPECT_FALSE(is_glowing_dome(two.scene, KINDS_ALL)) << "two objects";
+    Lamps lit = cube_of_lamps(0.6, true);
+    lit.point({0, 0, 0}, dvec3(1));
+    EXPECT_FALSE(is_glowing_dome(lit.scene, KINDS_ALL)) << "and a point";
+    EXPECT_TRUE(is_glowing_dome(lit.scene, KIND_AREA)) << "which nobody asks for";
+}
