@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <tbb/parallel_invoke.h>
@@ -34,11 +35,12 @@ public:
             low_ = glm::min(low_, leaf->bounds.centre());
             high_ = glm::max(high_, leaf->bounds.centre());
         }
+        bins_per_length_ = float(count_) / (high_ - low_);
     }
 
     size_t bin_of(const LightLeaf& leaf, int axis) const {
-        const float at = (leaf.bounds.centre()[axis] - low_[axis]) / (high_[axis] - low_[axis]);
-        return std::min(size_t(at * float(count_)), count_ - 1);
+        const float at = (leaf.bounds.centre()[axis] - low_[axis]) * bins_per_length_[axis];
+        return std::min(size_t(at), count_ - 1);
     }
 
     LightSplit best_split(Leaves begin, Leaves end) const {
@@ -46,7 +48,7 @@ public:
         const float longest = std::max({extent.x, extent.y, extent.z});
         LightSplit best;
         for (int axis = 0; axis < 3; ++axis)
-            if (extent[axis] > 0)
+            if (std::isfinite(bins_per_length_[axis]))
                 try_axis(axis, longest / extent[axis], begin, end, best);
         return best;
     }
@@ -74,16 +76,14 @@ private:
 
     size_t count_;
     glm::vec3 low_, high_;
+    glm::vec3 bins_per_length_; ///< infinite along an axis that parts no centres
 };
 
 /// Parts leaves in two sets that are not empty.
 Leaves split(Leaves begin, Leaves end, u32 depth) {
-    for (const LightRange range : {LightRange::SKY, LightRange::SUN}) {
-        const Leaves middle =
-            std::stable_partition(begin, end, [&](const LightLeaf& leaf) { return leaf.range == range; });
-        if (middle != begin && middle != end)
-            return middle;
-    }
+    const LightRange range = begin->range; // they are sorted by range
+    if ((end - 1)->range != range)
+        return std::find_if(begin, end, [&](const LightLeaf& leaf) { return leaf.range != range; });
     const Leaves half = begin + (end - begin) / 2;
     if (end - begin == 2 || depth >= HALVING_DEPTH)
         return half;
@@ -130,6 +130,8 @@ private:
 } // namespace
 
 std::vector<LightPart> split_lights(std::vector<LightLeaf>& leaves) {
+    std::stable_sort(leaves.begin(), leaves.end(),
+                     [](const LightLeaf& a, const LightLeaf& b) { return a.range < b.range; });
     std::vector<LightPart> parts(2 * leaves.size() - 1);
     LightSplitter(leaves, parts);
     return parts;
