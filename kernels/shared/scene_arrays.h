@@ -27,7 +27,7 @@
     ROW(Emitter, emitters, emitters)                                                                         \
     ROW(Light, lights, lights)                                                                               \
     ROW(EnvironmentTexel, environment, environment.texels)                                                   \
-    ROW(LightPair, light_pairs, light_tree.pairs)                                                            \
+    ROW(LightNode, light_nodes, light_tree.nodes)                                                            \
     ROW(LightPlace, light_places, light_tree.places)
 
 /* The arrays lie in a few buffers, the heaps, so that kernels do not get an argument more for every array. A

@@ -113,29 +113,39 @@ ASSERT_SIZE(EnvironmentTexel, 32);
 /* Of choosing the texel. */
 #define TEXEL_PROBABILITY(texel) ((texel).radiance.w)
 
-/* Two siblings of the light tree (kernels/lights/light_tree.h): sphere and cone around what is below each,
-   its power, and where it is. The root is the pair 0. */
-typedef struct {
-    vec2 x, y, z;                /* centres of the spheres around the lights */
-    vec2 radius;
-    vec2 axis_x, axis_y, axis_z; /* unit axes of the cones around their normals */
-    vec2 cos_spread;             /* of the cones' half angles; -1 where normals lie anywhere */
-    vec2 power;                  /* over that of the strongest light: radiance times area, intensity, ... */
-    u32 first, second;           /* LIGHT_LINK_* */
-    u32 first_share;             /* of the first child in the pair's power, over 2^24, from 1 to 2^24 - 1 */
-    u32 unused0, unused1, unused2;
-} LightPair;
-ASSERT_SIZE(LightPair, 96);
+/* Children of a node of the light tree: as many as AVX has lanes. */
+#define LIGHT_NODE_WIDTH 8
 
-/* A link leads to a pair, or to the first light of a leaf. */
+/* A node of the light tree (kernels/lights/light_tree.h): for each child the sphere and the cone around what
+   is below it, its power, and where it is. The root is node 0. Places without a child have no power. */
+typedef struct {
+    float x[LIGHT_NODE_WIDTH], y[LIGHT_NODE_WIDTH], z[LIGHT_NODE_WIDTH]; /* centre of the sphere */
+    float radius[LIGHT_NODE_WIDTH];
+    float axis_x[LIGHT_NODE_WIDTH], axis_y[LIGHT_NODE_WIDTH], axis_z[LIGHT_NODE_WIDTH]; /* unit, of the cone
+                                            around the normals */
+    float chord[LIGHT_NODE_WIDTH]; /* of the cone's half angle on the unit circle; 2: normals lie anywhere */
+    float power[LIGHT_NODE_WIDTH]; /* over that of the strongest light: radiance times area, intensity, ... */
+    i32 end[LIGHT_NODE_WIDTH];  /* sum of the powers up to this child's, over LIGHT_SHARES; at least 1 each */
+    u32 link[LIGHT_NODE_WIDTH]; /* LIGHT_LINK_* */
+} LightNode;
+ASSERT_SIZE(LightNode, 352);
+
+/* Shares of a node's children are multiples of 2^-24. */
+#define LIGHT_SHARE_BITS 24
+#define LIGHT_SHARES (1 << LIGHT_SHARE_BITS)
+
+/* A link leads to a node, or to the first light of a leaf. */
 #define LIGHT_LINK_LEAF 0x80000000u
 #define LIGHT_LINK_BOTH_SIDES 0x40000000u /* some light below shines on both sides of its plane */
 #define LIGHT_LINK_INDEX 0x3fffffffu
 
-/* Where a light is in the tree: the way from the root, a bit for each pair, set for the second child. Leaves
-   hold lights of successive numbers, chosen by fixed shares. */
+/* The way from the root to a leaf, a child's place for each node, from the lowest bits. */
+#define LIGHT_TRAIL_BITS 3
+#define LIGHT_TRAIL_NODES 21 /* that fit 64 bits: the longest way */
+
+/* Where a light is in the tree. Leaves hold lights of successive numbers, chosen by fixed shares. */
 typedef struct {
-    u32 trail_low, trail_high;
+    u32 trail_low, trail_high; /* LIGHT_TRAIL_* */
     u32 end;       /* sum of the shares of the leaf's lights up to this one, over 2^32; LIGHT_LEAF_END: all;
                       0: the light is not in the tree */
     float density; /* of an emissive triangle: 1 over its area; of others: 1 */

@@ -206,6 +206,8 @@ void find_light_tree(const Scene& scene, const Options& options, unsigned kinds,
             EFFECT_LIGHT_TREE, false,
             fmt::format("{} {}", describe_option(options, option), name_of(options.sampling.light_sampler)),
             place_of(options, option));
+    else if (is_glowing_dome(scene, kinds))
+        finder.fact(EFFECT_LIGHT_TREE, false, "one lamp all around, whose parts lie alike to every point");
     else if (has_several_leaves(scene, kinds))
         finder.fact(EFFECT_LIGHT_TREE, true, "several lights, chosen for each surface point");
     else

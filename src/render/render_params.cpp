@@ -21,7 +21,7 @@ constexpr double RADIANS = 3.14159265358979323846 / 180;
 void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) {
     const Environment& sky = scene.environment;
     params.environment = to_vec4(sky.radiance);
-    LIGHT_TREE_IS_USED(params) = scene.light_tree.pairs.empty() ? 0 : 1;
+    LIGHT_TREE_IS_USED(params) = scene.light_tree.nodes.empty() ? 0 : 1;
     if (scene.background) {
         params.background = to_vec4(*scene.background);
         BACKGROUND_IS_SEEN(params) = 1;

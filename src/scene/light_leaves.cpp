@@ -12,6 +12,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <map>
 #include <tbb/parallel_for.h>
@@ -30,6 +31,17 @@ constexpr double EVEN_SHARE = 0.25;
 
 /// cos of the largest angle between normals of one plane.
 constexpr double SAME_PLANE_COS = 0.9999;
+
+/// Length of the mean normal of the most open dome: somewhat more than half a sphere's.
+constexpr double MOST_OPEN_DOME = 0.55;
+
+/// Determinant of the mean of a dome's n n^T, n its normals, at least; a sphere's and a cube's is 1/27. Lamps
+/// that face each other have 0.
+constexpr double LEAST_DOME_DETERMINANT = 0.02;
+
+/// Distance of a dome's planes from its middle, at least; over the radius of the scene. Something smaller
+/// shines on what lies outside of it too.
+constexpr double LEAST_DOME_RADIUS = 0.2;
 
 const Triangle& triangle_of(const Scene& scene, u32 emitter) {
     return scene.triangles[scene.emitters[emitter].triangle];
@@ -189,6 +201,36 @@ void scale_powers(std::vector<LightLeaf>& leaves) {
         leaf.bounds.power = std::max(leaf.bounds.power / largest, SMALLEST);
 }
 
+bool emitters_are_one_object(const Scene& scene) {
+    const Triangle& first = triangle_of(scene, 0);
+    return std::all_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& emitter) {
+        const Triangle& t = scene.triangles[emitter.triangle];
+        return t.object == first.object && t.material == first.material;
+    });
+}
+
+/// Of the emissive triangles, by area: centres, normals n, and n n^T.
+struct NormalSums {
+    double area = 0;
+    glm::dvec3 points{0}, normals{0};
+    glm::dmat3 squares{0};
+};
+
+NormalSums sum_normals(const Scene& scene) {
+    NormalSums sums;
+    for (u32 i = 0; i < scene.emitters.size(); ++i) {
+        const Triangle& t = triangle_of(scene, i);
+        const auto p = corners_of(scene, t);
+        const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+        const glm::dvec3 normal = shining_normal(scene, t);
+        sums.area += area;
+        sums.points += area / 3 * (p[0] + p[1] + p[2]);
+        sums.normals += area * normal;
+        sums.squares += glm::outerProduct(area * normal, normal);
+    }
+    return sums;
+}
+
 } // namespace
 
 u32 fan_end(const Scene& scene, u32 first) {
@@ -214,6 +256,26 @@ bool has_several_leaves(const Scene& scene, unsigned kinds) {
     if ((kinds & KIND_AREA) && !scene.emitters.empty())
         leaves += fan_end(scene, 0) < scene.emitters.size() ? 2 : 1;
     return leaves > 1;
+}
+
+bool is_glowing_dome(const Scene& scene, unsigned kinds) {
+    const bool has_others = is_chosen(scene.environment, kinds) ||
+                            std::any_of(scene.lights.begin(), scene.lights.end(),
+                                        [&](const Light& light) { return is_chosen(light, kinds); });
+    if (!(kinds & KIND_AREA) || scene.emitters.empty() || has_others || !emitters_are_one_object(scene))
+        return false;
+    const NormalSums sums = sum_normals(scene);
+    if (glm::length(sums.normals) > MOST_OPEN_DOME * sums.area ||
+        glm::determinant(sums.squares / sums.area) < LEAST_DOME_DETERMINANT)
+        return false;
+    const glm::dvec3 middle = sums.points / sums.area;
+    for (u32 i = 0; i < scene.emitters.size(); ++i) {
+        const Triangle& t = triangle_of(scene, i);
+        const double distance = glm::dot(middle - corners_of(scene, t)[0], shining_normal(scene, t));
+        if (distance < LEAST_DOME_RADIUS * double(scene.radius))
+            return false;
+    }
+    return true;
 }
 
 std::vector<LightLeaf> light_leaves(const Scene& scene, unsigned kinds) {

@@ -1,172 +1,117 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/light_tree.h"
 
+#include "scene/light_parts.h"
 #include "scene/lights.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <glm/common.hpp>
-#include <limits>
+#include <iterator>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 namespace clrt {
 namespace {
 
-constexpr size_t LIGHT_BINS = 12;
-/// Subtrees of more leaves are built side by side.
-constexpr size_t LEAVES_PER_TASK = 4096;
-/// From this depth on sets are halved, so that a trail of 64 bits leads to every leaf.
-constexpr u32 HALVING_DEPTH = 32;
+/// Nodes from the root on whose children tell most apart: the part that differs most is split until they are
+/// as many as a node holds. That may be one split on a long way; below, where the least split part comes
+/// first, it is three.
+constexpr u32 NODES_BY_COST = 6;
+static_assert(NODES_BY_COST + (LONGEST_SPLIT_WAY - NODES_BY_COST + 2) / 3 <= LIGHT_TRAIL_NODES);
+static_assert(LIGHT_NODE_WIDTH == 1 << LIGHT_TRAIL_BITS);
 
-using Leaves = std::vector<LightLeaf>::iterator;
-
-/// Which leaves go to the first child: those in the bins below `bin` along an axis.
-struct LightSplit {
-    int axis = -1; ///< none: no plane parts the centres
-    size_t bin = 0;
-    float cost = std::numeric_limits<float>::max();
-};
-
-/// Bins of the centres of leaves.
-class LightBins {
+/// Makes nodes of the parts.
+class LightNodeWriter {
 public:
-    LightBins(Leaves begin, Leaves end) : count_(std::min(LIGHT_BINS, size_t(end - begin))) {
-        low_ = high_ = begin->bounds.centre();
-        for (Leaves leaf = begin; leaf != end; ++leaf) {
-            low_ = glm::min(low_, leaf->bounds.centre());
-            high_ = glm::max(high_, leaf->bounds.centre());
-        }
-    }
-
-    size_t bin_of(const LightLeaf& leaf, int axis) const {
-        const float at = (leaf.bounds.centre()[axis] - low_[axis]) / (high_[axis] - low_[axis]);
-        return std::min(size_t(at * float(count_)), count_ - 1);
-    }
-
-    LightSplit best_split(Leaves begin, Leaves end) const {
-        const glm::vec3 extent = high_ - low_;
-        const float longest = std::max({extent.x, extent.y, extent.z});
-        LightSplit best;
-        for (int axis = 0; axis < 3; ++axis)
-            if (extent[axis] > 0)
-                try_axis(axis, longest / extent[axis], begin, end, best);
-        return best;
+    LightNodeWriter(const std::vector<LightLeaf>& leaves, const std::vector<LightPart>& parts,
+                    LightTree& tree)
+        : leaves_(leaves), parts_(parts), tree_(tree) {
+        write(0, 0, 0);
     }
 
 private:
-    /// `slenderness` keeps splits from making needles.
-    void try_axis(int axis, float slenderness, Leaves begin, Leaves end, LightSplit& best) const {
-        std::array<LightSpread, LIGHT_BINS> bins;
-        for (Leaves leaf = begin; leaf != end; ++leaf)
-            bins[bin_of(*leaf, axis)].add(leaf->bounds);
-        std::array<float, LIGHT_BINS> above{};
-        LightSpread sum;
-        for (size_t i = count_ - 1; i > 0; --i) {
-            sum.add(bins[i]);
-            above[i] = sum.cost();
-        }
-        LightSpread below;
-        for (size_t i = 1; i < count_; ++i) {
-            below.add(bins[i - 1]);
-            const float cost = slenderness * (below.cost() + above[i]);
-            if (cost < best.cost)
-                best = {axis, i, cost};
-        }
+    struct Child {
+        u32 part = 0;
+        u32 splits = 0; ///< from the node's part
+    };
+
+    /// How urgently a child is to be split; below 0: it is a leaf.
+    float urgency(const Child& child, u32 depth) const {
+        const LightPart& part = parts_[child.part];
+        if (part.is_leaf())
+            return -1;
+        const float radius = part.bounds.radius();
+        return depth < NODES_BY_COST ? part.bounds.power * radius * radius
+                                     : float(LIGHT_NODE_WIDTH - child.splits);
     }
 
-    size_t count_;
-    glm::vec3 low_, high_;
-};
-
-/// A built part of the tree, as its parent's pair describes it.
-struct LightNode {
-    LightBounds bounds;
-    u32 link = 0;
-};
-
-class LightTreeBuilder {
-public:
-    LightTreeBuilder(std::vector<LightLeaf> leaves, LightTree& tree)
-        : leaves_(std::move(leaves)), tree_(tree) {
-        tree_.pairs.resize(leaves_.size() - 1);
-        build(leaves_.begin(), leaves_.end(), 0, 0, 0);
-    }
-
-private:
-    /// Builds the subtree over some leaves, whose pairs begin at `pair`. `trail` leads here from the root.
-    LightNode build(Leaves begin, Leaves end, u32 pair, std::uint64_t trail, u32 depth) {
-        if (end - begin == 1)
-            return build_leaf(*begin, trail);
-        const Leaves middle = split(begin, end, depth);
-        LightNode first, second;
-        const auto build_first = [&] { first = build(begin, middle, pair + 1, trail, depth + 1); };
-        const auto build_second = [&] {
-            second =
-                build(middle, end, pair + u32(middle - begin), trail | std::uint64_t(1) << depth, depth + 1);
-        };
-        if (size_t(end - begin) > LEAVES_PER_TASK) {
-            tbb::parallel_invoke(build_first, build_second);
-        } else {
-            build_first();
-            build_second();
+    std::vector<Child> children_of(u32 part, u32 depth) const {
+        std::vector<Child> children = {{part, 0}};
+        while (children.size() < LIGHT_NODE_WIDTH) {
+            const auto next =
+                std::max_element(children.begin(), children.end(), [&](const Child& a, const Child& b) {
+                    return urgency(a, depth) < urgency(b, depth);
+                });
+            const LightPart& split = parts_[next->part];
+            if (split.is_leaf())
+                break;
+            *next = {split.first, next->splits + 1};
+            children.insert(next + 1, {split.second, next->splits});
         }
-        write_pair(first, second, tree_.pairs[pair]);
-        return {united(first.bounds, second.bounds), pair};
+        return children;
     }
 
-    LightNode build_leaf(const LightLeaf& leaf, std::uint64_t trail) {
+    /// Writes the nodes of a part to which `trail` leads from the root; gives the link.
+    u32 write(u32 part, std::uint64_t trail, u32 depth) {
+        const u32 number = u32(tree_.nodes.size());
+        tree_.nodes.emplace_back();
+        const std::vector<Child> children = children_of(part, depth);
+        for (u32 i = 0; i < children.size(); ++i) {
+            const LightPart& child = parts_[children[i].part];
+            const std::uint64_t way = trail | std::uint64_t(i) << (LIGHT_TRAIL_BITS * depth);
+            const u32 link =
+                child.is_leaf() ? place(leaves_[child.first], way) : write(children[i].part, way, depth + 1);
+            write_child(child.bounds, link, i, tree_.nodes[number]);
+        }
+        write_ends(children, tree_.nodes[number]);
+        return number;
+    }
+
+    u32 place(const LightLeaf& leaf, std::uint64_t trail) {
         for (u32 light = leaf.first; light < leaf.first + leaf.count; ++light) {
             tree_.places[light].trail_low = u32(trail);
             tree_.places[light].trail_high = u32(trail >> 32);
         }
-        return {leaf.bounds, leaf.first | LIGHT_LINK_LEAF};
+        return leaf.first | LIGHT_LINK_LEAF;
     }
 
-    /// Parts leaves in two sets that are not empty.
-    static Leaves split(Leaves begin, Leaves end, u32 depth) {
-        for (const LightRange range : {LightRange::SKY, LightRange::SUN}) {
-            const Leaves middle =
-                std::stable_partition(begin, end, [&](const LightLeaf& leaf) { return leaf.range == range; });
-            if (middle != begin && middle != end)
-                return middle;
+    static void write_child(const LightBounds& bounds, u32 link, u32 at, LightNode& node) {
+        const glm::vec3 centre = bounds.centre();
+        node.x[at] = centre.x, node.y[at] = centre.y, node.z[at] = centre.z;
+        node.radius[at] = bounds.radius();
+        node.axis_x[at] = bounds.axis.x, node.axis_y[at] = bounds.axis.y, node.axis_z[at] = bounds.axis.z;
+        node.chord[at] = std::sqrt(std::max(2 - 2 * bounds.cos_spread, 0.0f));
+        node.power[at] = bounds.power;
+        node.link[at] = link | (bounds.both_sides ? LIGHT_LINK_BOTH_SIDES : 0u);
+    }
+
+    /// Every child has a share, so the ends rise by at least 1.
+    void write_ends(const std::vector<Child>& children, LightNode& node) const {
+        std::fill(std::begin(node.end), std::end(node.end), LIGHT_SHARES);
+        double all = 0, sum = 0;
+        for (const Child& child : children)
+            all += double(parts_[child.part].bounds.power);
+        const i32 count = i32(children.size());
+        for (i32 i = 0, least = 1; i < count - 1; ++i) {
+            sum += double(parts_[children[size_t(i)].part].bounds.power);
+            node.end[i] = std::clamp(i32(sum / all * LIGHT_SHARES), least, LIGHT_SHARES - (count - 1 - i));
+            least = node.end[i] + 1;
         }
-        const Leaves half = begin + (end - begin) / 2;
-        if (end - begin == 2 || depth >= HALVING_DEPTH)
-            return half;
-        const LightBins bins(begin, end);
-        const LightSplit best = bins.best_split(begin, end);
-        if (best.axis < 0)
-            return half;
-        const Leaves middle = std::stable_partition(
-            begin, end, [&](const LightLeaf& leaf) { return bins.bin_of(leaf, best.axis) < best.bin; });
-        return middle == begin || middle == end ? half : middle;
     }
 
-    static void write_pair(const LightNode& a, const LightNode& b, LightPair& pair) {
-        const auto both = [&](const auto& of) { return vec2{of(a.bounds), of(b.bounds)}; };
-        pair.x = both([](const LightBounds& n) { return n.centre().x; });
-        pair.y = both([](const LightBounds& n) { return n.centre().y; });
-        pair.z = both([](const LightBounds& n) { return n.centre().z; });
-        pair.radius = both([](const LightBounds& n) { return n.radius(); });
-        pair.axis_x = both([](const LightBounds& n) { return n.axis.x; });
-        pair.axis_y = both([](const LightBounds& n) { return n.axis.y; });
-        pair.axis_z = both([](const LightBounds& n) { return n.axis.z; });
-        pair.cos_spread = both([](const LightBounds& n) { return n.cos_spread; });
-        pair.power = both([](const LightBounds& n) { return n.power; });
-        const auto link = [](const LightNode& n) {
-            return n.link | (n.bounds.both_sides ? LIGHT_LINK_BOTH_SIDES : 0u);
-        };
-        pair.first = link(a);
-        pair.second = link(b);
-        const double share = double(a.bounds.power) / (double(a.bounds.power) + double(b.bounds.power));
-        pair.first_share = u32(std::clamp(share * 16777216.0, 1.0, 16777215.0));
-    }
-
-    std::vector<LightLeaf> leaves_;
+    const std::vector<LightLeaf>& leaves_;
+    const std::vector<LightPart>& parts_;
     LightTree& tree_;
 };
 
@@ -203,17 +148,18 @@ LightTree build_light_tree(const Scene& scene, unsigned kinds) {
     tree.places.resize(scene.emitters.size() + scene.lights.size() + 1);
     tbb::parallel_for(size_t(0), leaves.size(),
                       [&](size_t i) { write_shares(scene, leaves[i], tree.places); });
-    LightTreeBuilder(std::move(leaves), tree);
+    const std::vector<LightPart> parts = split_lights(leaves);
+    LightNodeWriter(leaves, parts, tree);
     return tree;
 }
 
 int light_tree_depth(const LightTree& tree) {
-    std::vector<int> depths(tree.pairs.size(), 1); // a pair comes before those below it
+    std::vector<int> depths(tree.nodes.size(), 1); // a node comes before those below it
     int deepest = 0;
-    for (size_t i = 0; i < tree.pairs.size(); ++i) {
+    for (size_t i = 0; i < tree.nodes.size(); ++i) {
         deepest = std::max(deepest, depths[i]);
-        for (const u32 link : {tree.pairs[i].first, tree.pairs[i].second})
-            if (!(link & LIGHT_LINK_LEAF))
+        for (const u32 link : tree.nodes[i].link)
+            if (link && !(link & LIGHT_LINK_LEAF)) // places without a child have 0, the root's link
                 depths[link & LIGHT_LINK_INDEX] = depths[i] + 1;
     }
     return deepest;

@@ -7,12 +7,11 @@
 
 namespace clrt {
 
-/// Builds the tree over the lights of the kinds (KIND_*): binned splits that keep lights of one place and one
-/// direction together (Conty Estevez and Kulla 2018), on all threads, the same whatever their number. Empty
-/// where there are not two leaves to choose between.
+/// Builds the tree over the lights of the kinds (KIND_*) from their parts (light_parts.h), the same whatever
+/// the number of threads. Empty where there are not two leaves to choose between.
 LightTree build_light_tree(const Scene& scene, unsigned kinds);
 
-/// Pairs on the longest way from the root.
+/// Nodes on the longest way from the root.
 int light_tree_depth(const LightTree& tree);
 
 } // namespace clrt

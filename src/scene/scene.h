@@ -44,7 +44,7 @@ struct Environment {
 
 /// The tree that chooses lights (scene/light_tree.h); empty: tables do.
 struct LightTree {
-    std::vector<LightPair> pairs;
+    std::vector<LightNode> nodes;
     std::vector<LightPlace> places; ///< of the emitters, then the lights, then the environment
 };
 

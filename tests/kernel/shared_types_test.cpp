@@ -71,12 +71,11 @@ const Layout ENVIRONMENT_TEXEL = {
     sizeof(EnvironmentTexel),
     {M(radiance), M(alias), M(threshold), M(unused0), M(unused1)}};
 #undef M
-#define M(name) MEMBER(LightPair, name)
-const Layout LIGHT_PAIR = {
-    "LightPair",
-    sizeof(LightPair),
-    {M(x), M(y), M(z), M(radius), M(axis_x), M(axis_y), M(axis_z), M(cos_spread), M(power), M(first),
-     M(second), M(first_share), M(unused0), M(unused1), M(unused2)}};
+#define M(name) MEMBER(LightNode, name)
+const Layout LIGHT_NODE = {
+    "LightNode",
+    sizeof(LightNode),
+    {M(x), M(y), M(z), M(radius), M(axis_x), M(axis_y), M(axis_z), M(chord), M(power), M(end), M(link)}};
 #undef M
 #define M(name) MEMBER(LightPlace, name)
 const Layout LIGHT_PLACE = {
@@ -119,7 +118,7 @@ const Layout ARRAY_PLACES = {
 
 const std::vector<Layout> LAYOUTS = {
     TRIANGLE,           MATERIAL,    TEXTURE,     EMITTER,       LIGHT,
-    ENVIRONMENT_TEXEL,  LIGHT_PAIR,  LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
+    ENVIRONMENT_TEXEL,  LIGHT_NODE,  LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
     ARRAY_PLACE_LAYOUT, ARRAY_PLACES};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
