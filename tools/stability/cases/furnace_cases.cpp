@@ -68,22 +68,14 @@ void by_bsdf_sampling(CaseRun& run) {
 }
 
 void by_light_sampling(CaseRun& run) {
-    // Six standard errors are 1e-3: a weight of light or BSDF sampling that is off by so much is seen. Lights
-    // by the tree have 2.4 times the standard error here: seen from any point of a sphere its areas count
-    // alike, which is the rule of the tables.
-    MeanFigure by_tables(run, "the mean, lights by tables", 1e-3 / 6);
-    MeanFigure by_tree(run, "the mean, lights by the tree", 2.5e-3 / 6);
+    // Six standard errors are 1e-3: a weight of light or BSDF sampling that is off by so much is seen.
+    MeanFigure mean(run, "the mean", 1e-3 / 6);
     Furnace scene(0.5, 0.5, 32);
     scene.build.icosphere({0, 0, 0}, 1, 3, Facing::INWARD);
     PathProbe probe(run.device, scene);
     const std::vector<TestRay> rays = rays_from_inside(probe, 16, 2);
-    for (const bool uses_tree : {false, true}) {
-        LIGHT_TREE_IS_USED(probe.params) = uses_tree;
-        MeanFigure& mean = uses_tree ? by_tree : by_tables;
-        for (const Build build : path_builds(run))
-            mean.see(build, reds(probe.radiance(build, Integrator::PATH, rays, run.count(1500, 1e5, 1e6))),
-                     1);
-    }
+    for (const Build build : path_builds(run))
+        mean.see(build, reds(probe.radiance(build, Integrator::PATH, rays, run.count(1500, 1e5, 1e6))), 1);
 }
 
 /// A ball whose radius waves between 0.7 and 1.3; triangles share their corners' bits.
