@@ -54,7 +54,7 @@ typedef struct {
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
 } RenderParams;
-ASSERT_SIZE(RenderParams, 256);
+ASSERT_SIZE(RenderParams, 368);
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)

@@ -154,6 +154,10 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
     }
     if ((effects & EFFECT_LIGHT_TREE) && options.sampling.light_sampler == LightSampler::TREE)
         options.sampling.light_sampler = LightSampler::MIXTURE;
+    if (effects & EFFECT_MOTION_BLUR)
+        scene.camera.end.reset();
+    if (effects & EFFECT_DEPTH_OF_FIELD)
+        scene.camera.aperture = 0;
     if (effects & EFFECT_INTERREFLECTION)
         options.transport.max_depth = std::min(effective_max_depth(options.transport), 2);
 }
