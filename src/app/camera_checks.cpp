@@ -105,9 +105,10 @@ Fault find_lens_fault(const Options& options) {
 
 Fault find_shutter_fault(const Options& options) {
     const CameraOptions& camera = options.camera;
-    if (camera.shutter && !camera.end_eye && !camera.end_at && !camera.end_up)
-        return "option --shutter: expected together with what moves, --end-eye, --end-at or --end-up, found "
-               "alone";
+    if (camera.shutter && !camera.end_eye && !camera.end_at && !camera.end_up &&
+        options.scene.end_path.empty())
+        return "option --shutter: expected together with what moves, --end, --end-eye, --end-at or --end-up, "
+               "found alone";
     if (camera.frames && camera.end_up)
         return "options --frames and --end-up: expected one of them, found both; a turn keeps its axis";
     return std::nullopt;

@@ -83,7 +83,9 @@ struct LoadStatistics {
 struct Scene {
     std::vector<vec4> positions; ///< normalised frame, w = 0
     std::vector<vec4> normals;   ///< unit or zero, w = 0
-    std::vector<float> uvs;      ///< u, v pairs
+    /// From the shutter's opening to its closing, of each position and normal; empty where no triangle moves.
+    std::vector<vec4> position_moves, normal_moves;
+    std::vector<float> uvs; ///< u, v pairs
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
     std::vector<EmittedRadiance> emitted; ///< by each material

@@ -63,6 +63,7 @@ const std::map<std::string, std::string>& samples() {
         {"--fstop", "2.8"},
         {"--focus", "1,2,3"},
         {"--blades", "6"},
+        {"--end", "end.obj"},
         {"--end-eye", "1,2,3"},
         {"--end-at", "1,2,3"},
         {"--end-up", "z"},

@@ -56,6 +56,12 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
         [](Scene& s) {
             s.normals.push_back({0, 1, 0, 0});
         },
+        [](Scene& s) {
+            s.position_moves.push_back({0, 1, 0, 0});
+        },
+        [](Scene& s) {
+            s.normal_moves.push_back({0, 1, 0, 0});
+        },
         [](Scene& s) { s.uvs.push_back(0); },
         [](Scene& s) { s.triangles[0].material = 1; },
         [](Scene& s) { s.triangles.pop_back(); },

@@ -109,7 +109,7 @@ const Layout RENDER_PARAMS = {
 const Layout ARRAY_PLACE_LAYOUT = {
     "ArrayPlace",
     sizeof(ArrayPlace),
-    {M(heap), M(first), M(unused0), M(unused1)}};
+    {M(heap), M(first), M(is_empty), M(unused0)}};
 #undef M
 #define M(type, name, member) MEMBER(ArrayPlaces, name),
 const Layout ARRAY_PLACES = {
