@@ -44,12 +44,17 @@ static inline void surface_corners_at(const Scene* scene, global const Triangle*
     p[2] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v2, time);
 }
 
-/* Corner normals at a time, of a triangle that has some; linear between unit vectors. */
+/* Corner normals at a time, of a triangle that has some: unit vectors on the straight way between two, 0 where
+   it leads through 0. */
 static inline void surface_normals_at(const Scene* scene, global const Triangle* triangle, real time, real3* n)
 {
     n[0] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n0, time);
     n[1] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n1, time);
     n[2] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n2, time);
+    for (int i = 0; i < 3 && scene_moves(scene); ++i) {
+        const real length = vector_length(n[i]);
+        n[i] = length > REAL(0.0) ? n[i] / length : n[i];
+    }
 }
 
 /* Corner positions of a triangle that does not move, as no lamp does. */

@@ -58,7 +58,7 @@ TEST(MovingScene, EdgesBlurAsTheirCoverageSays) {
         scene.options.camera.ortho_height = SIDE;
         scene.options.light.environment = glm::dvec3(1);
         scene.options.transport.max_depth = 1;
-        scene.options.sampling.spp = 4096;
+        scene.options.sampling.spp = 1024;
         scene.options.bvh.layout = layout;
         const Film film = scene.render().film;
         for (int x = 0; x < SIDE; ++x) {
@@ -100,13 +100,13 @@ TEST(MovingScene, ThePictureIsTheMeanOfItsMoments) {
         scene.look({0.3, 1.6, 3.5}, {0, 0.5, 0}, 45);
         scene.options.transport.integrator = integrator;
         scene.options.transport.max_depth = 3;
-        scene.options.sampling.spp = 8192;
+        scene.options.sampling.spp = 4096;
         const Film whole = scene.render().film;
         std::vector<Film> moments;
         for (int i = 0; i < MOMENTS; ++i) {
             // The midpoint rule: the radiance of a tile is smooth enough in time for 16 of them.
             scene.options.camera.shutter = glm::dvec2((i + 0.5) / MOMENTS);
-            scene.options.sampling.spp = 1024;
+            scene.options.sampling.spp = 512;
             scene.options.sampling.seed = u32(1 + i);
             moments.push_back(scene.render().film);
         }

@@ -113,6 +113,8 @@ FAULTS = [
      "const real time = REAL(0.0);", "moving_scene_test"),
     ("points of triangles that move lie where they were", "geometry/surface.h", "const real time = ray_time(ray);\n",
      "const real time = REAL(0.0);\n", "moving_scene_test"),
+    ("normals that turn are too short", "geometry/surface.h", "n[i] = length > REAL(0.0) ? n[i] / length : n[i];", "",
+     "moving_scene_test"),
     ("corner normals stand still", "geometry/surface.h",
      "surface_moved(scene, scene->normals, scene->normal_moves, triangle->n0, time)",
      "vector_from(scene->normals[triangle->n0])", "moving_scene_test"),
