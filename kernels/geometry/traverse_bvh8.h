@@ -103,13 +103,9 @@ typedef struct {
     uint lanes; /* hit within (0, t_max] */
 } BlockHits;
 
-/* The corners' coordinates along one of the permuted axes, three times eight, at the ray's time. */
-static inline void bvh8_corners(const Scene* scene, global const uint* words, real time, real8* corners)
+/* Moves corners' coordinates along a permuted axis to a time; `words` are those of the first corner. */
+static inline void bvh8_move(const Scene* scene, global const uint* words, real time, real8* corners)
 {
-    for (uint corner = 0; corner < 3u; ++corner)
-        corners[corner] = bvh8_load(words + 8u * corner);
-    if (!scene_moves(scene))
-        return;
     global const uint* moves = scene->bvh_leaf_moves + (words - scene->bvh_leaves);
     for (uint corner = 0; corner < 3u; ++corner)
         corners[corner] = fma((real8)(time), bvh8_load(moves + 8u * corner), corners[corner]);
@@ -118,10 +114,15 @@ static inline void bvh8_corners(const Scene* scene, global const uint* words, re
 static inline BlockHits bvh8_block(const Scene* scene, global const uint* block, const RayShear* shear,
                                    real time, real t_max)
 {
-    real8 x[3], y[3], z[3];
-    bvh8_corners(scene, block + 24u * shear->kx, time, x);
-    bvh8_corners(scene, block + 24u * shear->ky, time, y);
-    bvh8_corners(scene, block + 24u * shear->kz, time, z);
+    global const uint* words[3] = {block + 24u * shear->kx, block + 24u * shear->ky, block + 24u * shear->kz};
+    real8 x[3] = {bvh8_load(words[0]), bvh8_load(words[0] + 8), bvh8_load(words[0] + 16)};
+    real8 y[3] = {bvh8_load(words[1]), bvh8_load(words[1] + 8), bvh8_load(words[1] + 16)};
+    real8 z[3] = {bvh8_load(words[2]), bvh8_load(words[2] + 8), bvh8_load(words[2] + 16)};
+    if (scene_moves(scene)) {
+        bvh8_move(scene, words[0], time, x);
+        bvh8_move(scene, words[1], time, y);
+        bvh8_move(scene, words[2], time, z);
+    }
     BlockHits hits;
     real8 u, t_det;
     triangle_edges_8(shear, x, y, z, &u, &hits.v, &hits.w, &hits.det, &t_det);
