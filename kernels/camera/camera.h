@@ -52,9 +52,9 @@ static inline real2 camera_shift(const CameraParams* camera)
 }
 
 /* Which camera takes the picture is a run-time choice: a branch that all work-items take alike, once a
-   path, while programs of their own would be compiled and kept apart for each. `film` counts from the picture's
-   centre. `lens` is a pair of numbers in (0, 1) that chooses a point of the lens, where there is one. A camera
-   without a row sees nothing: its ray has no direction. */
+   path, while programs of their own would be compiled and kept apart for each. `film` counts from the
+   picture's centre. `lens` is a pair of numbers in (0, 1) that chooses a point of the lens, where there is
+   one. A camera without a row sees nothing: its ray has no direction. */
 static inline Ray camera_generate(const CameraParams* camera, real2 film, real2 lens, real time)
 {
 #define CAMERA_GENERATE(constant, name)                \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thin lens: every point of it sees what the pinhole at its middle sees in the plane in focus, which is
-// parallel to the film (Potmesil and Chakravarty 1981; Cook, Porter and Carpenter 1984). In units of the film at
-// depth 1 a point s of the lens moves a ray's origin by s and its film position by -s / focus.
+// parallel to the film (Potmesil and Chakravarty 1981; Cook, Porter and Carpenter 1984). In units of the film
+// at depth 1 a point s of the lens moves a ray's origin by s and its film position by -s / focus.
 #ifndef CLRT_CAMERA_CAMERA_LENS_H
 #define CLRT_CAMERA_CAMERA_LENS_H
 

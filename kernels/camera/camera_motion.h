@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera that moves while the shutter is open: eye, point looked at and up vector run along straight lines.
+// The camera that moves while the shutter is open: eye, point looked at and up vector run along straight
+// lines.
 #ifndef CLRT_CAMERA_CAMERA_MOTION_H
 #define CLRT_CAMERA_CAMERA_MOTION_H
 

@@ -23,8 +23,8 @@ static inline real3 camera_from_axes(const CameraParams* camera, real3 parts)
 
 static inline real3 camera_to_axes(const CameraParams* camera, real3 v)
 {
-    return vector_make(vector_dot(v, vector_from(camera->film_dx)), vector_dot(v, vector_from(camera->film_dy)),
-                       vector_dot(v, vector_from(camera->look)));
+    return vector_make(vector_dot(v, vector_from(camera->film_dx)),
+                       vector_dot(v, vector_from(camera->film_dy)), vector_dot(v, vector_from(camera->look)));
 }
 
 /* Product of the angles that the sides of a pixel span, radians. */

@@ -37,16 +37,18 @@ static inline real3 surface_moved(const Scene* scene, global const float4* start
 }
 
 /* Corner positions at a time: the same bits as in the leaves. */
-static inline void surface_corners_at(const Scene* scene, global const Triangle* triangle, real time, real3* p)
+static inline void surface_corners_at(const Scene* scene, global const Triangle* triangle, real time,
+                                      real3* p)
 {
     p[0] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v0, time);
     p[1] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v1, time);
     p[2] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v2, time);
 }
 
-/* Corner normals at a time, of a triangle that has some: unit vectors on the straight way between two, 0 where
-   it leads through 0. */
-static inline void surface_normals_at(const Scene* scene, global const Triangle* triangle, real time, real3* n)
+/* Corner normals at a time, of a triangle that has some: unit vectors on the straight way between two, 0
+   where it leads through 0. */
+static inline void surface_normals_at(const Scene* scene, global const Triangle* triangle, real time,
+                                      real3* n)
 {
     n[0] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n0, time);
     n[1] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n1, time);

@@ -43,8 +43,8 @@
    0. */
 #define LEAF_TRIANGLE_WORDS 12
 
-/* Where triangles move while the shutter is open, leaves have a second array: at the places of the corners, how
-   far each goes (floats). */
+/* Where triangles move while the shutter is open, leaves have a second array: at the places of the corners,
+   how far each goes (floats). */
 
 /* cwbvh node: 20 words, in parts of which bytes stand in the order of memory.
    Words 0..2: origin of the node's lattice (floats).

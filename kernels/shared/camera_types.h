@@ -22,8 +22,8 @@ enum Projection {
     PROJECTION_COUNT
 };
 
-/* The camera in the normalised frame. Film positions count pixels right of and below the camera's axis; without
-   a shift that is the picture's centre. */
+/* The camera in the normalised frame. Film positions count pixels right of and below the camera's axis;
+   without a shift that is the picture's centre. */
 typedef struct {
     vec4 eye;     /* xyz: where the ray along the axis starts; w: 0, as of the others */
     vec4 film_dx; /* xyz: what a pixel to the right adds to a ray's direction, to its origin if parallel; unit
@@ -31,8 +31,8 @@ typedef struct {
     vec4 film_dy; /* xyz: the same of a pixel downwards; film_dx x film_dy points along look */
     vec4 look;    /* xyz: unit direction of the axis */
 
-    /* What changes while the shutter is open, where `moves`: eye, way and up run along straight lines, and the
-       axes above are those of its opening. */
+    /* What changes while the shutter is open, where `moves`: eye, way and up run along straight lines, and
+       the axes above are those of its opening. */
     vec4 eye_move; /* xyz: from the shutter's opening to its closing */
     vec4 way;      /* xyz: from the eye to what it looks at */
     vec4 way_move;
