@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the geometry and the textures of the scenes in scenes/: NAME/NAME.obj and NAME/*.png. Materials, options and
+"""Writes the geometry and the textures of the scenes in scenes/: NAME/NAME.obj, of what moves NAME/end/NAME.obj, and
+NAME/*.png. Materials, options and
 README of a scene are written by hand.
 
     tools/make_scenes.py            writes them
@@ -16,6 +17,7 @@ import sys
 
 import scene_textures as textures
 from scene_effects import gloss_translucency, soft_shadows
+from scene_exposure import depth_of_field, motion_blur
 from scene_head import add_head
 from scene_kit import Obj, add, png, png_pixels, polygon_normal, scale, subtract, unit
 from scene_rooms import door_ajar, hall_of_lamps
@@ -333,8 +335,10 @@ def all_files():
     for scene in (cornell_box, spheres_over_plane, mirror_glass_depth10, colour_bleeding, caustic, furnace,
                   glossy_plates, textured_interior, every_effect, still_life, plates_far_lamp):
         made.update(scene())
-    for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency):
+    for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency, depth_of_field):
         made.update(files(scene.__name__, scene()))
+    made.update(files("motion_blur", motion_blur(0)))
+    made["motion_blur/end/motion_blur.obj"] = motion_blur(1).text("../motion_blur.mtl").encode()
     return made
 
 

@@ -3,9 +3,14 @@
 //   Ray camera_NAME_generate(const CameraParams*, real2 film, real2 lens, real time)
 //   CameraPdf camera_NAME_pdf(const CameraParams*, real3 direction)
 //   CameraConnection camera_NAME_project(const CameraParams*, real3 point, real2 lens)
+// of film positions that count from the camera's axis. A camera that moves is taken at a time before
+// (camera_at).
 #ifndef CLRT_CAMERA_CAMERA_H
 #define CLRT_CAMERA_CAMERA_H
 
+#include "camera_equirectangular.h"
+#include "camera_fisheye.h"
+#include "camera_motion.h"
 #include "camera_orthographic.h"
 #include "camera_perspective.h"
 #include "numerics/real_functions.h"
@@ -40,15 +45,21 @@ static inline real2 camera_filter_sample(const RenderParams* params, real2 u)
     return (real2)(r * sc.y, r * sc.x);
 }
 
+/* From the camera's axis to the picture's centre, pixels. */
+static inline real2 camera_shift(const CameraParams* camera)
+{
+    return (real2)((real)camera->shift_x, (real)camera->shift_y);
+}
+
 /* Which camera takes the picture is a run-time choice: a branch that all work-items take alike, once a
-   path, while programs of their own would be compiled and kept apart for each. `lens` is a pair of numbers
-   in (0, 1) that chooses a point of the lens: a pinhole and parallel rays have none to choose. A camera
-   without a row sees nothing: its ray has no direction. */
+   path, while programs of their own would be compiled and kept apart for each. `film` counts from the
+   picture's centre. `lens` is a pair of numbers in (0, 1) that chooses a point of the lens, where there is
+   one. A camera without a row sees nothing: its ray has no direction. */
 static inline Ray camera_generate(const CameraParams* camera, real2 film, real2 lens, real time)
 {
 #define CAMERA_GENERATE(constant, name)                \
     if (camera->projection == PROJECTION_##constant) \
-        return camera_##name##_generate(camera, film, lens, time);
+        return camera_##name##_generate(camera, film + camera_shift(camera), lens, time);
     PROJECTION_ROWS(CAMERA_GENERATE)
     return ray_make((real3)(REAL(0.0)), (real3)(REAL(0.0)), time);
 }
@@ -77,11 +88,23 @@ static inline real camera_importance(const CameraParams* camera, real3 direction
    number of such connections a pixel. */
 static inline CameraConnection camera_project(const CameraParams* camera, real3 point, real2 lens)
 {
+    CameraConnection connection = camera_connection_none();
 #define CAMERA_PROJECT(constant, name)               \
     if (camera->projection == PROJECTION_##constant) \
-        return camera_##name##_project(camera, point, lens);
+        connection = camera_##name##_project(camera, point, lens);
     PROJECTION_ROWS(CAMERA_PROJECT)
-    return camera_connection_none();
+    connection.film -= camera_shift(camera);
+    return connection;
+}
+
+/* The same at a time within the shutter's opening. */
+static inline CameraConnection camera_project_at(const RenderParams* params, real3 point, real2 lens,
+                                                 real time)
+{
+    if (!camera_moves(&params->camera))
+        return camera_project(&params->camera, point, lens);
+    const CameraParams camera = camera_at(&params->camera, time);
+    return camera_project(&camera, point, lens);
 }
 
 /* Film position of the centre of pixel (x, y) of the whole picture: from its middle, exact, because
@@ -108,8 +131,11 @@ static inline Ray camera_ray(const RenderParams* params, const Sampler* sampler,
     const real2 offset = camera_filter_sample(params, sampler_pair(sampler, 0u, SAMPLE_FILM));
     const real2 film = camera_pixel_centre(params, x, y) + offset;
     const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
-    const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_number(sampler, 0u, SAMPLE_TIME) : REAL(0.0);
-    return camera_generate(&params->camera, film, lens, time);
+    const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_pair(sampler, 0u, SAMPLE_TIME).x : REAL(0.0);
+    if (!camera_moves(&params->camera))
+        return camera_generate(&params->camera, film, lens, time);
+    const CameraParams camera = camera_at(&params->camera, time);
+    return camera_generate(&camera, film, lens, time);
 }
 
 #endif

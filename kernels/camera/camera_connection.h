@@ -38,6 +38,12 @@ static inline real3 camera_pixel_area(const CameraParams* camera)
     return vector_cross(vector_from(camera->film_dx), vector_from(camera->film_dy));
 }
 
+/* x film_dx + y film_dy. */
+static inline real3 camera_film_offset(const CameraParams* camera, real2 film)
+{
+    return fma((real3)(film.x), vector_from(camera->film_dx), film.y * vector_from(camera->film_dy));
+}
+
 /* The position of the film whose offset x film_dx + y film_dy, with any part along look, is `way`; exact
    for film vectors at any angle. */
 static inline real2 camera_film_position(const CameraParams* camera, real3 way)

@@ -33,6 +33,9 @@ typedef struct {
     SCENE_ARRAYS(SCENE_ARRAY)
 #undef SCENE_ARRAY
     GuideArrays guide; /* unset without PATH_GUIDE */
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    bool moves; /* triangles move while the shutter is open */
+#endif
 #ifdef CLRT_COUNT_VISITS
     uint* visits; /* of the rays so far: nodes, leaves, triangles; to be set by whoever counts */
 #endif
@@ -49,6 +52,15 @@ typedef struct {
 #define SCENE_COUNT_NODE(scene)
 #define SCENE_COUNT_LEAF(scene, triangle_count)
 #endif
+
+static inline bool scene_moves(const Scene* scene)
+{
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    return scene->moves;
+#else
+    return false;
+#endif
+}
 
 /* A heap, in units of SCENE_ALIGNMENT bytes. */
 typedef global const ulong16* SceneHeap;
@@ -72,6 +84,9 @@ static inline Scene scene_make(SceneHeap heap0, SceneHeap heap1, SceneHeap heap2
     BVH_ARRAYS(SCENE_ARRAY)
     SCENE_ARRAYS(SCENE_ARRAY)
 #undef SCENE_ARRAY
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    scene.moves = places->position_moves.is_empty == 0u;
+#endif
 #ifdef CLRT_COUNT_VISITS
     scene.visits = 0;
 #endif

@@ -28,7 +28,38 @@ typedef struct {
 #endif
 } Surface;
 
-/* Corner positions. */
+/* A position or a normal at a time of the shutter's opening; `moves` has its way until it closes. */
+static inline real3 surface_moved(const Scene* scene, global const float4* starts, global const float4* moves,
+                                  uint i, real time)
+{
+    const real3 start = vector_from(starts[i]);
+    return scene_moves(scene) ? fma((real3)(time), vector_from(moves[i]), start) : start;
+}
+
+/* Corner positions at a time: the same bits as in the leaves. */
+static inline void surface_corners_at(const Scene* scene, global const Triangle* triangle, real time,
+                                      real3* p)
+{
+    p[0] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v0, time);
+    p[1] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v1, time);
+    p[2] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v2, time);
+}
+
+/* Corner normals at a time, of a triangle that has some: unit vectors on the straight way between two, 0
+   where it leads through 0. */
+static inline void surface_normals_at(const Scene* scene, global const Triangle* triangle, real time,
+                                      real3* n)
+{
+    n[0] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n0, time);
+    n[1] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n1, time);
+    n[2] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n2, time);
+    for (int i = 0; i < 3 && scene_moves(scene); ++i) {
+        const real length = vector_length(n[i]);
+        n[i] = length > REAL(0.0) ? n[i] / length : n[i];
+    }
+}
+
+/* Corner positions of a triangle that does not move, as no lamp does. */
 static inline void surface_corners(const Scene* scene, global const Triangle* triangle, real3* p0, real3* p1,
                                    real3* p2)
 {
@@ -132,14 +163,14 @@ static inline void surface_uv(const Scene* scene, global const Triangle* triangl
    tangent planes of the corners, and the projections are interpolated (Hanika 2021, Ray Tracing Gems II, ch.
    4). Without it coarse meshes shade themselves near the terminator. A displacement that leads below the
    plane or the shading normal's horizon, as corner normals that contradict each other give, is none. */
-static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, const real3* p,
-                                  real b1, real b2, Surface* surface)
+static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, real time,
+                                  const real3* p, real b1, real b2, Surface* surface)
 {
     if (!HAS(EFFECT_SMOOTH_NORMALS) || triangle->n0 == NO_INDEX)
         return;
-    const real3 n0 = vector_from(scene->normals[triangle->n0]);
-    const real3 n1 = vector_from(scene->normals[triangle->n1]);
-    const real3 n2 = vector_from(scene->normals[triangle->n2]);
+    real3 n[3];
+    surface_normals_at(scene, triangle, time, n);
+    const real3 n0 = n[0], n1 = n[1], n2 = n[2];
     const real b0 = REAL(1.0) - b1 - b2;
     const real3 sum = b0 * n0 + b1 * n1 + b2 * n2;
     const real length_squared = vector_dot(sum, sum);
@@ -162,14 +193,14 @@ static inline void surface_smooth(const Scene* scene, global const Triangle* tri
 }
 
 /* True where the given normals say that the winding's normal points inward. */
-static inline bool surface_winding_is_reversed(const Scene* scene, global const Triangle* triangle,
+static inline bool surface_winding_is_reversed(const Scene* scene, global const Triangle* triangle, real time,
                                                real3 normal)
 {
     if (triangle->n0 == NO_INDEX)
         return false;
-    const real3 sum = vector_from(scene->normals[triangle->n0]) + vector_from(scene->normals[triangle->n1]) +
-                      vector_from(scene->normals[triangle->n2]);
-    return vector_dot(sum, normal) < REAL(0.0);
+    real3 n[3];
+    surface_normals_at(scene, triangle, time, n);
+    return vector_dot(n[0] + n[1] + n[2], normal) < REAL(0.0);
 }
 
 /* Reconstructs the surface where a ray has hit it; wo points back along the ray. The position comes from the
@@ -179,7 +210,8 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
     const real3 wo = -ray->direction;
     global const Triangle* triangle = scene->triangles + hit->triangle;
     real3 p[3];
-    surface_corners(scene, triangle, &p[0], &p[1], &p[2]);
+    const real time = ray_time(ray);
+    surface_corners_at(scene, triangle, time, p);
     const real3 e1 = p[1] - p[0];
     const real3 e2 = p[2] - p[0];
     const real3 cross = surface_cross(e1, e2);
@@ -213,10 +245,10 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     surface.time = ray->time;
 #endif
-    surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, normal);
+    surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, time, normal);
     if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))
         surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
-    surface_smooth(scene, triangle, p, hit->b1, hit->b2, &surface);
+    surface_smooth(scene, triangle, time, p, hit->b1, hit->b2, &surface);
     return surface;
 }
 

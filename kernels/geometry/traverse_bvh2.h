@@ -155,8 +155,8 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
             for (uint i = 0; i < count; ++i, leaf += LEAF_TRIANGLE_WORDS) {
                 Hit found;
                 if (!any)
-                    leaf_triangle_closest(leaf, &shear, after, hit);
-                else if (leaf_triangle_hit(leaf, &shear, hit->t, &found))
+                    leaf_triangle_closest(scene, leaf, ray, &shear, after, hit);
+                else if (leaf_triangle_hit(scene, leaf, ray, &shear, hit->t, &found))
                     return true;
             }
         }

@@ -103,12 +103,26 @@ typedef struct {
     uint lanes; /* hit within (0, t_max] */
 } BlockHits;
 
-static inline BlockHits bvh8_block(global const uint* block, const RayShear* shear, real t_max)
+/* Moves corners' coordinates along a permuted axis to a time; `words` are those of the first corner. */
+static inline void bvh8_move(const Scene* scene, global const uint* words, real time, real8* corners)
+{
+    global const uint* moves = scene->bvh_leaf_moves + (words - scene->bvh_leaves);
+    for (uint corner = 0; corner < 3u; ++corner)
+        corners[corner] = fma((real8)(time), bvh8_load(moves + 8u * corner), corners[corner]);
+}
+
+static inline BlockHits bvh8_block(const Scene* scene, global const uint* block, const RayShear* shear,
+                                   real time, real t_max)
 {
     global const uint* words[3] = {block + 24u * shear->kx, block + 24u * shear->ky, block + 24u * shear->kz};
-    const real8 x[3] = {bvh8_load(words[0]), bvh8_load(words[0] + 8), bvh8_load(words[0] + 16)};
-    const real8 y[3] = {bvh8_load(words[1]), bvh8_load(words[1] + 8), bvh8_load(words[1] + 16)};
-    const real8 z[3] = {bvh8_load(words[2]), bvh8_load(words[2] + 8), bvh8_load(words[2] + 16)};
+    real8 x[3] = {bvh8_load(words[0]), bvh8_load(words[0] + 8), bvh8_load(words[0] + 16)};
+    real8 y[3] = {bvh8_load(words[1]), bvh8_load(words[1] + 8), bvh8_load(words[1] + 16)};
+    real8 z[3] = {bvh8_load(words[2]), bvh8_load(words[2] + 8), bvh8_load(words[2] + 16)};
+    if (scene_moves(scene)) {
+        bvh8_move(scene, words[0], time, x);
+        bvh8_move(scene, words[1], time, y);
+        bvh8_move(scene, words[2], time, z);
+    }
     BlockHits hits;
     real8 u, t_det;
     triangle_edges_8(shear, x, y, z, &u, &hits.v, &hits.w, &hits.det, &t_det);
@@ -121,10 +135,10 @@ static inline BlockHits bvh8_block(global const uint* block, const RayShear* she
 }
 
 /* Keeps the first of the block's hits that comes after `after`. */
-static inline void bvh8_block_closest(global const uint* block, const RayShear* shear, const Hit* after,
-                                      Hit* hit)
+static inline void bvh8_block_closest(const Scene* scene, global const uint* block, const RayShear* shear,
+                                      real time, const Hit* after, Hit* hit)
 {
-    const BlockHits hits = bvh8_block(block, shear, hit->t);
+    const BlockHits hits = bvh8_block(scene, block, shear, time, hit->t);
     if (hits.lanes == 0u)
         return;
     real t[8], v[8], w[8], det[8];
@@ -238,7 +252,7 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
         }
         if (child & BVH_LEAF_BIT) {
             SCENE_COUNT_LEAF(scene, bvh8_block_size(bvh8_leaf(scene, child)));
-            bvh8_block_closest(bvh8_leaf(scene, child), &shear, after, hit);
+            bvh8_block_closest(scene, bvh8_leaf(scene, child), &shear, ray_time(ray), after, hit);
             limit = hit->t * BOX_EXIT_FACTOR;
         }
         /* Take the nearest child that can still hold a nearer hit. */
@@ -283,7 +297,7 @@ static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* p
         }
         if (child & BVH_LEAF_BIT) {
             SCENE_COUNT_LEAF(scene, bvh8_block_size(bvh8_leaf(scene, child)));
-            if (bvh8_block(bvh8_leaf(scene, child), &shear, ray->t_max).lanes != 0u)
+            if (bvh8_block(scene, bvh8_leaf(scene, child), &shear, ray_time(ray), ray->t_max).lanes != 0u)
                 return true;
         }
         if (top == 0)

@@ -126,8 +126,8 @@ CLRT_INLINE bool cwbvh_traverse(const Scene* scene, const RenderParams* params, 
             SCENE_COUNT_LEAF(scene, 1u);
             Hit found;
             if (!any)
-                leaf_triangle_closest(leaf, &shear, after, hit);
-            else if (leaf_triangle_hit(leaf, &shear, hit->t, &found))
+                leaf_triangle_closest(scene, leaf, ray, &shear, after, hit);
+            else if (leaf_triangle_hit(scene, leaf, ray, &shear, hit->t, &found))
                 return true;
         }
         group = groups.nodes;

@@ -33,7 +33,7 @@
 #define SAMPLE_COVERAGE 8u    /* cut-outs; hashed on with their number along the ray */
 #define SAMPLE_CLASS 9u       /* matte or glossy, where a path filter must know and both are possible */
 #define SAMPLE_LENS 10u       /* point of the lens; camera rays are bounce 0 */
-#define SAMPLE_TIME 11u       /* within the shutter's opening */
+#define SAMPLE_TIME 11u       /* within the shutter's opening: the first of a pair */
 #define SAMPLE_SPLAT 13u      /* which of the pixels around it a splat goes to */
 #define SAMPLER_PURPOSES 16u
 

@@ -44,7 +44,7 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     path->emission = emission_sample(scene, params, &numbers);
     path->ray = path->emission.ray;
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
-    path->ray.time = sampler_number(&path->sampler, 0u, SAMPLE_TIME);
+    path->ray.time = sampler_pair(&path->sampler, 0u, SAMPLE_TIME).x;
 #endif
     path->throughput = (real3)(REAL(1.0));
     TRACE_CHOICE(scene, TRACE_LIGHT_KIND, emission_kind(scene, params, path->emission.light));
@@ -70,7 +70,8 @@ static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParam
 {
     const Surface* surface = &vertex->surface;
     const real2 lens = sampler_pair(&path->sampler, segment, SAMPLE_LENS);
-    const CameraConnection camera = camera_project(&params->camera, surface->position, lens);
+    const CameraConnection camera =
+        camera_project_at(params, surface->position, lens, surface_time(surface));
     sink->watched += light_path_nan_of(&camera);
     if (!(camera.pdf_a > REAL(0.0)))
         return;

@@ -26,7 +26,8 @@ static inline void splat_eye_meets(const RenderParams* params, const Sampler* sa
 {
     if (segment == 1u) {
         const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
-        const real pdf_a = camera_project(&params->camera, surface->position, lens).pdf_a;
+        const real pdf_a =
+            camera_project_at(params, surface->position, lens, surface_time(surface)).pdf_a;
         weights->open = pdf_a > REAL(0.0) ? splat_path_count(params) / pdf_a : REAL(0.0);
         weights->closed = REAL(0.0);
     }

@@ -43,6 +43,9 @@
    0. */
 #define LEAF_TRIANGLE_WORDS 12
 
+/* Where triangles move while the shutter is open, leaves have a second array: at the places of the corners,
+   how far each goes (floats). */
+
 /* cwbvh node: 20 words, in parts of which bytes stand in the order of memory.
    Words 0..2: origin of the node's lattice (floats).
    Word 3: by byte, exponents of the lattice's steps along x, y, z plus CWBVH_EXPONENT_BIAS; a mask of the

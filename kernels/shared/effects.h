@@ -21,11 +21,9 @@
 #define EFFECT_FILTER 0x2000u          /* pixel filter other than the box */
 #define EFFECT_PATH_FILTER 0x4000u     /* --paths, layers of paths (path/automaton.h) */
 #define EFFECT_LIGHT_TREE 0x8000u      /* lights chosen by what they may send to a vertex */
-#define EFFECT_ALL 0xffffu
-
-/* Rays and surfaces carry the time within the shutter's opening. No scene moves yet, so no program is built
-   with it but those of the tests. */
-#define EFFECT_MOTION_BLUR 0x10000u
+#define EFFECT_MOTION_BLUR 0x10000u    /* what moves while the shutter is open; rays have a time */
+#define EFFECT_DEPTH_OF_FIELD 0x20000u /* a lens wider than a point */
+#define EFFECT_ALL 0x3ffffu
 
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS

@@ -59,7 +59,7 @@ typedef struct {
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
     u32 unused0, unused1, unused2;
 } RenderParams;
-ASSERT_SIZE(RenderParams, 288);
+ASSERT_SIZE(RenderParams, 400);
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)

@@ -12,13 +12,16 @@
    bit of a picture. */
 #define BVH_ARRAYS(ROW)                                                                                      \
     ROW(u32, bvh_nodes, nodes)                                                                               \
-    ROW(u32, bvh_leaves, leaves)
+    ROW(u32, bvh_leaves, leaves)                                                                             \
+    ROW(u32, bvh_leaf_moves, leaf_moves)
 
 /* ROW(type of an element, name in the kernels, member of the host's Scene), in the order in which they are
    hashed. */
 #define SCENE_ARRAYS(ROW)                                                                                    \
     ROW(vec4, positions, positions)                                                                          \
+    ROW(vec4, position_moves, position_moves)                                                                \
     ROW(vec4, normals, normals)                                                                              \
+    ROW(vec4, normal_moves, normal_moves)                                                                    \
     ROW(vec2, uvs, uvs)                                                                                      \
     ROW(Triangle, triangles, triangles)                                                                      \
     ROW(Material, materials, materials)                                                                      \
@@ -46,8 +49,9 @@ SHARED_BEGIN
 /* Where an array lies. */
 typedef struct {
     u32 heap;
-    u32 first; /* its beginning, in units of SCENE_ALIGNMENT bytes */
-    u32 unused0, unused1;
+    u32 first;    /* its beginning, in units of SCENE_ALIGNMENT bytes */
+    u32 is_empty; /* 1: it has no elements */
+    u32 unused0;
 } ArrayPlace;
 ASSERT_SIZE(ArrayPlace, 16);
 

@@ -2,6 +2,7 @@
 // Options that are fine one by one and make no sense together.
 #include "app/option_checks.h"
 
+#include "app/camera_checks.h"
 #include "app/option_values.h"
 #include "error.h"
 #include "film/adaptive.h"
@@ -11,7 +12,6 @@
 #include "output/standard_streams.h"
 #include "output/written_files.h"
 #include "run/run_files.h"
-#include "scene/camera_params.h"
 
 #include <algorithm>
 #include <string>
@@ -77,34 +77,9 @@ void check_output_sizes(const Options& options) {
     }
 }
 
-void check_lens(const Options& options) {
-    if (options.camera.focal_length.has_value() == options.camera.film_width.has_value())
-        return;
-    const bool has_focal = options.camera.focal_length.has_value();
-    reject(options, std::string("option ") + (has_focal ? "--focal-length" : "--film-width") +
-                        ": expected together with " + (has_focal ? "--film-width" : "--focal-length") +
-                        ", found alone");
-}
-
-/// Each projection has its own option for the size of what it shows. Where only the command line asks for
-/// parallel rays, the angle in an options file stands for the height that it shows.
-void check_projection(const Options& options) {
-    const CameraOptions& camera = options.camera;
-    if (camera.projection != PROJECTION_ORTHOGRAPHIC) {
-        if (camera.ortho_height)
-            reject(options, std::string("option --ortho-height: expected --projection orthographic, found ") +
-                                name_of(camera.projection) + "; --fov is its angle of view");
-        return;
-    }
-    const auto is_in_file = [&](const char* name) {
-        const auto given = options.run.given.find(name);
-        return given != options.run.given.end() && !given->second.empty();
-    };
-    for (const char* const name : {"--fov", "--focal-length", "--film-width"})
-        if (options.run.given.count(name) && (!is_in_file(name) || is_in_file("--projection")))
-            reject(options,
-                   std::string("option ") + name +
-                       ": expected --ortho-height with --projection orthographic, found an angle of view");
+void check_camera(const Options& options) {
+    if (const std::optional<std::string> fault = find_camera_fault(options))
+        reject(options, *fault);
 }
 
 void check_samples(const Options& options) {
@@ -264,8 +239,7 @@ void check_depth(const Options& options) {
 void check_combinations(const Options& options) {
     check_crop(options);
     check_output_sizes(options);
-    check_lens(options);
-    check_projection(options);
+    check_camera(options);
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
@@ -277,8 +251,6 @@ void check_combinations(const Options& options) {
     check_paths(options);
     check_replay(options);
     check_depth(options);
-    if (options.camera.eye && options.camera.eye == options.camera.at)
-        reject(options, "options --eye and --at: expected two different points, found the same");
 }
 
 } // namespace clrt

@@ -36,6 +36,7 @@ const std::vector<std::pair<std::string, std::string>>& exclusive_options() {
         {"--pixel", "--explain"},
         {"--pixel", "--ledger"},
         {"--eye", "--view"},
+        {"--aperture", "--fstop"},
         {"--fov", "--ortho-height"},
         {"--focal-length", "--ortho-height"},
         {"--film-width", "--ortho-height"},

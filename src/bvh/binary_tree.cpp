@@ -48,18 +48,40 @@ struct Preparation {
     u32 left_out = 0;
 };
 
+// Extends a box by where a triangle's corners are when the shutter closes. True where it can be hit there. On
+// the way the kernels round once, start + time * move, which stays between both ends; in double precision it
+// may be half a float's step beyond.
+bool extend_by_ends(const std::vector<vec4>& positions, const std::vector<vec4>& moves, const Triangle& t,
+                    Box& box) {
+    vec4 ends[3];
+    const u32 corners[3] = {t.v0, t.v1, t.v2};
+    for (int k = 0; k < 3; ++k) {
+        const vec4 &p = positions[corners[k]], &move = moves[corners[k]];
+        ends[k] = {p.x + move.x, p.y + move.y, p.z + move.z, 0};
+        if (move.x == 0 && move.y == 0 && move.z == 0)
+            continue;
+        const Float4 end = corner(ends[k]);
+        for (const float towards : {-INFINITE_FLOAT, INFINITE_FLOAT})
+            box.extend(Float4{std::nextafter(end[0], towards), std::nextafter(end[1], towards),
+                              std::nextafter(end[2], towards), 0});
+    }
+    return can_be_hit(ends[0], ends[1], ends[2]);
+}
+
 // Fills one item per triangle; a triangle that is left out gets NO_INDEX.
 Preparation prepare_items(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                          BuildItem* items) {
+                          const std::vector<vec4>& moves, BuildItem* items) {
     const auto prepare = [&](const tbb::blocked_range<u32>& part, Preparation sum) {
         for (u32 i = part.begin(); i != part.end(); ++i) {
             const Triangle& t = triangles[i];
             assert(t.v0 < positions.size() && t.v1 < positions.size() && t.v2 < positions.size());
             const vec4 &a = positions[t.v0], &b = positions[t.v1], &c = positions[t.v2];
-            const bool usable = can_be_hit(a, b, c);
+            bool usable = can_be_hit(a, b, c);
             Box box;
             for (const vec4* p : {&a, &b, &c})
                 box.extend(corner(*p));
+            if (!moves.empty())
+                usable |= extend_by_ends(positions, moves, t, box);
             if (usable)
                 sum.bounds.extend(box);
             else
@@ -233,13 +255,15 @@ double half_area(const float* lower, const float* upper) {
 }
 
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                             const LeafCost& leaf_cost, const TreeEffort& effort) {
+                             const LeafCost& leaf_cost, const TreeEffort& effort,
+                             const std::vector<vec4>& moves) {
+    assert(moves.empty() || !effort.spatial_splits);
     const size_t capacity = effort.spatial_splits
                                 ? std::min(size_t(double(triangles.size()) * MOST_REFERENCES), MOST_TRIANGLES)
                                 : triangles.size();
     // Uninitialised: each page is first touched by the thread that fills it.
     std::unique_ptr<BuildItem[]> items(new BuildItem[capacity]);
-    const Preparation prepared = prepare_items(positions, triangles, items.get());
+    const Preparation prepared = prepare_items(positions, triangles, moves, items.get());
     BuildItem* items_end = items.get() + triangles.size();
     if (prepared.left_out > 0)
         items_end = std::remove_if(items.get(), items_end,

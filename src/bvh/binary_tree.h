@@ -48,8 +48,10 @@ struct TreeEffort {
 /// Builds the tree by binned SAH, and by object medians where centres coincide or the depth that is left
 /// demands it; then as much more as `effort` says. Leaves hold at most `leaf_cost.max_leaf` triangles. Time
 /// is at most BVH_MAX_DEPTH passes.
+/// Boxes enclose the ways of `moves` (bvh.h), which excludes spatial splits.
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                             const LeafCost& leaf_cost, const TreeEffort& effort);
+                             const LeafCost& leaf_cost, const TreeEffort& effort,
+                             const std::vector<vec4>& moves = {});
 
 /// Half the surface of a box, of three coordinates each.
 double half_area(const float* lower, const float* upper);

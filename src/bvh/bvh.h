@@ -17,11 +17,12 @@ constexpr BvhLayout ALL_LAYOUTS[] = {BvhLayout::BVH8, BvhLayout::BVH2, BvhLayout
 struct Bvh {
     BvhLayout layout = BvhLayout::BVH8;
     BvhQuality quality = BvhQuality::FAST;
-    std::vector<u32> nodes;     ///< node 0 is the root; floats are stored by their bits
-    std::vector<u32> leaves;    ///< triangle blocks or leaf triangles; floats are stored by their bits
-    int depth = 0;              ///< levels of the binary tree, at most BVH_MAX_DEPTH
-    size_t triangle_count = 0;  ///< in the tree; those with equal or non-finite corners are left out
-    size_t reference_count = 0; ///< entries in leaves: more than triangles where spatial splits cut some
+    std::vector<u32> nodes;      ///< node 0 is the root; floats are stored by their bits
+    std::vector<u32> leaves;     ///< triangle blocks or leaf triangles; floats are stored by their bits
+    std::vector<u32> leaf_moves; ///< of the corners in the leaves; empty where no triangle moves
+    int depth = 0;               ///< levels of the binary tree, at most BVH_MAX_DEPTH
+    size_t triangle_count = 0;   ///< in the tree; those with equal or non-finite corners are left out
+    size_t reference_count = 0;  ///< entries in leaves: more than triangles where spatial splits cut some
     double sah_cost = 0; ///< expected node and triangle tests of a random ray (MacDonald and Booth 1990)
     double seconds = 0;  ///< that the construction took
 };
@@ -37,9 +38,11 @@ struct Bvh {
 /// (clip.h), where that lowers the cost of the tree by a twentieth: in even meshes it does not, and the cut
 /// triangles would take memory and time for nothing; hits are the same to the last bit. In cwbvh boxes are
 /// the least of the node's lattice that enclose those. The slack for the traversal's arithmetic is the
-/// traversal's own. An empty scene gives a root with empty children and no leaves. Throws SceneError for more
-/// triangles than 31-bit indices reach.
+/// traversal's own. `moves`, where it is not empty, has each position's straight way while the shutter is
+/// open: boxes enclose all of it, no triangle is cut, and left out are those that cannot be hit at either
+/// end. An empty scene gives a root with empty children and no leaves. Throws SceneError for more triangles
+/// than 31-bit indices reach.
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
-              BvhQuality quality = BvhQuality::FAST);
+              BvhQuality quality = BvhQuality::FAST, const std::vector<vec4>& moves = {});
 
 } // namespace clrt

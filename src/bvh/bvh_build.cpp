@@ -41,10 +41,13 @@ Bvh write_layout(const std::vector<vec4>& positions, const std::vector<Triangle>
     return bvh;
 }
 
+// Parts of a triangle that moves would have to be cut at every time.
 BinaryTree build_high(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                      BvhLayout layout) {
+                      BvhLayout layout, const std::vector<vec4>& moves) {
     const LeafCost leaves = leaf_cost(layout);
-    BinaryTree whole = build_binary_tree(positions, triangles, leaves, MORE_ROUNDS);
+    BinaryTree whole = build_binary_tree(positions, triangles, leaves, MORE_ROUNDS, moves);
+    if (!moves.empty())
+        return whole;
     BinaryTree cut = build_binary_tree(positions, triangles, leaves, SPATIAL_SPLITS);
     const bool pays = cost_in_layout(cut, layout) <= LARGEST_COST_SHARE * cost_in_layout(whole, layout);
     return pays ? std::move(cut) : std::move(whole);
@@ -53,7 +56,7 @@ BinaryTree build_high(const std::vector<vec4>& positions, const std::vector<Tria
 } // namespace
 
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
-              BvhQuality quality) {
+              BvhQuality quality, const std::vector<vec4>& moves) {
     const auto start = std::chrono::steady_clock::now();
     // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
     // builder rounds counts up to whole blocks in 32 signed bits.
@@ -62,9 +65,11 @@ Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& t
                          "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
                              std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
     BinaryTree tree = quality == BvhQuality::HIGH
-                          ? build_high(positions, triangles, layout)
-                          : build_binary_tree(positions, triangles, leaf_cost(layout), OBJECT_SPLITS);
+                          ? build_high(positions, triangles, layout, moves)
+                          : build_binary_tree(positions, triangles, leaf_cost(layout), OBJECT_SPLITS, moves);
     Bvh bvh = write_layout(positions, triangles, std::move(tree), layout);
+    if (!moves.empty())
+        write_leaf_moves(moves, triangles, bvh);
     bvh.quality = quality;
     bvh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;

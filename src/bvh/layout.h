@@ -51,6 +51,13 @@ double cost_in_layout(const BinaryTree& tree, BvhLayout layout);
 /// Writes the LEAF_TRIANGLE_WORDS words of a leaf triangle but for those that stay 0.
 void write_leaf_triangle(const std::vector<vec4>& positions, const Triangle& triangle, u32 index, u32* words);
 
+/// Writes the corners of some triangles into a block of bvh8, and which they are.
+void write_block(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                 const u32* indices, u32 count, u32* block);
+
+/// Fills Bvh::leaf_moves for the leaves that are written.
+void write_leaf_moves(const std::vector<vec4>& moves, const std::vector<Triangle>& triangles, Bvh& bvh);
+
 /// Fills nodes, leaves and sah_cost. Sorts the ranges of `tree.order` that become leaves.
 void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
                 Bvh& bvh);

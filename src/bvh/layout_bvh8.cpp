@@ -85,6 +85,8 @@ std::vector<LeafRange> write_bvh8_nodes(const BinaryTree& tree, Bvh& bvh) {
     return leaves;
 }
 
+} // namespace
+
 void write_block(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
                  const u32* indices, u32 count, u32* block) {
     for (u32 lane = 0; lane < count; ++lane) {
@@ -101,8 +103,6 @@ void write_block(const std::vector<vec4>& positions, const std::vector<Triangle>
     for (u32 lane = count; lane < BVH8_WIDTH; ++lane)
         block[BVH8_BLOCK_ID_WORD + lane] = NO_INDEX;
 }
-
-} // namespace
 
 void write_bvh8(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BinaryTree& tree,
                 Bvh& bvh) {

@@ -15,4 +15,26 @@ void write_leaf_triangle(const std::vector<vec4>& positions, const Triangle& tri
     words[3] = index;
 }
 
+namespace {
+
+void write_block_moves(const std::vector<vec4>& moves, const std::vector<Triangle>& triangles, Bvh& bvh) {
+    for (size_t first = 0; first < bvh.leaves.size(); first += BVH8_BLOCK_WORDS) {
+        const u32* const indices = &bvh.leaves[first + BVH8_BLOCK_ID_WORD];
+        const u32 count = u32(std::find(indices, indices + BVH8_WIDTH, NO_INDEX) - indices);
+        write_block(moves, triangles, indices, count, &bvh.leaf_moves[first]);
+    }
+}
+
+} // namespace
+
+void write_leaf_moves(const std::vector<vec4>& moves, const std::vector<Triangle>& triangles, Bvh& bvh) {
+    bvh.leaf_moves.resize(bvh.leaves.size());
+    if (bvh.layout == BvhLayout::BVH8)
+        return write_block_moves(moves, triangles, bvh);
+    for (size_t first = 0; first < bvh.leaves.size(); first += LEAF_TRIANGLE_WORDS) {
+        const u32 index = bvh.leaves[first + 3];
+        write_leaf_triangle(moves, triangles[index], index, &bvh.leaf_moves[first]);
+    }
+}
+
 } // namespace clrt

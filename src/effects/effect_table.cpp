@@ -37,9 +37,11 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_SMOOTH_NORMALS, "smooth normals", 0, 0, "triangles are flat"},
         {EFFECT_CUT_OUT, "cut-outs", 0, 0, "surfaces are opaque"},
         {EFFECT_FILTER, "pixel filter", 0, 0, "a box of one pixel"},
-        {EFFECT_PATH_FILTER, "path filter", 0, 0, "all paths, and no layers of paths"},
+        {EFFECT_PATH_FILTER, "path filter", 0, lobe_effects(), "all paths, and no layers of paths"},
         {EFFECT_LIGHT_TREE, "light tree", 0, EFFECT_AREA_LIGHT | EFFECT_DELTA_LIGHT,
          "lights are chosen by tables, as by --light-sampler mixture"},
+        {EFFECT_MOTION_BLUR, "motion blur", 0, 0, "the picture of the moment when the shutter opens"},
+        {EFFECT_DEPTH_OF_FIELD, "depth of field", 0, 0, "a pinhole: all depths are sharp"},
         {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
          "direct light only: paths of two segments"},
     };

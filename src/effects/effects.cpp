@@ -214,6 +214,36 @@ void find_light_tree(const Scene& scene, const Options& options, unsigned kinds,
         finder.fact(EFFECT_LIGHT_TREE, false, "no two lights to choose between");
 }
 
+void find_motion_blur(const Scene& scene, const Options& options, EffectFinder& finder) {
+    const CameraOptions& camera = options.camera;
+    const char* const camera_option = camera.end_eye ? "--end-eye" : camera.end_at ? "--end-at" : "--end-up";
+    const char* const option = scene.position_moves.empty() ? camera_option : "--end";
+    const bool given = camera.end_eye || camera.end_at || camera.end_up || !options.scene.end_path.empty();
+    std::vector<std::string> parts;
+    if (!scene.position_moves.empty())
+        parts.push_back("triangles move by " + describe_option(options, "--end"));
+    if (scene.camera.end)
+        parts.push_back("the camera moves by " + describe_option(options, camera_option));
+    const bool has_motion = !parts.empty();
+    if (!has_motion)
+        parts.emplace_back(given ? "nothing moves while the shutter is open"
+                                 : "no --end, --end-eye, --end-at or --end-up");
+    finder.fact(EFFECT_MOTION_BLUR, has_motion, fmt::format("{}", fmt::join(parts, ", ")),
+                has_motion ? place_of(options, option) : SourcePlace{});
+}
+
+void find_depth_of_field(const Scene& scene, const Options& options, EffectFinder& finder) {
+    const char* const option = options.camera.fstop ? "--fstop" : "--aperture";
+    const bool given = options.camera.fstop || options.camera.aperture;
+    finder.fact(EFFECT_DEPTH_OF_FIELD, scene.camera.aperture > 0,
+                scene.camera.aperture > 0
+                    ? fmt::format("{}: a lens of diameter {:.6g}", describe_option(options, option),
+                                  scene.camera.aperture)
+                : given ? describe_option(options, option) + " 0"
+                        : "a pinhole: no --aperture, no --fstop",
+                given ? place_of(options, option) : SourcePlace{});
+}
+
 /// A path of three segments scatters twice.
 void find_interreflection(const Scene& scene, const Options& options, EffectFinder& finder) {
     const int depth = effective_max_depth(options.transport);
@@ -253,6 +283,8 @@ Effects find_effects(const Scene& scene, const Options& options) {
     finder.fact(EFFECT_PATH_FILTER, effects.paths.is_filter, path_summary(effects.paths),
                 place_of(options, "--paths"));
     find_light_tree(scene, options, accepted_kinds(effects.paths), finder);
+    find_motion_blur(scene, options, finder);
+    find_depth_of_field(scene, options, finder);
     find_interreflection(scene, options, finder);
 
     effects.list = std::move(finder.list);

@@ -108,6 +108,12 @@ void take_out_smooth_normals(Scene& scene) {
     }
 }
 
+void take_out_motion(Scene& scene) {
+    scene.camera.end.reset();
+    scene.position_moves.clear();
+    scene.normal_moves.clear();
+}
+
 void take_out_lights(u32 effects, Scene& scene) {
     if (effects & EFFECT_AREA_LIGHT)
         take_out_area_lights(scene);
@@ -154,6 +160,10 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
     }
     if ((effects & EFFECT_LIGHT_TREE) && options.sampling.light_sampler == LightSampler::TREE)
         options.sampling.light_sampler = LightSampler::MIXTURE;
+    if (effects & EFFECT_MOTION_BLUR)
+        take_out_motion(scene);
+    if (effects & EFFECT_DEPTH_OF_FIELD)
+        scene.camera.aperture = 0;
     if (effects & EFFECT_INTERREFLECTION)
         options.transport.max_depth = std::min(effective_max_depth(options.transport), 2);
 }

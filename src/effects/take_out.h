@@ -13,7 +13,7 @@ namespace clrt {
 void take_out_effects(u32 effects, Scene& scene, Options& options);
 
 /// Whether taking these effects out may turn triangles round, so that a tree over the scene as it was is none
-/// over what is left.
+/// over what is left. (A tree around triangles that move is also one around those that have stopped.)
 bool turns_triangles(u32 effects);
 
 } // namespace clrt

@@ -44,13 +44,26 @@ public:
     // Each takes its struct apart by all of its members, so that a new one does not compile before it is
     // hashed or left out here.
     void add(const Camera& camera) {
-        const auto& [eye, at, up, fov_degrees, projection, ortho_height] = camera;
-        vector(eye);
-        vector(at);
-        vector(up);
+        const auto& [eye, at, up, fov_degrees, projection, ortho_height, shift, aperture, focus, blades,
+                     end] = camera;
+        add(CameraPose{eye, at, up});
         number(fov_degrees);
         number(projection);
         number(ortho_height);
+        number(shift.x);
+        number(shift.y);
+        number(aperture);
+        number(focus);
+        number(blades);
+        number(end.has_value());
+        if (end)
+            add(*end);
+    }
+    void add(const CameraPose& pose) {
+        const auto& [eye, at, up] = pose;
+        vector(eye);
+        vector(at);
+        vector(up);
     }
     void add(const Environment& environment) {
         const auto& [radiance, width, height, texels, rotation_degrees, mean_radiance, sampling,

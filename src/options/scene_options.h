@@ -23,6 +23,7 @@ inline constexpr Named<MaterialOverride> NAMES<MaterialOverride>[] = {{MaterialO
 
 struct SceneOptions {
     std::string path;                  ///< a file; "-": the standard input
+    std::string end_path;              ///< the same scene at time 1; empty: nothing moves
     MtlReading mtl = MtlReading::AUTO; ///< auto: as the writers of libraries mean them
     MaterialOverride material_override = MaterialOverride::NONE;
 };

@@ -57,13 +57,16 @@ std::vector<float> make_normal(const LayerSources& from) {
     });
 }
 
-/// Mean distance along the look vector, world units; infinite where nothing was hit.
+/// Distance of the mean position, world units: along the look vector, in panoramas from the eye; infinite
+/// where nothing was hit. The camera is that of the shutter's opening.
 std::vector<float> make_depth(const LayerSources& from) {
     const Camera& camera = from.scene.camera;
     const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
-    return from_hits(from, [&](const PixelHits& hits) {
-        return hits.share > 0 ? glm::dot(world_position(hits, from.scene.normalisation) - camera.eye, look)
-                              : INFINITY;
+    return from_hits(from, [&](const PixelHits& hits) -> double {
+        if (!(hits.share > 0))
+            return INFINITY;
+        const glm::dvec3 way = world_position(hits, from.scene.normalisation) - camera.eye;
+        return is_panorama(camera.projection) ? glm::length(way) : glm::dot(way, look);
     });
 }
 

@@ -18,7 +18,7 @@ HeapPlan place_arrays(const std::vector<size_t>& sizes, size_t head) {
     for (const size_t i : order) {
         const auto emptiest = std::min_element(plan.bytes.begin(), plan.bytes.end());
         const size_t first = (*emptiest + SCENE_ALIGNMENT - 1) / SCENE_ALIGNMENT;
-        plan.places[i] = {u32(emptiest - plan.bytes.begin()), u32(first), 0, 0};
+        plan.places[i] = {u32(emptiest - plan.bytes.begin()), u32(first), sizes[i] == 0 ? 1u : 0u, 0};
         *emptiest = first * SCENE_ALIGNMENT + sizes[i];
     }
     return plan;

@@ -60,6 +60,7 @@ std::vector<NamedFile> files_to_write(const Options& options) {
 std::vector<NamedFile> files_to_read(const Options& options) {
     const bool is_piped = is_standard_input(options.scene.path);
     std::vector<NamedFile> files = {{"the scene", is_piped ? "/dev/stdin" : options.scene.path},
+                                    {"the scene at time 1", options.scene.end_path},
                                     {"the options file", options.run.sidecar_path},
                                     {"the environment map", options.light.environment_file}};
     if (!writes_pictures(options) ||

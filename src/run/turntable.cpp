@@ -15,12 +15,17 @@ namespace clrt {
 Camera turned_camera(const Camera& camera, int frame, int frames) {
     if (frame == 1) // the same bits
         return camera;
-    // Rodrigues' formula.
     const double angle = 2 * glm::pi<double>() * (frame - 1) / frames;
-    const glm::dvec3 arm = camera.eye - camera.at, up = glm::normalize(camera.up);
+    const glm::dvec3 up = glm::normalize(camera.up);
+    const auto turn = [&](const glm::dvec3& point) { // Rodrigues' formula
+        const glm::dvec3 arm = point - camera.at;
+        return camera.at + arm * std::cos(angle) + glm::cross(up, arm) * std::sin(angle) +
+               up * glm::dot(up, arm) * (1 - std::cos(angle));
+    };
     Camera turned = camera;
-    turned.eye = camera.at + arm * std::cos(angle) + glm::cross(up, arm) * std::sin(angle) +
-                 up * glm::dot(up, arm) * (1 - std::cos(angle));
+    turned.eye = turn(camera.eye);
+    if (camera.end)
+        turned.end = CameraPose{turn(camera.end->eye), turn(camera.end->at), camera.end->up};
     return turned;
 }
 

@@ -2,6 +2,7 @@
 #include "scene/assemble_geometry.h"
 
 #include "scene/lights.h"
+#include "scene/vectors.h"
 
 #include <algorithm>
 #include <atomic>
@@ -39,6 +40,11 @@ Bounds empty_bounds() {
     return {glm::dvec3(most), glm::dvec3(-most)};
 }
 
+void extend(Bounds& bounds, const glm::dvec3& p) {
+    bounds.low = glm::min(bounds.low, p);
+    bounds.high = glm::max(bounds.high, p);
+}
+
 /// A normal as a unit vector; zero if it has no direction.
 vec4 unit_normal(const glm::vec3& normal) {
     const double length = glm::length(glm::dvec3(normal));
@@ -48,8 +54,11 @@ vec4 unit_normal(const glm::vec3& normal) {
     return {float(unit.x), float(unit.y), float(unit.z), 0};
 }
 
-bool is_zero(const vec4& v) {
-    return v.x == 0 && v.y == 0 && v.z == 0;
+/// The way of what goes from one place to another, from its start as the kernels have it; 0 for what stands
+/// still and for what no triangle uses.
+vec4 move_between(const vec4& start, const glm::dvec3& end, bool moves) {
+    const glm::dvec3 move = end - to_dvec3(start);
+    return moves && is_finite(move) ? to_vec4(move) : vec4{0, 0, 0, 0};
 }
 
 enum class Attribute { ABSENT, USABLE, BROKEN };
@@ -76,10 +85,27 @@ void assemble_vertices(Mesh& mesh, const Normalisation& frame, Scene& scene) {
         const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
         scene.positions[i] = finite ? vec4{float(p.x), float(p.y), float(p.z), 0} : vec4{0, 0, 0, 0};
     });
+    if (!mesh.end_positions.empty()) {
+        scene.position_moves.resize(mesh.positions.size());
+        for_each_index(mesh.positions.size(), [&](size_t i) {
+            scene.position_moves[i] =
+                move_between(scene.positions[i], to_normalised(frame, mesh.end_positions[i]),
+                             mesh.end_positions[i] != mesh.positions[i]);
+        });
+    }
     release(mesh.positions);
+    release(mesh.end_positions);
     scene.normals.resize(mesh.normals.size());
     for_each_index(mesh.normals.size(), [&](size_t i) { scene.normals[i] = unit_normal(mesh.normals[i]); });
+    if (!mesh.end_normals.empty()) {
+        scene.normal_moves.resize(mesh.normals.size());
+        for_each_index(mesh.normals.size(), [&](size_t i) {
+            scene.normal_moves[i] = move_between(scene.normals[i], to_dvec3(unit_normal(mesh.end_normals[i])),
+                                                 mesh.end_normals[i] != mesh.normals[i]);
+        });
+    }
     release(mesh.normals);
+    release(mesh.end_normals);
     scene.uvs.resize(2 * mesh.uvs.size());
     for_each_index(mesh.uvs.size(), [&](size_t i) {
         scene.uvs[2 * i] = mesh.uvs[i].x;
@@ -99,9 +125,9 @@ Bounds bounds_of_triangles(const Mesh& mesh) {
         [&](const tbb::blocked_range<size_t>& range, Bounds bounds) {
             for (size_t i = range.begin(); i < range.end(); ++i)
                 for (u32 v : mesh.triangles[i].v) {
-                    const glm::dvec3& p = mesh.positions[v];
-                    bounds.low = glm::min(bounds.low, p);
-                    bounds.high = glm::max(bounds.high, p);
+                    extend(bounds, mesh.positions[v]);
+                    if (!mesh.end_positions.empty())
+                        extend(bounds, mesh.end_positions[v]);
                 }
             return bounds;
         },

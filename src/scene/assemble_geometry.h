@@ -9,7 +9,8 @@
 
 namespace clrt {
 
-/// The box around the corners of all triangles, in world units; a point at 0 if there are none.
+/// The box around the corners of all triangles, wherever they move, in world units; a point at 0 if there are
+/// none.
 Bounds bounds_of_triangles(const Mesh& mesh);
 
 /// Fills positions, normals, uvs, triangles (in the file's order) and extent; `bounds` is the box of its

@@ -3,6 +3,8 @@
 
 #include "error.h"
 #include "scene/box_cover.h"
+#include "scene/camera_lens.h"
+#include "scene/camera_motion.h"
 #include "scene/camera_params.h"
 #include "scene/framing.h"
 #include "scene/room_view.h"
@@ -22,6 +24,14 @@ constexpr double DEFAULT_FOV_DEGREES = 40;
 constexpr double ROOM_FOV_DEGREES = 60;
 constexpr double RESOLVED_PITCH =
     2.4e-7; // radians between rays of single precision that differ, four units of roundoff
+
+/// A fisheye shows a half of all directions, or as much as its corners allow.
+constexpr double FISHEYE_FOV_DEGREES = 180;
+
+double default_fov(Projection projection, glm::ivec2 size) {
+    return projection == PROJECTION_FISHEYE ? std::min(FISHEYE_FOV_DEGREES, widest_fisheye_fov(size))
+                                            : DEFAULT_FOV_DEGREES;
+}
 
 ViewTangents view_tangents(double fov_degrees, glm::ivec2 size) {
     const double vertical = std::tan(glm::radians(fov_degrees) / 2);
@@ -108,19 +118,22 @@ void complete(const CameraOptions& options, glm::ivec2 size, const Scene& scene,
         return;
     }
     const Normalisation& frame = scene.normalisation;
-    const bool is_wide = !options.fov_degrees && !options.focal_length;
+    // A panorama stands where a perspective camera would.
+    const bool has_angle = !is_panorama(camera.projection);
+    const bool is_wide = !has_angle || (!options.fov_degrees && !options.focal_length);
+    const double fov = has_angle ? camera.fov_degrees : DEFAULT_FOV_DEGREES;
     Wish wish{std::nullopt,
               options.view,
               glm::normalize(camera.up),
               camera.projection,
-              view_tangents(camera.fov_degrees, size),
-              view_tangents(is_wide ? ROOM_FOV_DEGREES : camera.fov_degrees, size)};
+              view_tangents(fov, size),
+              view_tangents(is_wide ? ROOM_FOV_DEGREES : fov, size)};
     if (options.at)
         wish.at = to_normalised(frame, *options.at);
     const EyeAndAt fitted = fitted_view(scene, wish);
     camera.eye = fitted.eye / frame.scale + frame.centre;
     camera.at = options.at ? *options.at : fitted.at / frame.scale + frame.centre;
-    if (is_wide)
+    if (is_wide && has_angle)
         camera.fov_degrees = fitted.fov_degrees.value_or(camera.fov_degrees);
     if (fitted.film_height)
         camera.ortho_height = *fitted.film_height / frame.scale;
@@ -142,6 +155,11 @@ std::string camera_text(const Camera& camera) {
     if (camera.projection == PROJECTION_ORTHOGRAPHIC)
         return place + fmt::format(" --projection {} --ortho-height {}", name_of(camera.projection),
                                    camera.ortho_height);
+    if (camera.projection == PROJECTION_EQUIRECTANGULAR)
+        return place + fmt::format(" --projection {}", name_of(camera.projection));
+    if (camera.projection == PROJECTION_FISHEYE)
+        return place +
+               fmt::format(" --projection {} --fov {}", name_of(camera.projection), camera.fov_degrees);
     return place + fmt::format(" --fov {}", camera.fov_degrees);
 }
 
@@ -161,7 +179,8 @@ double field_of_view(const CameraOptions& options, glm::ivec2 size) {
         throw UsageError(
             "--focal-length and --film-width: expected both, found one; they give the angle of view "
             "together");
-    double fov = options.fov_degrees.value_or(DEFAULT_FOV_DEGREES);
+    const bool is_fisheye = options.projection == PROJECTION_FISHEYE;
+    double fov = options.fov_degrees.value_or(default_fov(options.projection, size));
     if (options.focal_length) {
         const double focal = *options.focal_length, film = *options.film_width;
         if (!(std::isfinite(focal) && focal > 0 && std::isfinite(film) && film > 0))
@@ -169,7 +188,10 @@ double field_of_view(const CameraOptions& options, glm::ivec2 size) {
                 "--focal-length, --film-width: expected lengths above 0, found {} and {}", focal, film));
         fov = glm::degrees(2 * std::atan(film * size.y / (2.0 * size.x * focal)));
     }
-    if (!(fov > 0 && fov < 180))
+    if (is_fisheye && !(fov > 0 && fov <= widest_fisheye_fov(size)))
+        throw UsageError(fmt::format("--fov: expected an angle between 0 and {:.6g} degrees, found {}",
+                                     widest_fisheye_fov(size), fov));
+    if (!is_fisheye && !(fov > 0 && fov < 180))
         throw UsageError(fmt::format("--fov: expected an angle between 0 and 180 degrees, found {}", fov));
     return fov;
 }
@@ -197,10 +219,13 @@ Camera fit_camera(const CameraOptions& options, glm::ivec2 size, const Scene& sc
     const bool is_parallel = camera.projection == PROJECTION_ORTHOGRAPHIC;
     if (is_parallel)
         camera.ortho_height = ortho_height(options, camera);
-    else
+    else if (camera.projection == PROJECTION_PERSPECTIVE)
         note_narrow_view(camera, size, notices);
     if (!options.eye || !options.at || (is_parallel && !options.ortho_height))
         notices.add(camera_text(camera));
+    camera.shift = options.shift.value_or(glm::dvec2(0));
+    set_lens(options, camera, notices);
+    set_motion(options, camera);
     return camera;
 }
 

@@ -12,7 +12,8 @@
 namespace clrt {
 
 /// The vertical angle of view in degrees: --fov, or 2 atan(film width * H / (2 W * focal length)), or 40 (a
-/// camera that is fitted into a room has 60). Throws UsageError for angles that are not between 0 and 180,
+/// camera that is fitted into a room has 60); of a fisheye 180, or as much as its
+/// corners allow. Throws UsageError for angles that are not between 0 and 180,
 /// lengths that are not positive, or half a pair.
 double field_of_view(const CameraOptions& options, glm::ivec2 size);
 

@@ -8,14 +8,19 @@
 
 namespace clrt {
 
-/// Height of what the picture shows at this distance along the view, world units.
+/// The widest vertical angle of a fisheye, degrees: its corners look straight back.
+double widest_fisheye_fov(glm::ivec2 size);
+
+/// Height of what the picture shows at this distance along the view, world units; in a panorama along the
+/// arc.
 double shown_height(const Camera& camera, double distance);
 
 /// The camera in the normalised frame, its film vectors for a picture of `size` pixels.
 CameraParams make_camera_params(const Camera& camera, const Normalisation& frame, glm::ivec2 size);
 
-/// The ray through a film position, in pixels right of and below the picture's centre, as
-/// kernels/camera/camera_NAME.h makes it; normalised frame, the direction of any length.
+/// The ray through a film position, in pixels right of and below the picture's centre, from the middle of the
+/// lens when the shutter opens, as kernels/camera/camera_NAME.h makes it; normalised frame, the direction of
+/// any length.
 struct FilmRay {
     glm::dvec3 origin, direction;
 };

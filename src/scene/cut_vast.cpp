@@ -188,9 +188,16 @@ private:
         return longest;
     }
 
-    /// True if texture coordinates and normals at the middle of an edge follow from those at its ends.
+    bool moves(u32 position) const {
+        return position < scene_.position_moves.size() && !is_zero(scene_.position_moves[position]);
+    }
+
+    /// True if texture coordinates and normals at the middle of an edge follow from those at its ends, and
+    /// nothing moves there.
     bool can_be_cut(u32 t) const {
         const Triangle& triangle = scene_.triangles[t];
+        if (moves(triangle.v0) || moves(triangle.v1) || moves(triangle.v2))
+            return false;
         if (triangle.n0 == NO_INDEX)
             return true;
         const auto normal = [&](u32 n) { return to_dvec3(scene_.normals[n]); };

@@ -64,12 +64,18 @@ bool is_out_of_view(const Camera& camera, const Bounds& bounds, glm::ivec2 size)
     const double distance = glm::length(way), radius = bounds.radius();
     if (distance <= radius)
         return false;
-    const double half_diagonal = shown_height(camera, 1) / 2 * std::hypot(1.0, double(size.x) / size.y);
+    if (camera.projection == PROJECTION_EQUIRECTANGULAR)
+        return false;
+    const double aspect = double(size.x) / size.y;
+    const double half_diagonal =
+        shown_height(camera, 1) *
+        (std::hypot(1.0, aspect) / 2 + std::hypot(camera.shift.x * aspect, camera.shift.y));
     const glm::dvec3 look = glm::normalize(camera.at - camera.eye);
     const double cosine = glm::dot(look, way / distance);
     if (camera.projection == PROJECTION_ORTHOGRAPHIC)
         return glm::length(glm::cross(look, way)) > half_diagonal + radius || distance * cosine < -radius;
-    const double half_angle = std::atan(half_diagonal);
+    const double half_angle =
+        camera.projection == PROJECTION_FISHEYE ? half_diagonal : std::atan(half_diagonal);
     return std::acos(std::clamp(cosine, -1.0, 1.0)) > half_angle + std::asin(radius / distance);
 }
 

@@ -6,6 +6,7 @@
 #include "scene/assemble_geometry.h"
 #include "scene/build_material.h"
 #include "scene/camera_fit.h"
+#include "scene/camera_motion.h"
 #include "scene/cut_vast.h"
 #include "scene/emission.h"
 #include "scene/environment.h"
@@ -13,6 +14,7 @@
 #include "scene/ground.h"
 #include "scene/lights.h"
 #include "scene/material_override.h"
+#include "scene/mesh_motion.h"
 #include "scene/normalise.h"
 #include "scene/readers/reader_table.h"
 #include "scene/scene_up.h"
@@ -179,6 +181,21 @@ CameraOptions with_up(const CameraOptions& given, const FoundUp& found, const st
     return camera;
 }
 
+/// Reads the scene's file at time 1, for its geometry alone.
+void add_end_frame(const SceneRequest& request, Progress& progress, Mesh& mesh, std::vector<NamedFile>& files,
+                   NoticeList& notices) {
+    SceneFile file = read_scene_file(request.scene.end_path);
+    const SceneReader& reader = find_reader(file);
+    NoticeList unused; // what is wrong with materials is said of the first file
+    const PictureFacts facts = {[](const TextureUse&, TextureRole) { return true; },
+                                [](const TextureUse&) { return false; }};
+    SceneDescription end = reader.read(std::move(file), {progress, unused, facts, request.scene.mtl});
+    add_motion({input_name(request.scene.path), request.scene.end_path}, shutter_times(request.camera), mesh,
+               std::move(end.mesh), notices);
+    files.push_back({"the scene at time 1", request.scene.end_path});
+    files.insert(files.end(), end.files.begin(), end.files.end());
+}
+
 Scene load_all(SceneRequest request, Progress& progress) {
     Scene scene;
     NoticeList notices;
@@ -189,6 +206,9 @@ Scene load_all(SceneRequest request, Progress& progress) {
     Mesh& mesh = description.mesh;
     scene.object_names = mesh.object_names;
     scene.files = description.files;
+
+    if (!request.scene.end_path.empty())
+        add_end_frame(request, progress, mesh, scene.files, notices);
 
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
@@ -211,6 +231,7 @@ Scene load_all(SceneRequest request, Progress& progress) {
                                      path, cut.vast, cut.vast + cut.added));
     store_vertex_colours(scene, path);
     load_camera_and_lights(request, exitance, bounds, scene, notices);
+    finish_moves(request.scene.end_path, scene);
     scene.notices = notices.lines();
     return scene;
 }

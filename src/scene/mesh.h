@@ -20,8 +20,11 @@ struct MeshTriangle {
 };
 
 struct Mesh {
-    std::vector<glm::dvec3> positions;   ///< in double: map coordinates leave floats no digits for the scene
-    std::vector<glm::vec3> normals;      ///< of any length but 0
+    std::vector<glm::dvec3> positions; ///< in double: map coordinates leave floats no digits for the scene
+    std::vector<glm::vec3> normals;    ///< of any length but 0
+    /// Where positions and normals are when the shutter closes; both empty where none moves.
+    std::vector<glm::dvec3> end_positions;
+    std::vector<glm::vec3> end_normals;
     std::vector<glm::vec2> uvs;          ///< (0,0) is the lower left corner of a picture
     std::vector<glm::vec3> colours;      ///< of each position, linear; empty if no material asks for them
     std::vector<MeshTriangle> triangles; ///< in the file's order

@@ -8,6 +8,7 @@
 #include "options/integrators.h"
 #include "output/named_file.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -22,12 +23,22 @@ struct Normalisation {
     double scale = 1;
 };
 
-/// A camera in world units.
+/// Where a camera is and how it is held, world units.
+struct CameraPose {
+    glm::dvec3 eye, at, up;
+};
+
+/// A camera in world units, as it is when the shutter opens.
 struct Camera {
     glm::dvec3 eye{0}, at{0, 0, -1}, up{0, 1, 0};
     double fov_degrees = 40; ///< perspective: vertical angle of view
     Projection projection = PROJECTION_PERSPECTIVE;
     double ortho_height = 0; ///< orthographic: of what the picture shows
+    glm::dvec2 shift{0}; ///< of the picture's middle from the axis: right over its width, up over its height
+    double aperture = 0; ///< diameter of the lens; 0: a pinhole
+    double focus = 1;    ///< depth of the plane in focus; may be infinite
+    int blades = 0;      ///< corners of the lens; 0: round
+    std::optional<CameraPose> end{}; ///< when the shutter closes; none: it does not move
 };
 
 /// A lat-long environment or, without texels, a constant one.
@@ -72,7 +83,9 @@ struct LoadStatistics {
 struct Scene {
     std::vector<vec4> positions; ///< normalised frame, w = 0
     std::vector<vec4> normals;   ///< unit or zero, w = 0
-    std::vector<float> uvs;      ///< u, v pairs
+    /// From the shutter's opening to its closing, of each position and normal; empty where no triangle moves.
+    std::vector<vec4> position_moves, normal_moves;
+    std::vector<float> uvs; ///< u, v pairs
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
     std::vector<EmittedRadiance> emitted; ///< by each material

@@ -24,6 +24,11 @@ inline vec4 to_vec4(const glm::dvec3& v, double w = 0) {
     return {float(v.x), float(v.y), float(v.z), float(w)};
 }
 
+/// True if the first three components are 0.
+inline bool is_zero(const vec4& v) {
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
 /// True if no component is infinite or NaN.
 inline bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -42,6 +42,37 @@ TEST_F(CameraCommand, ZIsUpWhereTheFileStandsOnIt) {
     EXPECT_TRUE(holds(wrong.err, {"--up: expected x, y, z, or a direction"}));
 }
 
+TEST_F(CameraCommand, AFilmKeepsLensAndMotion) {
+    write_pyramid("pyramid");
+    folder.write("end.obj", "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv 0 0 3\n"
+                            "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+    const std::vector<std::string> scene = {"pyramid.obj", "--end",        "end.obj", "--aperture", "0.2",
+                                            "--end-eye",   "3,3,3",        "--eye",   "3,4,2",      "-r",
+                                            "8x8",         "--checkpoint", "p.film",  "-q"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), scene.begin(), scene.end());
+        return clrt(more);
+    };
+    EXPECT_EQ(with({"-s", "8", "-o", "a.exr"}).exit_code, 0);
+    EXPECT_EQ(clrt({"--resume", "p.film", "-s", "16", "-o", "a.exr", "-q"}).exit_code, 0)
+        << "its own command";
+    const CommandResult other = with({"--resume", "p.film", "--shutter", "0,0.5", "-s", "16"});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_TRUE(holds(other.err, {"they differ in scene"})) << other.err;
+    const CommandResult replay = clrt({"--resume", "p.film", "--pixel", "4,4", "--sample", "3"});
+    EXPECT_EQ(replay.exit_code, 0) << replay.err;
+}
+
+TEST_F(CameraCommand, AnEndOfOtherFacesIsRefusedByName) {
+    write_pyramid("pyramid");
+    folder.write("end.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const CommandResult wrong = clrt({"pyramid.obj", "--end", "end.obj"});
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_TRUE(holds(wrong.err, {"end.obj: expected the 5 vertices of 'pyramid.obj', found 3"}))
+        << wrong.err;
+    EXPECT_EQ(clrt({"pyramid.obj", "--end", "none.obj"}).exit_code, 1);
+}
+
 TEST_F(CameraCommand, ViewsTurnWithUp) {
     write_pyramid("pyramid");
     EXPECT_TRUE(holds(explain_notices({"pyramid.obj", "--view", "top"}), {"--at 0,0,", "--up 0,1,0"}));

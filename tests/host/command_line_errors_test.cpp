@@ -144,6 +144,22 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--fov", "0"},
         {"--fov", "180"},
         {"--fov", "inf"},
+        {"--fov", "360"},
+        {"--shift", "1"},
+        {"--aperture", "-1"},
+        {"--fstop", "0"},
+        {"--focus", "0"},
+        {"--focus", "1,2"},
+        {"--focus", "near"},
+        {"--blades", "2"},
+        {"--blades", "4.5"},
+        {"--blades", "65"},
+        {"--end-eye", "1,2"},
+        {"--end-up", "0,0,0"},
+        {"--shutter", "0.5"},
+        {"--shutter", "0.6,0.5"},
+        {"--shutter", "0,1.1"},
+        {"--shutter", "-0.1,1"},
         {"--focal-length", "0"},
         {"--film-width", "-1"},
         {"--env-scale", "-1"},
@@ -202,6 +218,25 @@ TEST(CommandLine, ContradictionsAreNamed) {
            "options --fov and --ortho-height");
     expect({"--focal-length", "35"}, "option --focal-length: expected together with --film-width");
     expect({"--film-width", "35"}, "option --film-width: expected together with --focal-length");
+    expect(
+        {"--projection", "equirectangular", "--fov", "90"},
+        "option --fov: expected --projection perspective, found equirectangular, which shows all directions");
+    expect({"--projection", "fisheye", "--focal-length", "35", "--film-width", "24"},
+           "option --focal-length: expected --projection perspective, found fisheye, whose angle of view is "
+           "--fov");
+    expect({"--projection", "fisheye", "--fov", "217"},
+           "option --fov: expected at most 216 degrees with --projection fisheye and --size 800x600");
+    expect({"--projection", "fisheye", "--shift", "0.1,0"},
+           "option --shift: expected --projection perspective or orthographic, found fisheye");
+    expect({"--projection", "equirectangular", "--aperture", "0.1"},
+           "option --aperture: expected --projection perspective or orthographic, found equirectangular");
+    expect({"--fstop", "2.8"}, "option --fstop: expected together with --focal-length and --film-width");
+    expect({"--fstop", "2.8", "--fov", "40"}, "option --fstop: expected together with --focal-length");
+    expect({"--fstop", "2.8", "--aperture", "1"}, "options --aperture and --fstop: expected one of them");
+    expect({"--focus", "3"}, "option --focus: expected together with --aperture or --fstop, found alone");
+    expect({"--blades", "5"}, "option --blades: expected together with --aperture or --fstop, found alone");
+    expect({"--shutter", "0,0.5"}, "option --shutter: expected together with what moves");
+    expect({"--frames", "4", "--end-up", "x"}, "options --frames and --end-up: expected one of them");
     expect({"--crop", "0,0,801,10"}, "option --crop: expected a window inside the picture of 800x600 pixels");
     expect({"-r", "65501x2", "-o", "a.JPG"},
            "option --size: expected at most 65500 pixels a side for 'a.JPG', found 65501x2");

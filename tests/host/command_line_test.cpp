@@ -61,6 +61,16 @@ const std::map<std::string, std::string>& samples() {
         {"--fov", "35"},
         {"--focal-length", "50"},
         {"--film-width", "36"},
+        {"--shift", "0.5,-0.25"},
+        {"--aperture", "0.1"},
+        {"--fstop", "2.8"},
+        {"--focus", "1,2,3"},
+        {"--blades", "6"},
+        {"--end", "end.obj"},
+        {"--end-eye", "1,2,3"},
+        {"--end-at", "1,2,3"},
+        {"--end-up", "z"},
+        {"--shutter", "0,0.5"},
         {"--env", "0.1,0.2,0.3"},
         {"--env-scale", "2"},
         {"--env-rotate", "-90"},
@@ -105,6 +115,12 @@ std::vector<std::string> companions(const std::string& option) {
         return {"--focal-length", "50"};
     if (option == "--ortho-height")
         return {"--projection", "orthographic"};
+    if (option == "--fstop")
+        return {"--focal-length", "50", "--film-width", "36"};
+    if (option == "--focus" || option == "--blades")
+        return {"--aperture", "0.1"};
+    if (option == "--shutter")
+        return {"--end-eye", "1,2,3"};
     if (option == "--sample")
         return {"--pixel", "3,4"};
     return {};
@@ -237,6 +253,7 @@ TEST(CommandLine, CameraOptionsArrive) {
     EXPECT_EQ(parse({"--fov", "39.3"}).camera.fov_degrees, 39.3);
     EXPECT_EQ(o.camera.projection, PROJECTION_PERSPECTIVE);
     EXPECT_EQ(parse({"--projection", "orthographic", "--ortho-height", "2.5"}).camera.ortho_height, 2.5);
+    EXPECT_EQ(parse({"--projection", "fisheye", "--fov", "200"}).camera.fov_degrees, 200);
 }
 
 TEST(CommandLine, EveryProjectionHasItsNameAndIsInTheHelp) {

@@ -56,6 +56,12 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
         [](Scene& s) {
             s.normals.push_back({0, 1, 0, 0});
         },
+        [](Scene& s) {
+            s.position_moves.push_back({0, 1, 0, 0});
+        },
+        [](Scene& s) {
+            s.normal_moves.push_back({0, 1, 0, 0});
+        },
         [](Scene& s) { s.uvs.push_back(0); },
         [](Scene& s) { s.triangles[0].material = 1; },
         [](Scene& s) { s.triangles.pop_back(); },
@@ -73,6 +79,13 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
         [](Scene& s) { s.camera.fov_degrees += 1; },
         [](Scene& s) { s.camera.projection = PROJECTION_ORTHOGRAPHIC; },
         [](Scene& s) { s.camera.ortho_height += 1; },
+        [](Scene& s) { s.camera.shift.y += 1; },
+        [](Scene& s) { s.camera.aperture += 1; },
+        [](Scene& s) { s.camera.focus += 1; },
+        [](Scene& s) { s.camera.blades += 1; },
+        [](Scene& s) {
+            s.camera.end = CameraPose{s.camera.eye, s.camera.at, s.camera.up};
+        },
         [](Scene& s) { s.normalisation.scale *= 2; },
     };
     for (size_t i = 0; i < std::size(changes); ++i) {
@@ -108,6 +121,8 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     EXPECT_EQ(field([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "layers");
     EXPECT_EQ(field([](Options& o) { o.film.size = {800, 599}; }), "size");
     EXPECT_EQ(field([](Options& o) { o.camera.fov_degrees = 30; }), "scene");
+    EXPECT_EQ(field([](Options& o) { o.camera.aperture = 0.1; }), "scene");
+    EXPECT_EQ(field([](Options& o) { o.camera.end_eye = glm::dvec3(9); }), "scene");
     EXPECT_EQ(field([](Options& o) { o.light.environment = glm::dvec3(1); }), "scene");
 }
 

@@ -23,14 +23,13 @@ std::string complaints(const std::string& file, const std::string& standard, u32
                                    fmt::format("-DCLRT_EFFECTS={:#x}u", mask)});
 }
 
-/// The sets of compiled effects, each once, and all with rays in time, which no scene calls for.
+/// The sets of compiled effects, each once.
 std::vector<u32> masks() {
     std::vector<u32> result;
     for (const u32 effects : all_effect_sets())
         result.push_back(effects & EFFECT_ALL);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
-    result.push_back(EFFECT_ALL | EFFECT_MOTION_BLUR);
     return result;
 }
 

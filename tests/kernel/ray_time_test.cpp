@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time within the shutter's opening, in programs that keep it: the camera draws it, and whatever a ray
+// The time within the shutter's opening: the camera draws it, and whatever a ray
 // hits, the rays that leave from there have it too.
-#include "kernels/shared/effects.h"
 #include "probes/random_inputs.h"
 #include "probes/scene_probe.h"
 #include "probes/statistics.h"
 #include "support/test_device.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -15,18 +13,13 @@ namespace {
 
 constexpr u32 WIDTH = 512, SAMPLES = 200000;
 
-ProbeOptions in_time() {
-    return {Precision::SINGLE, {fmt::format("CLRT_EFFECTS={:#x}u", EFFECT_ALL | EFFECT_MOTION_BLUR)}};
-}
-
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made(test_device(), {"camera/camera.h", "path/visibility.h", "lights/light_sample.h"}, "",
-                        in_time());
+        SceneProbe made(test_device(), {"camera/camera.h", "path/visibility.h", "lights/light_sample.h"});
         made.add("camera", "const uint x = i % params->width, y = i / params->width;"
                            "const Sampler s = sampler_make(params->seed, i, 0u, 0u);"
                            "const Ray ray = camera_ray(params, &s, x, y);"
-                           "first = (vec4)(ray_time(&ray), sampler_number(&s, 0u, SAMPLE_TIME),"
+                           "first = (vec4)(ray_time(&ray), sampler_pair(&s, 0u, SAMPLE_TIME).x,"
                            "               sampler_number(&s, 0u, SAMPLE_LENS), 0.0f);");
         // a: where the ray starts, and its time; b: a light.
         made.add("surface", R"(

@@ -87,7 +87,9 @@ const Layout LIGHT_PLACE = {
 const Layout CAMERA_PARAMS = {
     "CameraParams",
     sizeof(CameraParams),
-    {M(eye), M(film_dx), M(film_dy), M(look), M(projection), M(unused0), M(unused1), M(unused2)}};
+    {M(eye), M(film_dx), M(film_dy), M(look), M(eye_move), M(way), M(way_move), M(up), M(up_move),
+     M(pixel_x), M(pixel_y), M(shift_x), M(shift_y), M(lens_radius), M(inverse_focus), M(blades), M(moves),
+     M(projection), M(unused0), M(unused1), M(unused2)}};
 #undef M
 #define M(name) MEMBER(RenderParams, name)
 const Layout RENDER_PARAMS = {
@@ -106,7 +108,7 @@ const Layout RENDER_PARAMS = {
 const Layout ARRAY_PLACE_LAYOUT = {
     "ArrayPlace",
     sizeof(ArrayPlace),
-    {M(heap), M(first), M(unused0), M(unused1)}};
+    {M(heap), M(first), M(is_empty), M(unused0)}};
 #undef M
 #define M(type, name, member) MEMBER(ArrayPlaces, name),
 const Layout ARRAY_PLACES = {

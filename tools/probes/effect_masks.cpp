@@ -122,6 +122,10 @@ SceneOfEffects::SceneOfEffects(u32 effects) : effects_(effects) {
     add_bodies();
     add_lights();
     look({0.2, 1.6, 3}, {0, 0.5, 0}, 50);
+    if (has(EFFECT_MOTION_BLUR))
+        options.camera.end_eye = glm::dvec3(0.3, 1.7, 2.9);
+    if (has(EFFECT_DEPTH_OF_FIELD))
+        options.camera.aperture = 0.1;
 }
 
 void SceneOfEffects::add_materials() {

@@ -6,7 +6,6 @@
 namespace clrt {
 
 const std::vector<WaitingCase>& waiting_cases() {
-    constexpr const char* LENS = "a thin lens";
     constexpr const char* BIDIRECTIONAL = "a bidirectional integrator";
     constexpr const char* FROM_LIGHTS = "integrators that trace from lights";
     constexpr const char* METROPOLIS = "a Metropolis integrator";
@@ -22,12 +21,6 @@ const std::vector<WaitingCase>& waiting_cases() {
         {"F08", "LightTracing", "the sum of splats", "the captured flux", "light tracing"},
         {"L05", "SphereLight", "R / d from 1e-6 to 0.999999, and from inside", "pi L (R / d)^2 cos",
          "lights that are spheres"},
-        {"K03", "LensRadiusZero", "a lens of radius 0", "the pinhole", LENS},
-        {"K04", "OddFocus", "focus at 0, at infinity, at 1e7", "a message; parallel rays", LENS},
-        {"K05", "BlurCircle", "a point at S2, focus at S1, aperture A", "A |S2 - S1| / S2 on the focus plane",
-         LENS},
-        {"K06", "ShutterZero", "a shutter of length 0, the ends of its time", "the static picture",
-         "moving geometry and a shutter"},
         {"A05", "Splats", "1e8 equal splats on one pixel", "exact sum",
          "an integrator that splats: light tracing, bidirectional or Metropolis"},
         {"B02", "CoincidentVertices", "vertices to connect at the same place", "none; counted",

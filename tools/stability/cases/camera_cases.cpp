@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras: the narrowest and the widest angle of view, an up vector along the view.
+// Cameras: the narrowest and the widest angle of view, an up vector along the view; lens and shutter
+// (lens_cases.h).
 #include "probes/kernel_probe.h"
 #include "probes/random_inputs.h"
 #include "render/render_params.h"
 #include "scene/camera_fit.h"
+#include "stability/cases/lens_cases.h"
 #include "stability/cases/ray_builds.h"
 #include "stability/catalogue.h"
 
@@ -124,6 +126,18 @@ const std::vector<StabilityCase>& camera_cases() {
         {"K02", "LookAlongUp", "an up vector along the view, and 1e-7 to 1e-5 beside it",
          "orthonormal film vectors", "computed in double, rounded once: products of two have 4 u",
          look_along_up},
+        {"K03", "LensRadiusZero", "a lens of radius 0, five blades, another focus", "the pinhole",
+         "the same bits: nothing is added", lens_radius_zero},
+        {"K04", "OddFocus",
+         "focus at a thousandth, at 1, at 1e7 and at infinity; 0 is refused with a message",
+         "the sharp point seen from the ray's origin, in double",
+         "a direction in float is good to 1e-7 rad, the lens's point and the film position add theirs",
+         odd_focus},
+        {"K05", "BlurCircle", "a point at S2, focus at S1, aperture A", "A |S2 - S1| / S2 on the focus plane",
+         "roundings of origin and direction, over the depth; the edge is reached by chance", blur_circle},
+        {"K06", "ShutterZero", "a closed shutter at times 0 and 1; a closed ball that moves around a lamp",
+         "the picture of the moment; black", "the same bits; corners stay shared at every time",
+         shutter_zero},
     };
     return cases;
 }
