@@ -95,7 +95,7 @@ std::vector<OptionSpec> work_options() {
              "sample directions where paths have found light before: off, on, or auto: where a pilot is "
              "noisy, "
              "as long as that lowers noise times rays; a film of guided samples goes on by --resume and does "
-             "not merge (default auto)",
+             "not merge (default off)",
          [](Options& o, const OptionValue& v) { o.transport.guide = parse_choice<Toggle>(v); }},
         {group, "", "--roulette-depth", "N",
          fmt::format("{}first segment that Russian roulette may end (default {})",

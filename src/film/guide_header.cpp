@@ -35,7 +35,7 @@ Json guide_header(const GuideProgress& guide) {
     json["guided_from"] = guide.guided_from;
     json["guided_to"] = guide.guided_to;
     json["pilot_error"] = number_or_null(guide.pilot_error);
-    json["plain_error"] = guide.plain_error;
+    json["plain_errors"] = guide.plain_errors;
     json["plain_rays"] = guide.plain_rays;
     json["error"] = number_or_null(guide.error);
     json["work"] = number_or_null(guide.work);
@@ -56,7 +56,7 @@ GuideProgress guide_of_header(const Json& json) {
     guide.guided_from = whole<std::uint64_t>(json.at("guided_from"));
     guide.guided_to = whole<std::uint64_t>(json.at("guided_to"));
     guide.pilot_error = read_number(json.at("pilot_error"));
-    json.at("plain_error").get_to(guide.plain_error);
+    json.at("plain_errors").get_to(guide.plain_errors);
     json.at("plain_rays").get_to(guide.plain_rays);
     guide.error = read_number(json.at("error"));
     guide.work = read_number(json.at("work"));

@@ -4,6 +4,7 @@
 
 #include "guide/guide.h"
 
+#include <array>
 #include <optional>
 
 namespace clrt {
@@ -22,8 +23,9 @@ struct GuideProgress {
     std::uint64_t guided_from = 0;     ///< samples before any were guided; 0: none are
     std::uint64_t guided_to = 0;       ///< where that ended; 0: it has not
     std::optional<double> pilot_error; ///< squared relative error of a sample before there was a guide
-    double plain_error = 0;            ///< squared relative error of the film before it was guided,
-    double plain_rays = 0;             ///< and rays of a sample then
+    /// Squared errors of the film before it was guided, by ErrorMeasure, and rays of a sample then.
+    std::array<double, 2> plain_errors{};
+    double plain_rays = 0;
     std::optional<double> error, work; ///< squared error of a guided sample, and its rays in what they cost
                                        ///< over those of a sample before
     std::optional<Guide> guide;        ///< ON
