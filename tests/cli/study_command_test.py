@@ -191,17 +191,18 @@ class StudyCommand(unittest.TestCase):
 
     def test_takes_the_names_that_clrt_takes(self):
         choices = Choices(CLRT)
-        self.assertEqual(choices.names("--integrator"), ["path", "whitted", "raycast"])
+        self.assertEqual(choices.names("--integrator"), ["path+light", "path", "light", "distribution", "whitted", "raycast"])
         self.assertEqual(choices.names("--precision"), ["single", "double", "fast"])
         self.assertEqual(choices.names("--sampler"), ["sobol", "independent"])
         self.assertEqual(choices.names("--adaptive")[0], "off")
         default = choices.default_method()
-        self.assertEqual((default.integrator, default.precision, default.sampler, default.adaptive), ("path", "single", "sobol", "off"))
+        self.assertEqual((default.integrator, default.precision, default.sampler, default.guide, default.adaptive),
+                         ("path", "single", "sobol", "off", "off"))
         self.assertEqual(study_runs.REFERENCE_METHOD, Method("path", "single", "sobol"))
         for option, found in (("-i", "path,pth"), ("-p", "half"), ("--samplers", "sobol,sobol"), ("--adaptive", "of")):
             done = self.run_command("scene.obj", "--clrt", CLRT, option, found)
             self.assertEqual(done.returncode, 2)
-            self.assertRegex(done.stderr, f"option --[a-z-]+: expected a list out of [a-z, ]+, found '{found}'$")
+            self.assertRegex(done.stderr, f"option --[a-z-]+: expected a list out of [a-z+, ]+, found '{found}'$")
 
     def test_says_what_it_cannot_do(self):
         for arguments, code in (((), 2), (("none.obj",), 2), (("scene.obj", "--spp", "0"), 2), (("scene.obj", "--clrt", CLRT, "-i", "none"), 2),
