@@ -37,6 +37,8 @@ REPORT = [
                            "pixel, tiles of 8 x 8, and by a tenth of the picture's mean where that is more, so that noise in the "
                            "dark counts as it is seen; --adaptive=relative makes it least, and --error then judges by it. "
                            "Absolute: what stands under `error' otherwise."),
+    ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
+     "of a sample; the cells of space that have learnt, and the memory that they take."),
     ("adaptive", "What taking samples where the noise is promises, from the film of the first samples: so many times less squared "
                  "error at equal samples. Below 1.1 samples stay even."),
     ("scene", "Pixels that show nothing but what is behind the scene have hardly any noise, and are as many and as bright as "

@@ -63,6 +63,12 @@ static inline real guide_pdf_w(const Scene* scene, const Guide* guide, real3 wi,
     return bin_pdf_w(&bin, point);
 }
 
+/* The density of the mixture where the BSDF's is bsdf_pdf_w and the cell's is cell_pdf_w. */
+static inline real guide_mixture(const Guide* guide, real bsdf_pdf_w, real cell_pdf_w)
+{
+    return fma(guide->share, cell_pdf_w - bsdf_pdf_w, bsdf_pdf_w);
+}
+
 /* Samples a direction by the cell; u in (0, 1)^2. */
 static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf, real2 u, Guide* guide)
 {
@@ -75,7 +81,7 @@ static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf,
     next.wi = point / vector_length(point);
     const BsdfValue value = bsdf_eval(bsdf, next.wi);
     next.pdf_w = value.pdf_w;
-    next.weight = value.value / mix(value.pdf_w, pdf_w, guide->share);
+    next.weight = value.value / guide_mixture(guide, value.pdf_w, pdf_w);
     next.reflects = bsdf_reflects(bsdf, next.wi);
     next.eta = next.reflects ? REAL(1.0) : bsdf->eta;
     next.is_weighted = true;
@@ -101,7 +107,7 @@ static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real
         return next;
     }
     const real pdf_w = guide_pdf_w(scene, guide, next.wi, &guide->bin);
-    next.weight *= next.pdf_w / mix(next.pdf_w, pdf_w, guide->share);
+    next.weight *= next.pdf_w / guide_mixture(guide, next.pdf_w, pdf_w);
     return next;
 }
 

@@ -208,6 +208,24 @@ TEST_F(FilmCommand, AnAdaptiveRunGoesOnButDoesNotMerge) {
     EXPECT_TRUE(holds(refused.err, {"c.film: expected a film with adaptive: false, found adaptive: true"}));
 }
 
+TEST_F(FilmCommand, GuidedFilmsGoOnAndDoNotMerge) {
+    const auto guided = [&](const std::string& name, const std::string& spp) {
+        return clrt(
+            {"lamp.obj", "--guide", "on", "-s", spp, "-o", name + ".exr", "--checkpoint", name + ".film"});
+    };
+    EXPECT_TRUE(holds(guided("whole", "24").out, {"guide    from 4 spp; ", " cells, "}));
+    EXPECT_EQ(guided("a", "10").exit_code, 0);
+    const CommandResult result =
+        clrt({"--resume", "a.film", "-s", "24", "-o", "b.exr", "--checkpoint", "b.film"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    expect_same_film("b.film", "whole.film");
+    expect_same_picture("b.exr", "whole.exr");
+    render_part("part", 24, 8, {"--guide", "auto"});
+    const CommandResult refused = merge({"part.film", "whole.film", "-o", "out.exr"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_TRUE(holds(refused.err, {"whole.film: expected a film without guided samples"}));
+}
+
 TEST_F(FilmCommand, ResumingSaysWhatDoesNotFit) {
     render_part("a", 0, 2, {"-o", "a.png"});
     for (const auto& [option, part] : {std::pair{"--seed=3", "seed: expected 0, found 3"},

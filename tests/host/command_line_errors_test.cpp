@@ -258,6 +258,11 @@ TEST(CommandLine, ContradictionsAreNamed) {
            "option --adaptive: expected no --aov NAME=EXPR, found the "
            "layer 'c'");
     expect({"--adaptive", "--ledger"}, "option --adaptive: expected no --ledger");
+    expect({"--guide", "on", "--first-sample", "8"},
+           "options --guide on and --first-sample: expected one of them, found both; guided samples need");
+    expect({"--guide", "on", "--adaptive"},
+           "options --guide on and --adaptive: expected one of them, found both; its halves");
+    expect({"--guide", "on", "--replicates", "2"}, "options --guide on and --replicates: expected one of");
     expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
     EXPECT_EQ(parse({"--first-sample", "4294967231"}).sampling.first_sample, 4294967231u);
     EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).transport.max_depth, 64);

@@ -28,6 +28,7 @@ const std::map<std::string, std::string>& samples() {
         {"--time", "5m"},
         {"--error", "2%"},
         {"--max-depth", "12"},
+        {"--guide", "auto"},
         {"--roulette-depth", "9"},
         {"--min-contribution", "0.5%"},
         {"--shadow-rays", "8"},

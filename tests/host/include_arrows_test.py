@@ -20,6 +20,7 @@ HOST = (
     ("src/scene", "files -> triangles, materials, textures, lights, camera"),
     ("src/paths", "the path notation"),
     ("src/effects", "what the scene calls for, and what is left out"),
+    ("src/guide", "where paths have found light"),
     ("src/film", "sums, their error, film files"),
     ("src/render", "scene -> film"),
     ("src/replay", "single samples once more, value by value"),

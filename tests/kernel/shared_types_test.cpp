@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
+#include "kernels/shared/guide_types.h"
 #include "kernels/shared/render_types.h"
 #include "kernels/shared/scene_arrays.h"
 #include "probes/kernel_probe.h"
@@ -83,6 +84,18 @@ const Layout LIGHT_PLACE = {
     sizeof(LightPlace),
     {M(trail_low), M(trail_high), M(end), M(density)}};
 #undef M
+#define M(name) MEMBER(GuideNode, name)
+const Layout GUIDE_NODE = {
+    "GuideNode",
+    sizeof(GuideNode),
+    {M(link), M(split)}};
+#undef M
+#define M(name) MEMBER(GuideCell, name)
+const Layout GUIDE_CELL = {
+    "GuideCell",
+    sizeof(GuideCell),
+    {M(share), M(radiance), M(splits)}};
+#undef M
 #define M(name) MEMBER(CameraParams, name)
 const Layout CAMERA_PARAMS = {
     "CameraParams",
@@ -119,9 +132,9 @@ const Layout ARRAY_PLACES = {
 // clang-format on
 
 const std::vector<Layout> LAYOUTS = {
-    TRIANGLE,           MATERIAL,    TEXTURE,     EMITTER,       LIGHT,
-    ENVIRONMENT_TEXEL,  LIGHT_NODE,  LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
-    ARRAY_PLACE_LAYOUT, ARRAY_PLACES};
+    TRIANGLE,           MATERIAL,     TEXTURE,     EMITTER,       LIGHT,
+    ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
+    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_NODE,  GUIDE_CELL};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.
@@ -138,7 +151,7 @@ std::string layout_kernel(const Layout& layout) {
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
-        KernelProbe made(test_device(), {"shared/scene_arrays.h", "shared/render_types.h"});
+        KernelProbe made(test_device(), {"shared/scene_arrays.h", "shared/render_types.h", "shared/guide_types.h"});
         for (const Layout& layout : LAYOUTS)
             made.add_text(layout_kernel(layout));
         made.add_text(

@@ -195,7 +195,7 @@ TEST(Distribution, RaysAndShadowRaysShareALightByTheirNumbers) {
         scene.options.light.suns.push_back({{-1, 1.2, 1.1}, glm::dvec3(0.2), 20});
         scene.look_at_point({1, 1, 0}, {0, 0, 0});
         scene.options.transport.max_depth = 2;
-        scene.options.sampling.spp = 512;
+        scene.options.sampling.spp = 2048;
         // A table would choose this one nearly always, the tree does not.
         scene.build.material("far", "Kd 0 0 0\nKe 40 40 40").use("far");
         scene.build.polygon({{-30, 9, -2}, {-30, 9, 2}, {-30, 13, 2}, {-30, 13, -2}});

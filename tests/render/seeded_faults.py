@@ -47,9 +47,9 @@ FAULTS = [
                (real)scene->light_places[emitter].density;
 """, "", "light_sampler_test"),
     ("guided directions without the guide's density", "path/guide.h",
-     "value.value / mix(value.pdf_w, pdf_w, guide->share)", "value.value / value.pdf_w", "guide_test"),
+     "value.value / guide_mixture(guide, value.pdf_w, pdf_w)", "value.value / value.pdf_w", "guide_test"),
     ("directions of the BSDF as if nothing were guided", "path/guide.h",
-     "next.weight *= next.pdf_w / mix(next.pdf_w, pdf_w, guide->share);", "", "guide_test"),
+     "next.weight *= next.pdf_w / guide_mixture(guide, next.pdf_w, pdf_w);", "", "guide_test"),
     ("missing eta^2, smooth glass", "scattering/bsdf_dielectric.h", "bsdf->transmission * bsdf_cross(bsdf, REAL(1.0))",
      "bsdf->transmission", "furnace_test"),
     ("missing eta^2, whitted", "integrators/tree.h", "bsdf_cross(bsdf, REAL(1.0) - f)", "(REAL(1.0) - f)", "glass_test"),

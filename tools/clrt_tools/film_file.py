@@ -9,6 +9,7 @@ import numpy
 MAGIC = b"CLRTFILM"
 FORMAT_VERSION = 2
 CHECKSUM_BYTES = 16
+NODE_BYTES, CELL_BYTES = 8, 534 + 2056
 
 
 class FilmError(Exception):
@@ -53,7 +54,7 @@ def read_film(path):
     if count < 1 or x1 <= x0 or y1 <= y0 or len(size) != 2 or not ranges:
         raise FilmError("damaged: the header's window, replicates or ranges are impossible")
     shape = (count, y1 - y0, x1 - x0, 3)
-    sums = _read_sums(content, start, shape)
+    sums = _read_sums(content, start, shape, _guide_bytes(header))
     samples = [replicate_samples(ranges, count, replicate) for replicate in range(count)]
     means = [sums[r] * (quantum / samples[r]) for r in range(count) if samples[r] > 0]
     return Film(numpy.array(means), window, size, sum(samples), seed)
@@ -75,9 +76,15 @@ def _read_header(content):
         raise FilmError("damaged: the header is no JSON") from error
 
 
-def _read_sums(content, start, shape):
+def _guide_bytes(header):
+    """Of what the cells of a guided film have learnt, which stands behind the sums (src/film/film_file.h)."""
+    guide = header.get("guide", {})
+    return NODE_BYTES * int(guide.get("nodes", 0)) + CELL_BYTES * int(guide.get("cells", 0))
+
+
+def _read_sums(content, start, shape, behind):
     import xxhash
-    expected = start + 8 * int(numpy.prod(shape)) + CHECKSUM_BYTES
+    expected = start + 8 * int(numpy.prod(shape)) + behind + CHECKSUM_BYTES
     if len(content) != expected:
         what = "truncated" if len(content) < expected else "damaged"
         raise FilmError(f"{what}: expected {expected} bytes, found {len(content)}")
