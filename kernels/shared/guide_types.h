@@ -19,8 +19,9 @@ typedef struct {
     u32 link;    /* of a leaf: GUIDE_LEAF and its cell; else 4 times its first child, the other one is next to
                     it, and the axis */
     float split; /* positions below it along the axis belong to the first child */
+    u32 unused0, unused1;
 } GuideNode;
-ASSERT_SIZE(GuideNode, 8);
+ASSERT_SIZE(GuideNode, 16);
 #define GUIDE_LEAF 0x80000000u
 #define GUIDE_GRID 16 /* places along each axis; a power of two */
 #define GUIDE_GRID_PLACES (GUIDE_SIDES * GUIDE_GRID * GUIDE_GRID * GUIDE_GRID)
@@ -40,8 +41,9 @@ typedef struct {
     float radiance;             /* that a path finds behind a vertex, the mean; 0 where too little is known */
     u32 splits[GUIDE_BINS / 2]; /* of the inner nodes, the root first and its children next, two in a word: what
                                    is below belongs to the first child */
+    u32 unused0, unused1;
 } GuideCell;
-ASSERT_SIZE(GuideCell, 520);
+ASSERT_SIZE(GuideCell, 528);
 
 /* Sums of a cell, 64 bits each: of the bins, and the number of vertices, whether they found light or not. */
 #define GUIDE_SUM_VERTICES GUIDE_BINS

@@ -15,7 +15,7 @@
 //                the round
 //   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first
 //                half, second half
-//   8 n          of a guided film: n nodes of the trees over space (kernels/shared/guide_types.h)
+//   16 n         of a guided film: n nodes of the trees over space (kernels/shared/guide_types.h)
 //   534 c        of its c cells: 255 splits as unsigned 16-bit integers (guide/direction_bins.h), then sum
 //   and
 //                number of records and number of vertices as 64-bit floating point numbers

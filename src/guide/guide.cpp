@@ -44,7 +44,7 @@ GuideCell make_cell(const GuideLore& lore) {
 
 Guide::Guide(double extent) : nodes_(GUIDE_SIDES), lore_(GUIDE_SIDES), extent_(float(extent)) {
     for (u32 side = 0; side < GUIDE_SIDES; ++side)
-        nodes_[side] = {GUIDE_LEAF | side, 0};
+        nodes_[side] = {GUIDE_LEAF | side, 0, 0, 0};
     for (GuideLore& lore : lore_)
         lore.splits = even_splits();
 }
@@ -105,10 +105,10 @@ void Guide::divide(size_t node, const Box& box, double most) {
     for (double* sum : {&lore.weight.sum, &lore.weight.count, &lore.vertices})
         *sum *= 0.5;
     const u32 first = u32(nodes_.size());
-    nodes_.push_back({GUIDE_LEAF | cell, 0});
-    nodes_.push_back({GUIDE_LEAF | u32(lore_.size()), 0});
+    nodes_.push_back({GUIDE_LEAF | cell, 0, 0, 0});
+    nodes_.push_back({GUIDE_LEAF | u32(lore_.size()), 0, 0, 0});
     lore_.push_back(GuideLore(lore));
-    nodes_[node] = {first * 4 | u32(axis), 0.5f * (box.low[axis] + box.high[axis])};
+    nodes_[node] = {first * 4 | u32(axis), 0.5f * (box.low[axis] + box.high[axis]), 0, 0};
     divide(node, box, most);
 }
 

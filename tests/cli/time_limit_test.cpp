@@ -143,7 +143,7 @@ TEST_F(TimeLimit, APassThatTheTimeInterruptsIsDropped) {
     for (const bool adaptive : {false, true}) {
         const auto with = [&](std::vector<std::string> more) {
             const std::vector<std::string> size = adaptive
-                                                      ? std::vector<std::string>{"--adaptive", "-r", "96x64"}
+                                                      ? std::vector<std::string>{"--adaptive", "-r", "128x96"}
                                                       : std::vector<std::string>{"-r", "256x192"};
             more.insert(more.end(), size.begin(), size.end());
             return more;

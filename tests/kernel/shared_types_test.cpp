@@ -88,13 +88,13 @@ const Layout LIGHT_PLACE = {
 const Layout GUIDE_NODE = {
     "GuideNode",
     sizeof(GuideNode),
-    {M(link), M(split)}};
+    {M(link), M(split), M(unused0), M(unused1)}};
 #undef M
 #define M(name) MEMBER(GuideCell, name)
 const Layout GUIDE_CELL = {
     "GuideCell",
     sizeof(GuideCell),
-    {M(share), M(radiance), M(splits)}};
+    {M(share), M(radiance), M(splits), M(unused0), M(unused1)}};
 #undef M
 #define M(name) MEMBER(CameraParams, name)
 const Layout CAMERA_PARAMS = {

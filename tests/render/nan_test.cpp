@@ -99,7 +99,8 @@ std::vector<Place> light_places() {
              "vertex.bsdf = material_bsdf(scene, &vertex.surface, -ray->direction, TRANSPORT_IMPORTANCE);",
              {{"vertex.bsdf.wo.z"}, {"vertex.bsdf.frame.z.y"}, {"vertex.bsdf.matte.x"}}},
             {file,
-             "camera_project_at(params, surface->position, lens, surface_time(surface));",
+             "const CameraConnection camera =\n"
+             "        camera_project_at(params, surface->position, lens, surface_time(surface));",
              {{"camera.pdf_a"}, {"camera.film.x"}, {"camera.lens.y"}}},
             {file, "const BsdfValue eval = bsdf_eval(&vertex->bsdf, wi);", {{"eval.value.z"}}},
             {file,

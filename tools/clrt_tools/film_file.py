@@ -9,7 +9,7 @@ import numpy
 MAGIC = b"CLRTFILM"
 FORMAT_VERSION = 2
 CHECKSUM_BYTES = 16
-NODE_BYTES, CELL_BYTES = 8, 534 + 2056
+NODE_BYTES, CELL_BYTES = 16, 534 + 2056
 
 
 class FilmError(Exception):
