@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "film/film_header.h"
+#include "film/guide_header.h"
 #include "output/atomic_file.h"
 
 #include <algorithm>
@@ -246,6 +247,8 @@ FilmFile read_film_file(const std::string& path) {
             reader.reject("damaged: the pixels that show the scene are not those of its window");
         sums.shown = std::move(*pixels);
     }
+    if (!is_possible(film.render.guide))
+        reader.reject("damaged: the cells of its guide are impossible");
     if (const AdaptiveRound& round = film.render.round; round.end > 0) {
         if (!is_possible(round, sums))
             reader.reject("damaged: the samples of its tiles are impossible");

@@ -60,7 +60,7 @@ GuideProgress guide_of_header(const Json& json) {
     json.at("plain_rays").get_to(guide.plain_rays);
     guide.error = read_number(json.at("error"));
     guide.work = read_number(json.at("work"));
-    const size_t nodes = read_count(json.at("nodes"), GUIDE_NODES),
+    const size_t nodes = read_count(json.at("nodes"), 2 * GUIDE_CELLS),
                  cells = read_count(json.at("cells"), GUIDE_CELLS);
     if (guide.stage == GuideStage::ON) {
         guide.guide.emplace(json.at("extent").get<double>(), std::vector<GuideNode>(nodes),
@@ -68,6 +68,22 @@ GuideProgress guide_of_header(const Json& json) {
         guide.sums.resize(cells * GUIDE_SUMS);
     }
     return guide;
+}
+
+bool is_possible(const GuideProgress& guide) {
+    if (!guide.guide)
+        return guide.stage != GuideStage::ON;
+    const std::vector<GuideNode>& nodes = guide.guide->nodes();
+    const size_t cells = guide.guide->lore().size();
+    bool possible = nodes.size() >= GUIDE_SIDES && cells >= GUIDE_SIDES;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const u32 link = nodes[i].link, child = link >> 2;
+        if (link & GUIDE_LEAF)
+            possible = possible && (link & ~GUIDE_LEAF) < cells;
+        else
+            possible = possible && (link & 3) < 3 && child > i && child + 1 < nodes.size();
+    }
+    return possible;
 }
 
 } // namespace clrt

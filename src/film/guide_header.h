@@ -15,4 +15,8 @@ nlohmann::ordered_json guide_header(const GuideProgress& guide);
 /// missing, of another type, or more than a guide can have.
 GuideProgress guide_of_header(const nlohmann::ordered_json& header);
 
+/// Whether the trees that were read behind it can be those of a guide: links lead on, to nodes and cells that
+/// there are.
+bool is_possible(const GuideProgress& guide);
+
 } // namespace clrt

@@ -3,7 +3,6 @@
 #include "app/command_line.h"
 
 #include "app/help_text.h"
-#include "app/nearest_name.h"
 #include "app/option_table.h"
 #include "effects/effect_table.h"
 #include "error.h"
@@ -488,15 +487,6 @@ TEST(CommandLine, StatisticsNeverReplaceTheScene) {
     const std::string scene = folder.write("box.obj", "v 0 0 0\n");
     EXPECT_NE(refusal({"--stats", folder.file("./box.obj"), scene}).find("would replace the scene"),
               std::string::npos);
-}
-
-TEST(NearestName, CountsEditsAndSwaps) {
-    EXPECT_EQ(edit_distance("", "abc"), 3);
-    EXPECT_EQ(edit_distance("abc", "abc"), 0);
-    EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
-    EXPECT_EQ(edit_distance("szie", "size"), 1);
-    EXPECT_EQ(edit_distance("ab", "ba"), 1);
-    EXPECT_EQ(nearest_name("tent", {"box", "rent", "tents"}), "tents");
 }
 
 } // namespace clrt

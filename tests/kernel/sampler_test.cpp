@@ -33,13 +33,6 @@ KernelProbe& probe() {
         const std::string make = "const Sampler s = sampler_make(a, b, c, d); out = ";
         made.add<u32(u32, u32, u32, u32)>("key", make + "s.key;");
         made.add<u32(u32, u32, u32, u32, u32, u32)>("word", make + "sampler_word(&s, e, f);");
-        // e: branches, f: which
-        const std::string branch = "const Sampler s0 = sampler_make(a, b, c, d); "
-                                   "const Sampler s = sampler_branch(&s0, e, f); out = ";
-        made.add<u32(u32, u32, u32, u32, u32, u32)>("branch_x",
-                                                    branch + "sampler_pair_words(&s, 5u, SAMPLE_LIGHT).x;");
-        made.add<u32(u32, u32, u32, u32, u32, u32)>("branch_word",
-                                                    branch + "sampler_word(&s, 5u, SAMPLE_LIGHT_ALIAS);");
         const auto add_words = [&](const std::string& name, const std::string& words) {
             made.add<u32(u32, u32, u32, u32, u32, u32)>(name + "_x", make + words + ".x;");
             made.add<u32(u32, u32, u32, u32, u32, u32)>(name + "_y", make + words + ".y;");
@@ -349,20 +342,6 @@ TEST(Sampler, TheFirstVertexsLightSampleAndTheFilmPositionAreOneNet) {
     // Light samples of later vertices are pairs of their own.
     EXPECT_EQ(second.run<u32>("light_x"), second.run<u32>("pair_x"));
     EXPECT_EQ(second.run<u32>("light_y"), second.run<u32>("pair_y"));
-}
-
-TEST(Sampler, BranchesOfASampleAreSamplesThatFollowEachOther) {
-    // So those of the first 2^m samples, 2^n branches each, are a net of 2^(m + n) points.
-    constexpr u32 BOUNCE = 5, LIGHT = 3, LIGHT_ALIAS = 4, SAMPLES = 64;
-    for (const u32 count : {1u, 3u, 8u}) {
-        Addresses branches;
-        for (u32 i = 0; i < SAMPLES * count; ++i)
-            branches.add(9, 77, 1, i / count, count, i % count);
-        const Addresses light = samples_of(9, 77, 1, BOUNCE, LIGHT, SAMPLES * count),
-                        alias = samples_of(9, 77, 1, BOUNCE, LIGHT_ALIAS, SAMPLES * count);
-        EXPECT_EQ(branches.run<u32>("branch_x"), light.run<u32>("pair_x")) << count;
-        EXPECT_EQ(branches.run<u32>("branch_word"), alias.run<u32>("word")) << count;
-    }
 }
 
 TEST(Sampler, PixelsOfAReplicateNeverShareAKey) {
