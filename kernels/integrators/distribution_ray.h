@@ -70,7 +70,7 @@ static inline TreeRay distribution_first(const CameraSample* sample)
 /* The kinds of light whose emission the ray may add. */
 static inline uint distribution_accepted(const TreeRay* path)
 {
-    return HAS(EFFECT_PATH_FILTER) ? AUTOMATON_STATES[path->state] & STATE_KINDS_MASK : KINDS_ALL;
+    return automaton_accepted(path->state);
 }
 
 /* True if the light of a kind may end a path by way of lobes that write this letter. */

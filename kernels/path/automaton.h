@@ -73,6 +73,12 @@ static inline AutomatonStep automaton_cut_step(const AutomatonStep* step, uint s
 /* True if light of this kind (KIND_*) ends an accepted path. */
 static inline bool automaton_accepts(uint state, uint kind) { return (AUTOMATON_STATES[state] & kind) != 0u; }
 
+/* The kinds of light that end a path in this state; all where paths are not told apart. */
+static inline uint automaton_accepted(uint state)
+{
+    return HAS(EFFECT_PATH_FILTER) ? AUTOMATON_STATES[state] & STATE_KINDS_MASK : KINDS_ALL;
+}
+
 /* True if a ray that leaves in this state can find anything: false after the last surface before a point
    light. */
 static inline bool automaton_continues(uint state)

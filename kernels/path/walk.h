@@ -50,7 +50,7 @@ static inline void path_begin(Path* path, const Ray* ray)
 /* The kinds of light whose emission the path may add. */
 static inline uint path_accepted(const Path* path)
 {
-    return HAS(EFFECT_PATH_FILTER) ? AUTOMATON_STATES[path->state] & STATE_KINDS_MASK : KINDS_ALL;
+    return automaton_accepted(path->state);
 }
 
 /* Adds light of one kind that the path has met to the layers. */

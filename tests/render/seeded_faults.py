@@ -270,7 +270,7 @@ FAULTS = [
      "0u", "paths_test"),
     ("forced reflection without Fresnel", "scattering/bsdf_dielectric.h", "sample->weight *= reflects ? f : REAL(1.0) - f;",
      "", "paths_test"),
-    ("lamps are seen by every path", "path/walk.h", "AUTOMATON_STATES[path->state] & STATE_KINDS_MASK",
+    ("lamps are seen by every path", "path/walk.h", "automaton_accepted(path->state)",
      "KINDS_ALL", "paths_test"),
     ("the automaton stays where it is", "path/walk.h", "path->state = step->next[filter_letter(bsdf, next)];", "",
      "paths_test"),
