@@ -22,9 +22,11 @@
 
 /* What guided paths read, and the sums that they add to. */
 typedef struct {
-    global const GuideNode* restrict nodes;
+    global const uint* restrict links;
     global const GuideCell* restrict cells;
     global long* sums;
+    global const float* restrict weights; /* of gains (path/guide_gain.h), a tile each */
+    global long* gains;
 } GuideArrays;
 
 typedef struct {

@@ -12,10 +12,11 @@
 /* What a kernel that guides paths takes besides. */
 #if PATH_GUIDE
 #define GUIDE_PARAMS \
-    , global const GuideNode* restrict guide_nodes, global const GuideCell* restrict guide_cells, \
-        global long* guide_sums
+    , global const uint* restrict guide_links, global const GuideCell* restrict guide_cells, \
+        global long *guide_sums, global const float *restrict guide_weights, global long *guide_gains
 #define GUIDE_SET(scene) \
-    ((scene).guide.nodes = guide_nodes, (scene).guide.cells = guide_cells, (scene).guide.sums = guide_sums)
+    ((scene).guide.links = guide_links, (scene).guide.cells = guide_cells, (scene).guide.sums = guide_sums, \
+     (scene).guide.weights = guide_weights, (scene).guide.gains = guide_gains)
 #else
 #define GUIDE_PARAMS
 #define GUIDE_SET(scene)
@@ -40,6 +41,9 @@ static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* p
         CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));
         pixel_aim(params, film, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);
         INTEGRATOR_RADIANCE(scene, params, samples, count, &rays);
+#if PATH_GUIDE
+        pixel_add_gain(scene, place.slot, samples, count);
+#endif
         pixel_add(params, place, samples, count, &counter, film, pixel_rays, counters);
     }
     film_add_counts(&rays, range.count, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));

@@ -49,7 +49,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const real3 wo = -path->ray.direction;
     const Sampler* sampler = &sample->sampler;
     path->is_alive = path->is_connected = false;
-    guide_note_radiance(sample->radiance, &path->guided);
+    guide_arrive(sample->radiance, &path->guided);
     if (path->hit.triangle == NO_INDEX) {
         path_escape(scene, params, segment, path, sample, rays);
         return;
@@ -143,14 +143,17 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
     alive.count = 0u;
     for (uint k = 0; k < count; ++k) {
         path_begin(&paths[k], &samples[k].ray);
+        guide_choose(params, &samples[k].sampler, &paths[k].guided);
         path_list_add(&alive, k, true);
     }
     for (uint segment = 1u; alive.count != 0u && segment <= PATH_SEGMENTS; ++segment)
         path_advance(scene, params, segment, paths, samples, &alive, rays);
     for (uint k = 0; k < count; ++k)
         nan_carry(scene, nan_of_vector(paths[k].throughput + paths[k].watched), &samples[k].radiance);
+#if PATH_GUIDE
     for (uint k = 0; k < count; ++k)
-        guide_learn(scene, params, samples[k].radiance, &paths[k].guided);
+        samples[k].guide_gain = guide_learn(scene, params, samples[k].radiance, &paths[k].guided);
+#endif
 }
 
 #endif

@@ -19,6 +19,9 @@ typedef struct {
     LayerSums layers;
     Ray ray;
     real3 radiance;
+#if PATH_GUIDE
+    real guide_gain; /* path/guide_gain.h */
+#endif
 #if FILM_SPLATS
     global long* film; /* for pixel_splat; 0 in a replay, which only looks at splats */
     uint place;        /* of the pixel among those of the window, row by row */
@@ -56,6 +59,22 @@ static inline void pixel_splat(const RenderParams* params, CameraSample* sample,
         film_splat(params, sample->film, sample->replicate, &sample->sampler, number, position, radiance);
     if (fault != COUNT_WORDS)
         sample->splat_fault = fault;
+}
+#endif
+
+#if PATH_GUIDE
+/* Adds what the guide gains by these samples to their tile's sum. */
+static inline void pixel_add_gain(const Scene* scene, uint slot, const CameraSample* samples, uint count)
+{
+    const uint tile = slot / TILE_PIXELS;
+    const real weight = (real)scene->guide.weights[tile];
+    const real most = (real)GUIDE_LARGEST_GAIN;
+    for (uint k = 0; k < count; ++k) {
+        const real gain = samples[k].guide_gain * weight;
+        if (gain != REAL(0.0) && fabs(gain) < REAL_FAR)
+            sum_add_modulo(scene->guide.gains + tile,
+                           (ulong)convert_long(clamp(gain, -most, most) * (real)GUIDE_GAIN_UNITS));
+    }
 }
 #endif
 

@@ -17,24 +17,28 @@ static inline uint cell_side(real3 n)
     return 2u * axis + (along < REAL(0.0) ? 1u : 0u);
 }
 
-/* The place of a coordinate in the grid. */
-static inline uint cell_place(real x, real scale)
+/* A coordinate in units of 2^-GUIDE_AXIS_BITS of the cube's side. */
+static inline uint cell_coordinate(real x, real scale)
 {
-    return (uint)clamp(fma(x, scale, REAL(0.5) * (real)GUIDE_GRID), REAL(0.0), (real)(GUIDE_GRID - 1));
+    const real side = (real)(1u << GUIDE_AXIS_BITS);
+    return (uint)clamp(fma(x, scale, REAL(0.5) * side), REAL(0.0), side - REAL(1.0));
 }
 
 /* The cell of a surface point with normal n in a scene within [-extent, extent]^3. */
-static inline uint cell_at(global const GuideNode* nodes, real extent, real3 position, real3 n)
+static inline uint cell_at(global const uint* links, real extent, real3 position, real3 n)
 {
-    const real scale = REAL(0.5) * (real)GUIDE_GRID / extent;
-    uint place = cell_side(n) * GUIDE_GRID + cell_place(position.z, scale);
-    place = place * GUIDE_GRID + cell_place(position.y, scale);
-    place = place * GUIDE_GRID + cell_place(position.x, scale);
-    const float along[3] = {(float)position.x, (float)position.y, (float)position.z};
-    GuideNode node = nodes[place];
-    while (!(node.link & GUIDE_LEAF))
-        node = nodes[GUIDE_GRID_PLACES + (node.link >> 2) + (along[node.link & 3u] < node.split ? 0u : 1u)];
-    return node.link & ~GUIDE_LEAF;
+    const real scale = REAL(0.5) * (real)(1u << GUIDE_AXIS_BITS) / extent;
+    const uint x = cell_coordinate(position.x, scale);
+    const uint y = cell_coordinate(position.y, scale);
+    const uint z = cell_coordinate(position.z, scale);
+    uint bit = GUIDE_AXIS_BITS - GUIDE_GRID_BITS;
+    const uint row = (cell_side(n) * GUIDE_GRID + (z >> bit)) * GUIDE_GRID + (y >> bit);
+    uint link = links[row * GUIDE_GRID + (x >> bit)];
+    while (!(link & GUIDE_LEAF)) {
+        --bit;
+        link = links[link + ((x >> bit) & 1u) + 2u * ((y >> bit) & 1u) + 4u * ((z >> bit) & 1u)];
+    }
+    return link & ~GUIDE_LEAF;
 }
 
 #endif

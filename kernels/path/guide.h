@@ -24,6 +24,7 @@ typedef struct {
     uint bin;      /* of the sampled direction */
     real share;    /* probability of sampling a direction by the cell */
     real radiance; /* that paths find behind such vertices, the mean; 0: not known */
+    real ratio;    /* density of the sampled direction over that without the guide */
 } Guide;
 
 /* Whether a material scatters widely enough to be guided. */
@@ -36,7 +37,7 @@ static inline bool guide_suits(const Bsdf* bsdf)
 /* Of a vertex that is not guided. */
 static inline Guide guide_none(void)
 {
-    const Guide none = {NO_INDEX, 0u, REAL(0.0), REAL(0.0)};
+    const Guide none = {NO_INDEX, 0u, REAL(0.0), REAL(0.0), REAL(1.0)};
     return none;
 }
 
@@ -46,7 +47,7 @@ static inline Guide guide_at(const Scene* scene, const RenderParams* params, rea
     Guide guide = guide_none();
     if (!PATH_GUIDE || !guide_suits(bsdf))
         return guide;
-    guide.cell = cell_at(scene->guide.nodes, (real)params->scene_extent, position, bsdf->frame.z);
+    guide.cell = cell_at(scene->guide.links, (real)params->scene_extent, position, bsdf->frame.z);
     guide.share = (real)scene->guide.cells[guide.cell].share;
     guide.radiance = (real)scene->guide.cells[guide.cell].radiance;
     return guide;
@@ -81,7 +82,9 @@ static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf,
     next.wi = point / vector_length(point);
     const BsdfValue value = bsdf_eval(bsdf, next.wi);
     next.pdf_w = value.pdf_w;
-    next.weight = value.value / guide_mixture(guide, value.pdf_w, pdf_w);
+    const real mixture = guide_mixture(guide, value.pdf_w, pdf_w);
+    guide->ratio = mixture / value.pdf_w;
+    next.weight = value.value / mixture;
     next.reflects = bsdf_reflects(bsdf, next.wi);
     next.eta = next.reflects ? REAL(1.0) : bsdf->eta;
     next.is_weighted = true;
@@ -103,11 +106,13 @@ static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real
     const real rest = REAL(1.0) - guide->share;
     BsdfSample next = bsdf_sample(bsdf, fmin((u_lobe - guide->share) / rest, GUIDE_LARGEST_NUMBER), u);
     if (next.pdf_w == REAL(0.0)) {
+        guide->ratio = rest;
         next.weight /= rest;
         return next;
     }
     const real pdf_w = guide_pdf_w(scene, guide, next.wi, &guide->bin);
-    next.weight *= next.pdf_w / guide_mixture(guide, next.pdf_w, pdf_w);
+    guide->ratio = guide_mixture(guide, next.pdf_w, pdf_w) / next.pdf_w;
+    next.weight /= guide->ratio;
     return next;
 }
 

@@ -41,33 +41,37 @@ static inline real3 bins_octahedron(real2 place)
     return vector_make(unfolded.x, unfolded.y, z);
 }
 
-/* The split of an inner node. */
-static inline uint bins_split(global const GuideCell* cell, uint node)
+/* The split of an inner node of a subtree. */
+static inline uint bins_split(global const GuideCell* cell, uint subtree, uint node)
 {
-    return (cell->splits[node >> 1] >> (16u * (node & 1u))) & 0xffffu;
+    const uint at = subtree * GUIDE_SUBTREE_LEAVES + node;
+    return (cell->splits[at >> 1] >> (16u * (at & 1u))) & 0xffffu;
 }
 
-/* The tree of bins is gone down without branches: which child comes next is chance. A node's children are
-   2 node + 1 and 2 node + 2. */
+/* The tree of bins is gone down without branches: which child comes next is chance. In a subtree a node's
+   children are 2 node + 1 and 2 node + 2. */
 
 /* The bin at a place of the square, in units of 2^-16. */
 static inline GuideBin bins_find(global const GuideCell* cell, uint x, uint y)
 {
     GuideBin bin = {0u, 0u, GUIDE_SIDE, 0u, GUIDE_SIDE};
-    uint node = 0u;
-    for (uint level = 0u; level < GUIDE_LEVELS; level += 2u) {
-        const uint at_x = bins_split(cell, node);
-        const bool is_right = x >= at_x;
-        bin.low_x = is_right ? at_x : bin.low_x;
-        bin.high_x = is_right ? bin.high_x : at_x;
-        node = 2u * node + (is_right ? 2u : 1u);
-        const uint at_y = bins_split(cell, node);
-        const bool is_above = y >= at_y;
-        bin.low_y = is_above ? at_y : bin.low_y;
-        bin.high_y = is_above ? bin.high_y : at_y;
-        node = 2u * node + (is_above ? 2u : 1u);
+    for (uint subtree = 0u; subtree < 2u; ++subtree) {
+        const uint at = subtree * (bin.number + 1u);
+        uint node = 0u;
+        for (uint level = 0u; level < GUIDE_SUBTREE_LEVELS; level += 2u) {
+            const uint at_x = bins_split(cell, at, node);
+            const bool is_right = x >= at_x;
+            bin.low_x = is_right ? at_x : bin.low_x;
+            bin.high_x = is_right ? bin.high_x : at_x;
+            node = 2u * node + (is_right ? 2u : 1u);
+            const uint at_y = bins_split(cell, at, node);
+            const bool is_above = y >= at_y;
+            bin.low_y = is_above ? at_y : bin.low_y;
+            bin.high_y = is_above ? bin.high_y : at_y;
+            node = 2u * node + (is_above ? 2u : 1u);
+        }
+        bin.number = bin.number * GUIDE_SUBTREE_LEAVES + node - (GUIDE_SUBTREE_LEAVES - 1u);
     }
-    bin.number = node - (GUIDE_BINS - 1u);
     return bin;
 }
 
@@ -75,16 +79,22 @@ static inline GuideBin bins_find(global const GuideCell* cell, uint x, uint y)
 static inline GuideBin bins_take(global const GuideCell* cell, uint number)
 {
     GuideBin bin = {number, 0u, GUIDE_SIDE, 0u, GUIDE_SIDE};
-    for (uint level = 0u; level < GUIDE_LEVELS; level += 2u) {
-        /* The bits above those of this level say which node it is. */
-        const uint at_x = bins_split(cell, (1u << level) - 1u + (number >> (GUIDE_LEVELS - level)));
-        const bool is_right = ((number >> (GUIDE_LEVELS - 1u - level)) & 1u) != 0u;
-        bin.low_x = is_right ? at_x : bin.low_x;
-        bin.high_x = is_right ? bin.high_x : at_x;
-        const uint at_y = bins_split(cell, (2u << level) - 1u + (number >> (GUIDE_LEVELS - 1u - level)));
-        const bool is_above = ((number >> (GUIDE_LEVELS - 2u - level)) & 1u) != 0u;
-        bin.low_y = is_above ? at_y : bin.low_y;
-        bin.high_y = is_above ? bin.high_y : at_y;
+    for (uint subtree = 0u; subtree < 2u; ++subtree) {
+        const uint at = subtree * (number / GUIDE_SUBTREE_LEAVES + 1u);
+        /* The bits of the number say which way it goes, the highest first. */
+        const uint leaf = subtree == 0u ? number / GUIDE_SUBTREE_LEAVES : number % GUIDE_SUBTREE_LEAVES;
+        for (uint level = 0u; level < GUIDE_SUBTREE_LEVELS; level += 2u) {
+            const uint at_x =
+                bins_split(cell, at, (1u << level) - 1u + (leaf >> (GUIDE_SUBTREE_LEVELS - level)));
+            const bool is_right = ((leaf >> (GUIDE_SUBTREE_LEVELS - 1u - level)) & 1u) != 0u;
+            bin.low_x = is_right ? at_x : bin.low_x;
+            bin.high_x = is_right ? bin.high_x : at_x;
+            const uint at_y =
+                bins_split(cell, at, (2u << level) - 1u + (leaf >> (GUIDE_SUBTREE_LEVELS - 1u - level)));
+            const bool is_above = ((leaf >> (GUIDE_SUBTREE_LEVELS - 2u - level)) & 1u) != 0u;
+            bin.low_y = is_above ? at_y : bin.low_y;
+            bin.high_y = is_above ? bin.high_y : at_y;
+        }
     }
     return bin;
 }

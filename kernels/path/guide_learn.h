@@ -7,6 +7,7 @@
 
 #include "film/sum.h"
 #include "guide.h"
+#include "guide_gain.h"
 
 /* Vertices of a path that learn from it: those behind are rarely reached, and their light is small. */
 #define GUIDE_VERTICES 12
@@ -23,8 +24,10 @@ typedef struct {
 typedef struct {
     GuideVertex vertices[GUIDE_VERTICES];
     uint count;
+    bool teaches;
     bool is_open;  /* the last one's radiance is to be set */
     real expected; /* contribution of the path behind its first vertex that knew; 0: none did */
+    GuideGain gain;
 } GuidePath;
 #else
 typedef struct {
@@ -35,9 +38,19 @@ typedef struct {
 static inline void guide_begin(GuidePath* path)
 {
 #if PATH_GUIDE
+    path->teaches = true;
     path->count = 0u;
     path->is_open = false;
     path->expected = REAL(0.0);
+    gain_begin(&path->gain);
+#endif
+}
+
+/* Chooses whether cells learn from the path of this sample. */
+static inline void guide_choose(const RenderParams* params, const Sampler* sampler, GuidePath* path)
+{
+#if PATH_GUIDE
+    path->teaches = sampler->index_reversed <= params->guide_learns;
 #endif
 }
 
@@ -65,7 +78,7 @@ static inline void guide_note(const Guide* guide, const BsdfSample* next, real3 
 {
 #if PATH_GUIDE
     path->is_open = false;
-    if (guide->cell == NO_INDEX || path->count == GUIDE_VERTICES || next->pdf_w == REAL(0.0))
+    if (!path->teaches || guide->cell == NO_INDEX || path->count == GUIDE_VERTICES || next->pdf_w == REAL(0.0))
         return;
     GuideVertex* vertex = &path->vertices[path->count++];
     vertex->cell = guide->cell;
@@ -76,20 +89,38 @@ static inline void guide_note(const Guide* guide, const BsdfSample* next, real3 
 #endif
 }
 
-/* Notes what the path has found before it meets its next vertex. */
-static inline void guide_note_radiance(real3 radiance, GuidePath* path)
+/* The path comes to its next vertex; `radiance`: what it has found before. */
+static inline void guide_arrive(real3 radiance, GuidePath* path)
 {
 #if PATH_GUIDE
     if (path->is_open)
         path->vertices[path->count - 1u].radiance = guide_size(radiance);
+    gain_add(guide_size(radiance), &path->gain);
+    gain_advance(&path->gain);
 #endif
 }
 
-/* Adds what a finished path has found to the sums of its vertices. */
-static inline void guide_learn(const Scene* scene, const RenderParams* params, real3 radiance,
-                               const GuidePath* path)
+/* The path goes on in the guide's direction. */
+static inline void guide_leave(const Guide* guide, GuidePath* path)
 {
 #if PATH_GUIDE
+    gain_leave(guide->ratio, &path->gain);
+#endif
+}
+
+/* The path has survived Russian roulette; without the guide it would have gone by `size`. */
+static inline void guide_survive(real survival, real size, real smallest, GuidePath* path)
+{
+#if PATH_GUIDE
+    gain_survive(survival, size, smallest, &path->gain);
+#endif
+}
+
+#if PATH_GUIDE
+/* Adds what a finished path has found to the sums of its vertices; returns what the guide gains by it. */
+static inline real guide_learn(const Scene* scene, const RenderParams* params, real3 radiance, GuidePath* path)
+{
+    gain_add(guide_size(radiance), &path->gain);
     const real whole = guide_size(radiance);
     for (uint i = 0; i < path->count; ++i) {
         const GuideVertex* vertex = &path->vertices[i];
@@ -101,7 +132,8 @@ static inline void guide_learn(const Scene* scene, const RenderParams* params, r
         const real quanta = fmin(found, (real)(1u << GUIDE_RECORD_BITS));
         sum_add_modulo(sums + vertex->bin, (1ul << GUIDE_SUM_BITS) + (ulong)quanta);
     }
-#endif
+    return path->gain.gain;
 }
+#endif
 
 #endif

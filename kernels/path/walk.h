@@ -109,14 +109,15 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
 {
     if (segment < params->roulette_depth)
         return true;
-    const real size = worth > REAL(0.0) ? worth : vector_max_component(path->throughput) / path->eta_squared;
-    const real survival = clamp(size, PATH_SMALLEST_SURVIVAL, REAL(1.0));
+    const real size = vector_max_component(path->throughput) / path->eta_squared;
+    const real survival = clamp(worth > REAL(0.0) ? worth : size, PATH_SMALLEST_SURVIVAL, REAL(1.0));
     const bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);
     TRACE_NUMBER(scene, TRACE_SURVIVAL, survival);
     TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
     if (!survives)
         return false;
     path->throughput /= survival;
+    guide_survive(survival, size, PATH_SMALLEST_SURVIVAL, &path->guided);
     return true;
 }
 
@@ -134,6 +135,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->throughput);
     path->pdf_w = next->pdf_w;
     path->eta_squared *= next->eta * next->eta;
+    guide_leave(guide, &path->guided);
     path->is_alive = path_survives(scene, params, sampler, segment, worth, path);
     path->ray = surface_ray(surface, next->reflects, next->wi);
     path->view = lights_view(surface, bsdf_light_normal(bsdf));

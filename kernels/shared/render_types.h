@@ -57,7 +57,9 @@ typedef struct {
     u32 tiles_x;                /* tiles a row */
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
-    u32 unused0, unused1, unused2;
+    u32 guide_learns;           /* paths teach the guide whose sample has at most this number within its
+                                   replicate, its bits reversed */
+    u32 unused0, unused1;
 } RenderParams;
 ASSERT_SIZE(RenderParams, 400);
 

@@ -66,9 +66,9 @@ private:
 std::uint64_t guide_bytes(const GuideProgress& progress) {
     if (!progress.guide)
         return 0;
-    return progress.guide->nodes().size() * sizeof(GuideNode) +
+    return progress.guide->nodes().size() * sizeof(u32) +
            progress.guide->lore().size() * (sizeof(DirectionSplits) + 3 * sizeof(double)) +
-           progress.sums.size() * sizeof progress.sums[0];
+           progress.weights.size() * sizeof(float) + progress.sums.size() * sizeof progress.sums[0];
 }
 
 /// A film file that is being read.
@@ -136,16 +136,17 @@ public:
 private:
     /// Reads what the cells have learnt.
     void guide(GuideProgress& progress) {
-        std::vector<GuideNode> nodes = progress.guide->nodes();
+        std::vector<u32> nodes = progress.guide->nodes();
         std::vector<GuideLore> lore = progress.guide->lore();
-        take(nodes.data(), nodes.size() * sizeof(GuideNode));
+        take(nodes.data(), nodes.size() * sizeof(u32));
         for (GuideLore& cell : lore) {
             take(cell.splits.data(), sizeof cell.splits);
             for (double* number : {&cell.weight.sum, &cell.weight.count, &cell.vertices})
                 take(number, sizeof *number);
         }
         take(progress.sums.data(), progress.sums.size() * sizeof progress.sums[0]);
-        progress.guide.emplace(progress.guide->extent(), std::move(nodes), std::move(lore));
+        take(progress.weights.data(), progress.weights.size() * sizeof progress.weights[0]);
+        progress.guide.emplace(std::move(nodes), std::move(lore));
     }
     void take(void* bytes, size_t count) {
         input_.read(static_cast<char*>(bytes), std::streamsize(count));
@@ -210,14 +211,15 @@ void write_film_file(const std::string& path, const FilmFile& film) {
                 append(half.data(), half.size() * sizeof(double));
     }
     if (const GuideProgress& progress = film.render.guide; progress.guide) {
-        const std::vector<GuideNode>& nodes = progress.guide->nodes();
-        append(nodes.data(), nodes.size() * sizeof(GuideNode));
+        const std::vector<u32>& nodes = progress.guide->nodes();
+        append(nodes.data(), nodes.size() * sizeof(u32));
         for (const GuideLore& cell : progress.guide->lore()) {
             append(cell.splits.data(), sizeof cell.splits);
             for (const double* number : {&cell.weight.sum, &cell.weight.count, &cell.vertices})
                 append(number, sizeof *number);
         }
         append(progress.sums.data(), progress.sums.size() * sizeof progress.sums[0]);
+        append(progress.weights.data(), progress.weights.size() * sizeof progress.weights[0]);
     }
     const std::string end = checksum.text();
     append(end.data(), end.size());

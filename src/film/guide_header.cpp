@@ -17,11 +17,14 @@ std::optional<double> read_number(const Json& json) {
     return json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
+/// Of a picture: 2^16 x 2^16 pixels.
+constexpr size_t MOST_TILES = size_t(1) << 26;
+
 /// A number of things of which a guide can have `most`.
 size_t read_count(const Json& json, size_t most) {
     const size_t count = whole<size_t>(json);
     if (count > most)
-        throw Json::other_error::create(501, "more nodes or cells than a guide can have", &json);
+        throw Json::other_error::create(501, "more nodes, cells or tiles than a guide can have", &json);
     return count;
 }
 
@@ -31,15 +34,19 @@ Json guide_header(const GuideProgress& guide) {
     Json json;
     json["stage"] = int(guide.stage);
     json["epoch"] = guide.epoch;
+    json["begin"] = guide.begin;
     json["end"] = guide.end;
+    json["pilot_end"] = guide.pilot_end;
     json["guided_from"] = guide.guided_from;
     json["guided_to"] = guide.guided_to;
     json["pilot_error"] = number_or_null(guide.pilot_error);
-    json["plain_errors"] = guide.plain_errors;
     json["plain_rays"] = guide.plain_rays;
+    json["teachers"] = guide.teachers;
+    json["gain"] = guide.gain;
+    json["earlier_gain"] = guide.earlier_gain;
+    json["weights"] = guide.guide ? guide.weights.size() : 0;
     json["error"] = number_or_null(guide.error);
     json["work"] = number_or_null(guide.work);
-    json["extent"] = guide.guide ? guide.guide->extent() : 0;
     json["nodes"] = guide.guide ? guide.guide->nodes().size() : 0;
     json["cells"] = guide.guide ? guide.guide->lore().size() : 0;
     return json;
@@ -52,20 +59,24 @@ GuideProgress guide_of_header(const Json& json) {
                   : stage == int(GuideStage::PILOT) ? GuideStage::PILOT
                                                     : GuideStage::OFF;
     guide.epoch = whole<u32>(json.at("epoch"));
+    guide.begin = whole<std::uint64_t>(json.at("begin"));
     guide.end = whole<std::uint64_t>(json.at("end"));
+    guide.pilot_end = whole<std::uint64_t>(json.at("pilot_end"));
     guide.guided_from = whole<std::uint64_t>(json.at("guided_from"));
     guide.guided_to = whole<std::uint64_t>(json.at("guided_to"));
     guide.pilot_error = read_number(json.at("pilot_error"));
-    json.at("plain_errors").get_to(guide.plain_errors);
     json.at("plain_rays").get_to(guide.plain_rays);
+    guide.teachers = whole<u32>(json.at("teachers"));
+    json.at("gain").get_to(guide.gain);
+    json.at("earlier_gain").get_to(guide.earlier_gain);
     guide.error = read_number(json.at("error"));
     guide.work = read_number(json.at("work"));
     const size_t nodes = read_count(json.at("nodes"), 2 * GUIDE_CELLS),
                  cells = read_count(json.at("cells"), GUIDE_CELLS);
     if (guide.stage == GuideStage::ON) {
-        guide.guide.emplace(json.at("extent").get<double>(), std::vector<GuideNode>(nodes),
-                            std::vector<GuideLore>(cells));
+        guide.guide.emplace(std::vector<u32>(nodes), std::vector<GuideLore>(cells));
         guide.sums.resize(cells * GUIDE_SUMS);
+        guide.weights.resize(read_count(json.at("weights"), MOST_TILES));
     }
     return guide;
 }
@@ -73,16 +84,12 @@ GuideProgress guide_of_header(const Json& json) {
 bool is_possible(const GuideProgress& guide) {
     if (!guide.guide)
         return guide.stage != GuideStage::ON;
-    const std::vector<GuideNode>& nodes = guide.guide->nodes();
+    const std::vector<u32>& nodes = guide.guide->nodes();
     const size_t cells = guide.guide->lore().size();
     bool possible = nodes.size() >= GUIDE_SIDES && cells >= GUIDE_SIDES;
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        const u32 link = nodes[i].link, child = link >> 2;
-        if (link & GUIDE_LEAF)
-            possible = possible && (link & ~GUIDE_LEAF) < cells;
-        else
-            possible = possible && (link & 3) < 3 && child > i && child + 1 < nodes.size();
-    }
+    for (size_t i = 0; i < nodes.size(); ++i)
+        possible = possible && (nodes[i] & GUIDE_LEAF ? (nodes[i] & ~GUIDE_LEAF) < cells
+                                                      : nodes[i] > i && size_t(nodes[i]) + 1 < nodes.size());
     return possible;
 }
 

@@ -53,13 +53,6 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
                 *path, 0,
                 "expected a film with adaptive: false, found adaptive: true; the samples of an --adaptive "
                 "render were dealt out by its own noise and only --resume can add to them");
-    for (const auto& [film, path] : {std::pair(&sum, &sum_path), std::pair(&part, &part_path)})
-        if (film->render.guide.guided_from != 0 || film->render.guide.stage == GuideStage::ON)
-            throw SceneError(
-                *path, 0,
-                "expected a film without guided samples, found one with them; they need the samples "
-                "before them, so only --resume can add to them: render the parts with --guide off, "
-                "or average pictures of different seeds");
     if (const auto difference = identity_difference(sum.identity, part.identity))
         throw SceneError(part_path, 0,
                          fmt::format("expected a film of the same scene and options as {}, found another {}",
@@ -94,6 +87,7 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
         sum.bias.cut_radiance = part.bias.cut_radiance;
     sum.render.seconds += part.render.seconds;
     sum.render.history.clear();
+    sum.render.guide = {}; // what was learnt is of one part alone: samples that --resume adds are not guided
 }
 
 } // namespace clrt

@@ -149,8 +149,14 @@ DirectionSplits learn_splits(const DirectionSplits& old, const DirectionWeight& 
 }
 
 void pack_splits(const DirectionSplits& splits, GuideCell& cell) {
-    for (size_t node = 0; node < splits.size(); ++node)
-        cell.splits[node / 2] |= u32(splits[node]) << (16 * (node % 2));
+    for (size_t level = 0; level < GUIDE_LEVELS; ++level)
+        for (size_t i = 0; i < size_t(1) << level; ++i) {
+            const size_t below = level % GUIDE_SUBTREE_LEVELS; // the subtree's root
+            const size_t subtree = level < GUIDE_SUBTREE_LEVELS ? 0 : 1 + (i >> below);
+            const size_t in_level = i & ((size_t(1) << below) - 1);
+            const size_t at = subtree * GUIDE_SUBTREE_LEAVES + node_number(below, in_level);
+            cell.splits[at / 2] |= u32(splits[node_number(level, i)]) << (16 * (at % 2));
+        }
 }
 
 } // namespace clrt

@@ -2,8 +2,8 @@
 #include "guide/guide.h"
 
 #include <algorithm>
+#include <array>
 #include <tbb/parallel_for.h>
-#include <utility>
 
 namespace clrt {
 
@@ -42,9 +42,9 @@ GuideCell make_cell(const GuideLore& lore) {
 
 } // namespace
 
-Guide::Guide(double extent) : nodes_(GUIDE_SIDES), lore_(GUIDE_SIDES), extent_(float(extent)) {
+Guide::Guide() : lore_(GUIDE_SIDES) {
     for (u32 side = 0; side < GUIDE_SIDES; ++side)
-        nodes_[side] = {GUIDE_LEAF | side, 0, 0, 0};
+        nodes_.push_back(GUIDE_LEAF | side);
     for (GuideLore& lore : lore_)
         lore.splits = even_splits();
 }
@@ -55,61 +55,72 @@ std::vector<GuideCell> Guide::device_cells() const {
     return cells;
 }
 
-Guide::Guide(double extent, std::vector<GuideNode> nodes, std::vector<GuideLore> lore)
-    : nodes_(std::move(nodes)), lore_(std::move(lore)), extent_(float(extent)) {}
-
-/// The node of a place of the grid, or the leaf above.
-GuideNode Guide::grid_node(u32 place) const {
-    std::array<u32, 3> coordinates;
-    for (u32& coordinate : coordinates) {
-        coordinate = place % GUIDE_GRID;
-        place /= GUIDE_GRID;
-    }
-    GuideNode node = nodes_[place]; // the root of a side
-    for (u32 half = GUIDE_GRID / 2, axis = 0; half > 0 && !(node.link & GUIDE_LEAF);) {
-        node = nodes_[(node.link >> 2) + (coordinates[axis] & half ? 1 : 0)];
-        half = axis == 2 ? half / 2 : half;
-        axis = (axis + 1) % 3;
-    }
+/// The node so many levels below, or the leaf above it; bit `i` of the path says whether the half of level
+/// `i` is the high one.
+u32 Guide::node_below(u32 node, u32 levels, u32 path) const {
+    for (u32 level = 0; level < levels && !(nodes_[node] & GUIDE_LEAF); ++level)
+        node = nodes_[node] + ((path >> level) & 1);
     return node;
 }
 
-std::vector<GuideNode> Guide::device_nodes() const {
-    std::vector<GuideNode> nodes(GUIDE_GRID_PLACES);
-    for (u32 place = 0; place < GUIDE_GRID_PLACES; ++place)
-        nodes[place] = grid_node(place);
-    nodes.insert(nodes.end(), nodes_.begin(), nodes_.end());
-    return nodes;
+/// Adds the octree below a node of the first of three levels to `links`, and returns the link to it.
+u32 Guide::octree_link(u32 node, std::vector<u32>& links) const {
+    if (nodes_[node] & GUIDE_LEAF)
+        return nodes_[node];
+    const size_t first = links.size();
+    links.resize(first + GUIDE_CHILDREN);
+    for (u32 child = 0; child < GUIDE_CHILDREN; ++child) {
+        const u32 link = octree_link(node_below(node, 3, child), links);
+        links[first + child] = link;
+    }
+    return u32(first);
+}
+
+std::vector<u32> Guide::device_links() const {
+    std::vector<u32> links(GUIDE_GRID_PLACES);
+    for (u32 place = 0; place < GUIDE_GRID_PLACES; ++place) {
+        const std::array<u32, 3> at = {place % GUIDE_GRID, place / GUIDE_GRID % GUIDE_GRID,
+                                       place / (GUIDE_GRID * GUIDE_GRID) % GUIDE_GRID};
+        u32 path = 0;
+        for (u32 level = 0; level < 3 * GUIDE_GRID_BITS; ++level)
+            path |= ((at[level % 3] >> (GUIDE_GRID_BITS - 1 - level / 3)) & 1) << level;
+        const u32 node =
+            node_below(place / (GUIDE_GRID * GUIDE_GRID * GUIDE_GRID), 3 * GUIDE_GRID_BITS, path);
+        const u32 link = octree_link(node, links);
+        links[place] = link;
+    }
+    return links;
 }
 
 /// Divides the leaves below a node until they have at most so many records.
-void Guide::divide(size_t node, const Box& box, double most) {
-    const u32 link = nodes_[node].link;
-    if (!(link & GUIDE_LEAF)) {
-        const size_t axis = link & 3;
-        Box low = box, high = box;
-        low.high[axis] = high.low[axis] = nodes_[node].split;
-        divide(link >> 2, low, most);
-        divide((link >> 2) + 1, high, most);
-        return;
+void Guide::divide(size_t node, u32 level, double most) {
+    if (nodes_[node] & GUIDE_LEAF) {
+        const u32 cell = nodes_[node] & ~GUIDE_LEAF;
+        if (lore_[cell].weight.count <= most || lore_.size() == GUIDE_CELLS || level == 3 * GUIDE_AXIS_BITS)
+            return;
+        // Halve what is known, too.
+        GuideLore& lore = lore_[cell];
+        for (double* sum : {&lore.weight.sum, &lore.weight.count, &lore.vertices})
+            *sum *= 0.5;
+        nodes_[node] = u32(nodes_.size());
+        nodes_.push_back(GUIDE_LEAF | cell);
+        nodes_.push_back(GUIDE_LEAF | u32(lore_.size()));
+        lore_.push_back(GuideLore(lore));
     }
-    const u32 cell = link & ~GUIDE_LEAF;
-    if (lore_[cell].weight.count <= most || lore_.size() == GUIDE_CELLS)
-        return;
-    // Halve the longest axis, the first of equals; what is known, too.
-    size_t axis = 0;
-    for (size_t i = 1; i < 3; ++i)
-        if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis])
-            axis = i;
-    GuideLore& lore = lore_[cell];
-    for (double* sum : {&lore.weight.sum, &lore.weight.count, &lore.vertices})
-        *sum *= 0.5;
-    const u32 first = u32(nodes_.size());
-    nodes_.push_back({GUIDE_LEAF | cell, 0, 0, 0});
-    nodes_.push_back({GUIDE_LEAF | u32(lore_.size()), 0, 0, 0});
-    lore_.push_back(GuideLore(lore));
-    nodes_[node] = {first * 4 | u32(axis), 0.5f * (box.low[axis] + box.high[axis]), 0, 0};
-    divide(node, box, most);
+    const size_t first = nodes_[node];
+    divide(first, level + 1, most);
+    divide(first + 1, level + 1, most);
+}
+
+double Guide::records(const std::vector<std::uint64_t>& epoch) {
+    double records = 0;
+    for (size_t cell = 0; cell < epoch.size(); cell += GUIDE_SUMS)
+        records += weight_of_sums(&epoch[cell]).count;
+    return records;
+}
+
+double Guide::most_records() {
+    return MOST_RECORDS * GUIDE_CELLS;
 }
 
 void Guide::learn(const std::vector<std::uint64_t>& epoch) {
@@ -120,9 +131,8 @@ void Guide::learn(const std::vector<std::uint64_t>& epoch) {
     for (const GuideLore& lore : lore_)
         records += lore.weight.count;
     const double most = std::max(MOST_RECORDS, 2 * records / GUIDE_CELLS);
-    const Box whole = {{-extent_, -extent_, -extent_}, {extent_, extent_, extent_}};
     for (size_t side = 0; side < GUIDE_SIDES; ++side)
-        divide(side, whole, most);
+        divide(side, 0, most);
 }
 
 } // namespace clrt

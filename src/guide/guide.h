@@ -5,9 +5,9 @@
 
 #include "guide/direction_bins.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace clrt {
@@ -23,20 +23,20 @@ struct GuideLore {
 /// Trees over space, with a distribution of directions in every leaf.
 class Guide {
 public:
-    /// One cell a side for the scene's box, [-extent, extent] along each axis; nothing is learnt yet.
-    explicit Guide(double extent);
+    /// One cell a side; nothing is learnt yet.
+    Guide();
     /// What nodes() and lore() of another have been.
-    Guide(double extent, std::vector<GuideNode> nodes, std::vector<GuideLore> lore);
+    Guide(std::vector<u32> nodes, std::vector<GuideLore> lore)
+        : nodes_(std::move(nodes)), lore_(std::move(lore)) {}
 
-    /// The trees, the roots first; children are numbered without the grid.
-    const std::vector<GuideNode>& nodes() const { return nodes_; }
-    /// Half the side of the scene's box.
-    double extent() const { return double(extent_); }
+    /// The trees, the roots first: of a leaf GUIDE_LEAF and its cell, else its first child, which the other
+    /// one is next to. Levels halve a cube across x, y and z by turns.
+    const std::vector<u32>& nodes() const { return nodes_; }
     /// What each cell has learnt.
     const std::vector<GuideLore>& lore() const { return lore_; }
 
-    /// Grid and nodes as the device holds them.
-    std::vector<GuideNode> device_nodes() const;
+    /// Grid and octrees as the device holds them.
+    std::vector<u32> device_links() const;
     /// The distributions of all cells.
     std::vector<GuideCell> device_cells() const;
 
@@ -44,16 +44,19 @@ public:
     /// have found much.
     void learn(const std::vector<std::uint64_t>& epoch);
 
-private:
-    struct Box {
-        std::array<float, 3> low, high;
-    };
-    GuideNode grid_node(u32 place) const;
-    void divide(size_t node, const Box& box, double most);
+    /// Records of an epoch's sums.
+    static double records(const std::vector<std::uint64_t>& epoch);
+    /// Records of an epoch from which on more of them make no better guide: a multiple of what divides cells,
+    /// in all cells that there can be.
+    static double most_records();
 
-    std::vector<GuideNode> nodes_;
+private:
+    u32 node_below(u32 node, u32 levels, u32 path) const;
+    u32 octree_link(u32 node, std::vector<u32>& links) const;
+    void divide(size_t node, u32 level, double most);
+
+    std::vector<u32> nodes_;
     std::vector<GuideLore> lore_;
-    float extent_;
 };
 
 } // namespace clrt

@@ -16,7 +16,10 @@ struct TransportOptions {
     std::optional<int> max_depth;    ///< path segments; none: as many as the integrator's row says
     int roulette_depth = 5;          ///< first segment that Russian roulette may end
     double min_contribution = 0.002; ///< smallest weight worth a ray
-    Toggle guide = Toggle::OFF;      ///< directions where paths have found light
+    Toggle guide = Toggle::AUTO;     ///< directions where paths have found light
+    /// Rays that --guide auto waits for; no option of the command line. What ends sooner is not worth a guide's
+    /// compilation, which takes about as long as a third of them on a core of a CPU.
+    double guide_after_rays = 1 << 25;
     int shadow_rays = 4;             ///< of a vertex to lamps, sky, and every sun with a disc
     int gloss_rays = 4;              ///< of a vertex by a rough reflection
     int translucent_rays = 4;        ///< of a vertex by a rough dielectric, reflected and refracted

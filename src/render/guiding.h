@@ -4,12 +4,12 @@
 // An epoch is a range of samples whose guide stays the same and was learnt in the epochs before. Each is as
 // long as all before it together, and has nets of its own: so, whatever the guide, the mean of every sample
 // is the truth given all that was before, replicates stay uncorrelated, and their spread is the error. All
-// samples weigh the same.
+// samples weigh the same. Where there are more than it needs, only some samples of an epoch teach the guide.
 //
-// --guide auto starts with a pilot that is not guided. Where it is noisy, the guided program is compiled, one
-// more epoch is spent on learning, and at the end of each of the first guided ones their squared error times
-// work is compared with that of the samples before. Work is counted in rays, never measured in seconds: the
-// same picture comes out everywhere.
+// --guide auto starts with a pilot that is not guided. Where it is noisy, the guided program is compiled; a
+// short epoch teaches, and those after it are a trial: their samples tell what the variance would have been
+// without the guide (kernels/path/guide_gain.h), and the guide goes where that gains less than its work
+// costs. Work is counted in rays, never measured in seconds: the same picture comes out everywhere.
 #pragma once
 
 #include "film/film_buffers.h"
@@ -45,8 +45,13 @@ public:
 private:
     void start();
     void switch_on();
+    void start_gains();
+    void begin_epoch(std::uint64_t samples);
+    std::uint64_t epoch_end(std::uint64_t samples) const;
+    u32 next_teachers(std::uint64_t length) const;
     void end_pilot(std::uint64_t samples);
     void end_epoch(std::uint64_t samples, const RenderCounts& counts);
+    bool is_trial() const;
     void judge(std::uint64_t samples, double rays);
 
     const PreparedScene& prepared_;
@@ -57,9 +62,10 @@ private:
     std::optional<Program> program_;
     std::optional<Launcher> launcher_;
     std::optional<GuideBuffers> buffers_;
+    double earlier_gain_ = 0; ///< of this epoch, from earlier runs
 };
 
 /// What a guide did for the picture, in words; empty where there is nothing to say.
-std::string guide_text(const Options& options, const GuideProgress& guide);
+std::string guide_text(const GuideProgress& guide);
 
 } // namespace clrt

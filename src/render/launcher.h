@@ -33,6 +33,8 @@ public:
 
     /// The next launches belong to this epoch of a guided render.
     void set_epoch(u32 epoch) { params_.epoch = epoch; }
+    /// The guide learns from samples up to this one (RenderParams::guide_learns).
+    void set_teachers(u32 last_reversed) { params_.guide_learns = last_reversed; }
 
     /// Of all launches so far, as run_groups counts them.
     double device_seconds() const { return device_seconds_; }

@@ -39,7 +39,7 @@ std::string adaptive_line(const Report& report) {
 }
 
 std::string guide_line(const Report& report) {
-    const std::string text = guide_text(report.options, report.render.guide);
+    const std::string text = guide_text(report.render.guide);
     return text.empty() ? "" : fmt::format("guide    {}\n", text);
 }
 

@@ -44,7 +44,8 @@ TEST(DirectionBins, AreEvenWithoutRecords) {
 }
 
 TEST(DirectionBins, FollowManyRecords) {
-    // All light in the lower quarter of x, evenly: bins of even splits are numbered by bits of x and y by turns.
+    // All light in the lower quarter of x, evenly: bins of even splits are numbered by bits of x and y by
+    // turns.
     std::vector<std::uint64_t> sums(GUIDE_SUMS);
     for (size_t bin = 0; bin < GUIDE_BINS / 2; ++bin)
         if ((bin & 0x20) == 0)
@@ -82,7 +83,7 @@ TEST(DirectionBins, KeepRoomForEveryBin) {
 }
 
 TEST(Guide, DividesCellsWithManyRecordsAndFindsThem) {
-    Guide guide(2);
+    Guide guide;
     EXPECT_EQ(guide.lore().size(), size_t(GUIDE_SIDES));
     std::vector<std::uint64_t> sums(GUIDE_SIDES * GUIDE_SUMS);
     sums[0] = records(1600, 1600000);
@@ -96,9 +97,9 @@ TEST(Guide, DividesCellsWithManyRecordsAndFindsThem) {
     EXPECT_NEAR(cells[0].share, 0.5 * 200 / 264, 1e-6);
     EXPECT_EQ(cells[1].share, 0);
     // The grid's corners of the first side are in different cells.
-    const std::vector<GuideNode> nodes = guide.device_nodes();
-    EXPECT_TRUE(nodes[0].link & GUIDE_LEAF);
-    EXPECT_NE(nodes[0].link, nodes[GUIDE_GRID * GUIDE_GRID * GUIDE_GRID - 1].link);
+    const std::vector<u32> links = guide.device_links();
+    EXPECT_TRUE(links[0] & GUIDE_LEAF);
+    EXPECT_NE(links[0], links[GUIDE_GRID * GUIDE_GRID * GUIDE_GRID - 1]);
     // What is known counts half as much an epoch later.
     guide.learn(std::vector<std::uint64_t>(guide.lore().size() * GUIDE_SUMS));
     EXPECT_DOUBLE_EQ(guide.lore()[0].weight.count, 100);

@@ -173,7 +173,9 @@ TEST_F(FilmFileTest, AGuideComesBackAndOneThatCannotBeIsRefused) {
     guide.epoch = 2;
     guide.end = 64;
     guide.pilot_error = 1.0 / 3;
-    guide.guide.emplace(2);
+    guide.weights = {0.5f, 2, 0};
+    guide.gain = -1.25;
+    guide.guide.emplace();
     std::vector<std::uint64_t> sums(GUIDE_SIDES * GUIDE_SUMS);
     sums[0] = (std::uint64_t(800) << GUIDE_SUM_BITS) + 800000; // divides a cell
     sums[GUIDE_SUM_VERTICES] = 1600;
@@ -184,17 +186,19 @@ TEST_F(FilmFileTest, AGuideComesBackAndOneThatCannotBeIsRefused) {
     EXPECT_EQ(read.epoch, 2u);
     EXPECT_EQ(read.pilot_error, guide.pilot_error);
     EXPECT_EQ(read.sums, guide.sums);
+    EXPECT_EQ(read.weights, guide.weights);
+    EXPECT_EQ(read.gain, guide.gain);
     ASSERT_EQ(read.guide->lore().size(), guide.guide->lore().size());
     EXPECT_EQ(read.guide->lore()[0].splits, guide.guide->lore()[0].splits);
     EXPECT_EQ(read.guide->lore()[0].weight.count, guide.guide->lore()[0].weight.count);
 
     // A link to nowhere, one that leads back, a cell that there is not.
-    const std::vector<GuideNode> nodes = guide.guide->nodes();
-    ASSERT_FALSE(nodes[0].link & GUIDE_LEAF);
-    for (const u32 link : {4u * 1000, 0u, GUIDE_LEAF | 1000u}) {
-        std::vector<GuideNode> broken = nodes;
-        broken[0].link = link;
-        guide.guide.emplace(2, broken, read.guide->lore());
+    const std::vector<u32> nodes = guide.guide->nodes();
+    ASSERT_FALSE(nodes[0] & GUIDE_LEAF);
+    for (const u32 link : {1000u, 0u, GUIDE_LEAF | 1000u}) {
+        std::vector<u32> broken = nodes;
+        broken[0] = link;
+        guide.guide.emplace(broken, read.guide->lore());
         write_film_file(folder.file("guided.film"), film);
         expect_refused(folder.read("guided.film"), "damaged: the cells of its guide are impossible");
     }

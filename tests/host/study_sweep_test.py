@@ -69,9 +69,9 @@ class AMethod(unittest.TestCase):
         self.assertEqual(Method(adaptive="on").words(), ["--adaptive"])
 
     def test_has_a_name_of_its_own(self):
-        self.assertEqual(str(Method("path", "single", "sobol", guide="off", adaptive="off")), "path, single, sobol")
-        self.assertEqual(str(Method("path", "single", "sobol", guide="auto", adaptive="mse")),
-                         "path, single, sobol, guide auto, adaptive mse")
+        self.assertEqual(str(Method("path", "single", "sobol", guide="auto", adaptive="off")), "path, single, sobol")
+        self.assertEqual(str(Method("path", "single", "sobol", guide="off", adaptive="mse")),
+                         "path, single, sobol, guide off, adaptive mse")
 
     def test_every_switch_has_its_place_among_the_changes(self):
         self.assertEqual(sorted(switch.rank for switch in SWITCHES.values()), list(range(1, len(SWITCHES) + 1)))

@@ -84,17 +84,11 @@ const Layout LIGHT_PLACE = {
     sizeof(LightPlace),
     {M(trail_low), M(trail_high), M(end), M(density)}};
 #undef M
-#define M(name) MEMBER(GuideNode, name)
-const Layout GUIDE_NODE = {
-    "GuideNode",
-    sizeof(GuideNode),
-    {M(link), M(split), M(unused0), M(unused1)}};
-#undef M
 #define M(name) MEMBER(GuideCell, name)
 const Layout GUIDE_CELL = {
     "GuideCell",
     sizeof(GuideCell),
-    {M(share), M(radiance), M(splits), M(unused0), M(unused1)}};
+    {M(share), M(radiance), M(unused), M(splits)}};
 #undef M
 #define M(name) MEMBER(CameraParams, name)
 const Layout CAMERA_PARAMS = {
@@ -115,7 +109,7 @@ const Layout RENDER_PARAMS = {
      M(scene_extent), M(emitter_count), M(light_count), M(environment_width), M(environment_height),
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(emit_emitter), M(emit_environment), M(emit_light), M(emission_radius), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
-     M(tile_stride), M(first_tile), M(end_tile), M(unused0), M(unused1), M(unused2)}};
+     M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(unused0), M(unused1)}};
 #undef M
 #define M(name) MEMBER(ArrayPlace, name)
 const Layout ARRAY_PLACE_LAYOUT = {
@@ -134,7 +128,7 @@ const Layout ARRAY_PLACES = {
 const std::vector<Layout> LAYOUTS = {
     TRIANGLE,           MATERIAL,     TEXTURE,     EMITTER,       LIGHT,
     ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
-    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_NODE,  GUIDE_CELL};
+    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.

@@ -2,8 +2,8 @@
 // --guide: guided paths bring the same light, with less noise where it is hard to find; the picture keeps its
 // bits however its samples are dealt out; a film goes on where it was; auto leaves easy scenes alone.
 #include "film/film_file.h"
-#include "probes/film_estimate.h"
 #include "options/guide_refusal.h"
+#include "probes/film_estimate.h"
 #include "render/guiding.h"
 #include "support/render_scene.h"
 
@@ -14,8 +14,8 @@ namespace clrt {
 
 namespace {
 
-/// Two rooms and a slit between them: a lamp in the one that the camera does not see, and of its walls neither
-/// what it shines at.
+/// Two rooms and a slit between them: a lamp in the one that the camera does not see, and of its walls
+/// neither what it shines at.
 void add_rooms(TestScene& scene) {
     scene.build.material("white", "Kd 0.75 0.75 0.75").material("lamp", "Kd 0 0 0\nKe 40 36 30");
     scene.build.material("gloss", "Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 20\nillum 2");
@@ -117,6 +117,7 @@ TEST(Guide, KeepsItsBitsInPieces) {
 TEST(Guide, AutoLeavesEasyScenesAlone) {
     TestScene scene;
     add_lit_floor(scene);
+    scene.options.transport.guide_after_rays = 1;
     const Render plain = render_guided(scene, Toggle::OFF, 64, 4);
     const Render render = render_guided(scene, Toggle::AUTO, 64, 4);
     EXPECT_EQ(render.film.sums, plain.film.sums);
@@ -126,20 +127,67 @@ TEST(Guide, AutoLeavesEasyScenesAlone) {
     EXPECT_LT(*render.guide.pilot_error, 4);
 }
 
+TEST(Guide, AutoLeavesShortRendersAlone) {
+    TestScene scene;
+    add_rooms(scene);
+    const Render render = render_guided(scene, Toggle::AUTO, 64, 4);
+    EXPECT_EQ(render.film.sums, render_guided(scene, Toggle::OFF, 64, 4).film.sums);
+    EXPECT_EQ(render.guide.stage, GuideStage::PILOT);
+}
+
+// The guided samples of the last epoch of the trial tell what the variance would be without their guide.
 TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
     TestScene scene;
     add_rooms(scene);
-    const Render render = render_guided(scene, Toggle::AUTO, 256, 4);
-    EXPECT_EQ(render.guide.stage, GuideStage::ON);
-    EXPECT_EQ(render.guide.guided_from, 16u);
-    ASSERT_TRUE(render.guide.error);
-    EXPECT_LT(*render.guide.error * *render.guide.work, 1);
-    EXPECT_NE(render.film.sums, render_guided(scene, Toggle::OFF, 256, 4).film.sums);
+    scene.options.transport.max_depth = 8;
+    for (const int roulette_depth : {9, 2}) { // densities of directions alone differ, or survival, too
+        scene.options.transport.roulette_depth = roulette_depth;
+        scene.options.transport.guide_after_rays = 3e6;
+        const GuideProgress guide = render_guided(scene, Toggle::AUTO, 4096, 16).guide;
+        EXPECT_EQ(guide.stage, GuideStage::ON);
+        const auto pilot = u32(guide.pilot_end), begin = pilot / 16 * 19;
+        EXPECT_EQ(guide.guided_from, pilot / 16 * 17);
+        ASSERT_TRUE(guide.error);
+        EXPECT_LT(*guide.error * *guide.work, 1);
+        Film film = render_guided(scene, Toggle::AUTO, 2 * begin, 16).film;
+        const Film before = render_guided(scene, Toggle::AUTO, begin, 16).film;
+        for (size_t i = 0; i < film.sums.size(); ++i)
+            film.sums[i] -= before.sums[i];
+        film.ranges = {{begin, 2 * begin}};
+        const Film plain = render_guided(scene, Toggle::OFF, begin, 16).film;
+        const auto error = [](const Film& of) {
+            return film_error(of, ErrorPixels::SCENE, ErrorMeasure::RELATIVE)->relative_rmse;
+        };
+        const double measured = std::pow(error(film) / error(plain), 2);
+        EXPECT_NEAR(*guide.error / measured, 1, 0.25);
+    }
+}
+
+TEST(Guide, OnlySomeSamplesTeach) {
+    TestScene scene;
+    add_rooms(scene);
+    const auto vertices = [&](u32 teachers) {
+        RenderProgress part = through_a_file(render_guided(scene, Toggle::ON, 40, 4), scene);
+        part.guide.teachers = teachers;
+        std::fill(part.guide.sums.begin(), part.guide.sums.end(), 0);
+        scene.options.sampling.spp = 56; // in the middle of an epoch
+        RenderHooks hooks;
+        hooks.resume = &part;
+        const PreparedScene prepared = prepare_loaded(test_device(), scene.load(), scene.options);
+        Progress progress(Toggle::OFF, true);
+        const Render render = clrt::render(prepared, progress, hooks);
+        std::uint64_t sum = 0;
+        for (size_t cell = 0; cell < render.guide.sums.size(); cell += GUIDE_SUMS)
+            sum += render.guide.sums[cell + GUIDE_SUM_VERTICES];
+        return double(sum);
+    };
+    EXPECT_NEAR(vertices(NO_INDEX >> 1) / vertices(NO_INDEX), 0.5, 0.05);
 }
 
 TEST(Guide, SamplesOfARangeAreNotGuided) {
     TestScene scene;
     add_rooms(scene);
+    scene.options.transport.guide_after_rays = 1;
     scene.options.sampling.first_sample = 64;
     EXPECT_FALSE(may_guide(scene.options));
     EXPECT_EQ(render_guided(scene, Toggle::AUTO, 32, 4).guide.end, 0u);

@@ -9,7 +9,7 @@ import numpy
 MAGIC = b"CLRTFILM"
 FORMAT_VERSION = 2
 CHECKSUM_BYTES = 16
-NODE_BYTES, CELL_BYTES = 16, 534 + 2056
+NODE_BYTES, CELL_BYTES, WEIGHT_BYTES = 4, 534 + 2056, 4
 
 
 class FilmError(Exception):
@@ -79,7 +79,8 @@ def _read_header(content):
 def _guide_bytes(header):
     """Of what the cells of a guided film have learnt, which stands behind the sums (src/film/film_file.h)."""
     guide = header.get("guide", {})
-    return NODE_BYTES * int(guide.get("nodes", 0)) + CELL_BYTES * int(guide.get("cells", 0))
+    return (NODE_BYTES * int(guide.get("nodes", 0)) + CELL_BYTES * int(guide.get("cells", 0))
+            + WEIGHT_BYTES * int(guide.get("weights", 0)))
 
 
 def _read_sums(content, start, shape, behind):

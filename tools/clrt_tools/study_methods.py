@@ -42,7 +42,7 @@ class Method:
     sampler: Optional[str] = _switch("--sampler", "samplers", 1, "likewise (default: all)", combined=True)
     lights: Optional[str] = _switch("--light-sampler", "light-samplers", 2, "likewise; combined with the others where it is given "
                                     "(default: all that this clrt has, one change at a time)", usual="tree")
-    guide: Optional[str] = _switch("--guide", "guides", 3, "likewise, such as auto,on,off", usual=OFF)
+    guide: Optional[str] = _switch("--guide", "guides", 3, "likewise, such as auto,on,off", usual="auto")
     adaptive: Optional[str] = _switch("--adaptive", "adaptive", 4, "likewise, such as off,relative", usual=OFF, bare=True)
 
     def __str__(self):
