@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a guide gains, told by the guided samples alone. The same path has a density with the guide and one
-// without, and the mean of a sample's value is the same either way. So the second moment that unguided samples
-// would have is that of the guided ones, each weighted by the ratio of both densities, and the difference of
-// the two moments is that of the variances (after Grittmann et al. 2022). It is much surer than the difference
-// of two measured variances: what is rarely seen is in both moments at once, and it is seen more often by the
-// density that finds it.
+// without, and the mean of a sample's value is the same either way. So the second moment that unguided
+// samples would have is that of the guided ones, each weighted by the ratio of both densities, and the
+// difference of the two moments is that of the variances (after Grittmann et al. 2022). It is much surer than
+// the difference of two measured variances: what is rarely seen is in both moments at once, and it is seen
+// more often by the density that finds it.
 //
-// A sample's value is a sum of contributions c_v, of which each has the ratio P_v of the densities of the path
-// up to it: its squared sum weighs sum P_v c_v (c_v + 2 sum_(w > v) c_w).
+// A sample's value is a sum of contributions c_v, of which each has the ratio P_v of the densities of the
+// path up to it: its squared sum weighs sum P_v c_v (c_v + 2 sum_(w > v) c_w).
 #ifndef CLRT_PATH_GUIDE_GAIN_H
 #define CLRT_PATH_GUIDE_GAIN_H
 

@@ -78,7 +78,9 @@ static inline void guide_note(const Guide* guide, const BsdfSample* next, real3 
 {
 #if PATH_GUIDE
     path->is_open = false;
-    if (!path->teaches || guide->cell == NO_INDEX || path->count == GUIDE_VERTICES || next->pdf_w == REAL(0.0))
+    if (!path->teaches || guide->cell == NO_INDEX || next->pdf_w == REAL(0.0))
+        return;
+    if (path->count == GUIDE_VERTICES)
         return;
     GuideVertex* vertex = &path->vertices[path->count++];
     vertex->cell = guide->cell;
@@ -118,7 +120,8 @@ static inline void guide_survive(real survival, real size, real smallest, GuideP
 
 #if PATH_GUIDE
 /* Adds what a finished path has found to the sums of its vertices; returns what the guide gains by it. */
-static inline real guide_learn(const Scene* scene, const RenderParams* params, real3 radiance, GuidePath* path)
+static inline real guide_learn(const Scene* scene, const RenderParams* params, real3 radiance,
+                               GuidePath* path)
 {
     gain_add(guide_size(radiance), &path->gain);
     const real whole = guide_size(radiance);
