@@ -57,7 +57,9 @@ typedef struct {
     u32 tiles_x;                /* tiles a row */
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
-    u32 unused0, unused1, unused2;
+    u32 caster_count;           /* spheres at which emission is aimed, */
+    float caster_squares;       /* and the sum of their squared radii */
+    u32 light_path_count;       /* of a pass over the whole picture */
 } RenderParams;
 ASSERT_SIZE(RenderParams, 400);
 

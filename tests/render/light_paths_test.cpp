@@ -292,6 +292,29 @@ TEST(WeightedSplats, ChangeNoMeanUnderAnyKindOfLight) {
     }
 }
 
+TEST(WeightedSplats, ChangeNoMeanWhereCastersOverlapAndEncloseLamps) {
+    // Small bodies far from the lamps and from each other, one behind the other as the lights see them, a
+    // mirror below a lamp's plane, and a lamp in a glass.
+    for (const bool is_distant : {false, true}) {
+        SCOPED_TRACE(is_distant);
+        Room room;
+        if (is_distant)
+            room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 15});
+        else {
+            room.build.use("lamp").polygon({{-0.2, 2, -0.2}, {0.2, 2, -0.2}, {0.2, 2, 0.2}, {-0.2, 2, 0.2}});
+            room.build.use("lamp").box({-0.75, 0.55, -0.05}, {-0.65, 0.65, 0.05});
+            room.build.use("glass").box({-0.9, 0.4, -0.2}, {-0.5, 0.8, 0.2});
+        }
+        room.build.use("glass")
+            .box({0.1, 1.1, 0.1}, {0.3, 1.3, 0.3})
+            .box({0.15, 0.6, 0.1}, {0.4, 0.85, 0.35});
+        room.build.use("mirror").box({0.2, 0.55, 0.3}, {0.5, 0.6, 0.6}).box({-1.2, 2.2, -1.2}, {-1, 2.4, -1});
+        room.options.sampling.spp = 2048;
+        expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+                     tile_means(room, room.options, Integrator::PATH, ""), 0.08);
+    }
+}
+
 TEST(WeightedSplats, LeaveBentNormalsAndCurvedFacetsToTheEye) {
     Room room;
     room.add_lamp();
