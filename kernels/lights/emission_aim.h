@@ -146,7 +146,8 @@ static CLRT_NOINLINE real3 aim_direction(const Scene* scene, const RenderParams*
         left -= target.measure;
         target = aim_target(scene, i, origin);
     }
-    const real2 rest = (real2)(target.measure > REAL(0.0) ? fmin(left / target.measure, REAL(1.0)) : u.x, u.y);
+    const real share = target.measure > REAL(0.0) ? fmin(left / target.measure, REAL(1.0)) : u.x;
+    const real2 rest = (real2)(share, u.y);
     const Frame frame = frame_make(target.axis);
     return frame_to_world(&frame, target.is_around && aim_has_normal(origin)
                                       ? warp_cosine_hemisphere(rest)

@@ -125,7 +125,8 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
 static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderParams* params, uint segment,
                                             Hit* hit, LightPath* path, SplatSink* sink, PixelRays* rays)
 {
-    const LightVertex vertex = light_vertex_make(scene, params, &path->ray, hit);
+    LightVertex vertex;
+    light_vertex_set(scene, params, &path->ray, hit, &vertex);
     const Bsdf* bsdf = &vertex.bsdf;
     const real3 wo = -path->ray.direction;
     sink->watched += vertex.surface.position + vertex.surface.normal_g + bsdf->wo + bsdf->frame.z;

@@ -90,7 +90,8 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
     const LightView* view = &path->view;
     real3 radiance = (real3)(REAL(0.0));
     const bool competes = splat_competes(path->pdf_w, weights);
-    const real disc_pdf_a = competes ? emission_disc_ray_pdf_a(scene, params, path->ray.origin, wi) : REAL(0.0);
+    const real disc_pdf_a =
+        competes ? emission_disc_ray_pdf_a(scene, params, path->ray.origin, wi) : REAL(0.0);
     if (HAS(EFFECT_ENVIRONMENT)) {
         real light_pdf_w = REAL(0.0);
         if (HAS(EFFECT_ENVIRONMENT_MAP) && path->pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
