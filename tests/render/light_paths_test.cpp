@@ -264,6 +264,7 @@ TEST(LightPaths, PartsOfARunMergeToTheWholeToTheBit) {
         room.add_lamp();
         room.add_caustics();
         room.options.transport.integrator = integrator;
+        room.options.sampling.replicates = 8;
         const auto part = [&](std::uint32_t first, int samples) {
             room.options.sampling.first_sample = first;
             room.options.sampling.spp = samples;
