@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light paths that accompany a pixel's sample: a pass has as many as the whole picture has pixels, and
-// the pixels of the window share them.
+// The light paths that accompany a pixel's sample: the pixels of the window share those of a pass.
 #ifndef CLRT_INTEGRATORS_LIGHT_PATHS_H
 #define CLRT_INTEGRATORS_LIGHT_PATHS_H
 
@@ -12,7 +11,7 @@ static CLRT_NOINLINE void light_paths_trace(const Scene* scene, const RenderPara
                                             CameraSample* sample, PixelRays* rays)
 {
     SplatSink sink = {sample->film, sample->replicate, COUNT_WORDS, (real3)(REAL(0.0))};
-    const ulong of_pass = (ulong)params->width * params->height;
+    const ulong of_pass = params->light_path_count;
     const uint of_window = params->crop_width * params->crop_height;
     for (ulong path = sample->place; path < of_pass; path += of_window)
         light_path_trace(scene, params, sample->index * of_pass + path, &sink, rays);

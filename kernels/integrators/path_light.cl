@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry point of the path tracer with splats.
+#define EMISSION_IS_AIMED 1
 #define SPLATS_ARE_WEIGHTED 1
 #include "path_light.h"
 

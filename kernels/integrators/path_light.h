@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path tracing and light tracing in one picture: hits, next-event estimation and splats are three ways to
 // find a path, weighted against each other (path/splat_weight.h); no vertex is kept, and no inner vertices
-// are connected. Simulates L(D|G|S)*E. Splats take the caustics, which paths from the eye find by chance.
+// are connected. Simulates L(D|G|S)*E. Splats bring the caustics, LS(D|G|S)*(D|G)E, which paths from the eye
+// find by chance; light paths are aimed at what casts them.
 #ifndef CLRT_INTEGRATORS_PATH_LIGHT_H
 #define CLRT_INTEGRATORS_PATH_LIGHT_H
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the lights start: a light, a point and a direction, chosen in proportion to power, and the
 // densities of that choice. A light at infinity sends parallel rays through a disc across the sphere that
-// holds the scene.
+// holds the scene. Where emission is aimed (emission_aim.h), directions and discs are those of the casters.
 #ifndef CLRT_LIGHTS_EMISSION_H
 #define CLRT_LIGHTS_EMISSION_H
 
-#include "lights.h"
+#include "emission_pdf.h"
 
 /* A ray that leaves a light. Densities are per area and steradian; of a point per steradian, of a sun without
    a disc per area: of what there is to choose. */
@@ -28,68 +28,6 @@ typedef struct {
     real2 direction;
 } EmissionNumbers;
 
-static inline LightKinds emission_kinds(const RenderParams* params)
-{
-    const LightKinds kinds = {(real)params->emit_emitter, (real)params->emit_environment,
-                              (real)params->emit_light};
-    return kinds;
-}
-
-/* Density of a point on the disc through which light at infinity comes. */
-static inline real emission_disc_pdf_a(const RenderParams* params)
-{
-    const real radius = (real)params->emission_radius;
-    return REAL_INVERSE_PI / (radius * radius);
-}
-
-/* The part of an emitter's rays that leaves on one side. */
-static inline real emission_side_share(const Scene* scene, uint material)
-{
-    return (scene->materials[material].flags & MATERIAL_EMITS_BOTH_SIDES) ? REAL(0.5) : REAL(1.0);
-}
-
-/* Density of the ray that leaves an emissive triangle at a point of cosine `cosine`. */
-static inline real emission_triangle_pdf(const Scene* scene, const RenderParams* params, uint emitter,
-                                         real cosine)
-{
-    const uint material = scene->triangles[scene->emitters[emitter].triangle].material;
-    return (real)params->emit_emitter * (real)scene->emitters[emitter].pdf_a *
-           emission_side_share(scene, material) * cosine * REAL_INVERSE_PI;
-}
-
-/* Density of the ray that comes from the sky in direction -wi. */
-static inline real emission_sky_pdf(const Scene* scene, const RenderParams* params, real3 wi)
-{
-    const real pdf_w = HAS(EFFECT_ENVIRONMENT_MAP) && params->environment_width != 0u
-                           ? environment_map_pdf_w(scene, params, wi)
-                           : REAL(0.25) * REAL_INVERSE_PI;
-    return (real)params->emit_environment * pdf_w * emission_disc_pdf_a(params);
-}
-
-/* 1 - cos of the cone in which a point light sends its rays: all around from within the sphere, else only to
-   the sphere. */
-static inline real emission_point_cone(const RenderParams* params, real3 position)
-{
-    const real radius = (real)params->emission_radius;
-    const real square = vector_dot(position, position);
-    if (!(square > radius * radius))
-        return REAL(2.0);
-    const real sine_squared = radius * radius / square;
-    return sine_squared / (REAL(1.0) + real_root(REAL(1.0) - sine_squared));
-}
-
-/* Density of the ray that leaves a point or a sun: of a point towards the scene, of a sun with a disc within
-   it. */
-static inline real emission_delta_pdf(const Scene* scene, const RenderParams* params, uint index)
-{
-    global const Light* light = scene->lights + index;
-    const real chosen = (real)params->emit_light * (real)light->probability;
-    if (light->kind == LIGHT_POINT)
-        return chosen * warp_cone_pdf_w(emission_point_cone(params, vector_from(light->vector)));
-    const real disc = (real)light->one_minus_cos;
-    return chosen * emission_disc_pdf_a(params) * (disc > REAL(0.0) ? warp_cone_pdf_w(disc) : REAL(1.0));
-}
-
 static inline Emission emission_none(uint light)
 {
     Emission none;
@@ -102,8 +40,31 @@ static inline Emission emission_none(uint light)
     return none;
 }
 
+/* The direction from a point of an emissive triangle, once that and the side are chosen: by the cosine, */
+static inline void emission_leave(const Scene* scene, const RenderParams* params, real2 u, Emission* emission)
+{
+    const Frame frame = frame_make(emission->normal_g);
+    const real3 leaving = warp_cosine_hemisphere(u);
+    emission->cosine = leaving.z;
+    emission->pdf = emission_triangle_pdf(scene, params, emission->light, leaving.z);
+    emission->ray = ray_make(emission->point, frame_to_world(&frame, leaving), REAL(0.0));
+}
+
+/* or aimed. */
+static inline void emission_leave_aimed(const Scene* scene, const RenderParams* params, real2 u,
+                                        Emission* emission)
+{
+    const AimOrigin origin = aim_origin(scene, params, emission->point, emission->normal_g);
+    const real3 w = aim_direction(scene, params, &origin, u);
+    emission->cosine = fmax(vector_dot(emission->normal_g, w), REAL(0.0));
+    if (emission->cosine > REAL(0.0))
+        emission->pdf = emission_triangle_ray_pdf(scene, params, emission->light, emission->point,
+                                                  emission->normal_g, w);
+    emission->ray = ray_make(emission->point, w, REAL(0.0));
+}
+
 /* From an emissive triangle: uniform over its area, by the cosine over the side that shines, or over one of
-   both. */
+   both, or aimed. */
 static CLRT_NOINLINE Emission emission_of_triangle(const Scene* scene, const RenderParams* params,
                                                    const LightChoice* choice, real2 direction)
 {
@@ -120,13 +81,12 @@ static CLRT_NOINLINE Emission emission_of_triangle(const Scene* scene, const Ren
         direction.x = REAL(2.0) * direction.x - (direction.x < REAL(0.5) ? REAL(0.0) : REAL(1.0));
     }
     emission.normal_g = vector_normalize(normal) * side;
-    const Frame frame = frame_make(emission.normal_g);
-    const real3 leaving = warp_cosine_hemisphere(direction);
-    emission.cosine = leaving.z;
     emission.point = p0 + fma((real3)(b.x), p1 - p0, b.y * (p2 - p0));
-    emission.pdf = emission_triangle_pdf(scene, params, choice->light, leaving.z);
-    const real3 step = emission.normal_g * surface_offset_bound(p0, p1, p2);
-    emission.ray = ray_make(emission.point + step, frame_to_world(&frame, leaving), REAL(0.0));
+    if (EMISSION_IS_AIMED)
+        emission_leave_aimed(scene, params, direction, &emission);
+    else
+        emission_leave(scene, params, direction, &emission);
+    emission.ray.origin = emission.point + emission.normal_g * surface_offset_bound(p0, p1, p2);
     float2 uv = (float2)(0.0f);
     if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
         const float2 t0 = scene->uvs[triangle->t0];
@@ -135,22 +95,29 @@ static CLRT_NOINLINE Emission emission_of_triangle(const Scene* scene, const Ren
     real3 radiance = material_emission(scene, material, uv);
     if (HAS(EFFECT_CUT_OUT) && (material->flags & MATERIAL_CUT_OUT))
         radiance *= material_coverage(scene, material, uv);
-    /* The cosine is in the density, too. */
-    const real chosen = (real)params->emit_emitter * (real)scene->emitters[choice->light].pdf_a *
-                       emission_side_share(scene, triangle->material);
-    emission.power = radiance * (REAL_PI / chosen);
+    /* Where emission is not aimed, the cosine is in the density, too. */
+    emission.power = radiance * (EMISSION_IS_AIMED && emission.pdf > REAL(0.0)
+                                     ? emission.cosine / emission.pdf
+                                     : REAL_PI / emission_triangle_pdf_a(scene, params, choice->light));
     return emission;
 }
 
-/* Light of this radiance (a delta sun's irradiance) from infinity in direction -wi, through a point of the
-   disc. */
-static inline void emission_from_afar(const RenderParams* params, real3 wi, real3 radiance, real2 u,
-                                      Emission* emission)
+/* Light of this radiance (a delta sun's irradiance) from infinity in direction -wi, chosen by a density
+   `pdf_w`, through a point of the disc or of a caster's. */
+static inline void emission_from_afar(const Scene* scene, const RenderParams* params, real3 wi, real pdf_w,
+                                      real3 radiance, real2 u, Emission* emission)
 {
-    const Frame frame = frame_make(wi);
-    const real2 on_disc = warp_disc(u);
-    const real3 way = on_disc.x * frame.x + on_disc.y * frame.y + wi;
-    emission->point = way * (real)params->emission_radius;
+    if (EMISSION_IS_AIMED) {
+        const real3 point = aim_disc(scene, params, wi, u);
+        emission->pdf = pdf_w * aim_disc_pdf_a(scene, params, point, wi);
+        emission->point = point + wi * ((real)params->emission_radius - vector_dot(point, wi));
+    } else {
+        const Frame frame = frame_make(wi);
+        const real2 on_disc = warp_disc(u);
+        emission->pdf = pdf_w * emission_disc_pdf_a(params);
+        emission->point =
+            (on_disc.x * frame.x + on_disc.y * frame.y + wi) * (real)params->emission_radius;
+    }
     emission->ray = ray_make(emission->point, -wi, REAL(0.0));
     emission->power = radiance / emission->pdf;
     emission->is_distant = true;
@@ -169,9 +136,30 @@ static CLRT_NOINLINE Emission emission_of_sky(const Scene* scene, const RenderPa
         sky.pdf_w = warp_cone_pdf_w(REAL(2.0));
         sky.radiance = vector_from(params->environment);
     }
-    emission.pdf = (real)params->emit_environment * sky.pdf_w * emission_disc_pdf_a(params);
-    emission_from_afar(params, sky.wi, sky.radiance, disc, &emission);
+    emission_from_afar(scene, params, sky.wi, (real)params->emit_environment * sky.pdf_w, sky.radiance, disc,
+                       &emission);
     return emission;
+}
+
+/* From a point light: within the cone that meets the scene, or aimed. */
+static inline void emission_of_point(const Scene* scene, const RenderParams* params, uint index, real2 u,
+                                     Emission* emission)
+{
+    global const Light* light = scene->lights + index;
+    const real3 vector = vector_from(light->vector);
+    const real cone = emission_point_cone(params, vector);
+    const Frame frame = frame_make(cone < REAL(2.0) ? vector_normalize(-vector)
+                                                    : (real3)(REAL(0.0), REAL(0.0), REAL(1.0)));
+    const AimOrigin origin = aim_origin(scene, params, vector, (real3)(REAL(0.0)));
+    const real3 w = EMISSION_IS_AIMED ? aim_direction(scene, params, &origin, u)
+                                      : frame_to_world(&frame, warp_cone(u, cone));
+    emission->pdf = EMISSION_IS_AIMED ? (real)params->emit_light * (real)light->probability *
+                                            aim_pdf_w(scene, params, &origin, w)
+                                      : emission_delta_pdf(scene, params, index);
+    emission->point = vector;
+    emission->ray = ray_make(vector, w, REAL(0.0));
+    emission->power = vector_from(light->emission) / emission->pdf;
+    emission->is_delta = true;
 }
 
 /* From a point or a sun. */
@@ -183,15 +171,8 @@ static CLRT_NOINLINE Emission emission_of_delta(const Scene* scene, const Render
     global const Light* light = scene->lights + index;
     const real3 vector = vector_from(light->vector);
     const real3 radiance = vector_from(light->emission);
-    emission.pdf = emission_delta_pdf(scene, params, index);
     if (light->kind == LIGHT_POINT) {
-        const real cone = emission_point_cone(params, vector);
-        const Frame frame = frame_make(cone < REAL(2.0) ? vector_normalize(-vector)
-                                                        : (real3)(REAL(0.0), REAL(0.0), REAL(1.0)));
-        emission.point = vector;
-        emission.ray = ray_make(vector, frame_to_world(&frame, warp_cone(u, cone)), REAL(0.0));
-        emission.power = radiance / emission.pdf;
-        emission.is_delta = true;
+        emission_of_point(scene, params, index, u, &emission);
         return emission;
     }
     emission.is_delta = !(light->one_minus_cos > 0.0f);
@@ -200,7 +181,7 @@ static CLRT_NOINLINE Emission emission_of_delta(const Scene* scene, const Render
     const real3 wi = emission.is_delta
                          ? vector
                          : frame_to_world(&frame, warp_cone(within, (real)light->one_minus_cos));
-    emission_from_afar(params, wi, radiance, u, &emission);
+    emission_from_afar(scene, params, wi, emission_sun_pdf_w(scene, params, index), radiance, u, &emission);
     return emission;
 }
 

@@ -2,7 +2,8 @@
 // A path from a light: it is followed like one from the eye, but carries importance's adjoint, power, and at
 // every vertex that scatters other than as a delta function it is connected to the camera. What arrives
 // there is splatted on the film. In builds with -DSPLATS_ARE_WEIGHTED=1 each splat is weighted against the
-// ways in which paths from the eye find the same light (path/splat_weight.h).
+// ways in which paths from the eye find the same light (path/splat_weight.h). Where emission is aimed at
+// casters (lights/emission_aim.h), only paths whose first vertex scatters by a delta lobe go on.
 #ifndef CLRT_PATH_LIGHT_PATH_H
 #define CLRT_PATH_LIGHT_PATH_H
 
@@ -124,7 +125,8 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
 static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderParams* params, uint segment,
                                             Hit* hit, LightPath* path, SplatSink* sink, PixelRays* rays)
 {
-    const LightVertex vertex = light_vertex_make(scene, params, &path->ray, hit);
+    LightVertex vertex;
+    light_vertex_set(scene, params, &path->ray, hit, &vertex);
     const Bsdf* bsdf = &vertex.bsdf;
     const real3 wo = -path->ray.direction;
     sink->watched += vertex.surface.position + vertex.surface.normal_g + bsdf->wo + bsdf->frame.z;
@@ -135,13 +137,16 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
             splat_weights_begin(scene, params, &path->emission, &vertex, hit->t, &path->weights);
         splat_weights_meet(&vertex.surface, wo, &path->weights);
     }
-    if (bsdf_has_smooth_lobe(bsdf))
+    const bool is_caster = EMISSION_IS_AIMED && segment == 1u;
+    if (bsdf_has_smooth_lobe(bsdf) && !is_caster)
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
     const real2 direction = sampler_pair(&path->sampler, segment, SAMPLE_DIRECTION);
     const uint2 choices = sampler_partner_words(&path->sampler, segment, SAMPLE_DIRECTION);
     const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);
     sink->watched += next.wi;
     if (!next.is_valid || !light_vertex_is_seen(bsdf, next.wi))
+        return false;
+    if (is_caster && next.pdf_w > REAL(0.0))
         return false;
     if (SPLATS_ARE_WEIGHTED && next.pdf_w > REAL(0.0) &&
         light_vertex_crosses_curved(scene, &vertex, hit, next.wi))

@@ -31,18 +31,16 @@ static inline bool light_vertex_is_seen(const Bsdf* bsdf, real3 w)
 }
 
 /* The vertex at the end of a light path's ray. */
-static inline LightVertex light_vertex_make(const Scene* scene, const RenderParams* params, const Ray* ray,
-                                            Hit* hit)
+static inline void light_vertex_set(const Scene* scene, const RenderParams* params, const Ray* ray, Hit* hit,
+                                    LightVertex* vertex)
 {
-    LightVertex vertex;
-    vertex.surface = visible_surface(scene, params, ray, hit);
-    const real3 lifted = surface_lifted(&vertex.surface);
-    vertex.surface.is_curved = false;
-    vertex.bsdf = material_bsdf(scene, &vertex.surface, -ray->direction, TRANSPORT_IMPORTANCE);
-    vertex.view.position = lifted;
-    vertex.view.normal = bsdf_light_normal(&vertex.bsdf);
-    TRACE_VECTOR(scene, TRACE_NORMAL_S, vertex.bsdf.frame.z);
-    return vertex;
+    vertex->surface = visible_surface(scene, params, ray, hit);
+    const real3 lifted = surface_lifted(&vertex->surface);
+    vertex->surface.is_curved = false;
+    material_set_bsdf(scene, &vertex->surface, -ray->direction, TRANSPORT_IMPORTANCE, &vertex->bsdf);
+    vertex->view.position = lifted;
+    vertex->view.normal = bsdf_light_normal(&vertex->bsdf);
+    TRACE_VECTOR(scene, TRACE_NORMAL_S, vertex->bsdf.frame.z);
 }
 
 /* True if a direction crosses a surface that bulges on its other side. A path from the eye that crosses it

@@ -43,6 +43,13 @@ static inline void splat_eye_leaves(const Surface* surface, const Bsdf* bsdf, re
     splat_weights_leave(bsdf, next->wi, next->pdf_w, weights);
 }
 
+/* True if splats find the light at the end of a ray that leaves the last vertex by a density, 0 for a delta
+   lobe. */
+static inline bool splat_competes(real pdf_w, const SplatWeights* weights)
+{
+    return weights->closed > REAL(0.0) && !(EMISSION_IS_AIMED && pdf_w > REAL(0.0));
+}
+
 /* The weight of a hit: `light_pdf_w` is the density of next-event estimation, `emission_pdf` that of the ray
    from the light. */
 static inline real splat_hit_weight(const Path* path, const SplatWeights* weights, real light_pdf_w,
@@ -65,8 +72,10 @@ static inline real3 splat_emission(const Scene* scene, const RenderParams* param
                 ? emitter_crossed_pdf_w(scene, surface, pdf_a, path->view.position, path->hit.t, wo)
                 : emitter_hit_pdf_w(scene, surface, pdf_a, path->view.position, path->hit.t, wo);
     }
-    const real cosine = vector_dot(surface->normal_g, wo);
-    const real emission_pdf = emission_triangle_pdf(scene, params, surface->emitter, cosine);
+    real emission_pdf = REAL(0.0);
+    if (splat_competes(path->pdf_w, weights))
+        emission_pdf = emission_triangle_ray_pdf(scene, params, surface->emitter, surface->position,
+                                                 surface->normal_g, wo);
     const real weight = splat_hit_weight(path, weights, light_pdf_w, emission_pdf);
     TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, weight);
@@ -80,13 +89,17 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
     const real3 wi = path->ray.direction;
     const LightView* view = &path->view;
     real3 radiance = (real3)(REAL(0.0));
+    const bool competes = splat_competes(path->pdf_w, weights);
+    const real disc_pdf_a =
+        competes ? emission_disc_ray_pdf_a(scene, params, path->ray.origin, wi) : REAL(0.0);
     if (HAS(EFFECT_ENVIRONMENT)) {
         real light_pdf_w = REAL(0.0);
         if (HAS(EFFECT_ENVIRONMENT_MAP) && path->pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
             light_pdf_w =
                 light_probability_of_sky(scene, params, view) * environment_map_pdf_w(scene, params, wi);
         radiance = environment_eval(scene, params, wi) *
-                   splat_hit_weight(path, weights, light_pdf_w, emission_sky_pdf(scene, params, wi));
+                   splat_hit_weight(path, weights, light_pdf_w,
+                                    emission_sky_pdf_w(scene, params, wi) * disc_pdf_a);
     }
     for (uint i = 0; HAS(EFFECT_DELTA_LIGHT) && i < params->light_count; ++i) {
         if (!delta_light_covers(scene, i, wi))
@@ -96,7 +109,8 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
             light_pdf_w = light_probability_of_delta(scene, params, view, i) *
                           warp_cone_pdf_w((real)scene->lights[i].one_minus_cos);
         radiance += vector_from(scene->lights[i].emission) *
-                    splat_hit_weight(path, weights, light_pdf_w, emission_delta_pdf(scene, params, i));
+                    splat_hit_weight(path, weights, light_pdf_w,
+                                     emission_sun_pdf_w(scene, params, i) * disc_pdf_a);
     }
     return radiance;
 }
@@ -135,7 +149,7 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
     if (vector_is_black(arriving))
         return;
     real splat = REAL(0.0);
-    if (splat_can_pass(surface, bsdf, wo, light.wi, false))
+    if (!EMISSION_IS_AIMED && splat_can_pass(surface, bsdf, wo, light.wi, false))
         splat = splat_weights_at(bsdf, light.wi, weights) * splat_cosine(surface->normal_g, light.wi) *
                 splat_sample_pdf(scene, params, surface, &light);
     const real hit = light.is_delta ? REAL(0.0) : eval.pdf_w;

@@ -11,6 +11,10 @@
 // connections): `closed` waits for the density of a vertex, `open` is the term of the path's first vertex,
 // which has none to wait for. Where a delta lobe is sampled both densities are one delta function. Russian
 // roulette is left out: a weight needs to be no more than the same function of the path from both ends.
+//
+// Where emission is aimed (lights/emission_aim.h) splats find caustics alone: paths whose vertex next to the
+// light scatters by a delta lobe. No connection finds those, and all others are weighed as if there were no
+// splats.
 #ifndef CLRT_PATH_SPLAT_WEIGHT_H
 #define CLRT_PATH_SPLAT_WEIGHT_H
 
@@ -36,11 +40,8 @@ static inline real splat_cosine(real3 normal_g, real3 w)
     return fmax(fabs(vector_dot(normal_g, w)), SPLAT_SMALLEST_COS);
 }
 
-/* Light paths a pass: one for each pixel of the whole picture. */
-static inline real splat_path_count(const RenderParams* params)
-{
-    return (real)params->width * (real)params->height;
-}
+/* Light paths a pass over the whole picture. */
+static inline real splat_path_count(const RenderParams* params) { return (real)params->light_path_count; }
 
 /* What the next segment begins with, but for its ends: the vertex has been left along wi, with density
    `pdf_w`, 0 for a delta lobe. */
@@ -106,7 +107,7 @@ static inline void splat_weights_begin(const Scene* scene, const RenderParams* p
 {
     weights->closed = emission->is_delta ? REAL(0.0) : emission->cosine / emission->pdf;
     weights->open = REAL(0.0);
-    if (!bsdf_has_smooth_lobe(&vertex->bsdf))
+    if (EMISSION_IS_AIMED || !bsdf_has_smooth_lobe(&vertex->bsdf))
         return;
     /* Of a point, emission has a density per steradian there, next-event estimation none. */
     const bool is_point = emission->is_delta && !emission->is_distant;

@@ -156,31 +156,38 @@ static inline real3 material_emitted(const Scene* scene, const Surface* surface)
 }
 
 /* Builds the BSDF of a surface point as wo sees it, for radiance or importance (TRANSPORT_*). */
-CLRT_GIVES_STRUCT Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo, uint transport)
+CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surface, real3 wo, uint transport,
+                                         Bsdf* bsdf)
 {
     global const Material* material = scene->materials + surface->material;
-    Bsdf bsdf;
-    bsdf.matte = vector_from(material->matte);
-    bsdf.specular = vector_from(material->specular);
-    bsdf.transmission = vector_from(material->transmission);
-    bsdf.alpha_x = (real)material->alpha_x;
-    bsdf.alpha_y = (real)material->alpha_y;
-    bsdf.exponent = (real)MATERIAL_EXPONENT(*material);
-    bsdf.lobes = material->lobes;
-    bsdf.fresnel = material->fresnel;
-    bsdf.flags = material->flags | transport;
-    bsdf.normal_g = surface->normal_g;
-    bsdf.normal_s = surface->normal_s;
-    bsdf.is_curved = surface->is_curved;
+    bsdf->matte = vector_from(material->matte);
+    bsdf->specular = vector_from(material->specular);
+    bsdf->transmission = vector_from(material->transmission);
+    bsdf->alpha_x = (real)material->alpha_x;
+    bsdf->alpha_y = (real)material->alpha_y;
+    bsdf->exponent = (real)MATERIAL_EXPONENT(*material);
+    bsdf->lobes = material->lobes;
+    bsdf->fresnel = material->fresnel;
+    bsdf->flags = material->flags | transport;
+    bsdf->normal_g = surface->normal_g;
+    bsdf->normal_s = surface->normal_s;
+    bsdf->is_curved = surface->is_curved;
     const real index = (real)MATERIAL_INDEX(*material);
-    bsdf.eta = HAS(EFFECT_REFRACTION) && surface->front ? REAL(1.0) / index : index;
-    material_parameters(scene, material, surface, &bsdf);
+    bsdf->eta = HAS(EFFECT_REFRACTION) && surface->front ? REAL(1.0) / index : index;
+    material_parameters(scene, material, surface, bsdf);
     const real3 n = material_normal(scene, material, surface, wo);
     /* Only stretched highlights need to know where u grows. */
-    bsdf.frame = bsdf.alpha_x != bsdf.alpha_y ? frame_make_tangent(n, surface->tangent) : frame_make(n);
-    bsdf.wo = frame_to_local(&bsdf.frame, wo);
-    bsdf_energy_set(&bsdf);
-    bsdf_choose_lobes(&bsdf);
+    bsdf->frame = bsdf->alpha_x != bsdf->alpha_y ? frame_make_tangent(n, surface->tangent) : frame_make(n);
+    bsdf->wo = frame_to_local(&bsdf->frame, wo);
+    bsdf_energy_set(bsdf);
+    bsdf_choose_lobes(bsdf);
+}
+
+/* The same as a value. Kept in another struct, it would be in private memory twice. */
+CLRT_GIVES_STRUCT Bsdf material_bsdf(const Scene* scene, const Surface* surface, real3 wo, uint transport)
+{
+    Bsdf bsdf;
+    material_set_bsdf(scene, surface, wo, transport, &bsdf);
     return bsdf;
 }
 

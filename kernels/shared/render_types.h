@@ -59,9 +59,12 @@ typedef struct {
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
     u32 guide_learns;           /* paths teach the guide whose sample has at most this number within its
                                    replicate, its bits reversed */
-    u32 unused0, unused1;
+    u32 caster_count;           /* spheres at which emission is aimed, */
+    float caster_squares;       /* and the sum of their squared radii */
+    u32 light_path_count;       /* of a pass over the whole picture */
+    u32 unused0, unused1, unused2;
 } RenderParams;
-ASSERT_SIZE(RenderParams, 400);
+ASSERT_SIZE(RenderParams, 416);
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)

@@ -29,6 +29,7 @@
     ROW(u32, texel_words, texel_words)                                                                       \
     ROW(Emitter, emitters, emitters)                                                                         \
     ROW(Light, lights, lights)                                                                               \
+    ROW(vec4, casters, casters)                                                                              \
     ROW(EnvironmentTexel, environment, environment.texels)                                                   \
     ROW(LightNode, light_nodes, light_tree.nodes)                                                            \
     ROW(LightPlace, light_places, light_tree.places)

@@ -101,6 +101,10 @@ typedef struct {
 } Light;
 ASSERT_SIZE(Light, 64);
 
+/* A sphere that holds casters, surfaces that may scatter by delta lobes (lights/emission_aim.h), is a vec4:
+   centre, and as w its radius. */
+#define CASTER_RADIUS(sphere) ((sphere).w)
+
 /* A texel of a lat-long environment map, rows from +Y down. The choice is piecewise constant over texels,
    the lookup bilinear. */
 typedef struct {

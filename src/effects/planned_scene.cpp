@@ -2,6 +2,7 @@
 #include "effects/planned_scene.h"
 
 #include "effects/take_out.h"
+#include "scene/casters.h"
 #include "scene/light_tables.h"
 #include "scene/light_tree.h"
 #include "scene/sky_table.h"
@@ -22,7 +23,7 @@ void leave_out_light_paths(Scene& scene, Options& options) {
         return;
     Options of_caustics = options;
     of_caustics.transport.paths = CAUSTICS;
-    if (!plan_paths(scene, of_caustics).is_empty)
+    if (!plan_paths(scene, of_caustics).is_empty && !find_casters(scene).empty())
         return;
     options.transport.integrator = Integrator::PATH;
     scene.notices.push_back(fmt::format("no mirror or smooth glass casts light on a surface ({}): {} is {}",
@@ -43,6 +44,8 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
         take_out_effects(planned->effects.left_out, planned->scene, planned->options);
         planned->effects.paths = plan_paths(planned->scene, planned->options);
     }
+    if (planned->options.transport.integrator == Integrator::PATH_LIGHT)
+        planned->scene.casters = find_casters(planned->scene); // as they are left
     tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
     if (planned->effects.needed & ~planned->effects.left_out & EFFECT_LIGHT_TREE)
         planned->scene.light_tree =

@@ -19,9 +19,10 @@ struct PlannedScene {
     Effects effects;
 };
 
-/// Takes `path` for `path+light` where the scene has no caustics; tabulates the sky as the integrator samples it, finds the effects, takes out those that are not wanted,
-/// and plans the paths of what is left: the one order of these. Throws UsageError for path expressions that
-/// are wrong or too large.
+/// Takes `path` for `path+light` where the scene has no caustics; tabulates the sky as the integrator samples
+/// it, finds the effects, takes out those that are not wanted, plans the paths of what is left, and finds what
+/// casts the caustics: the one order of these. Throws UsageError for path expressions that are wrong or too
+/// large.
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
 
 } // namespace clrt

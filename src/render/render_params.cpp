@@ -2,6 +2,7 @@
 #include "render/render_params.h"
 
 #include "scene/camera_params.h"
+#include "scene/casters.h"
 #include "scene/light_tables.h"
 #include "scene/vectors.h"
 
@@ -40,11 +41,15 @@ void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) 
 
 /// Where light paths start.
 void set_emission(const Scene& scene, Connections connections, RenderParams& params) {
-    const KindShares shares = emission_shares(scene, connections == Connections::NO_LIGHT);
-    params.emit_emitter = float(shares.emitters);
-    params.emit_environment = float(shares.environment);
-    params.emit_light = float(shares.lights);
+    const EmissionPlan plan = plan_emission(scene, connections == Connections::NO_LIGHT);
+    params.emit_emitter = float(plan.kinds.emitters);
+    params.emit_environment = float(plan.kinds.environment);
+    params.emit_light = float(plan.kinds.lights);
     params.emission_radius = float(emission_radius(scene));
+    params.caster_count = u32(scene.casters.size());
+    const double paths = plan.aimed * params.width * params.height;
+    params.light_path_count = std::max(1u, u32(std::lround(paths)));
+    params.caster_squares = float(caster_squares(scene.casters));
 }
 
 /// A stride near the golden section of the tile count that has no factor in common with it.
@@ -99,9 +104,9 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     params.camera = make_camera_params(scene.camera, scene.normalisation, options.film.size);
     set_lights(scene, options.sampling.light_sampler, params);
     const IntegratorRow& integrator = integrator_row(options.transport.integrator);
+    set_window(options, params);
     if (integrator.film == FilmAccess::SPLAT)
         set_emission(scene, integrator.connections, params);
-    set_window(options, params);
     set_filter(options, params);
     params.seed = options.sampling.seed;
     params.replicates = u32(options.sampling.replicates);

@@ -2,6 +2,7 @@
 #include "scene/light_tables.h"
 
 #include "colour.h"
+#include "scene/casters.h"
 #include "scene/lights.h"
 #include "scene/vectors.h"
 
@@ -57,6 +58,46 @@ void mix_lights(Scene& scene) {
     std::vector<u32> groups(powers.size());
     std::iota(groups.begin(), groups.end(), 0u);
     tabulate(mixed_weights(powers, groups, u32(groups.size())), scene.lights);
+}
+
+/// The part of an emissive triangle's light that leaves towards the casters, about: of all of them, whichever
+/// side they are on, as if they were above it.
+double share_of_casters(const Scene& scene, const Emitter& emitter) {
+    const Triangle& t = scene.triangles[emitter.triangle];
+    const glm::dvec3 middle = (to_dvec3(scene.positions[t.v0]) + to_dvec3(scene.positions[t.v1]) +
+                               to_dvec3(scene.positions[t.v2])) /
+                              3.0;
+    return caster_solid_angle(scene.casters, middle, PI) / PI;
+}
+
+double sum_of(const KindShares& powers) {
+    return powers.emitters + powers.environment + powers.lights;
+}
+
+/// Luminance that lights, and a sky of this mean radiance, send into a sphere about the origin.
+KindShares power_into(const Scene& scene, double sky, double radius) {
+    KindShares powers;
+    for (const Emitter& emitter : scene.emitters)
+        powers.emitters += emitter_power(scene, emitter);
+    powers.environment = sky * 4 * PI * PI * radius * radius;
+    for (const Light& light : scene.lights)
+        powers.lights += light_power(light, radius);
+    return powers;
+}
+
+/// The same into the spheres of the casters.
+KindShares power_to_casters(const Scene& scene, double sky) {
+    const double square = caster_squares(scene.casters);
+    KindShares powers;
+    for (const Emitter& emitter : scene.emitters)
+        powers.emitters += emitter_power(scene, emitter) * share_of_casters(scene, emitter);
+    powers.environment = sky * 4 * PI * PI * square;
+    for (const Light& light : scene.lights)
+        powers.lights += light.kind == LIGHT_SUN
+                             ? sun_irradiance(light) * PI * square
+                             : luminance(to_dvec3(light.emission)) *
+                                   caster_solid_angle(scene.casters, to_dvec3(light.vector), 4 * PI);
+    return powers;
 }
 
 } // namespace
@@ -117,21 +158,18 @@ double emission_radius(const Scene& scene) {
     return std::max(std::sqrt(square), scene.radius) * EMISSION_MARGIN;
 }
 
-KindShares emission_shares(const Scene& scene, bool must_find_all) {
-    const double radius = emission_radius(scene);
-    const Environment& sky = scene.environment;
-    KindShares shares;
-    for (const Emitter& emitter : scene.emitters)
-        shares.emitters += emitter_power(scene, emitter);
-    for (const Light& light : scene.lights)
-        shares.lights += light_power(light, radius);
-    const double even = must_find_all ? luminance(sky.radiance) : 0;
-    const double sky_mean = sky.texels.empty() ? even : sky.mean_radiance;
-    shares.environment = sky_mean * 4 * PI * PI * radius * radius;
-    const double all = shares.emitters + shares.environment + shares.lights;
-    if (!(all > 0))
-        return {};
-    return {shares.emitters / all, shares.environment / all, shares.lights / all};
+EmissionPlan plan_emission(const Scene& scene, bool must_find_all) {
+    const double even = must_find_all ? luminance(scene.environment.radiance) : 0;
+    const double sky = scene.environment.texels.empty() ? even : scene.environment.mean_radiance;
+    const KindShares sent = power_into(scene, sky, emission_radius(scene));
+    const KindShares aimed = scene.casters.empty() ? sent : power_to_casters(scene, sky);
+    EmissionPlan plan;
+    if (!(sum_of(aimed) > 0))
+        return plan;
+    const double all = sum_of(aimed);
+    plan.kinds = {aimed.emitters / all, aimed.environment / all, aimed.lights / all};
+    plan.aimed = std::min(all / sum_of(sent), 1.0);
+    return plan;
 }
 
 } // namespace clrt

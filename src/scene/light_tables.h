@@ -37,10 +37,18 @@ KindShares kind_shares(LightSampler sampler, const Scene& scene);
 /// meet. A little more than that, so that no rounding leaves a corner out.
 double emission_radius(const Scene& scene);
 
-/// Probabilities of the kinds of light where light paths start: in proportion to the luminance that each
-/// sends into the sphere of emission_radius. A constant sky counts where light paths must find all light; the
-/// hits of paths from the eye find its light without noise. A background that only the camera sees is no
-/// light.
-KindShares emission_shares(const Scene& scene, bool must_find_all);
+/// Where light paths start.
+struct EmissionPlan {
+    /// Probabilities of the kinds of light: in proportion to the luminance that each sends into the sphere of
+    /// emission_radius, or, where there are, into those of the casters.
+    KindShares kinds;
+    /// The part of all that light that meets the casters, at most 1, about; 1 where there are none. So many
+    /// light paths for each pixel are as dense at the casters as one that is not aimed.
+    double aimed = 1;
+};
+
+/// A constant sky counts where light paths must find all light; the hits of paths from the eye find its light
+/// without noise. A background that only the camera sees is no light.
+EmissionPlan plan_emission(const Scene& scene, bool must_find_all);
 
 } // namespace clrt

@@ -89,7 +89,7 @@ TEST_F(Oclgrind, FindsNothingInAnyKernel) {
         expect_no_finding("raycast", "cwbvh", "single");
         return;
     }
-    for (const char* integrator : {"raycast", "whitted", "distribution", "path"})
+    for (const char* integrator : {"raycast", "whitted", "distribution", "light", "path", "path+light"})
         for (const char* layout : {"bvh8", "bvh2", "cwbvh"})
             for (const char* precision : {"single", "double", "fast"})
                 expect_no_finding(integrator, layout, precision);

@@ -111,7 +111,7 @@ TEST(LightTables, LightPathsStartByPowerWithinASphereAroundAllTriangles) {
         EXPECT_LT(glm::length(to_dvec3(p)), radius);
     EXPECT_LT(radius, 1.001 * scene.radius) << "no more than the corners need";
 
-    const KindShares all = emission_shares(scene, true), noisy = emission_shares(scene, false);
+    const KindShares all = plan_emission(scene, true).kinds, noisy = plan_emission(scene, false).kinds;
     EXPECT_NEAR(all.emitters + all.environment + all.lights, 1, 1e-12);
     EXPECT_NEAR(all.environment / all.lights, 0.5 * 4 * PI, 1e-9) << "radiance over the sphere, irradiance";
     EXPECT_EQ(noisy.environment, 0) << "hits find an even sky";

@@ -109,7 +109,8 @@ const Layout RENDER_PARAMS = {
      M(scene_extent), M(emitter_count), M(light_count), M(environment_width), M(environment_height),
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(emit_emitter), M(emit_environment), M(emit_light), M(emission_radius), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
-     M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(unused0), M(unused1)}};
+     M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(caster_count), M(caster_squares), M(light_path_count),
+     M(unused0), M(unused1), M(unused2)}};
 #undef M
 #define M(name) MEMBER(ArrayPlace, name)
 const Layout ARRAY_PLACE_LAYOUT = {

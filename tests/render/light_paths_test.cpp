@@ -2,6 +2,7 @@
 // Light paths: alone (`light`) they bring every path but those that the eye sees by a mirror or smooth glass;
 // under one weighting with paths from the eye (`path+light`) they change no mean. Compared with `path`
 // restricted to the same paths, tile by tile, under every kind of light.
+#include "film/merge_films.h"
 #include "probes/film_estimate.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
@@ -256,6 +257,31 @@ TEST(LightPaths, ACropIsAPartOfThePictureToTheBit) {
                 ASSERT_EQ(at(window, replicate, x, y), at(whole, replicate, x + 5, y + 9)) << x << "," << y;
 }
 
+TEST(LightPaths, PartsOfARunMergeToTheWholeToTheBit) {
+    for (const Integrator integrator : {Integrator::LIGHT, Integrator::PATH_LIGHT}) {
+        SCOPED_TRACE(name_of(integrator));
+        Room room;
+        room.add_lamp();
+        room.add_caustics();
+        room.options.transport.integrator = integrator;
+        room.options.sampling.replicates = 8;
+        const auto part = [&](std::uint32_t first, int samples) {
+            room.options.sampling.first_sample = first;
+            room.options.sampling.spp = samples;
+            FilmFile file;
+            file.render = room.render();
+            return file;
+        };
+        const FilmFile whole = part(0, 24);
+        FilmFile merged = part(0, 5);
+        merge_film(merged, "first", part(5, 11), "second");
+        merge_film(merged, "first", part(16, 8), "third");
+        EXPECT_TRUE(merged.render.film.sums == whole.render.film.sums);
+        EXPECT_EQ(merged.render.counts.secondary, whole.render.counts.secondary);
+        EXPECT_FALSE(part(1, 24).render.film.sums == whole.render.film.sums) << "samples count";
+    }
+}
+
 TEST(LightPaths, AClosedFurnaceHasItsSeries) {
     // e / (1 - a), by light paths alone and by all three ways together.
     for (const Integrator integrator : {Integrator::LIGHT, Integrator::PATH_LIGHT}) {
@@ -289,6 +315,26 @@ TEST(WeightedSplats, ChangeNoMeanUnderAnyKindOfLight) {
         expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
                      tile_means(room, room.options, is_delta ? Integrator::LIGHT : Integrator::PATH, ""),
                      0.08);
+    }
+}
+
+TEST(WeightedSplats, ChangeNoMeanWhereCastersHideEachOtherAndEncloseLamps) {
+    // Panes one behind the other as the lights see them, a mirror above the lamp's plane, a lamp in a glass.
+    for (const bool is_distant : {false, true}) {
+        SCOPED_TRACE(is_distant);
+        Room room;
+        if (is_distant)
+            room.options.light.suns.push_back({{0, 2, 0.1}, {3, 2, 1}, 15});
+        else {
+            room.build.use("lamp").polygon({{-0.2, 3, 0.4}, {0.2, 3, 0.4}, {0.2, 3, 0.8}, {-0.2, 3, 0.8}});
+            room.build.use("lamp").box({-1.05, 0.65, -0.05}, {-0.95, 0.75, 0.05});
+            room.build.use("glass").box({-1.2, 0.5, -0.2}, {-0.8, 0.9, 0.2});
+        }
+        room.build.use("glass").box({-0.4, 2.3, 0.2}, {0.4, 2.35, 1}).box({-0.4, 0.9, 0.2}, {0.4, 0.95, 1});
+        room.build.use("mirror").box({-1.2, 3.2, -1.2}, {-1, 3.4, -1});
+        room.options.sampling.spp = 2048;
+        expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+                     tile_means(room, room.options, Integrator::PATH, ""), 0.08);
     }
 }
 

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Densities of the rays with which light paths start (emission.h). Functions of a whole ray know whether
+// emission is aimed; the others are of emission that is not.
+#ifndef CLRT_LIGHTS_EMISSION_PDF_H
+#define CLRT_LIGHTS_EMISSION_PDF_H
+
+#include "emission_aim.h"
+#include "lights.h"
+
+static inline LightKinds emission_kinds(const RenderParams* params)
+{
+    const LightKinds kinds = {(real)params->emit_emitter, (real)params->emit_environment,
+                              (real)params->emit_light};
+    return kinds;
+}
+
+/* Density of a point on the disc through which light at infinity comes. */
+static inline real emission_disc_pdf_a(const RenderParams* params)
+{
+    const real radius = (real)params->emission_radius;
+    return REAL_INVERSE_PI / (radius * radius);
+}
+
+/* Density of the parallel ray along w through a point, aimed or not. */
+static inline real emission_disc_ray_pdf_a(const Scene* scene, const RenderParams* params, real3 point,
+                                           real3 w)
+{
+    return EMISSION_IS_AIMED ? aim_disc_pdf_a(scene, params, point, w) : emission_disc_pdf_a(params);
+}
+
+/* The part of an emitter's rays that leaves on one side. */
+static inline real emission_side_share(const Scene* scene, uint material)
+{
+    return (scene->materials[material].flags & MATERIAL_EMITS_BOTH_SIDES) ? REAL(0.5) : REAL(1.0);
+}
+
+/* Density of a point on an emissive triangle, on the side that is asked for. */
+static inline real emission_triangle_pdf_a(const Scene* scene, const RenderParams* params, uint emitter)
+{
+    const uint material = scene->triangles[scene->emitters[emitter].triangle].material;
+    return (real)params->emit_emitter * (real)scene->emitters[emitter].pdf_a *
+           emission_side_share(scene, material);
+}
+
+/* Density of the ray that leaves an emissive triangle at a point of cosine `cosine`. */
+static inline real emission_triangle_pdf(const Scene* scene, const RenderParams* params, uint emitter,
+                                         real cosine)
+{
+    return emission_triangle_pdf_a(scene, params, emitter) * cosine * REAL_INVERSE_PI;
+}
+
+/* The same of the ray from a point along w, aimed or not; `normal_g` is on the side that shines. */
+static inline real emission_triangle_ray_pdf(const Scene* scene, const RenderParams* params, uint emitter,
+                                             real3 point, real3 normal_g, real3 w)
+{
+    if (!EMISSION_IS_AIMED)
+        return emission_triangle_pdf(scene, params, emitter, vector_dot(normal_g, w));
+    const AimOrigin origin = aim_origin(scene, params, point, normal_g);
+    return emission_triangle_pdf_a(scene, params, emitter) * aim_pdf_w(scene, params, &origin, w);
+}
+
+/* Density per steradian of light of the sky from direction wi. */
+static inline real emission_sky_pdf_w(const Scene* scene, const RenderParams* params, real3 wi)
+{
+    const real pdf_w = HAS(EFFECT_ENVIRONMENT_MAP) && params->environment_width != 0u
+                           ? environment_map_pdf_w(scene, params, wi)
+                           : REAL(0.25) * REAL_INVERSE_PI;
+    return (real)params->emit_environment * pdf_w;
+}
+
+/* Density of the ray that comes from the sky in direction -wi. */
+static inline real emission_sky_pdf(const Scene* scene, const RenderParams* params, real3 wi)
+{
+    return emission_sky_pdf_w(scene, params, wi) * emission_disc_pdf_a(params);
+}
+
+/* 1 - cos of the cone in which a point light sends its rays: all around from within the sphere, else only to
+   the sphere. */
+static inline real emission_point_cone(const RenderParams* params, real3 position)
+{
+    const real radius = (real)params->emission_radius;
+    const real square = vector_dot(position, position);
+    if (!(square > radius * radius))
+        return REAL(2.0);
+    const real sine_squared = radius * radius / square;
+    return sine_squared / (REAL(1.0) + real_root(REAL(1.0) - sine_squared));
+}
+
+/* Density per steradian of a sun's direction, the choice of the sun included; 1 over what a delta sun leaves
+   to choose. */
+static inline real emission_sun_pdf_w(const Scene* scene, const RenderParams* params, uint index)
+{
+    const real disc = (real)scene->lights[index].one_minus_cos;
+    return (real)params->emit_light * (real)scene->lights[index].probability *
+           (disc > REAL(0.0) ? warp_cone_pdf_w(disc) : REAL(1.0));
+}
+
+/* Density of the ray that leaves a point or a sun: of a point towards the scene, of a sun with a disc within
+   it. */
+static inline real emission_delta_pdf(const Scene* scene, const RenderParams* params, uint index)
+{
+    global const Light* light = scene->lights + index;
+    if (light->kind == LIGHT_POINT)
+        return (real)params->emit_light * (real)light->probability *
+               warp_cone_pdf_w(emission_point_cone(params, vector_from(light->vector)));
+    return emission_sun_pdf_w(scene, params, index) * emission_disc_pdf_a(params);
+}
+
+#endif
