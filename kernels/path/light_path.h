@@ -8,6 +8,7 @@
 
 #include "camera/camera_splat.h"
 #include "film/splat.h"
+#include "light_vertices.h"
 #include "splat_weight.h"
 
 /* Russian roulette never continues with less than this. */
@@ -19,6 +20,7 @@ typedef struct {
     uint replicate;
     uint fault; /* under which counter the last bad one belongs; COUNT_WORDS: none was bad */
     real3 watched; /* sum of directions and normals, for NaNs among them */
+    LightVertices* kept; /* 0: no vertex is */
 } SplatSink;
 
 /* A path on its way. */
@@ -35,6 +37,14 @@ typedef struct {
 static inline Sampler light_path_sampler(const RenderParams* params, uint replicate, ulong number)
 {
     return sampler_make(params->seed, 0xffffffffu - (uint)(number >> 32), replicate, (uint)number);
+}
+
+/* The time of the pixel's sample whose path from the eye light path `number` is connected to. */
+static inline real light_path_eye_time(const RenderParams* params, uint replicate, ulong number)
+{
+    const ulong of_pass = (ulong)params->width * params->height;
+    const Sampler eye = sampler_make(params->seed, (uint)(number % of_pass), replicate, (uint)(number / of_pass));
+    return sampler_pair(&eye, 0u, SAMPLE_TIME).x;
 }
 
 /* Starts a path; false where no light has been found. */
@@ -133,10 +143,15 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     if (SPLATS_ARE_WEIGHTED) {
         if (segment == 1u)
             splat_weights_begin(scene, params, &path->emission, &vertex, hit->t, &path->weights);
+        else
+            splat_weights_go(hit->t, &path->weights);
         splat_weights_meet(&vertex.surface, wo, &path->weights);
     }
-    if (bsdf_has_smooth_lobe(bsdf))
+    if (bsdf_has_smooth_lobe(bsdf)) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
+        light_vertices_keep(segment, hit, wo, path->emission.power * path->throughput, &path->weights,
+                            sink->kept);
+    }
     const real2 direction = sampler_pair(&path->sampler, segment, SAMPLE_DIRECTION);
     const uint2 choices = sampler_partner_words(&path->sampler, segment, SAMPLE_DIRECTION);
     const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);
@@ -170,6 +185,9 @@ static CLRT_NOINLINE void light_path_trace(const Scene* scene, const RenderParam
     path.sampler = light_path_sampler(params, sink->replicate, number);
     if (!light_path_begin(scene, params, &path))
         return;
+#if INNER_CONNECTIONS && (CLRT_EFFECTS & EFFECT_MOTION_BLUR)
+    path.ray.time = light_path_eye_time(params, sink->replicate, number);
+#endif
     for (uint segment = 1u; segment < params->max_depth; ++segment) {
         Hit hit = vertex_hit(scene, params, &path.sampler, segment, 0u, &path.ray);
         ++rays->secondary;

@@ -30,17 +30,25 @@ static inline bool light_vertex_is_seen(const Bsdf* bsdf, real3 w)
     return !light_vertex_is_bent() || fabs(vector_dot(bsdf->frame.z, w)) >= LIGHT_SMALLEST_COS;
 }
 
+/* The vertex on a surface that light has come to from wo. */
+static inline LightVertex light_vertex_of(const Scene* scene, const Surface* surface, real3 wo)
+{
+    LightVertex vertex;
+    vertex.surface = *surface;
+    const real3 lifted = surface_lifted(surface);
+    vertex.surface.is_curved = false;
+    vertex.bsdf = material_bsdf(scene, &vertex.surface, wo, TRANSPORT_IMPORTANCE);
+    vertex.view.position = lifted;
+    vertex.view.normal = bsdf_light_normal(&vertex.bsdf);
+    return vertex;
+}
+
 /* The vertex at the end of a light path's ray. */
 static inline LightVertex light_vertex_make(const Scene* scene, const RenderParams* params, const Ray* ray,
                                             Hit* hit)
 {
-    LightVertex vertex;
-    vertex.surface = visible_surface(scene, params, ray, hit);
-    const real3 lifted = surface_lifted(&vertex.surface);
-    vertex.surface.is_curved = false;
-    vertex.bsdf = material_bsdf(scene, &vertex.surface, -ray->direction, TRANSPORT_IMPORTANCE);
-    vertex.view.position = lifted;
-    vertex.view.normal = bsdf_light_normal(&vertex.bsdf);
+    const Surface surface = visible_surface(scene, params, ray, hit);
+    const LightVertex vertex = light_vertex_of(scene, &surface, -ray->direction);
     TRACE_VECTOR(scene, TRACE_NORMAL_S, vertex.bsdf.frame.z);
     return vertex;
 }
