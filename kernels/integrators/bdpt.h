@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bidirectional path tracing (Veach and Guibas 1994; Lafortune and Willems 1993): simulates L(D|G|S)*E. To each
-// path from the eye belongs one from a light. Hits, next-event estimation, splats and connections of the
+// Bidirectional path tracing (Lafortune and Willems 1993, Veach and Guibas 1994): simulates L(D|G|S)*E. To
+// each path from the eye belongs one from a light. Hits, next-event estimation, splats and connections of
 // inner vertices are ways to find a path, weighted against each other (path/splat_weight.h). A vertex of the
-// path from the eye is connected to one vertex of the light path, drawn with equal probabilities and weighted as if
-// all were connected: that is unbiased, and costs as much as one more light.
+// path from the eye is connected to one vertex of the light path, all equally likely, and weighted as if all
+// were connected: that is unbiased, costs as much as one more light, and is as efficient as all pairs.
 #ifndef CLRT_INTEGRATORS_BDPT_H
 #define CLRT_INTEGRATORS_BDPT_H
 
@@ -12,22 +12,7 @@
 #include "path/cut.h"
 #include "splat_escape.h"
 
-#ifndef BDPT_ALL
-#define BDPT_ALL 0
-#endif
-
-static inline void bdpt_add(const Scene* scene, const RenderParams* params, const EyeVertex* eye,
-                            const KeptVertex* kept, real3 throughput, CameraSample* sample, PixelRays* rays)
-{
-    InnerConnection connection;
-    if (!bdpt_join(scene, eye, kept, &connection))
-        return;
-    ++rays->shadow;
-    const real3 light = throughput * connection.light * visible_share(scene, params, &connection.shadow);
-    vertex_add(scene, light, &sample->radiance);
-}
-
-/* Connects the vertex at the end of a segment to one of the light path's. */
+/* Connects the vertex at the end of a segment to one of the light path's, within max_depth segments. */
 static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* params, uint segment,
                                        const EyeVertex* eye, const LightVertices* kept, real3 throughput,
                                        CameraSample* sample, PixelRays* rays)
@@ -35,19 +20,19 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
     const uint count = light_vertices_within(kept, params->max_depth - 1u - segment);
     if (count == 0u || !bsdf_has_smooth_lobe(eye->bsdf))
         return;
-    if (BDPT_ALL) {
-        for (uint i = 0; i < count; ++i)
-            bdpt_add(scene, params, eye, &kept->at[i], throughput, sample, rays);
+    const uint chosen = warp_index(sampler_word(&sample->sampler, segment, SAMPLE_PARTNER), count);
+    InnerConnection connection;
+    if (!bdpt_join(scene, eye, &kept->at[chosen], &connection))
         return;
-    }
-    const uint word = sampler_word(&sample->sampler, segment, SAMPLE_PARTNER);
-    bdpt_add(scene, params, eye, &kept->at[warp_index(word, count)], throughput * (real)count, sample, rays);
+    ++rays->shadow;
+    const real share = (real)count * visible_share(scene, params, &connection.shadow);
+    vertex_add(scene, throughput * connection.light * share, &sample->radiance);
 }
 
 /* Handles the vertex at the end of a segment of the path from the eye. */
-static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* params, uint segment, Path* path,
-                                      EyeVertex* eye, const LightVertices* kept, CameraSample* sample,
-                                      PixelRays* rays)
+static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* params, uint segment,
+                                      Path* path, EyeVertex* eye, const LightVertices* kept,
+                                      CameraSample* sample, PixelRays* rays)
 {
     const real3 wo = -path->ray.direction;
     const Sampler* sampler = &sample->sampler;
@@ -67,14 +52,15 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
         path_end(scene, params, sampler, segment, &surface, path, rays);
         return;
     }
-    const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
+    Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
+    AutomatonStep step;
+    path_filter(scene, params, sampler, segment, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
     eye->surface = &surface;
     eye->bsdf = &bsdf;
     eye->wo = wo;
     Guide guide = guide_none();
-    AutomatonStep step;
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
     bdpt_connect(scene, params, segment, eye, kept, path->throughput, sample, rays);
@@ -86,8 +72,8 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
 }
 
 /* Follows a sample's path from the eye to its end. */
-static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* params, const LightVertices* kept,
-                                     CameraSample* sample, PixelRays* rays)
+static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* params,
+                                     const LightVertices* kept, CameraSample* sample, PixelRays* rays)
 {
     Path path;
     EyeVertex eye;

@@ -36,8 +36,8 @@ static CLRT_NOINLINE void light_paths_trace(const Scene* scene, const RenderPara
             light_path_trace(scene, params, sample->index * of_pass + path, &sink, rays);
     if (INNER_CONNECTIONS) {
         sink.kept = kept;
-        light_path_trace(scene, params, sample->index * of_pass + light_paths_of_pixel(params, sample->place), &sink,
-                         rays);
+        const ulong own = light_paths_of_pixel(params, sample->place);
+        light_path_trace(scene, params, sample->index * of_pass + own, &sink, rays);
     }
     if (sink.fault != COUNT_WORDS)
         sample->splat_fault = sink.fault;

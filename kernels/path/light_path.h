@@ -14,6 +14,10 @@
 /* Russian roulette never continues with less than this. */
 #define LIGHT_SMALLEST_SURVIVAL REAL(0.05)
 
+/* First segment that it may end where inner vertices are connected, if it is not asked for before: a light
+   path costs as much as one from the eye, and its late vertices add little that others do not. */
+#define LIGHT_CONNECTED_ROULETTE_DEPTH 2u
+
 /* Where splats go, and what became of them. */
 typedef struct {
     global long* film; /* 0: they are only looked at */
@@ -43,7 +47,8 @@ static inline Sampler light_path_sampler(const RenderParams* params, uint replic
 static inline real light_path_eye_time(const RenderParams* params, uint replicate, ulong number)
 {
     const ulong of_pass = (ulong)params->width * params->height;
-    const Sampler eye = sampler_make(params->seed, (uint)(number % of_pass), replicate, (uint)(number / of_pass));
+    const uint pixel = (uint)(number % of_pass);
+    const Sampler eye = sampler_make(params->seed, pixel, replicate, (uint)(number / of_pass));
     return sampler_pair(&eye, 0u, SAMPLE_TIME).x;
 }
 
@@ -121,7 +126,8 @@ static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParam
 static inline bool light_path_survives(const Scene* scene, const RenderParams* params, uint segment,
                                        LightPath* path)
 {
-    if (segment < params->roulette_depth)
+    const uint latest = INNER_CONNECTIONS ? LIGHT_CONNECTED_ROULETTE_DEPTH : params->roulette_depth;
+    if (segment < min(params->roulette_depth, latest))
         return true;
     const real survival = clamp(vector_max_component(path->throughput), LIGHT_SMALLEST_SURVIVAL, REAL(1.0));
     const bool survives = !(sampler_number(&path->sampler, segment, SAMPLE_ROULETTE) >= survival);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vertices of a light path that paths from the eye are connected to: kept in private memory, 48 bytes each
+// The vertices of a light path that a path from the eye is connected to: kept in private memory, 48 bytes each
 // in single precision. Surface and BSDF are made again where a vertex is connected.
 #ifndef CLRT_PATH_LIGHT_VERTICES_H
 #define CLRT_PATH_LIGHT_VERTICES_H
@@ -52,7 +52,7 @@ static inline uint light_vertices_within(const LightVertices* kept, uint segment
     return count;
 }
 
-/* The hit and the ray of a kept vertex, for surface_at; not where the ray starts. */
+/* The hit of a kept vertex, but for its distance. */
 static inline Hit light_vertices_hit(const KeptVertex* kept)
 {
     Hit hit = hit_none(REAL(0.0));
