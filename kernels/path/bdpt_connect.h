@@ -44,6 +44,19 @@ static inline Ray bdpt_shadow_ray(const Surface* eye, const Surface* light, real
     return ray;
 }
 
+/* The density of all other ways over that of a connection along wi, times the squared distance. `to_light`
+   and `to_eye` are the densities per steradian of the vertices towards each other. */
+static inline real bdpt_others(const EyeVertex* eye, const LightVertex* light, const SplatWeights* of_light,
+                               real3 wi, real to_light, real to_eye)
+{
+    real others = to_light * splat_cosine(light->surface.normal_g, wi) *
+                  splat_weights_at(&light->bsdf, -wi, of_light);
+    if (splat_can_pass(eye->surface, eye->bsdf, eye->wo, wi, false))
+        others += to_eye * splat_cosine(eye->surface->normal_g, wi) *
+                  splat_weights_at(eye->bsdf, wi, &eye->weights);
+    return others;
+}
+
 /* The weighted connection of two vertices, over the eye path's throughput; false where nothing can arrive. A
    path from the eye starts on a curved surface where it is reflected; across one it starts elsewhere, and no
    connection is made. */
@@ -67,12 +80,8 @@ static CLRT_NOINLINE bool bdpt_join(const Scene* scene, const EyeVertex* eye, co
     const BsdfValue to_eye = bsdf_eval(&light.bsdf, -wi);
     if (vector_is_black(to_eye.value))
         return false;
-    real weights = square + to_light.pdf_w * splat_cosine(light.surface.normal_g, wi) *
-                                splat_weights_at(&light.bsdf, -wi, &kept->weights);
-    if (splat_can_pass(eye->surface, eye->bsdf, eye->wo, wi, false))
-        weights += to_eye.pdf_w * splat_cosine(eye->surface->normal_g, wi) *
-                   splat_weights_at(eye->bsdf, wi, &eye->weights);
-    connection->light = to_light.value * to_eye.value * vload3(0, kept->power) / weights;
+    const real others = bdpt_others(eye, &light, &kept->weights, wi, to_light.pdf_w, to_eye.pdf_w);
+    connection->light = to_light.value * to_eye.value * vload3(0, kept->power) / (square + others);
     connection->shadow = bdpt_shadow_ray(eye->surface, &light.surface, wi);
     return true;
 }

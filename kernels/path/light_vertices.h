@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vertices of a light path that a path from the eye is connected to: kept in private memory, 48 bytes each
-// in single precision. Surface and BSDF are made again where a vertex is connected.
+// The vertices of a light path that a path from the eye is connected to: kept in private memory, 48 bytes
+// each in single precision. Surface and BSDF are made again where a vertex is connected.
 #ifndef CLRT_PATH_LIGHT_VERTICES_H
 #define CLRT_PATH_LIGHT_VERTICES_H
 

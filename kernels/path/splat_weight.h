@@ -27,8 +27,8 @@
 #define INNER_CONNECTIONS 0
 #endif
 
-/* Of a path from the eye: splats and inner connections over what comes next. Of a path from a light: what paths
-   from the eye find, and inner connections, over the splat that comes next. */
+/* Of a path from the eye: splats and inner connections over what comes next. Of a path from a light: what
+   paths from the eye find, and inner connections, over the splat that comes next. */
 typedef struct {
     real open, closed;
 } SplatWeights;

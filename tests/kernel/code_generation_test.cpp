@@ -160,7 +160,8 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
         TransportOptions transport;
         transport.integrator = Integrator::BDPT;
         transport.max_depth = depth;
-        return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0)});
+        return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0),
+                              fmt::format("-DBVH_LAYOUT={}", int(BvhLayout::BVH2))}); // that of GPUs
     };
     EXPECT_LT(paired(USUAL_BDPT_DEPTH), 8 << 10);
     EXPECT_LT(paired(LARGEST_BDPT_DEPTH), 12 << 10);

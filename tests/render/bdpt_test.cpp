@@ -2,10 +2,13 @@
 // Bidirectional path tracing changes no mean: compared with `path`, and with `path+light` under lights that
 // no ray meets, tile by tile; and with closed forms. Its weights sum to 1:
 // tests/kernel/bdpt_weights_test.cpp.
+#include "device/kernel_source.h"
+#include "render/bdpt_oracle.h"
 #include "support/film_agrees.h"
 #include "support/lit_rooms.h"
 
 #include <cmath>
+#include <filesystem>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -15,6 +18,24 @@ namespace {
 void expect_bdpt_is(const Room& room, Integrator integrator, double sharpness) {
     expect_equal(tile_means(room, room.options, Integrator::BDPT, ""),
                  tile_means(room, room.options, integrator, ""), sharpness);
+}
+
+/// The kernels with the oracle in place of the integrator.
+std::string oracle_kernels(const ScratchFolder& folder) {
+    KernelFiles files = kernels_under_test();
+    std::string& entry = files.at("integrators/bdpt.cl");
+    const std::string define = "#define INTEGRATOR_RADIANCE bdpt_radiance";
+    const size_t at = entry.find(define);
+    if (at == std::string::npos)
+        throw std::runtime_error("not in integrators/bdpt.cl: " + define);
+    entry.replace(at, define.size(),
+                  BDPT_ORACLE + std::string("#define INTEGRATOR_RADIANCE oracle_radiance"));
+    for (const auto& [file, text] : files) {
+        const std::filesystem::path to = folder.file(file);
+        std::filesystem::create_directories(to.parent_path());
+        folder.write(file, text);
+    }
+    return folder.file("");
 }
 
 /// A lamp in a tube under the ceiling: the camera sees its light scattered twice, off a spot that few paths
@@ -33,6 +54,27 @@ struct TubeRoom : Room {
 };
 
 } // namespace
+
+TEST(Bidirectional, WeightsAreThoseOfAllDensitiesMultipliedOut) {
+    const ScratchFolder folder;
+    for (const Precision precision : {Precision::SINGLE, Precision::DOUBLE}) {
+        if (precision == Precision::DOUBLE && !test_device().info.fp64)
+            continue;
+        Room room;
+        room.add_lamp();
+        room.add_caustics();
+        room.options.transport.integrator = Integrator::BDPT;
+        room.options.transport.max_depth = 7;
+        room.options.device.precision = precision;
+        room.options.device.kernels_folder = oracle_kernels(folder);
+        const Film film = room.render().film;
+        const double paths = film_estimate(film, 0, {0, 0, 32, 32}).mean;
+        EXPECT_GT(paths, 0.02);
+        // Next to an edge a few paths lose digits.
+        for (const int wrong : {1, 2})
+            EXPECT_LT(film_estimate(film, wrong, {0, 0, 32, 32}).mean, 2e-3 * paths) << wrong;
+    }
+}
 
 TEST(Bidirectional, ChangesNoMeanUnderAnyKindOfLight) {
     for (const Lighting& lighting : lightings()) {
