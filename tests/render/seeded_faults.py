@@ -211,8 +211,6 @@ FAULTS = [
      "/ (REAL(1.0) + others / square)", "bdpt_test"),
     ("inner connections weighed by the other end's cosine", "path/bdpt_connect.h", "to_light * splat_cosine(light->surface.normal_g, wi)",
      "to_light * splat_cosine(eye->surface->normal_g, wi)", "bdpt_test"),
-    ("inner connections as if light paths passed everywhere", "path/bdpt_connect.h",
-     "if (splat_can_pass(eye->surface, eye->bsdf, eye->wo, wi, false))", "if (true)", "bdpt_test"),
     ("inner connections weighed alone", "path/bdpt_connect.h", "/ (square + others)", "/ square", "bdpt_test"),
     ("light vertices not counted", "integrators/bdpt.h", "(real)count * visible_share", "visible_share", "bdpt_test"),
     ("inner connections through walls", "integrators/bdpt.h", "visible_share(scene, params, &connection.shadow)", "REAL(1.0)", "bdpt_test"),
