@@ -217,8 +217,6 @@ FAULTS = [
     ("the depth of each end alone bounded", "integrators/bdpt.h", "params->max_depth - 1u - segment", "params->max_depth", "bdpt_test"),
     ("the power of a kept vertex without its throughput", "path/light_path.h", "path->emission.power * path->throughput, &path->weights,",
      "path->emission.power, &path->weights,", "bdpt_test"),
-    ("ends of a connection at different times", "path/light_path.h", "#if INNER_CONNECTIONS && (CLRT_EFFECTS & EFFECT_MOTION_BLUR)",
-     "#if 0", "bdpt_test"),
     ("light paths by the window's numbers", "integrators/light_paths.h", "return tile_pixel_number(params, x, y);", "return place;",
      "bdpt_test"),
     ("eyes connected to another pixel's light path", "integrators/light_paths.h", "if (!INNER_CONNECTIONS || !light_paths_has_eye(params, path))",
