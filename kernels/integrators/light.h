@@ -31,7 +31,7 @@ static CLRT_NOINLINE void light_radiance(const Scene* scene, const RenderParams*
 {
     for (uint k = 0; k < count; ++k) {
         light_gather(scene, params, &samples[k], rays);
-        light_paths_trace(scene, params, &samples[k], rays);
+        light_paths_trace(scene, params, &samples[k], 0, rays);
     }
 }
 

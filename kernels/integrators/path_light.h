@@ -8,20 +8,7 @@
 
 #include "light_paths.h"
 #include "path/cut.h"
-#include "path/splat_connect.h"
-
-/* Adds the light from outside the scene. */
-static inline void path_light_escape(const Scene* scene, const RenderParams* params, uint segment,
-                                     const Path* path, const SplatWeights* weights, CameraSample* sample,
-                                     PixelRays* rays)
-{
-    rays->missed += segment == 1u ? 1u : 0u;
-    if (nan_carry(scene, nan_of_miss(&path->hit), &sample->radiance))
-        return;
-    const real3 sky = segment == 1u ? vertex_sky(scene, params, 1u, 0, &path->ray, REAL(0.0), KINDS_ALL)
-                                    : splat_escape(scene, params, path, weights);
-    vertex_add(scene, path->throughput * sky, &sample->radiance);
-}
+#include "splat_escape.h"
 
 /* Handles the vertex at the end of a segment of the path from the eye. */
 static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderParams* params, uint segment,
@@ -32,11 +19,11 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     const Sampler* sampler = &sample->sampler;
     path->is_alive = path->is_connected = false;
     if (path->hit.triangle == NO_INDEX) {
-        path_light_escape(scene, params, segment, path, weights, sample, rays);
+        splat_add_escape(scene, params, segment, path, weights, sample, rays);
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
-    splat_eye_meets(params, sampler, segment, &surface, wo, weights);
+    splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
@@ -85,7 +72,7 @@ static CLRT_NOINLINE void path_light_radiance(const Scene* scene, const RenderPa
 {
     for (uint k = 0; k < count; ++k) {
         path_light_trace(scene, params, &samples[k], rays);
-        light_paths_trace(scene, params, &samples[k], rays);
+        light_paths_trace(scene, params, &samples[k], 0, rays);
     }
 }
 

@@ -35,6 +35,7 @@
 #define SAMPLE_LENS 10u       /* point of the lens; camera rays are bounce 0 */
 #define SAMPLE_TIME 11u       /* within the shutter's opening: the first of a pair */
 #define SAMPLE_SPLAT 13u      /* which of the pixels around it a splat goes to */
+#define SAMPLE_PARTNER 14u    /* which vertex of a light path a vertex of the eye's is connected to */
 #define SAMPLER_PURPOSES 16u
 
 typedef struct {

@@ -9,10 +9,15 @@
 
 #include "camera/camera_splat.h"
 #include "film/splat.h"
+#include "light_vertices.h"
 #include "splat_weight.h"
 
 /* Russian roulette never continues with less than this. */
 #define LIGHT_SMALLEST_SURVIVAL REAL(0.05)
+
+/* First segment that it may end where inner vertices are connected, if it is not asked for before: a light
+   path costs as much as one from the eye, and its late vertices add little that others do not. */
+#define LIGHT_CONNECTED_ROULETTE_DEPTH 2u
 
 /* Where splats go, and what became of them. */
 typedef struct {
@@ -20,6 +25,7 @@ typedef struct {
     uint replicate;
     uint fault; /* under which counter the last bad one belongs; COUNT_WORDS: none was bad */
     real3 watched; /* sum of directions and normals, for NaNs among them */
+    LightVertices* kept; /* 0: no vertex is */
 } SplatSink;
 
 /* A path on its way. */
@@ -36,6 +42,15 @@ typedef struct {
 static inline Sampler light_path_sampler(const RenderParams* params, uint replicate, ulong number)
 {
     return sampler_make(params->seed, 0xffffffffu - (uint)(number >> 32), replicate, (uint)number);
+}
+
+/* The time of the pixel's sample whose path from the eye light path `number` is connected to. */
+static inline real light_path_eye_time(const RenderParams* params, uint replicate, ulong number)
+{
+    const ulong of_pass = (ulong)params->width * params->height;
+    const uint pixel = (uint)(number % of_pass);
+    const Sampler eye = sampler_make(params->seed, pixel, replicate, (uint)(number / of_pass));
+    return sampler_pair(&eye, 0u, SAMPLE_TIME).x;
 }
 
 /* Starts a path; false where no light has been found. */
@@ -112,7 +127,8 @@ static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParam
 static inline bool light_path_survives(const Scene* scene, const RenderParams* params, uint segment,
                                        LightPath* path)
 {
-    if (segment < params->roulette_depth)
+    const uint latest = INNER_CONNECTIONS ? LIGHT_CONNECTED_ROULETTE_DEPTH : params->roulette_depth;
+    if (segment < min(params->roulette_depth, latest))
         return true;
     const real survival = clamp(vector_max_component(path->throughput), LIGHT_SMALLEST_SURVIVAL, REAL(1.0));
     const bool survives = !(sampler_number(&path->sampler, segment, SAMPLE_ROULETTE) >= survival);
@@ -135,11 +151,16 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     if (SPLATS_ARE_WEIGHTED) {
         if (segment == 1u)
             splat_weights_begin(scene, params, &path->emission, &vertex, hit->t, &path->weights);
+        else
+            splat_weights_go(hit->t, &path->weights);
         splat_weights_meet(&vertex.surface, wo, &path->weights);
     }
     const bool is_caster = EMISSION_IS_AIMED && segment == 1u;
-    if (bsdf_has_smooth_lobe(bsdf) && !is_caster)
+    if (bsdf_has_smooth_lobe(bsdf) && !is_caster) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
+        light_vertices_keep(segment, hit, wo, path->emission.power * path->throughput, &path->weights,
+                            sink->kept);
+    }
     const real2 direction = sampler_pair(&path->sampler, segment, SAMPLE_DIRECTION);
     const uint2 choices = sampler_partner_words(&path->sampler, segment, SAMPLE_DIRECTION);
     const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);
@@ -175,6 +196,9 @@ static CLRT_NOINLINE void light_path_trace(const Scene* scene, const RenderParam
     path.sampler = light_path_sampler(params, sink->replicate, number);
     if (!light_path_begin(scene, params, &path))
         return;
+#if INNER_CONNECTIONS && (CLRT_EFFECTS & EFFECT_MOTION_BLUR)
+    path.ray.time = light_path_eye_time(params, sink->replicate, number);
+#endif
     for (uint segment = 1u; segment < params->max_depth; ++segment) {
         Hit hit = vertex_hit(scene, params, &path.sampler, segment, 0u, &path.ray);
         ++rays->secondary;

@@ -30,16 +30,22 @@ static inline bool light_vertex_is_seen(const Bsdf* bsdf, real3 w)
     return !light_vertex_is_bent() || fabs(vector_dot(bsdf->frame.z, w)) >= LIGHT_SMALLEST_COS;
 }
 
+/* Completes the vertex on its surface, which light has come to from wo. */
+static inline void light_vertex_complete(const Scene* scene, real3 wo, LightVertex* vertex)
+{
+    const real3 lifted = surface_lifted(&vertex->surface);
+    vertex->surface.is_curved = false;
+    material_set_bsdf(scene, &vertex->surface, wo, TRANSPORT_IMPORTANCE, &vertex->bsdf);
+    vertex->view.position = lifted;
+    vertex->view.normal = bsdf_light_normal(&vertex->bsdf);
+}
+
 /* The vertex at the end of a light path's ray. */
 static inline void light_vertex_set(const Scene* scene, const RenderParams* params, const Ray* ray, Hit* hit,
                                     LightVertex* vertex)
 {
     vertex->surface = visible_surface(scene, params, ray, hit);
-    const real3 lifted = surface_lifted(&vertex->surface);
-    vertex->surface.is_curved = false;
-    material_set_bsdf(scene, &vertex->surface, -ray->direction, TRANSPORT_IMPORTANCE, &vertex->bsdf);
-    vertex->view.position = lifted;
-    vertex->view.normal = bsdf_light_normal(&vertex->bsdf);
+    light_vertex_complete(scene, -ray->direction, vertex);
     TRACE_VECTOR(scene, TRACE_NORMAL_S, vertex->bsdf.frame.z);
 }
 

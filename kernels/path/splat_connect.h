@@ -20,8 +20,8 @@ static inline bool splat_can_pass(const Surface* surface, const Bsdf* bsdf, real
     return is_above == surface_reflects(surface, wi) && (is_above || is_delta);
 }
 
-/* A segment of a path from the eye has met a surface. */
-static inline void splat_eye_meets(const RenderParams* params, const Sampler* sampler, uint segment,
+/* A segment of a path from the eye, of length t, has met a surface. */
+static inline void splat_eye_meets(const RenderParams* params, const Sampler* sampler, uint segment, real t,
                                    const Surface* surface, real3 wo, SplatWeights* weights)
 {
     if (segment == 1u) {
@@ -30,7 +30,8 @@ static inline void splat_eye_meets(const RenderParams* params, const Sampler* sa
             camera_project_at(params, surface->position, lens, surface_time(surface)).pdf_a;
         weights->open = pdf_a > REAL(0.0) ? splat_path_count(params) / pdf_a : REAL(0.0);
         weights->closed = REAL(0.0);
-    }
+    } else
+        splat_weights_go(t, weights);
     splat_weights_meet(surface, wo, weights);
 }
 
@@ -41,6 +42,8 @@ static inline void splat_eye_leaves(const Surface* surface, const Bsdf* bsdf, re
     if (!splat_can_pass(surface, bsdf, wo, next->wi, next->pdf_w == REAL(0.0)))
         weights->open = weights->closed = REAL(0.0);
     splat_weights_leave(bsdf, next->wi, next->pdf_w, weights);
+    if (surface->is_curved && !next->reflects) /* no inner connection crosses it (bdpt_connect.h) */
+        weights->open = REAL(0.0);
 }
 
 /* True if splats find the light at the end of a ray that leaves the last vertex by a density, 0 for a delta

@@ -25,8 +25,14 @@
 #define SPLATS_ARE_WEIGHTED 0
 #endif
 
-/* Of a path from the eye: splat over what comes next. Of a path from a light: what paths from the eye find,
-   over the splat that comes next. */
+/* Whether inner vertices of both paths are connected too (path/bdpt_connect.h). Then every vertex that is not
+   sampled by a delta lobe has an `open` term: of the connection to the one before it. */
+#ifndef INNER_CONNECTIONS
+#define INNER_CONNECTIONS 0
+#endif
+
+/* Of a path from the eye: splats and inner connections over what comes next. Of a path from a light: what
+   paths from the eye find, and inner connections, over the splat that comes next. */
 typedef struct {
     real open, closed;
 } SplatWeights;
@@ -54,7 +60,7 @@ static inline void splat_weights_leave(const Bsdf* bsdf, real3 wi, real pdf_w, S
         const real reverse = weights->closed == REAL(0.0) ? REAL(0.0) : bsdf_pdf_w_reverse(bsdf, wi);
         weights->closed = (weights->closed * reverse + weights->open) * cosine / pdf_w;
     }
-    weights->open = REAL(0.0);
+    weights->open = INNER_CONNECTIONS && pdf_w > REAL(0.0) ? REAL(1.0) / pdf_w : REAL(0.0);
 }
 
 /* Both terms behind a vertex that is left along wi to a light or to the camera. */
@@ -90,6 +96,13 @@ static CLRT_NOINLINE real splat_light_pdf(const Scene* scene, const RenderParams
     const real disc = (real)scene->lights[index].one_minus_cos;
     const bool has_disc = scene->lights[index].kind == LIGHT_SUN && disc > REAL(0.0);
     return has_disc ? chosen * warp_cone_pdf_w(disc) : chosen;
+}
+
+/* A segment behind a path's first has the length t. */
+static inline void splat_weights_go(real t, SplatWeights* weights)
+{
+    if (INNER_CONNECTIONS)
+        weights->open *= t * t;
 }
 
 /* A segment has met a vertex. */

@@ -11,7 +11,7 @@
 
 namespace clrt {
 
-enum class Integrator { RAYCAST, WHITTED, DISTRIBUTION, LIGHT, PATH, PATH_LIGHT };
+enum class Integrator { RAYCAST, WHITTED, DISTRIBUTION, LIGHT, PATH, PATH_LIGHT, BDPT };
 
 /// Options that only some integrators read; bits.
 enum IntegratorOption : unsigned {
@@ -85,6 +85,8 @@ constexpr int USUAL_PATH_DEPTH = 4096;
 constexpr int USUAL_TREE_DEPTH = 10;
 /// Their rays wait in private memory.
 constexpr int LARGEST_TREE_DEPTH = WHITTED_MAX_DEPTH;
+/// The vertices of a light path wait in private memory for those of the path from the eye.
+constexpr int USUAL_BDPT_DEPTH = 16, LARGEST_BDPT_DEPTH = 64;
 /// Rays of a branch at most: several levels have few, because they share those of the first.
 constexpr int LARGEST_BRANCH = 64;
 /// The first hit and its connection to a light.
@@ -149,6 +151,16 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      nullptr,
      {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E|L(D|S)*DE"},
      {USUAL_PATH_DEPTH, LARGEST_DEPTH},
+     SkySampling::BY_TABLE,
+     Connections::ONE_LIGHT,
+     FilmAccess::SPLAT,
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
+    {Integrator::BDPT,
+     "bdpt",
+     "global illumination, paths from both ends",
+     nullptr,
+     {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E|L(D|S)*D(D(D|S)*)?E"},
+     {USUAL_BDPT_DEPTH, LARGEST_BDPT_DEPTH},
      SkySampling::BY_TABLE,
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,

@@ -63,6 +63,7 @@ std::vector<std::string> picture_defines(const Device& device, const Options& op
                                          const PathPlan& paths) {
     std::vector<std::string> defines = path_defines(paths);
     append(defines, branch_defines(options.transport));
+    append(defines, vertex_defines(options.transport));
     append(defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
     return defines;
 }
@@ -78,6 +79,13 @@ std::vector<std::string> branch_defines(const TransportOptions& transport) {
             fmt::format("DISTRIBUTION_GLOSS_RAYS={}u", transport.gloss_rays),
             fmt::format("DISTRIBUTION_TRANSLUCENT_RAYS={}u", transport.translucent_rays),
             fmt::format("DISTRIBUTION_WAITING={}", waiting)};
+}
+
+std::vector<std::string> vertex_defines(const TransportOptions& transport) {
+    if (transport.integrator != Integrator::BDPT)
+        return {};
+    // A path has the segments to both vertices of a connection, and the connection.
+    return {fmt::format("BDPT_VERTICES={}", std::max(effective_max_depth(transport) - 2, 1))};
 }
 
 BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device) {

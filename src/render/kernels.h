@@ -29,6 +29,9 @@ bool wants_layers(const Options& options);
 /// (kernels/integrators/distribution_ray.h); none where the integrator does not branch so.
 std::vector<std::string> branch_defines(const TransportOptions& transport);
 
+/// Literal of the vertices that are kept of a light path (kernels/path/light_vertices.h); none where none is.
+std::vector<std::string> vertex_defines(const TransportOptions& transport);
+
 /// What --dump-kernels may write, a replay included; empty without it.
 std::vector<std::string> dumped_files(const Options& options);
 

@@ -102,7 +102,7 @@ TEST(Integrators, HelpSaysWhatEachSimulatesAndTakes) {
         EXPECT_TRUE(holds(page, is_default ? "(default " + depth : row.name + (always + depth))) << row.name;
     }
     EXPECT_TRUE(holds(page, "(default path)"));
-    EXPECT_TRUE(holds(page, "--roulette-depth N light, path, path+light: first segment"));
+    EXPECT_TRUE(holds(page, "--roulette-depth N light, path, path+light, bdpt: first segment"));
     EXPECT_TRUE(holds(page, "--min-contribution X whitted, distribution: smallest weight worth a ray"));
     EXPECT_TRUE(holds(page, "--paths EXPR distribution, path: simulate only these paths"));
     EXPECT_TRUE(holds(page, "--shadow-rays N distribution: shadow rays of a surface point"));

@@ -156,6 +156,15 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
         few.push_back("-D" + define);
     for (const std::string& define : branch_defines(largest))
         many.push_back("-D" + define);
+    const auto paired = [&](int depth) {
+        TransportOptions transport;
+        transport.integrator = Integrator::BDPT;
+        transport.max_depth = depth;
+        return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0),
+                              fmt::format("-DBVH_LAYOUT={}", int(BvhLayout::BVH2))}); // that of GPUs
+    };
+    EXPECT_LT(paired(USUAL_BDPT_DEPTH), 8 << 10);
+    EXPECT_LT(paired(LARGEST_BDPT_DEPTH), 12 << 10);
     EXPECT_LT(bytes("path", {}), 8 << 10);
     EXPECT_LT(bytes("whitted", {}), 12 << 10);
     EXPECT_LT(bytes("distribution", few), 8 << 10);
@@ -164,7 +173,7 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
 
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
     for (const char* int64 : {"0", "1"})
-        for (const std::string integrator : {"raycast", "light", "path_light"})
+        for (const std::string integrator : {"raycast", "light", "path_light", "bdpt"})
             expect_clean(fmt::format("{} splats, int64 {}", integrator, int64),
                          include({"integrators/" + integrator + ".cl"}),
                          {"-DFILM_SPLATS=1", fmt::format("-DFILM_INT64_ATOMICS={}", int64)});

@@ -98,8 +98,9 @@ TEST(Launcher, CountsTheDevicesOwnSeconds) {
 }
 
 TEST(LaunchBits, DoNotDependOnTheSizesOrTheOrderOfLaunches) {
-    for (const Integrator integrator : {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED,
-                                        Integrator::RAYCAST, Integrator::LIGHT, Integrator::PATH_LIGHT}) {
+    for (const Integrator integrator :
+         {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED, Integrator::RAYCAST,
+          Integrator::LIGHT, Integrator::PATH_LIGHT, Integrator::BDPT}) {
         const LaunchedScene scene(integrator);
         const u32 tiles = scene.tiles();
         const std::vector<std::int64_t> at_once = scene.sums({{0, SAMPLES, 0, tiles}});

@@ -5,10 +5,9 @@
 #include "film/merge_films.h"
 #include "probes/film_estimate.h"
 #include "support/film_agrees.h"
-#include "support/render_scene.h"
+#include "support/lit_rooms.h"
 
 #include <cmath>
-#include <functional>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -18,134 +17,6 @@ namespace {
 /// What `light` finds.
 const char* const BY_LIGHT_PATHS = "LE|L(D|S)*DE";
 
-struct TileMeans {
-    std::vector<double> mean, variance;
-};
-
-/// Mean and squared standard error of each tile of 8 x 8 pixels and channel, over the replicates.
-TileMeans tile_means(const TestScene& scene, Options options, Integrator integrator, const char* paths) {
-    options.transport.integrator = integrator;
-    options.transport.paths = paths;
-    const Render render = render_loaded(scene.load(), options);
-    EXPECT_EQ(render.counts.bad(), 0u) << name_of(integrator);
-    TileMeans tiles;
-    for (int y = 0; y < render.film.height; y += 8)
-        for (int x = 0; x < render.film.width; x += 8)
-            for (int channel = 0; channel < 3; ++channel) {
-                const Estimate tile = film_estimate(render.film, channel, {x, y, x + 8, y + 8});
-                tiles.mean.push_back(tile.mean);
-                tiles.variance.push_back(tile.error * tile.error);
-            }
-    return tiles;
-}
-
-/// Whether two integrators agree in every tile, to `sharpness` of the picture's mean.
-void expect_equal(const TileMeans& a, const TileMeans& b, double sharpness) {
-    double squares = 0, mean = 0, noise = 0;
-    for (size_t i = 0; i < a.mean.size(); ++i) {
-        mean += b.mean[i] / double(b.mean.size());
-        noise += (a.variance[i] + b.variance[i]) / double(b.mean.size());
-        if (a.variance[i] + b.variance[i] == 0) {
-            EXPECT_NEAR(a.mean[i], b.mean[i], 1e-5 * b.mean[i]) << "tile " << i;
-            continue;
-        }
-        const double z = (a.mean[i] - b.mean[i]) / std::sqrt(a.variance[i] + b.variance[i]);
-        EXPECT_LT(std::abs(z), LARGEST_Z) << "tile " << i << ": " << a.mean[i] << ", expected " << b.mean[i];
-        squares += z * z;
-    }
-    // Channels are nearly alike: the squares of 16 tiles have a mean of 1 +- 0.35.
-    EXPECT_LT(squares / double(a.mean.size()), 2.8);
-    EXPECT_LT(std::sqrt(noise), sharpness * mean) << "too noisy to tell them apart";
-}
-
-/// A floor and a wall with plates of metal and rough glass in front of the camera; no light.
-struct Room : TestScene {
-    Room() {
-        build.material("matte", "Kd 0.6 0.5 0.4").material("metal", "Kd 0.8 0.8 0.8\nPm 1\nPr 0.4");
-        build.material("frosted", "Ni 1.5\nillum 7\nPr 0.4").material("mirror", "Ks 0.9 0.8 0.7\nillum 3");
-        build.material("glass", "Ni 1.5\nillum 7").material("lamp", "Kd 0 0 0\nKe 6 5 4");
-        build.use("matte").floor(3);
-        build.polygon({{-3, 0, -2}, {3, 0, -2}, {3, 3, -2}, {-3, 3, -2}});
-        build.use("metal").polygon(
-            {{-1.5, 0.05, 0.5}, {-0.5, 0.05, 0.5}, {-0.5, 0.5, -0.5}, {-1.5, 0.5, -0.5}});
-        build.use("frosted").box({0.3, 0.01, -0.5}, {1.2, 0.6, 0.3});
-        look({0, 1.6, 4}, {0, 0.7, 0}, 50);
-        options.film.size = {32, 32};
-        options.sampling.spp = 512;
-        options.transport.max_depth = 6;
-        options.light.environment = glm::dvec3(0);
-    }
-    void add_lamp() {
-        build.use("lamp").raw("o lamp").polygon(
-            {{-0.6, 2, -0.6}, {0.6, 2, -0.6}, {0.6, 2, 0.6}, {-0.6, 2, 0.6}});
-    }
-    /// Mirrors beside the view that throw caustics into it.
-    void add_hidden_mirrors() {
-        for (const double x : {-2.6, 2.6})
-            build.use("mirror").polygon({{x, 0.01, -1}, {x, 2, -1}, {x, 2, 2}, {x, 0.01, 2}});
-    }
-    /// Bodies that throw caustics.
-    void add_caustics() {
-        build.use("mirror").box({-0.4, 0.01, -1.4}, {0.2, 1.1, -1.1});
-        build.use("glass").box({0.1, 0.9, 0.0}, {0.9, 1.2, 0.8});
-    }
-};
-
-/// A way to light a room.
-struct Lighting {
-    const char* name;
-    std::function<void(Room&)> add;
-};
-
-const Lighting LIGHTINGS[] = {
-    {"lamp", [](Room& room) { room.add_lamp(); }},
-    {"two-sided",
-     [](Room& room) {
-         room.options.light.two_sided = true;
-         room.build.use("lamp").polygon({{-1, 1.4, -1.2}, {1, 1.4, -1.2}, {1, 1.8, -0.9}, {-1, 1.8, -0.9}});
-     }},
-    {"textured",
-     [](Room& room) {
-         room.texture("lamp.exr", 2, 2, 3, {4, 0, 0, 0, 3, 0, 0, 0, 5, 1, 1, 1});
-         room.build.material("slide", "Kd 0 0 0\nKe 2 2 2\nmap_Ke lamp.exr").use("slide");
-         room.build.textured_quad({{-0.6, 2, -0.6}, {0.6, 2, -0.6}, {0.6, 2, 0.6}, {-0.6, 2, 0.6}});
-     }},
-    {"point",
-     [](Room& room) {
-         room.options.light.points.push_back({{0.5, 1.8, 1}, {4, 5, 6}});
-     }},
-    {"far point",
-     [](Room& room) {
-         room.options.light.points.push_back({{9, 18, 20}, {4000, 3000, 2000}});
-     }},
-    {"sun",
-     [](Room& room) {
-         room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 0});
-     }},
-    {"disc",
-     [](Room& room) {
-         room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 20});
-     }},
-    {"even sky", [](Room& room) { room.options.light.environment = glm::dvec3(1, 2, 3); }},
-    {"map",
-     [](Room& room) {
-         std::vector<float> texels;
-         for (int i = 0; i < 8 * 4; ++i)
-             for (int channel = 0; channel < 3; ++channel)
-                 texels.push_back(i == 12 ? 40.0f : 0.2f + 0.1f * float((i * 7 + channel) % 5));
-         room.texture("sky.exr", 8, 4, 3, texels);
-         room.options.light.environment.reset();
-         room.options.light.environment_file = room.folder.file("sky.exr");
-     }},
-    {"all",
-     [](Room& room) {
-         room.add_lamp();
-         room.options.light.points.push_back({{0.5, 1.8, 1}, {1, 1, 2}});
-         room.options.light.suns.push_back({{-1, 2, 1.5}, {1, 0.5, 0.5}, 10});
-         room.options.light.environment = glm::dvec3(0.3, 0.4, 0.5);
-     }},
-};
-
 void expect_light_is_path(const TestScene& scene, double sharpness) {
     expect_equal(tile_means(scene, scene.options, Integrator::LIGHT, ""),
                  tile_means(scene, scene.options, Integrator::PATH, BY_LIGHT_PATHS), sharpness);
@@ -154,7 +25,7 @@ void expect_light_is_path(const TestScene& scene, double sharpness) {
 } // namespace
 
 TEST(LightPaths, BringWhatPathsFromTheEyeFindOfEveryKindOfLight) {
-    for (const Lighting& lighting : LIGHTINGS) {
+    for (const Lighting& lighting : lightings()) {
         SCOPED_TRACE(lighting.name);
         Room room;
         lighting.add(room);
@@ -300,21 +171,21 @@ TEST(LightPaths, AClosedFurnaceHasItsSeries) {
 }
 
 TEST(WeightedSplats, ChangeNoMeanUnderAnyKindOfLight) {
-    for (const Lighting& lighting : LIGHTINGS) {
+    for (const Lighting& lighting : lightings()) {
         SCOPED_TRACE(lighting.name);
         Room room;
         lighting.add(room);
         room.options.transport.roulette_depth = 1; // it has no part in the weights
         // Of points and suns without a disc, `path` does not find what comes by mirrors and smooth glass;
         // `light` does, where the eye sees none.
-        const bool is_delta = !room.options.light.points.empty() || lighting.name == std::string("sun");
-        if (is_delta)
+        if (lighting.is_delta)
             room.add_hidden_mirrors();
         else
             room.add_caustics();
-        expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
-                     tile_means(room, room.options, is_delta ? Integrator::LIGHT : Integrator::PATH, ""),
-                     0.08);
+        expect_equal(
+            tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+            tile_means(room, room.options, lighting.is_delta ? Integrator::LIGHT : Integrator::PATH, ""),
+            0.08);
     }
 }
 
@@ -342,15 +213,7 @@ TEST(WeightedSplats, LeaveBentNormalsAndCurvedFacetsToTheEye) {
     Room room;
     room.add_lamp();
     room.add_caustics();
-    std::vector<unsigned char> heights;
-    for (int i = 0; i < 8 * 8; ++i)
-        heights.push_back((i % 8 + i / 8) % 3 == 0 ? 180 : 90);
-    room.texture8("bump.png", 8, 8, 1, heights);
-    room.build.material("bumpy", "Kd 0.7 0.7 0.7\nbump -bm 0.4 bump.png").use("bumpy");
-    room.build.textured_quad({{-1.6, 0.2, -1}, {-0.6, 0.2, -1}, {-0.6, 1.2, -1}, {-1.6, 1.2, -1}});
-    room.build.use("matte").icosphere({-0.7, 0.4, 0.7}, 0.3, 1, Facing::OUTWARD, Shading::SMOOTH);
-    room.build.use("frosted").icosphere({0, 0.4, 1}, 0.3, 1, Facing::OUTWARD, Shading::SMOOTH);
-    room.build.use("glass").icosphere({0.8, 0.4, 1}, 0.3, 1, Facing::OUTWARD, Shading::SMOOTH);
+    room.add_bent_normals();
     room.options.sampling.spp = 2048;
     expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
                  tile_means(room, room.options, Integrator::PATH, ""), 0.05);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 clrt_test(render adaptive_render_test)
 clrt_test(render background_test)
+clrt_test(render bdpt_test)
 clrt_test(render cut_out_test)
 clrt_test(render cut_paths_test)
 clrt_test(render direct_light_test)

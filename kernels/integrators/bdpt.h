@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bidirectional path tracing (Lafortune and Willems 1993, Veach and Guibas 1994): simulates L(D|G|S)*E. To
+// each path from the eye belongs one from a light. Hits, next-event estimation, splats and connections of
+// inner vertices are ways to find a path, weighted against each other (path/splat_weight.h). A vertex of the
+// path from the eye is connected to one vertex of the light path, all equally likely, and weighted as if all
+// were connected: that is unbiased, costs as much as one more light, and is as efficient as all pairs.
+#ifndef CLRT_INTEGRATORS_BDPT_H
+#define CLRT_INTEGRATORS_BDPT_H
+
+#include "light_paths.h"
+#include "path/bdpt_connect.h"
+#include "path/cut.h"
+#include "splat_escape.h"
+
+/* Connects the vertex at the end of a segment to one of the light path's, within max_depth segments. */
+static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* params, uint segment,
+                                       const EyeVertex* eye, const LightVertices* kept, real3 throughput,
+                                       CameraSample* sample, PixelRays* rays)
+{
+    const uint count = light_vertices_within(kept, params->max_depth - 1u - segment);
+    if (count == 0u || !bsdf_has_smooth_lobe(eye->bsdf))
+        return;
+    const uint chosen = warp_index(sampler_word(&sample->sampler, segment, SAMPLE_PARTNER), count);
+    InnerConnection connection;
+    if (!bdpt_join(scene, eye, &kept->at[chosen], &connection))
+        return;
+    ++rays->shadow;
+    const real share = (real)count * visible_share(scene, params, &connection.shadow);
+    vertex_add(scene, throughput * connection.light * share, &sample->radiance);
+}
+
+/* Handles the vertex at the end of a segment of the path from the eye. */
+static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* params, uint segment,
+                                      Path* path, EyeVertex* eye, const LightVertices* kept,
+                                      CameraSample* sample, PixelRays* rays)
+{
+    const real3 wo = -path->ray.direction;
+    const Sampler* sampler = &sample->sampler;
+    SplatWeights* weights = &eye->weights;
+    path->is_alive = path->is_connected = false;
+    if (path->hit.triangle == NO_INDEX) {
+        splat_add_escape(scene, params, segment, path, weights, sample, rays);
+        return;
+    }
+    const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
+    splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
+        const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
+        vertex_add(scene, path->throughput * emitted, &sample->radiance);
+    }
+    if (segment >= params->max_depth) {
+        path_end(scene, params, sampler, segment, &surface, path, rays);
+        return;
+    }
+    Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
+    AutomatonStep step;
+    path_filter(scene, params, sampler, segment, path, &step, &bsdf, rays);
+    if (bsdf.lobes == 0u)
+        return;
+    eye->surface = &surface;
+    eye->bsdf = &bsdf;
+    eye->wo = wo;
+    Guide guide = guide_none();
+    const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
+    splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
+    bdpt_connect(scene, params, segment, eye, kept, path->throughput, sample, rays);
+    if (!next.is_valid)
+        return;
+    path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
+    if (path->is_alive)
+        splat_eye_leaves(&surface, &bsdf, wo, &next, weights);
+}
+
+/* Follows a sample's path from the eye to its end. */
+static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* params,
+                                     const LightVertices* kept, CameraSample* sample, PixelRays* rays)
+{
+    Path path;
+    EyeVertex eye;
+    eye.weights.open = eye.weights.closed = REAL(0.0);
+    path_begin(&path, &sample->ray);
+    for (uint segment = 1u; path.is_alive; ++segment) {
+        path.numbers = numbers_make(&sample->sampler, segment, 0u);
+        path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray);
+        bdpt_vertex(scene, params, segment, &path, &eye, kept, sample, rays);
+        rays->secondary += path.is_alive ? 1u : 0u;
+        rays->shadow += path.is_connected ? 1u : 0u;
+        if (path.is_connected)
+            path_add_connection(scene, &path, visible_share(scene, params, &path.shadow), &sample->radiance,
+                                &sample->layers);
+    }
+    nan_carry(scene, nan_of_vector(path.throughput + path.watched), &sample->radiance);
+}
+
+static CLRT_NOINLINE void bdpt_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples,
+                                        uint count, PixelRays* rays)
+{
+    LightVertices kept;
+    for (uint k = 0; k < count; ++k) {
+        kept.count = 0u;
+        light_paths_trace(scene, params, &samples[k], &kept, rays);
+        bdpt_trace(scene, params, &kept, &samples[k], rays);
+    }
+}
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a path from the eye that shares its light with splats leaves the scene.
+#ifndef CLRT_INTEGRATORS_SPLAT_ESCAPE_H
+#define CLRT_INTEGRATORS_SPLAT_ESCAPE_H
+
+#include "path/splat_connect.h"
+#include "pixel.h"
+
+/* Adds the light from outside the scene. */
+static inline void splat_add_escape(const Scene* scene, const RenderParams* params, uint segment,
+                                    const Path* path, const SplatWeights* weights, CameraSample* sample,
+                                    PixelRays* rays)
+{
+    rays->missed += segment == 1u ? 1u : 0u;
+    if (nan_carry(scene, nan_of_miss(&path->hit), &sample->radiance))
+        return;
+    const real3 sky = segment == 1u ? vertex_sky(scene, params, 1u, 0, &path->ray, REAL(0.0), KINDS_ALL)
+                                    : splat_escape(scene, params, path, weights);
+    vertex_add(scene, path->throughput * sky, &sample->radiance);
+}
+
+#endif

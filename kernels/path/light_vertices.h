@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vertices of a light path that a path from the eye is connected to: kept in private memory, 48 bytes
+// each in single precision. Surface and BSDF are made again where a vertex is connected.
+#ifndef CLRT_PATH_LIGHT_VERTICES_H
+#define CLRT_PATH_LIGHT_VERTICES_H
+
+#include "splat_weight.h"
+
+/* Of a path, at most: a literal of the program (src/render/kernels.h). */
+#ifndef BDPT_VERTICES
+#define BDPT_VERTICES 62
+#endif
+
+/* A vertex that scatters other than as a delta function. */
+typedef struct {
+    uint triangle;
+    uint segment;         /* of the light path up to the vertex, from 1 */
+    real b1, b2;          /* barycentric weights of corners 1 and 2 */
+    real wo[3];           /* unit, to where the light has come from */
+    real power[3];        /* that arrives: emitted, times the throughput */
+    SplatWeights weights; /* of the path up to the vertex */
+} KeptVertex;
+
+/* Those of one path, from the light on. */
+typedef struct {
+    KeptVertex at[BDPT_VERTICES];
+    uint count;
+} LightVertices;
+
+/* Keeps a vertex; `kept` may be 0. */
+static inline void light_vertices_keep(uint segment, const Hit* hit, real3 wo, real3 power,
+                                       const SplatWeights* weights, LightVertices* kept)
+{
+    if (!INNER_CONNECTIONS || kept == 0 || kept->count >= BDPT_VERTICES)
+        return;
+    KeptVertex* vertex = &kept->at[kept->count++];
+    vertex->triangle = hit->triangle;
+    vertex->segment = segment;
+    vertex->b1 = hit->b1;
+    vertex->b2 = hit->b2;
+    vstore3(wo, 0, vertex->wo);
+    vstore3(power, 0, vertex->power);
+    vertex->weights = *weights;
+}
+
+/* How many vertices are at most `segments` segments from the light. */
+static inline uint light_vertices_within(const LightVertices* kept, uint segments)
+{
+    uint count = kept->count;
+    while (count > 0u && kept->at[count - 1u].segment > segments)
+        --count;
+    return count;
+}
+
+/* The hit of a kept vertex, but for its distance. */
+static inline Hit light_vertices_hit(const KeptVertex* kept)
+{
+    Hit hit = hit_none(REAL(0.0));
+    hit.triangle = kept->triangle;
+    hit.b1 = kept->b1;
+    hit.b2 = kept->b2;
+    return hit;
+}
+
+#endif

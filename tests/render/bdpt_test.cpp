@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bidirectional path tracing changes no mean: compared with `path`, and with `path+light` under lights that
+// no ray meets, tile by tile; and with closed forms. Its weights sum to 1:
+// tests/kernel/bdpt_weights_test.cpp.
+#include "device/kernel_source.h"
+#include "render/bdpt_oracle.h"
+#include "support/film_agrees.h"
+#include "support/lit_rooms.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+void expect_bdpt_is(const Room& room, Integrator integrator, double sharpness) {
+    expect_equal(tile_means(room, room.options, Integrator::BDPT, ""),
+                 tile_means(room, room.options, integrator, ""), sharpness);
+}
+
+/// The kernels with the oracle in place of the integrator.
+std::string oracle_kernels(const ScratchFolder& folder) {
+    KernelFiles files = kernels_under_test();
+    std::string& entry = files.at("integrators/bdpt.cl");
+    const std::string define = "#define INTEGRATOR_RADIANCE bdpt_radiance";
+    const size_t at = entry.find(define);
+    if (at == std::string::npos)
+        throw std::runtime_error("not in integrators/bdpt.cl: " + define);
+    entry.replace(at, define.size(),
+                  BDPT_ORACLE + std::string("#define INTEGRATOR_RADIANCE oracle_radiance"));
+    for (const auto& [file, text] : files) {
+        const std::filesystem::path to = folder.file(file);
+        std::filesystem::create_directories(to.parent_path());
+        folder.write(file, text);
+    }
+    return folder.file("");
+}
+
+/// A lamp in a tube under the ceiling: the camera sees its light scattered twice, off a spot that few paths
+/// from the eye meet.
+struct TubeRoom : Room {
+    TubeRoom() {
+        build.use("lamp").raw("o lamp").polygon(
+            {{-0.2, 1.6, -0.2}, {-0.2, 1.6, 0.2}, {0.2, 1.6, 0.2}, {0.2, 1.6, -0.2}});
+        build.use("matte").box({-0.25, 1.5, -0.25}, {0.25, 1.55, 0.25});
+        for (const double side : {-1.0, 1.0}) {
+            build.box({side * 0.25 - 0.02, 1.5, -0.25}, {side * 0.25 + 0.02, 2.7, 0.25});
+            build.box({-0.25, 1.5, side * 0.25 - 0.02}, {0.25, 2.7, side * 0.25 + 0.02});
+        }
+        build.polygon({{-3, 3, -2}, {3, 3, -2}, {3, 3, 2}, {-3, 3, 2}});
+    }
+};
+
+} // namespace
+
+TEST(Bidirectional, WeightsAreThoseOfAllDensitiesMultipliedOut) {
+    const ScratchFolder folder;
+    for (const Precision precision : {Precision::SINGLE, Precision::DOUBLE}) {
+        if (precision == Precision::DOUBLE && !test_device().info.fp64)
+            continue;
+        Room room;
+        room.add_lamp();
+        room.add_caustics();
+        room.options.transport.integrator = Integrator::BDPT;
+        room.options.transport.max_depth = 7;
+        room.options.device.precision = precision;
+        room.options.device.kernels_folder = oracle_kernels(folder);
+        const Film film = room.render().film;
+        const double paths = film_estimate(film, 0, {0, 0, 32, 32}).mean;
+        EXPECT_GT(paths, 0.02);
+        // Next to an edge a few paths lose digits.
+        for (const int wrong : {1, 2})
+            EXPECT_LT(film_estimate(film, wrong, {0, 0, 32, 32}).mean, 2e-3 * paths) << wrong;
+    }
+}
+
+TEST(Bidirectional, ChangesNoMeanUnderAnyKindOfLight) {
+    for (const Lighting& lighting : lightings()) {
+        SCOPED_TRACE(lighting.name);
+        Room room;
+        lighting.add(room);
+        room.options.transport.roulette_depth = 1; // it has no part in the weights
+        if (lighting.is_delta)
+            room.add_hidden_mirrors();
+        else
+            room.add_caustics();
+        // Where `path` cannot meet the light, splats find what mirrors do with it.
+        expect_bdpt_is(room, lighting.is_delta ? Integrator::PATH_LIGHT : Integrator::PATH, 0.08);
+    }
+}
+
+TEST(Bidirectional, LeavesBentNormalsAndCurvedFacetsToTheEye) {
+    Room room;
+    room.add_lamp();
+    room.add_caustics();
+    room.add_bent_normals();
+    room.options.sampling.spp = 2048;
+    expect_bdpt_is(room, Integrator::PATH, 0.05);
+}
+
+TEST(Bidirectional, ConnectsAtOneTimeThroughALens) {
+    // All that is seen has moved in between, the lamp has not; what is in front of the focus is blurred.
+    Room room;
+    room.add_lamp();
+    room.add_caustics();
+    SceneBuilder& build = room.build;
+    const auto add_mover = [](SceneBuilder& to, double x) {
+        to.use("metal").box({x, 0.4, 0.6}, {x + 0.3, 1.3, 0.9});
+    };
+    SceneBuilder at_end = build;
+    add_mover(build, -1);
+    add_mover(at_end, 0.5);
+    room.options.scene.end_path = room.folder.write("end.obj", at_end.obj("scene.mtl"));
+    room.options.camera.end_eye = glm::dvec3(0.3, 1.7, 4);
+    room.options.camera.aperture = 0.3;
+    room.options.camera.focus = 4;
+    room.options.sampling.spp = 1024;
+    expect_bdpt_is(room, Integrator::PATH, 0.05);
+}
+
+TEST(Bidirectional, ConnectsInsideGlassWithTheSquaredIndexOnce) {
+    // The eye is in a glass sea whose bottom and a wall in it are lit through the surface.
+    Room room;
+    room.build.use("glass").floor(8, 1.8);
+    room.options.light.environment = glm::dvec3(1);
+    room.options.sampling.spp = 1024;
+    room.look({0, 1.5, 2}, {0, 0.5, -1}, 60);
+    expect_bdpt_is(room, Integrator::PATH, 0.05);
+}
+
+TEST(Bidirectional, AClosedFurnaceHasItsSeriesUpToTheWholePathsDepth) {
+    // The sum of a^k e over the segments that max_depth allows, from all strategies together.
+    for (const int depth : {2, 3, 4, 16}) {
+        TestScene scene;
+        scene.build.material("wall", "Kd 0.5 0.5 0.5\nKe 1 1 1")
+            .use("wall")
+            .box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+        scene.look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
+        scene.options.transport.integrator = Integrator::BDPT;
+        scene.options.transport.max_depth = depth;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 2 - std::pow(0.5, depth - 1), 1e-2)) << depth;
+    }
+}
+
+TEST(Bidirectional, ACropIsAPartOfThePictureToTheBit) {
+    Room room;
+    room.add_lamp();
+    room.options.transport.integrator = Integrator::BDPT;
+    room.options.sampling.spp = 16;
+    room.options.sampling.replicates = 8;
+    const Film whole = room.render().film;
+    room.options.film.crop = Crop{5, 9, 24, 30};
+    const Film window = room.render().film;
+    const auto at = [](const Film& film, int replicate, int x, int y) {
+        const size_t pixel = size_t(y) * size_t(film.width) + size_t(x);
+        return film.sums[size_t(replicate) * film_plane(film) + 3 * pixel];
+    };
+    for (int replicate = 0; replicate < 8; ++replicate)
+        for (int y = 0; y < window.height; ++y)
+            for (int x = 0; x < window.width; ++x)
+                ASSERT_EQ(at(window, replicate, x, y), at(whole, replicate, x + 5, y + 9)) << x << "," << y;
+}
+
+TEST(Bidirectional, InnerConnectionsTakeTheNoiseFromALampInATube) {
+    TubeRoom room;
+    const auto variance = [&](Integrator integrator) {
+        double sum = 0;
+        for (const double of_tile : tile_means(room, room.options, integrator, "").variance)
+            sum += of_tile;
+        return sum;
+    };
+    EXPECT_LT(variance(Integrator::BDPT), 0.3 * variance(Integrator::PATH));
+}
+
+} // namespace clrt
