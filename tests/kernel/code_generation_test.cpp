@@ -164,7 +164,7 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
 
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
     for (const char* int64 : {"0", "1"})
-        for (const std::string integrator : {"raycast", "light", "path_light"})
+        for (const std::string integrator : {"raycast", "light", "path_light", "mlt"})
             expect_clean(fmt::format("{} splats, int64 {}", integrator, int64),
                          include({"integrators/" + integrator + ".cl"}),
                          {"-DFILM_SPLATS=1", fmt::format("-DFILM_INT64_ATOMICS={}", int64)});
