@@ -220,6 +220,7 @@ static inline void chain_count_rays(const RenderParams* params, const PixelRays*
     global volatile uint* words = pixel_rays + tile_index(slot, PIXEL_RAYS_WORDS);
     atomic_add(words + PIXEL_RAYS_SECONDARY, rays->secondary);
     atomic_add(words + PIXEL_RAYS_SHADOW, rays->shadow);
+    atomic_add(words + PIXEL_CUT_PATHS, rays->cut);
 }
 
 static CLRT_NOINLINE void mlt_chain(const Scene* scene, const RenderParams* params, const ChainLaunch* launch,

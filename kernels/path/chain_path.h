@@ -100,6 +100,8 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
         splat_eye_meets(params, sampler, segment, &surface, -path.ray.direction, &weights);
         if (segment == length) {
             found->radiance = chain_hit(scene, params, &surface, &path, &weights);
+            if (length == params->max_depth)
+                path_end(scene, params, sampler, segment, &surface, &path, rays);
             break;
         }
         Bsdf bsdf = vertex_bsdf(scene, &surface, -path.ray.direction);

@@ -180,6 +180,55 @@ TEST(Mlt, KeepsToOneBrightPath) {
               rate(render.chains.taken_small, render.chains.small));
 }
 
+TEST(Mlt, LightStaysWhereItIs) {
+    TestScene scene;
+    scene.build.material("red", "Kd 0.8 0 0").material("blue", "Kd 0 0 0.05");
+    scene.build.use("red").polygon({{-2, 0, 2}, {0, 0, 2}, {0, 0, -2}, {-2, 0, -2}});
+    scene.build.use("blue").polygon({{0, 0, 2}, {2, 0, 2}, {2, 0, -2}, {0, 0, -2}});
+    scene.options.light.environment = glm::dvec3(1);
+    scene.options.transport.integrator = Integrator::MLT;
+    scene.options.transport.max_depth = 2;
+    scene.options.film.size = {16, 16};
+    scene.options.sampling.spp = 64;
+    scene.options.sampling.replicates = 4;
+    scene.look({0, 3, 0.01}, {0, 0, 0}, 50);
+    const Film film = scene.render().film;
+    const Crop left{0, 0, 7, 16}, right{9, 0, 16, 16};
+    EXPECT_GT(film_estimate(film, 0, left).mean, 0.5);
+    EXPECT_GT(film_estimate(film, 2, right).mean, 0.03);
+    EXPECT_EQ(film_estimate(film, 2, left).mean, 0);
+    EXPECT_EQ(film_estimate(film, 0, right).mean, 0);
+}
+
+// What is found by few of the new paths has an uncertain mean score, though chains show it smoothly.
+TEST(Mlt, TheErrorKnowsTheMeanScore) {
+    TestScene scene;
+    scene.build.material("matte", "Kd 0.6 0.6 0.6").use("matte").floor(3);
+    scene.build.polygon({{-3, 0.5, -3}, {-3, 0.5, 3}, {-0.005, 0.5, 3}, {-0.005, 0.5, -3}});
+    scene.build.polygon({{0.005, 0.5, -3}, {0.005, 0.5, 3}, {3, 0.5, 3}, {3, 0.5, -3}});
+    scene.options.light.suns.push_back({{0, 1, 0}, {3, 3, 3}, 0});
+    scene.options.light.environment = glm::dvec3(0);
+    scene.options.transport.integrator = Integrator::MLT;
+    scene.options.transport.max_depth = 2;
+    scene.options.film.size = {16, 16};
+    scene.options.sampling.replicates = 4;
+    scene.options.sampling.spp = 64;
+    scene.look({0, 0.3, 2.5}, {0, 0, 0}, 60);
+    const Scene loaded = scene.load();
+    std::vector<double> means, variances;
+    for (std::uint32_t seed = 0; seed < 64; ++seed) {
+        scene.options.sampling.seed = seed;
+        const Estimate picture = film_estimate(render_loaded(loaded, scene.options).film);
+        means.push_back(picture.mean);
+        variances.push_back(picture.error * picture.error);
+    }
+    const double ratio = moments_of(variances).mean / moments_of(means).variance;
+    std::printf("variance estimated over true %.2f, error %.2f %%\n", ratio,
+                100 * std::sqrt(moments_of(means).variance) / moments_of(means).mean);
+    EXPECT_GT(ratio, 0.6);
+    EXPECT_LT(ratio, 1.7);
+}
+
 TEST(Mlt, OneSegmentIsWhatTheCameraSees) {
     Room room;
     room.options.transport.max_depth = 1;
@@ -196,6 +245,54 @@ TEST(Mlt, TheSameSamplesAreTheSameBits) {
     const Film film = room.render().film;
     room.options.sampling.seed = 1;
     EXPECT_FALSE(room.render().film.sums == film.sums);
+}
+
+// Chains are not kept in a film: a render that goes on begins new ones.
+TEST(Mlt, GoesOnWithNewChains) {
+    Room room;
+    room.options.film.size = {16, 16};
+    room.options.sampling.replicates = 4;
+    room.options.transport.max_depth = 4;
+    const Scene loaded = room.load();
+    const auto resumed = [&](std::uint32_t seed, std::uint32_t first, std::uint32_t end) {
+        room.options.sampling.seed = seed;
+        room.options.sampling.spp = first;
+        const RenderProgress part = render_loaded(loaded, room.options);
+        room.options.sampling.spp = end;
+        RenderHooks hooks;
+        hooks.resume = &part;
+        Progress progress(Toggle::OFF, true);
+        return render(prepare_loaded(test_device(), loaded, room.options), progress, hooks);
+    };
+    const Render once = resumed(1, 6, 16);
+    EXPECT_EQ(film_samples(once.film), 16u);
+    EXPECT_TRUE(once.film.sums == resumed(1, 6, 16).film.sums);
+    EXPECT_FALSE(once.film.sums == resumed(1, 8, 16).film.sums);
+
+    std::vector<double> means;
+    for (std::uint32_t seed = 0; seed < 48; ++seed)
+        means.push_back(film_estimate(resumed(seed, 6, 24).film).mean);
+    const Moments mlt = moments_of(means);
+    room.options.transport.integrator = Integrator::PATH;
+    room.options.sampling.spp = 1024;
+    const Moments path = means_over_seeds(room, 4);
+    const double error = std::sqrt(mlt.variance_of_mean() + path.variance_of_mean());
+    EXPECT_LT(error, 0.02 * path.mean);
+    EXPECT_NEAR(mlt.mean, path.mean, 3.5 * error);
+}
+
+TEST(Mlt, SamplesOfOtherNumbersAreOthers) {
+    Room room;
+    room.options.sampling.spp = 16;
+    const Film film = room.render().film;
+    room.options.sampling.first_sample = 16;
+    EXPECT_FALSE(room.render().film.sums == film.sums);
+}
+
+TEST(Mlt, TellsThatMaxDepthCutsPaths) {
+    Room room;
+    room.options.sampling.spp = 16;
+    EXPECT_GT(room.render().counts.cut_paths, 0u);
 }
 
 TEST(ChainStarts, AreDrawnInProportionToScores) {
