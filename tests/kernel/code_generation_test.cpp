@@ -160,6 +160,7 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
     EXPECT_LT(bytes("whitted", {}), 12 << 10);
     EXPECT_LT(bytes("distribution", few), 8 << 10);
     EXPECT_LT(bytes("distribution", many), 24 << 10);
+    EXPECT_LT(bytes("mlt", {"-DFILM_SPLATS=1"}), 12 << 10);
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
