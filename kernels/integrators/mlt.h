@@ -143,7 +143,7 @@ static inline void chain_start(const Scene* scene, const RenderParams* params, c
     arrays->chains[item] = chain;
 }
 
-/* Splats a path that is next with probability `chance`. */
+/* Splats what a path brings, times `weight`. */
 static inline void chain_splat(const RenderParams* params, global long* film, uint replicate,
                                const Sampler* rounding, uint number, real2 position, real3 radiance,
                                real weight, global volatile uint* counters)
