@@ -39,6 +39,9 @@ REPORT = [
                            "Absolute: what stands under `error' otherwise."),
     ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
      "of a sample; the cells of space that have learnt, and the memory that they take."),
+    ("chains", "Of --integrator mlt: steps of Markov chains in this run, one for every sample of every pixel, or a few more so "
+     "that all chains take as many; and how many of the proposals were taken, of small steps and of large ones, which are new "
+     "paths. A film that is resumed goes on with new chains."),
     ("adaptive", "What taking samples where the noise is promises, from the film of the first samples: so many times less squared "
                  "error at equal samples. Below 1.1 samples stay even."),
     ("scene", "Pixels that show nothing but what is behind the scene have hardly any noise, and are as many and as bright as "

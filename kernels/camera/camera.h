@@ -125,10 +125,11 @@ static inline uint camera_pixel(const RenderParams* params, real2 film)
     return is_inside ? (uint)corner.y * params->width + (uint)corner.x : NO_INDEX;
 }
 
-/* The ray of a sample through pixel (x, y) of the whole picture. */
-static inline Ray camera_ray(const RenderParams* params, const Sampler* sampler, uint x, uint y)
+/* The ray of a sample through pixel (x, y) of the whole picture; `u` chooses the point in the pixel's
+   filter. */
+static inline Ray camera_ray_at(const RenderParams* params, const Sampler* sampler, uint x, uint y, real2 u)
 {
-    const real2 offset = camera_filter_sample(params, sampler_pair(sampler, 0u, SAMPLE_FILM));
+    const real2 offset = camera_filter_sample(params, u);
     const real2 film = camera_pixel_centre(params, x, y) + offset;
     const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
     const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_pair(sampler, 0u, SAMPLE_TIME).x : REAL(0.0);
@@ -136,6 +137,12 @@ static inline Ray camera_ray(const RenderParams* params, const Sampler* sampler,
         return camera_generate(&params->camera, film, lens, time);
     const CameraParams camera = camera_at(&params->camera, time);
     return camera_generate(&camera, film, lens, time);
+}
+
+/* The same at the sample's own point. */
+static inline Ray camera_ray(const RenderParams* params, const Sampler* sampler, uint x, uint y)
+{
+    return camera_ray_at(params, sampler, x, y, sampler_pair(sampler, 0u, SAMPLE_FILM));
 }
 
 #endif

@@ -3,7 +3,8 @@
 // purpose). Pairs, and pairs of pairs, come from Owen-scrambled digital nets (Owen 1995; hashed scrambling:
 // Laine and Karras 2011; padding with shuffled indices: Burley 2020, JCGT 9(4)), single words from a hash.
 // -DCLRT_SAMPLER=SAMPLER_INDEPENDENT takes pairs from a hash too: white noise, to measure what the order of
-// the nets is worth.
+// the nets is worth. In builds with -DSAMPLER_CHAINS=1 a sampler may stand at a Markov chain's proposal
+// (chain.h): its words are then those of the chain, moved a little.
 //
 // An address has four dimensions, a pair and its partner. Each pair is Sobol's first two dimensions, a
 // (0, 2)-sequence in base 2; the partner's index is multiplied by a matrix before, which makes all four a
@@ -14,6 +15,10 @@
 #define CLRT_NUMERICS_SAMPLER_H
 
 #include "real.h"
+
+#ifndef SAMPLER_CHAINS
+#define SAMPLER_CHAINS 0
+#endif
 
 #define SAMPLER_SOBOL 0
 #define SAMPLER_INDEPENDENT 1
@@ -36,12 +41,20 @@
 #define SAMPLE_TIME 11u       /* within the shutter's opening: the first of a pair */
 #define SAMPLE_SPLAT 13u      /* which of the pixels around it a splat goes to */
 #define SAMPLE_PARTNER 14u    /* which vertex of a light path a vertex of the eye's is connected to */
+#define SAMPLE_STRATEGY 14u   /* how a chain's path is found; bounce 0, which has no partner */
+#define SAMPLE_STEP 15u       /* of a chain: whether it is large, and (bounce 1) whether it is taken */
 #define SAMPLER_PURPOSES 16u
+
+#include "chain.h"
 
 typedef struct {
     uint key;            /* of pixel, replicate and seed */
     uint index_reversed; /* bits of the sample's number within its replicate, reversed */
     uint word_key;       /* key and sample: for single words */
+#if SAMPLER_CHAINS
+    global uint* chain;  /* words of the chain that is to move; 0: none is */
+    bool is_large;       /* it moves anywhere instead of a little */
+#endif
 } Sampler;
 
 /* A bijection of 32-bit words with good avalanche (Wellons 2018, "lowbias32"). */
@@ -95,14 +108,24 @@ static inline uint sampler_pascal_reversed(uint index)
 /* Maps a word to the odd multiples of 2^-24: exact, never 0, never 1, and 1 - u is exact. */
 static inline real sampler_unit(uint word) { return (real)((word >> 8) | 1u) * REAL(5.9604644775390625e-8); }
 
-/* The same replicate's sampler of another sample, number `index`. */
-static inline Sampler sampler_at(uint key, uint index)
+/* A sampler by its keys, of no chain. */
+static inline Sampler sampler_of_keys(uint key, uint index_reversed, uint word_key)
 {
     Sampler sampler;
     sampler.key = key;
-    sampler.index_reversed = sampler_reverse_bits(index);
-    sampler.word_key = sampler_hash(key ^ (index * 0x85ebca6bu));
+    sampler.index_reversed = index_reversed;
+    sampler.word_key = word_key;
+#if SAMPLER_CHAINS
+    sampler.chain = 0;
+    sampler.is_large = false;
+#endif
     return sampler;
+}
+
+/* The same replicate's sampler of another sample, number `index`. */
+static inline Sampler sampler_at(uint key, uint index)
+{
+    return sampler_of_keys(key, sampler_reverse_bits(index), sampler_hash(key ^ (index * 0x85ebca6bu)));
 }
 
 /* The sampler of sample number `index` of a replicate. `pixel` counts in the whole picture. Distinct pixels
@@ -126,7 +149,12 @@ static inline uint sampler_address(uint bounce, uint purpose) { return bounce * 
 /* A word that is independent of all others. */
 static inline uint sampler_word(const Sampler* sampler, uint bounce, uint purpose)
 {
-    return sampler_hash(sampler->word_key + sampler_address(bounce, purpose) * 0x9e3779b9u);
+    const uint word = sampler_hash(sampler->word_key + sampler_address(bounce, purpose) * 0x9e3779b9u);
+#if SAMPLER_CHAINS
+    if (sampler->chain != 0)
+        return sampler->is_large ? word : chain_word(sampler->chain, chain_place(bounce, purpose), word);
+#endif
+    return word;
 }
 
 /* One number of its own in (0, 1). */
@@ -179,6 +207,13 @@ CLRT_INLINE uint2 sampler_net_words(const Sampler* sampler, uint address, bool i
 /* A pair of words of the chosen kind, or its partner. */
 CLRT_INLINE uint2 sampler_words(const Sampler* sampler, uint address, bool is_partner)
 {
+#if SAMPLER_CHAINS
+    if (sampler->chain != 0) {
+        /* Nets are for samples that know nothing of each other. */
+        const uint2 random = sampler_independent_words(sampler, address, is_partner);
+        return sampler->is_large ? random : chain_words(sampler->chain, address, is_partner, random);
+    }
+#endif
     if (CLRT_SAMPLER == SAMPLER_INDEPENDENT)
         return sampler_independent_words(sampler, address, is_partner);
     return sampler_net_words(sampler, address, is_partner);

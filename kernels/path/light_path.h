@@ -79,28 +79,35 @@ static inline real light_path_nan_of(const CameraConnection* camera)
     return nan;
 }
 
-/* Splats what the vertex sends to the camera. `segment` counts the path's segments up to the vertex. */
-static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParams* params, uint segment,
-                                           const Hit* hit, const LightVertex* vertex, const LightPath* path,
-                                           SplatSink* sink, PixelRays* rays)
+/* What a vertex sends to the camera: radiance as one of a pass's light paths brings it, and where to. */
+typedef struct {
+    real2 film;
+    real3 radiance;
+} LightSplat;
+
+/* Connects the vertex to the camera; false where nothing arrives in the window. `segment` counts the path's
+   segments up to the vertex. */
+static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderParams* params, uint segment,
+                                             const Hit* hit, const LightVertex* vertex, const LightPath* path,
+                                             LightSplat* arriving, real3* watched, PixelRays* rays)
 {
     const Surface* surface = &vertex->surface;
     const real2 lens = sampler_pair(&path->sampler, segment, SAMPLE_LENS);
     const CameraConnection camera =
         camera_project_at(params, surface->position, lens, surface_time(surface));
-    sink->watched += light_path_nan_of(&camera);
+    *watched += light_path_nan_of(&camera);
     if (!(camera.pdf_a > REAL(0.0)))
-        return;
+        return false;
     const real3 way = camera.lens - surface->position;
     const real3 wi = vector_normalize(way);
     if (!light_vertex_is_seen(&vertex->bsdf, wi))
-        return;
+        return false;
     if (SPLATS_ARE_WEIGHTED && light_vertex_crosses_curved(scene, vertex, hit, wi))
-        return;
+        return false;
     const BsdfValue eval = bsdf_eval(&vertex->bsdf, wi);
     TRACE_VECTOR(scene, TRACE_LIGHT_BSDF, eval.value);
     if (vector_is_black(eval.value))
-        return;
+        return false;
     const real per_pixel = camera.pdf_a / splat_path_count(params);
     real3 radiance = path->emission.power * path->throughput * eval.value * per_pixel;
     if (SPLATS_ARE_WEIGHTED)
@@ -110,15 +117,27 @@ static CLRT_NOINLINE void light_path_splat(const Scene* scene, const RenderParam
     const CameraSplat splat = camera_splat(params, camera.film, u);
     uint slot;
     if (!tile_slot_at(params, splat.film, &slot))
-        return;
+        return false;
     Ray shadow = surface_ray(surface, surface_reflects(surface, wi), wi);
     shadow.direction = camera.lens - shadow.origin;
     shadow.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
     ++rays->shadow;
-    radiance *= splat.weight * visible_share(scene, params, &shadow);
-    TRACE_VECTOR(scene, TRACE_CONNECTION, radiance);
+    arriving->film = splat.film;
+    arriving->radiance = radiance * splat.weight * visible_share(scene, params, &shadow);
+    TRACE_VECTOR(scene, TRACE_CONNECTION, arriving->radiance);
+    return true;
+}
+
+/* Splats what the vertex sends to the camera. */
+static inline void light_path_splat(const Scene* scene, const RenderParams* params, uint segment,
+                                    const Hit* hit, const LightVertex* vertex, const LightPath* path,
+                                    SplatSink* sink, PixelRays* rays)
+{
+    LightSplat splat;
+    if (!light_path_connect(scene, params, segment, hit, vertex, path, &splat, &sink->watched, rays))
+        return;
     const uint fault = film_splat(params, sink->film, sink->replicate, &path->sampler, segment, splat.film,
-                                  radiance);
+                                  splat.radiance);
     if (fault != COUNT_WORDS)
         sink->fault = fault;
 }
@@ -137,40 +156,45 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
     return survives;
 }
 
-/* Handles the vertex at the end of a segment; false where the path ends. */
-static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderParams* params, uint segment,
-                                            Hit* hit, LightPath* path, SplatSink* sink, PixelRays* rays)
+/* Whether emission was aimed at what ends a path's segment: a delta lobe there makes caustics, and nothing
+   else is looked for. */
+static inline bool light_path_is_at_caster(uint segment) { return EMISSION_IS_AIMED && segment == 1u; }
+
+/* The vertex at the end of a segment; false where nothing is scattered on. */
+static inline bool light_path_meet(const Scene* scene, const RenderParams* params, uint segment, Hit* hit,
+                                   LightPath* path, LightVertex* vertex, real3* watched)
 {
-    LightVertex vertex;
-    light_vertex_set(scene, params, &path->ray, hit, &vertex);
-    const Bsdf* bsdf = &vertex.bsdf;
+    light_vertex_set(scene, params, &path->ray, hit, vertex);
     const real3 wo = -path->ray.direction;
-    sink->watched += vertex.surface.position + vertex.surface.normal_g + bsdf->wo + bsdf->frame.z;
-    if (bsdf->lobes == 0u || !light_vertex_is_seen(bsdf, wo))
+    *watched += vertex->surface.position + vertex->surface.normal_g + vertex->bsdf.wo + vertex->bsdf.frame.z;
+    if (vertex->bsdf.lobes == 0u || !light_vertex_is_seen(&vertex->bsdf, wo))
         return false;
     if (SPLATS_ARE_WEIGHTED) {
         if (segment == 1u)
-            splat_weights_begin(scene, params, &path->emission, &vertex, hit->t, &path->weights);
+            splat_weights_begin(scene, params, &path->emission, vertex, hit->t, &path->weights);
         else
             splat_weights_go(hit->t, &path->weights);
-        splat_weights_meet(&vertex.surface, wo, &path->weights);
+        splat_weights_meet(&vertex->surface, wo, &path->weights);
     }
-    const bool is_caster = EMISSION_IS_AIMED && segment == 1u;
-    if (bsdf_has_smooth_lobe(bsdf) && !is_caster) {
-        light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
-        light_vertices_keep(segment, hit, wo, path->emission.power * path->throughput, &path->weights,
-                            sink->kept);
-    }
+    return true;
+}
+
+/* Leaves the vertex in a sampled direction; false where the path ends. */
+static inline bool light_path_leave(const Scene* scene, const RenderParams* params, uint segment,
+                                    const Hit* hit, const LightVertex* vertex, LightPath* path,
+                                    real3* watched, PixelRays* rays)
+{
+    const Bsdf* bsdf = &vertex->bsdf;
     const real2 direction = sampler_pair(&path->sampler, segment, SAMPLE_DIRECTION);
     const uint2 choices = sampler_partner_words(&path->sampler, segment, SAMPLE_DIRECTION);
     const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);
-    sink->watched += next.wi;
+    *watched += next.wi;
     if (!next.is_valid || !light_vertex_is_seen(bsdf, next.wi))
         return false;
-    if (is_caster && next.pdf_w > REAL(0.0))
+    if (light_path_is_at_caster(segment) && next.pdf_w > REAL(0.0))
         return false;
     if (SPLATS_ARE_WEIGHTED && next.pdf_w > REAL(0.0) &&
-        light_vertex_crosses_curved(scene, &vertex, hit, next.wi))
+        light_vertex_crosses_curved(scene, vertex, hit, next.wi))
         return false;
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
     TRACE_VECTOR(scene, TRACE_WI, next.wi);
@@ -184,8 +208,23 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     }
     if (SPLATS_ARE_WEIGHTED)
         splat_weights_leave(bsdf, next.wi, next.pdf_w, &path->weights);
-    path->ray = surface_ray(&vertex.surface, next.reflects, next.wi);
+    path->ray = surface_ray(&vertex->surface, next.reflects, next.wi);
     return true;
+}
+
+/* Handles the vertex at the end of a segment; false where the path ends. */
+static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderParams* params, uint segment,
+                                            Hit* hit, LightPath* path, SplatSink* sink, PixelRays* rays)
+{
+    LightVertex vertex;
+    if (!light_path_meet(scene, params, segment, hit, path, &vertex, &sink->watched))
+        return false;
+    if (bsdf_has_smooth_lobe(&vertex.bsdf) && !light_path_is_at_caster(segment)) {
+        light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
+        light_vertices_keep(segment, hit, -path->ray.direction, path->emission.power * path->throughput,
+                            &path->weights, sink->kept);
+    }
+    return light_path_leave(scene, params, segment, hit, &vertex, path, &sink->watched, rays);
 }
 
 /* Follows light path `number` of the sink's replicate to its end. */

@@ -51,7 +51,8 @@ static inline void numbers_set_sampler(NumberLanes* lanes, uint i, const Sampler
 static inline void numbers_draw_vector(NumberLanes* lanes, uint segment, uint epoch, uint first)
 {
     for (uint i = first; i < first + DEVICE_LANES; ++i) {
-        const Sampler sampler = {lanes->key[i], lanes->index_reversed[i], lanes->word_key[i]};
+        const Sampler sampler =
+            sampler_of_keys(lanes->key[i], lanes->index_reversed[i], lanes->word_key[i]);
         const PathNumbers numbers = numbers_make(&sampler, segment, epoch);
         lanes->light_x[i] = numbers.light.x;
         lanes->light_y[i] = numbers.light.y;

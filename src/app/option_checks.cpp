@@ -128,6 +128,20 @@ void check_adaptive(const Options& options) {
                         "of equal samples");
 }
 
+/// A step of a chain follows from all those before it.
+void check_chains(const Options& options) {
+    if (!walks_chains(options.transport.integrator))
+        return;
+    const std::string name = name_of(options.transport.integrator);
+    if (options.run.pixel)
+        reject(options, "options --pixel and --integrator " + name +
+                            ": expected one of them, found both; a step of a chain needs all before it");
+    if (options.run.ledger != LedgerOf::NOTHING)
+        reject(options, "options --ledger and --integrator " + name +
+                            ": expected one of them, found both; the ledger compares pictures of the same "
+                            "samples, and chains of two pictures part");
+}
+
 /// What is asked for by name is done or refused.
 void check_guide(const Options& options) {
     const std::optional<GuideRefusal> refusal = guide_refusal(options);
@@ -243,6 +257,7 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
+    check_chains(options);
     check_guide(options);
     check_names(options);
     check_frames(options);

@@ -30,6 +30,10 @@ unsigned light_tree_kinds(Integrator integrator) {
     return KINDS_ALL;
 }
 
+bool walks_chains(Integrator integrator) {
+    return integrator == Integrator::MLT;
+}
+
 std::vector<std::string> integrators_with(IntegratorOption option) {
     std::vector<std::string> names;
     for (const IntegratorRow& row : INTEGRATOR_ROWS)

@@ -3,6 +3,7 @@
 // the rows, so an integrator is added here and in kernels/integrators/NAME.cl.
 #pragma once
 
+#include "kernels/shared/chain_types.h"
 #include "kernels/shared/render_types.h"
 #include "options/names.h"
 
@@ -11,7 +12,7 @@
 
 namespace clrt {
 
-enum class Integrator { RAYCAST, WHITTED, DISTRIBUTION, LIGHT, PATH, PATH_LIGHT, BDPT };
+enum class Integrator { RAYCAST, WHITTED, DISTRIBUTION, LIGHT, PATH, PATH_LIGHT, BDPT, MLT };
 
 /// Options that only some integrators read; bits.
 enum IntegratorOption : unsigned {
@@ -87,6 +88,8 @@ constexpr int USUAL_TREE_DEPTH = 10;
 constexpr int LARGEST_TREE_DEPTH = WHITTED_MAX_DEPTH;
 /// The vertices of a light path wait in private memory for those of the path from the eye.
 constexpr int USUAL_BDPT_DEPTH = 16, LARGEST_BDPT_DEPTH = 64;
+/// A chain has one length for ever, and every length needs chains.
+constexpr int USUAL_CHAIN_DEPTH = 16;
 /// Rays of a branch at most: several levels have few, because they share those of the first.
 constexpr int LARGEST_BRANCH = 64;
 /// The first hit and its connection to a light.
@@ -165,6 +168,16 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
+    {Integrator::MLT,
+     "mlt",
+     "global illumination by Markov chains",
+     nullptr,
+     {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E|L(D|S)*DE"},
+     {USUAL_CHAIN_DEPTH, CHAIN_MAX_DEPTH},
+     SkySampling::BY_TABLE,
+     Connections::ONE_LIGHT,
+     FilmAccess::SPLAT,
+     TAKES_MAX_DEPTH},
 };
 
 template <>
@@ -178,6 +191,9 @@ bool takes_option(Integrator integrator, IntegratorOption option);
 
 /// Kinds of light (KIND_*) among which the light tree chooses; 0: there is none.
 unsigned light_tree_kinds(Integrator integrator);
+
+/// Whether it walks Markov chains (render/metropolis.h): a sample then follows from those before it.
+bool walks_chains(Integrator integrator);
 
 /// Names of the integrators that read the option.
 std::vector<std::string> integrators_with(IntegratorOption option);

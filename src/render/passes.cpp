@@ -60,6 +60,9 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
         launcher_.set_epoch(guiding_->epoch());
     }
 
+    if (walks_chains(options_.transport.integrator))
+        metropolis_.emplace(prepared, params_, film_buffers_, result_);
+
     // A launch without samples makes the driver finish its compilation.
     const auto start = Clock::now();
     launcher_.run(0, 0, 0, 0);
@@ -124,6 +127,8 @@ std::uint32_t Passes::next_samples(const RenderState& state) const {
         end = std::min(end, result_.round.end);
     if (guiding_)
         end = std::min(end, guiding_->end());
+    if (metropolis_)
+        end = std::min(end, std::max(metropolis_->end(), samples_ + 1));
     double samples = 1;
     if (result_.passes > 0) {
         const double pass = std::max(state.pass_seconds, 1e-6);
@@ -285,6 +290,15 @@ void Passes::begin_epoch() {
     result_.check_seconds += seconds_between(start, Clock::now());
 }
 
+/// Brings the chains to the samples that pixels have.
+void Passes::walk_chains(std::uint32_t samples) {
+    const auto start = Clock::now();
+    metropolis_->walk(first_, samples);
+    const double seconds = seconds_between(start, Clock::now());
+    launch_seconds_ += seconds;
+    result_.longest_launch_seconds = std::max(result_.longest_launch_seconds, seconds);
+}
+
 /// Of the program that the next samples are taken by.
 Launcher& Passes::launcher() {
     Launcher* const guided = guiding_ ? guiding_->launcher() : nullptr;
@@ -329,6 +343,8 @@ bool Passes::run_launches(std::uint32_t samples) {
                             });
     if (!done)
         return false;
+    if (metropolis_)
+        walk_chains(samples);
     samples_ += samples;
     first_ += samples;
     result_.passes += samples;
@@ -385,10 +401,14 @@ void Passes::read_back() {
     result_.counts = counts();
     if (guiding_)
         guiding_->read_back();
+    if (metropolis_)
+        metropolis_->read_back();
     result_.run_seconds = seconds();
     result_.device_seconds = launcher_.device_seconds() - first_device_seconds_;
     if (guiding_)
         result_.device_seconds += guiding_->device_seconds();
+    if (metropolis_)
+        result_.device_seconds += metropolis_->device_seconds();
     result_.seconds = earlier_seconds_ + result_.run_seconds;
 }
 
@@ -414,6 +434,8 @@ StopRule Passes::run_until_stopped() {
             begin_round();
         if (guiding_)
             begin_epoch();
+        if (metropolis_)
+            metropolis_->advance(samples_, first_);
         const std::uint32_t samples = next_samples(state);
         keep_film(state, samples);
         if (!run_launches(samples))

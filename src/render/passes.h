@@ -8,6 +8,7 @@
 #include "render/launch_size.h"
 #include "render/launcher.h"
 #include "render/measurements.h"
+#include "render/metropolis.h"
 #include "render/reminder.h"
 #include "render/render.h"
 
@@ -40,6 +41,7 @@ private:
     bool run_tiles(double samples, double done, Launch&& launch);
     void begin_round();
     void begin_epoch();
+    void walk_chains(std::uint32_t samples);
     Launcher& launcher();
     RenderCounts counts() const;
     bool run_adaptive(std::uint64_t end);
@@ -70,6 +72,7 @@ private:
     FilmBuffers film_buffers_;
     Launcher launcher_;
     std::optional<Guiding> guiding_;
+    std::optional<Metropolis> metropolis_;
     std::optional<HitLayers> hit_layers_;
     StopRules rules_;
     Measurements measurements_;

@@ -22,11 +22,17 @@ struct RenderForecast {
     ErrorPrice price;          ///< beyond them
 };
 
+/// Steps of Markov chains (kernels/integrators/mlt.h), and how many of them were taken.
+struct ChainCounts {
+    std::uint64_t small = 0, large = 0, taken_small = 0, taken_large = 0;
+};
+
 /// What a render gives: film, counts, history and seconds of the whole picture, the rest of this run.
 struct Render : RenderProgress {
     HitSums hits;                    ///< empty if no file wants layers of them
     std::string hits_error;          ///< why they had to be given up, else empty
     std::uint64_t passes = 0;        ///< samples a pixel in this run
+    ChainCounts chains;              ///< of this run; none but with `mlt`
     double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
     double run_seconds = 0;          ///< of this run's render stage, first_launch_seconds not included
     double device_seconds = 0;       ///< of this run's launches, as run_groups counts them

@@ -17,6 +17,8 @@ namespace clrt {
 
 namespace {
 
+/// No path is as long.
+constexpr u32 NO_ROULETTE = UINT32_MAX;
 constexpr double RADIANS = 3.14159265358979323846 / 180;
 
 void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) {
@@ -114,7 +116,8 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     params.film_replicates = u32(options.sampling.replicates);
     params.max_depth = u32(effective_max_depth(options.transport));
     params.min_contribution = float(options.transport.min_contribution);
-    params.roulette_depth = u32(options.transport.roulette_depth);
+    params.roulette_depth =
+        integrator.takes & TAKES_ROULETTE_DEPTH ? u32(options.transport.roulette_depth) : NO_ROULETTE;
     params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);

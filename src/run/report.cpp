@@ -90,6 +90,20 @@ Json guide_json(const GuideProgress& guide) {
     return json;
 }
 
+/// null: there were no chains.
+Json chains_json(const ChainCounts& counts) {
+    const std::uint64_t steps = counts.small + counts.large;
+    if (steps == 0)
+        return nullptr;
+    const auto rate = [](std::uint64_t taken, std::uint64_t proposed) {
+        return proposed > 0 ? Json(double(taken) / double(proposed)) : Json(nullptr);
+    };
+    return {{"steps", steps},
+            {"large_steps", counts.large},
+            {"small_acceptance", rate(counts.taken_small, counts.small)},
+            {"large_acceptance", rate(counts.taken_large, counts.large)}};
+}
+
 Json adaptive_json(const RenderProgress& render) {
     const Film& film = render.film;
     if (!is_adaptive(film))
@@ -153,6 +167,7 @@ std::string report_json(const Report& report) {
     json["first_sample"] = report.options.sampling.first_sample;
     json["adaptive"] = adaptive_json(render);
     json["guide"] = guide_json(render.guide);
+    json["chains"] = chains_json(render.chains);
     json["sampler"] = name_of(report.options.sampling.sampler);
     json["light_sampler"] = name_of(report.options.sampling.light_sampler);
     json["seed"] = report.options.sampling.seed;

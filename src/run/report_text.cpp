@@ -5,6 +5,7 @@
 #include "paths/path_report.h"
 #include "render/error_text.h"
 #include "render/guiding.h"
+#include "render/metropolis.h"
 #include "run/report.h"
 #include "run/report_facts.h"
 
@@ -41,6 +42,11 @@ std::string adaptive_line(const Report& report) {
 std::string guide_line(const Report& report) {
     const std::string text = guide_text(report.render.guide);
     return text.empty() ? "" : fmt::format("guide    {}\n", text);
+}
+
+std::string chain_line(const Report& report) {
+    const std::string text = chain_text(report.render.chains);
+    return text.empty() ? "" : fmt::format("chains   {}\n", text);
 }
 
 std::string time_line(const Report& report) {
@@ -115,8 +121,8 @@ std::string proof_lines(const Report& report) {
 
 std::string format_report(const Report& report) {
     std::string text =
-        picture_line(report) + adaptive_line(report) + guide_line(report) + time_line(report) +
-        format_error_report(report.error) + missed_line(report) +
+        picture_line(report) + adaptive_line(report) + guide_line(report) + chain_line(report) +
+        time_line(report) + format_error_report(report.error) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         left_out_lines(report) + bad_lines(report);
     if (report.options.run.verbosity > 0)

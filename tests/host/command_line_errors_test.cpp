@@ -195,7 +195,8 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
     }
     EXPECT_EQ(
         refusal({"--integrator", "pth", "s.obj"}),
-        "option --integrator: expected raycast, whitted, distribution, light, path, path+light or bdpt, found "
+        "option --integrator: expected raycast, whitted, distribution, light, path, path+light, bdpt or mlt, "
+        "found "
         "'pth'");
 }
 
@@ -258,6 +259,10 @@ TEST(CommandLine, ContradictionsAreNamed) {
            "option --adaptive: expected no --aov NAME=EXPR, found the "
            "layer 'c'");
     expect({"--adaptive", "--ledger"}, "option --adaptive: expected no --ledger");
+    expect({"-i", "mlt", "--pixel", "1,2"},
+           "options --pixel and --integrator mlt: expected one of them, found both; a step of a chain needs");
+    expect({"-i", "mlt", "--ledger"},
+           "options --ledger and --integrator mlt: expected one of them, found both; the ledger compares");
     expect({"--guide", "on", "--first-sample", "8"},
            "options --guide on and --first-sample: expected one of them, found both; guided samples need");
     expect({"--guide", "on", "--adaptive"},

@@ -169,11 +169,12 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
     EXPECT_LT(bytes("whitted", {}), 12 << 10);
     EXPECT_LT(bytes("distribution", few), 8 << 10);
     EXPECT_LT(bytes("distribution", many), 24 << 10);
+    EXPECT_LT(bytes("mlt", {"-DFILM_SPLATS=1"}), 12 << 10);
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
     for (const char* int64 : {"0", "1"})
-        for (const std::string integrator : {"raycast", "light", "path_light", "bdpt"})
+        for (const std::string integrator : {"raycast", "light", "path_light", "bdpt", "mlt"})
             expect_clean(fmt::format("{} splats, int64 {}", integrator, int64),
                          include({"integrators/" + integrator + ".cl"}),
                          {"-DFILM_SPLATS=1", fmt::format("-DFILM_INT64_ATOMICS={}", int64)});

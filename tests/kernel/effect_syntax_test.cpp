@@ -52,7 +52,7 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
             fmt::format("#define FILM_SPLATS 1\n#define FILM_INT64_ATOMICS {}\n", int64);
         const std::string drawing = folder.write("all.cl", defines + entry_points({"path", "raycast"}));
         EXPECT_EQ(complaints(drawing, "CL1.2", EFFECT_ALL), "") << int64;
-        for (const char* name : {"light", "path_light", "bdpt"}) {
+        for (const char* name : {"light", "path_light", "bdpt", "mlt"}) {
             const std::string own = folder.write("own.cl", defines + entry_points({name}));
             const std::string traced =
                 folder.write("traced.cl", "#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n" + defines +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
+#include "kernels/shared/chain_types.h"
 #include "kernels/shared/guide_types.h"
 #include "kernels/shared/render_types.h"
 #include "kernels/shared/scene_arrays.h"
@@ -90,6 +91,19 @@ const Layout GUIDE_CELL = {
     sizeof(GuideCell),
     {M(share), M(radiance), M(unused), M(splits)}};
 #undef M
+#define M(name) MEMBER(Chain, name)
+const Layout CHAIN = {
+    "Chain",
+    sizeof(Chain),
+    {M(red), M(green), M(blue), M(score), M(x), M(y), M(length), M(steps), M(large_steps), M(taken_small),
+     M(taken_large), M(unused0)}};
+#undef M
+#define M(name) MEMBER(ChainLaunch, name)
+const Layout CHAIN_LAUNCH = {
+    "ChainLaunch",
+    sizeof(ChainLaunch),
+    {M(task), M(chains), M(steps), M(paths), M(lengths), M(epoch), M(first), M(unused0)}};
+#undef M
 #define M(name) MEMBER(CameraParams, name)
 const Layout CAMERA_PARAMS = {
     "CameraParams",
@@ -129,7 +143,7 @@ const Layout ARRAY_PLACES = {
 const std::vector<Layout> LAYOUTS = {
     TRIANGLE,           MATERIAL,     TEXTURE,     EMITTER,       LIGHT,
     ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
-    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL};
+    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL, CHAIN,         CHAIN_LAUNCH};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.
@@ -146,7 +160,8 @@ std::string layout_kernel(const Layout& layout) {
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
-        KernelProbe made(test_device(), {"shared/scene_arrays.h", "shared/render_types.h", "shared/guide_types.h"});
+        KernelProbe made(test_device(), {"shared/scene_arrays.h", "shared/render_types.h",
+                                         "shared/guide_types.h", "shared/chain_types.h"});
         for (const Layout& layout : LAYOUTS)
             made.add_text(layout_kernel(layout));
         made.add_text(

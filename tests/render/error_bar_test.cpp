@@ -129,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"relative", Integrator::PATH, ErrorMeasure::RELATIVE},
                     Case{"relative_lamp", Integrator::PATH, ErrorMeasure::RELATIVE, make_lamp},
                     Case{"light", Integrator::LIGHT, {}}, Case{"path_light", Integrator::PATH_LIGHT, {}},
-                    Case{"bdpt", Integrator::BDPT, {}}, Case{"whitted", Integrator::WHITTED, {}},
+                    Case{"bdpt", Integrator::BDPT, {}}, Case{"mlt", Integrator::MLT, {}},
+                    Case{"whitted", Integrator::WHITTED, {}},
                     Case{"raycast", Integrator::RAYCAST, {}}),
     [](const auto& test) { return std::string(test.param.name); });
 
