@@ -9,6 +9,21 @@
 #include "path/cut.h"
 #include "path/splat_connect.h"
 
+#if FILM_MOMENTS
+/* Weights that leave splats out: those of paths that nothing splats. */
+#define NO_SPLATS {REAL(0.0), REAL(0.0)}
+
+/* Notes what a vertex of the path would be connected to without splats. */
+static inline void path_light_note(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                   const Bsdf* bsdf, real3 wo, const Path* path, Moments* moments)
+{
+    const SplatWeights none = NO_SPLATS;
+    Path alone = *path;
+    splat_connect(scene, params, surface, bsdf, wo, &none, &alone);
+    moments->connection = alone.connection;
+}
+#endif
+
 /* Adds the light from outside the scene. */
 static inline void path_light_escape(const Scene* scene, const RenderParams* params, uint segment,
                                      const Path* path, const SplatWeights* weights, CameraSample* sample,
@@ -20,6 +35,11 @@ static inline void path_light_escape(const Scene* scene, const RenderParams* par
     const real3 sky = segment == 1u ? vertex_sky(scene, params, 1u, 0, &path->ray, REAL(0.0), KINDS_ALL)
                                     : splat_escape(scene, params, path, weights);
     vertex_add(scene, path->throughput * sky, &sample->radiance);
+#if FILM_MOMENTS
+    const SplatWeights none = NO_SPLATS;
+    const real3 alone = segment == 1u ? sky : splat_escape(scene, params, path, &none);
+    moments_gather(path->throughput * sky, path->throughput * alone, &sample->moments);
+#endif
 }
 
 /* Handles the vertex at the end of a segment of the path from the eye. */
@@ -39,6 +59,11 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
+#if FILM_MOMENTS
+        const SplatWeights none = NO_SPLATS;
+        const real3 alone = splat_emission(scene, params, &surface, path, wo, &none);
+        moments_gather(path->throughput * emitted, path->throughput * alone, &sample->moments);
+#endif
     }
     if (segment >= params->max_depth) {
         path_end(scene, params, sampler, segment, &surface, path, rays);
@@ -52,6 +77,9 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     Guide guide = guide_none();
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
+#if FILM_MOMENTS
+    path_light_note(scene, params, &surface, &bsdf, wo, path, &sample->moments);
+#endif
     if (!next.is_valid)
         return;
     path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
@@ -72,9 +100,13 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
         path_light_vertex(scene, params, segment, &path, &weights, sample, rays);
         rays->secondary += path.is_alive ? 1u : 0u;
         rays->shadow += path.is_connected ? 1u : 0u;
-        if (path.is_connected)
-            path_add_connection(scene, &path, visible_share(scene, params, &path.shadow), &sample->radiance,
-                                &sample->layers);
+        if (!path.is_connected)
+            continue;
+        const real share = visible_share(scene, params, &path.shadow);
+        path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
+#if FILM_MOMENTS
+        moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);
+#endif
     }
     nan_carry(scene, nan_of_vector(path.throughput + path.watched), &sample->radiance);
 }
@@ -84,7 +116,14 @@ static CLRT_NOINLINE void path_light_radiance(const Scene* scene, const RenderPa
 {
     for (uint k = 0; k < count; ++k) {
         path_light_trace(scene, params, &samples[k], rays);
+#if FILM_MOMENTS
+        const PixelRays before = *rays;
+#endif
         light_paths_trace(scene, params, &samples[k], rays);
+#if FILM_MOMENTS
+        samples[k].moments.light_rays = rays->secondary - before.secondary;
+        samples[k].moments.camera_rays = rays->shadow - before.shadow;
+#endif
     }
 }
 
