@@ -19,9 +19,17 @@ struct PlannedScene {
     Effects effects;
 };
 
-/// Takes `path` for `path+light` where the scene has no caustics; tabulates the sky as the integrator samples it, finds the effects, takes out those that are not wanted,
-/// and plans the paths of what is left: the one order of these. Throws UsageError for path expressions that
-/// are wrong or too large.
+/// Takes `path` for `path+light` where the scene has no caustics; tabulates the sky as the integrator samples
+/// it, finds the effects, takes out those that are not wanted, and plans the paths of what is left: the one
+/// order of these. Throws UsageError for path expressions that are wrong or too large.
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
+
+/// Whether the scene as it is rendered casts light by mirrors or smooth glass on a surface (LS+DE) within
+/// --max-depth.
+bool has_caustics(const PlannedScene& planned);
+
+/// Plans for another integrator of those that connect to one light, as if the options had named it: what is
+/// prepared from the plan by then must not be used any more, but for the tree.
+void take_integrator(Integrator integrator, PlannedScene& planned);
 
 } // namespace clrt

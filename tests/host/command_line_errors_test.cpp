@@ -195,7 +195,7 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
     }
     EXPECT_EQ(
         refusal({"--integrator", "pth", "s.obj"}),
-        "option --integrator: expected raycast, whitted, distribution, light, path or path+light, found "
+        "option --integrator: expected raycast, whitted, distribution, light, path, path+light or auto, found "
         "'pth'");
 }
 
