@@ -67,7 +67,6 @@ int run_replay(const Options& options) {
     const auto planned = plan_scene(std::move(scene), options);
     std::shared_ptr<const SceneTree> tree;
     choose_integrator(device, planned, tree, progress);
-    progress.finish();
     const PreparedScene prepared = prepare_scene(device, planned, {tree, nullptr});
     const PixelReplay replay = replay_pixel(prepared);
     print_report(options, replay.text);

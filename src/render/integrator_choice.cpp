@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace clrt {
 
@@ -163,6 +164,8 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     }
     take_integrator(choice.integrator, *planned);
     choice.seconds = seconds_since(start);
+    progress.finish();
+    spdlog::info("integrator: {}", choice_text(choice));
     return choice;
 }
 

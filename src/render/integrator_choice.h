@@ -42,8 +42,8 @@ struct IntegratorChoice {
 /// Size of the pilot of a render; none where so small a one tells nothing.
 std::optional<PilotSize> pilot_size(const Options& options);
 
-/// Chooses, where --integrator auto asks, and plans for what is chosen. `tree` is that of the plan, or null;
-/// where the pilot needed one it is there. Throws DeviceError, KernelBuildError and SceneError.
+/// Chooses, where --integrator auto asks, says so, and plans for what is chosen. `tree` is that of the plan,
+/// or null; where the pilot needed one it is there. Throws DeviceError, KernelBuildError and SceneError.
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
                                    std::shared_ptr<const SceneTree>& tree, Progress& progress);
 

@@ -129,10 +129,7 @@ int render_turn(const Job& job, Progress& progress) {
 }
 
 /// Says what the user should know before it is rendered.
-void announce(const Job& job) {
-    const PlannedScene& planned = *job.planned;
-    if (job.choice.is_asked)
-        spdlog::info("integrator: {}", choice_text(job.choice));
+void announce(const PlannedScene& planned) {
     for (const std::string& notice : planned.scene.notices)
         spdlog::info("{}", notice);
     for (const std::string& line : describe_left_out(planned.effects))
@@ -154,8 +151,7 @@ int run_render(const Options& options) {
     const double load_seconds = seconds_since(start);
     Job job{start, device, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
     job.choice = choose_integrator(device, job.planned, job.tree, progress);
-    progress.finish();
-    announce(job);
+    announce(*job.planned);
     if (options.camera.frames)
         return render_turn(job, progress);
     std::optional<Simulation> done;

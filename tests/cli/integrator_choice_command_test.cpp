@@ -80,6 +80,7 @@ TEST_F(ChoiceCommand, ASampleIsReplayedByTheChosenOne) {
     const auto result = clrt(small({"-i", "auto", "-s", "256", "--pixel", "32,40", "--stats", "a.json"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(statistics("a.json")["integrator"], "path+light");
+    EXPECT_TRUE(holds(result.err, {"integrator: path+light: efficiency path 1, path+light "}));
 }
 
 TEST_F(ChoiceCommand, WhatOnlyPathTakesIsTaken) {

@@ -58,11 +58,11 @@ double squared_error(const Box& box, Integrator integrator) {
     Options options = box.options;
     options.transport.integrator = integrator;
     options.transport.choose = false;
-    options.sampling.spp = 1024;
-    options.sampling.replicates = 64; // 16 samples each: nets as of a pilot
+    options.sampling.spp = 512;
+    options.sampling.replicates = 64; // 8 samples each: nets as of a pilot
     const auto error =
         film_error(render_loaded(box.load(), options).film, ErrorPixels::SCENE, ErrorMeasure::RELATIVE);
-    return error ? error->relative_rmse * error->relative_rmse * 1024 : 0;
+    return error ? error->relative_rmse * error->relative_rmse * 512 : 0;
 }
 
 } // namespace
