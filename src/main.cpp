@@ -12,6 +12,7 @@
 #include "exit_code.h"
 #include "output/file_name.h"
 #include "output/image.h"
+#include "render/integrator_choice.h"
 #include "render/ledger.h"
 #include "render/prepared_scene.h"
 #include "replay/replay_pixel.h"
@@ -21,6 +22,7 @@
 #include "scene/load_scene.h"
 
 #include <fmt/format.h>
+#include <memory>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -62,7 +64,10 @@ int run_replay(const Options& options) {
     Scene scene = load_for_run(options, progress);
     if (options.run.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
-    const PreparedScene prepared = prepare_scene(device, plan_scene(std::move(scene), options));
+    const auto planned = plan_scene(std::move(scene), options);
+    std::shared_ptr<const SceneTree> tree;
+    choose_integrator(device, planned, tree, progress);
+    const PreparedScene prepared = prepare_scene(device, planned, {tree, nullptr});
     const PixelReplay replay = replay_pixel(prepared);
     print_report(options, replay.text);
     write_statistics(options, replay.json);

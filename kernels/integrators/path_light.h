@@ -10,6 +10,30 @@
 #include "path/cut.h"
 #include "splat_escape.h"
 
+#if FILM_MOMENTS
+/* Weights that leave splats out: those of paths that nothing splats. */
+#define NO_SPLATS {REAL(0.0), REAL(0.0)}
+
+/* Notes what a vertex of the path would be connected to without splats. */
+static inline void path_light_note(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                   const Bsdf* bsdf, real3 wo, const Path* path, Moments* moments)
+{
+    const SplatWeights none = NO_SPLATS;
+    Path alone = *path;
+    splat_connect(scene, params, surface, bsdf, wo, &none, &alone);
+    moments->connection = alone.connection;
+}
+
+/* Gathers the light from outside the scene, which has brought `sky` so far, with and without splats. */
+static inline void path_light_gather_sky(const Scene* scene, const RenderParams* params, uint segment,
+                                         const Path* path, real3 sky, Moments* moments)
+{
+    const SplatWeights none = NO_SPLATS;
+    const real3 alone = segment == 1u ? sky : path->throughput * splat_escape(scene, params, path, &none);
+    moments_gather(sky, alone, moments);
+}
+#endif
+
 /* Handles the vertex at the end of a segment of the path from the eye. */
 static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderParams* params, uint segment,
                                             Path* path, SplatWeights* weights, CameraSample* sample,
@@ -19,7 +43,13 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     const Sampler* sampler = &sample->sampler;
     path->is_alive = path->is_connected = false;
     if (path->hit.triangle == NO_INDEX) {
+#if FILM_MOMENTS
+        const real3 before = sample->radiance;
+#endif
         splat_add_escape(scene, params, segment, path, weights, sample, rays);
+#if FILM_MOMENTS
+        path_light_gather_sky(scene, params, segment, path, sample->radiance - before, &sample->moments);
+#endif
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
@@ -27,6 +57,11 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
+#if FILM_MOMENTS
+        const SplatWeights none = NO_SPLATS;
+        const real3 alone = splat_emission(scene, params, &surface, path, wo, &none);
+        moments_gather(path->throughput * emitted, path->throughput * alone, &sample->moments);
+#endif
     }
     if (segment >= params->max_depth) {
         path_end(scene, params, sampler, segment, &surface, path, rays);
@@ -40,6 +75,9 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     Guide guide = guide_none();
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
+#if FILM_MOMENTS
+    path_light_note(scene, params, &surface, &bsdf, wo, path, &sample->moments);
+#endif
     if (!next.is_valid)
         return;
     path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
@@ -60,9 +98,13 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
         path_light_vertex(scene, params, segment, &path, &weights, sample, rays);
         rays->secondary += path.is_alive ? 1u : 0u;
         rays->shadow += path.is_connected ? 1u : 0u;
-        if (path.is_connected)
-            path_add_connection(scene, &path, visible_share(scene, params, &path.shadow), &sample->radiance,
-                                &sample->layers);
+        if (!path.is_connected)
+            continue;
+        const real share = visible_share(scene, params, &path.shadow);
+        path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
+#if FILM_MOMENTS
+        moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);
+#endif
     }
     nan_carry(scene, nan_of_vector(path.throughput + path.watched), &sample->radiance);
 }
@@ -72,7 +114,14 @@ static CLRT_NOINLINE void path_light_radiance(const Scene* scene, const RenderPa
 {
     for (uint k = 0; k < count; ++k) {
         path_light_trace(scene, params, &samples[k], rays);
+#if FILM_MOMENTS
+        const PixelRays before = *rays;
+#endif
         light_paths_trace(scene, params, &samples[k], 0, rays);
+#if FILM_MOMENTS
+        samples[k].moments.light_rays = rays->secondary - before.secondary;
+        samples[k].moments.camera_rays = rays->shadow - before.shadow;
+#endif
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "camera/camera.h"
 #include "film/film.h"
+#include "film/moments.h"
 #include "film/splat.h"
 #include "film/tile.h"
 #include "geometry/scene.h"
@@ -28,6 +29,9 @@ typedef struct {
     uint replicate, index;
     uint splat_fault; /* under which counter the last bad splat belongs, or COUNT_WORDS */
 #endif
+#if FILM_MOMENTS
+    Moments moments;
+#endif
 } CameraSample;
 
 /* Aims `count` samples of the pixel (x, y) from the counter on; `film` takes their splats. */
@@ -45,6 +49,9 @@ static CLRT_NOINLINE void pixel_aim(const RenderParams* params, global long* fil
         samples[k].replicate = counter.replicate;
         samples[k].index = counter.index;
         samples[k].splat_fault = COUNT_WORDS;
+#endif
+#if FILM_MOMENTS
+        moments_begin(&samples[k].moments);
 #endif
     }
 }
@@ -103,6 +110,10 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
                 !fits)
                 fault = COUNT_OVERFLOW;
         }
+#if FILM_MOMENTS
+        moments_add_sample(params, film, place.slot, &samples[k].sampler, samples[k].radiance,
+                           &samples[k].moments);
+#endif
         fault = pixel_fault(&samples[k], fault);
         if (fault != COUNT_WORDS) {
             film_report_fault(counters, fault, pixel, counter->sample);

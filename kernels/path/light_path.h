@@ -8,6 +8,7 @@
 #define CLRT_PATH_LIGHT_PATH_H
 
 #include "camera/camera_splat.h"
+#include "film/moments.h"
 #include "film/splat.h"
 #include "light_vertices.h"
 #include "splat_weight.h"
@@ -140,6 +141,10 @@ static inline void light_path_splat(const Scene* scene, const RenderParams* para
                                   splat.radiance);
     if (fault != COUNT_WORDS)
         sink->fault = fault;
+#if FILM_MOMENTS
+    moments_add_splat(params, sink->film, slot, &path->sampler, segment, radiance,
+                      splat_rivals(params, vertex, wi, camera.pdf_a, &path->weights));
+#endif
 }
 
 /* Ends paths of small throughput without bias. */

@@ -128,6 +128,14 @@ static inline void splat_weights_begin(const Scene* scene, const RenderParams* p
                     (is_point ? t * t : emission->cosine) / emission->pdf;
 }
 
+/* Densities of hit and next-event estimation over that of a splat. */
+static inline real splat_rivals(const RenderParams* params, const LightVertex* vertex, real3 wi, real pdf_a,
+                                const SplatWeights* weights)
+{
+    const real density = pdf_a * splat_cosine(vertex->surface.normal_g, wi);
+    return splat_weights_at(&vertex->bsdf, wi, weights) * (density / splat_path_count(params));
+}
+
 /* The weight of a splat: `pdf_a` is the camera's density across the ray (CameraConnection). */
 static inline real splat_weight(const RenderParams* params, const LightVertex* vertex, real3 wi, real pdf_a,
                                 const SplatWeights* weights)

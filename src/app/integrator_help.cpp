@@ -2,6 +2,7 @@
 #include "app/integrator_help.h"
 
 #include "app/option_values.h"
+#include "options/transport_options.h"
 
 #include <fmt/format.h>
 #include <iterator>
@@ -11,6 +12,8 @@ namespace clrt {
 namespace {
 
 const Integrator DEFAULT_INTEGRATOR = TransportOptions{}.integrator;
+const char* const CHOICE_HELP = "path or path+light, as a small pilot picture finds less noise for the work; "
+                                "its plan is printed";
 
 /// Calls `say` with every row; those that simulate most come first.
 template <typename Say>
@@ -25,6 +28,7 @@ std::string integrator_choices() {
     std::vector<std::string> choices;
     for_each_row(
         [&](const IntegratorRow& row) { choices.push_back(fmt::format("{} ({})", row.name, row.help)); });
+    choices.push_back(fmt::format("{} ({})", CHOSEN_INTEGRATOR, CHOICE_HELP));
     return fmt::format("{} (default {})", alternatives(choices), name_of(DEFAULT_INTEGRATOR));
 }
 

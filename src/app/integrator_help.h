@@ -8,7 +8,7 @@
 
 namespace clrt {
 
-/// "path (what it simulates), ... or raycast (...) (default path)": those that simulate most come first.
+/// "path (what it simulates), ... or auto (...) (default path)": those that simulate most come first.
 std::string integrator_choices();
 
 /// "default 4096, whitted 10, raycast always 2": longest paths without --max-depth, the default integrator's

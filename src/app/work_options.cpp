@@ -32,6 +32,19 @@ std::string layouts_and_qualities() {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+void apply_integrator(Options& o, const OptionValue& v) {
+    const std::optional<Integrator> named = find_named<Integrator>(v.text);
+    o.transport.choose = v.text == CHOSEN_INTEGRATOR;
+    if (!named && !o.transport.choose) {
+        std::vector<std::string> names;
+        for (const IntegratorRow& row : INTEGRATOR_ROWS)
+            names.emplace_back(row.name);
+        names.emplace_back(CHOSEN_INTEGRATOR);
+        reject_value(v, alternatives(names));
+    }
+    o.transport.integrator = named.value_or(TransportOptions{}.integrator);
+}
+
 // A layout, a quality or one of each; what is not named is chosen.
 void apply_bvh(Options& o, const OptionValue& v) {
     o.bvh = {};
@@ -62,8 +75,7 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) { apply_text(o.device.name, v); }},
         {group, "l", "--list-devices", "", "list platforms and devices, with -v how they compute, then exit",
          [](Options& o, const OptionValue&) { o.run.list_devices = true; }, Repeat::NO, COMMAND_LINE_ONLY},
-        {group, "i", "--integrator", "NAME", integrator_choices(),
-         [](Options& o, const OptionValue& v) { o.transport.integrator = parse_choice<Integrator>(v); }},
+        {group, "i", "--integrator", "NAME", integrator_choices(), apply_integrator},
         {group, "s", "--spp", "N",
          "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error)",
          [](Options& o, const OptionValue& v) {

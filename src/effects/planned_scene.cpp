@@ -17,18 +17,29 @@ namespace {
 /// The paths that light paths find best, and often alone.
 const char* const CAUSTICS = "LS+DE";
 
+bool casts_caustics(const Scene& scene, Options options) {
+    options.transport.paths = CAUSTICS;
+    options.output.path_layers.clear();
+    return !plan_paths(scene, options).is_empty && !find_casters(scene).empty();
+}
+
 /// Without caustics light paths find nothing that others do not find with less work.
 void leave_out_light_paths(Scene& scene, Options& options) {
     if (options.transport.integrator != Integrator::PATH_LIGHT)
         return;
-    Options of_caustics = options;
-    of_caustics.transport.paths = CAUSTICS;
-    if (!plan_paths(scene, of_caustics).is_empty && !find_casters(scene).empty())
+    if (casts_caustics(scene, options))
         return;
     options.transport.integrator = Integrator::PATH;
     scene.notices.push_back(fmt::format("no mirror or smooth glass casts light on a surface ({}): {} is {}",
                                         CAUSTICS, name_of(Integrator::PATH_LIGHT),
                                         name_of(Integrator::PATH)));
+}
+
+/// Finds what casts caustics, of what is left of the scene, for those that aim light paths at it.
+void aim_emission(PlannedScene& planned) {
+    planned.scene.casters.clear();
+    if (planned.options.transport.integrator == Integrator::PATH_LIGHT)
+        planned.scene.casters = find_casters(planned.scene);
 }
 
 } // namespace
@@ -44,14 +55,24 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
         take_out_effects(planned->effects.left_out, planned->scene, planned->options);
         planned->effects.paths = plan_paths(planned->scene, planned->options);
     }
-    if (planned->options.transport.integrator == Integrator::PATH_LIGHT)
-        planned->scene.casters = find_casters(planned->scene); // as they are left
+    aim_emission(*planned);
     tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
     if (planned->effects.needed & ~planned->effects.left_out & EFFECT_LIGHT_TREE)
         planned->scene.light_tree =
             build_light_tree(planned->scene, accepted_kinds(planned->effects.paths) &
                                                  light_tree_kinds(planned->options.transport.integrator));
     return planned;
+}
+
+bool has_caustics(const PlannedScene& planned) {
+    return casts_caustics(planned.scene, planned.options);
+}
+
+void take_integrator(Integrator integrator, PlannedScene& planned) {
+    planned.options.transport.integrator = integrator;
+    tabulate_sky(planned.scene.environment, integrator_row(integrator).sky);
+    planned.effects.paths = plan_paths(planned.scene, planned.options);
+    aim_emission(planned);
 }
 
 } // namespace clrt

@@ -25,4 +25,12 @@ struct PlannedScene {
 /// large.
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
 
+/// Whether the scene as it is rendered casts light by mirrors or smooth glass on a surface (LS+DE) within
+/// --max-depth.
+bool has_caustics(const PlannedScene& planned);
+
+/// Plans for another integrator of those that connect to one light, as if the options had named it: what is
+/// prepared from the plan by then must not be used any more, but for the tree.
+void take_integrator(Integrator integrator, PlannedScene& planned);
+
 } // namespace clrt

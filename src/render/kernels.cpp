@@ -14,9 +14,10 @@ namespace clrt {
 
 namespace {
 
-/// The program of the layers of hits, and what tells the programs of a replay and of guided paths from the
-/// picture's.
-const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay", GUIDED_ENDING = "_guided";
+/// The program of the layers of hits, and what tells the programs of a replay, of guided paths and of a pilot
+/// from the picture's.
+const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay", GUIDED_ENDING = "_guided",
+                  PILOT_ENDING = "_pilot";
 
 /// For programs that do not simulate several samples of a pixel side by side (kernels/integrators/pixel.h).
 const std::string ONE_SAMPLE_AT_ONCE = "SAMPLES_AT_ONCE=1";
@@ -133,6 +134,17 @@ Program build_guided_program(const Device& device, const Options& options, u32 e
     return build_program(device, request);
 }
 
+Program build_pilot_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
+                            const PathPlan& paths) {
+    std::vector<std::string> defines = picture_defines(device, options, paths);
+    defines.emplace_back("FILM_MOMENTS=1");
+    ProgramRequest request =
+        launched_request(device, kernel_files(options), integrator_stem(options.transport.integrator),
+                         options, effects, layout, defines);
+    request.name += PILOT_ENDING;
+    return build_program(device, request);
+}
+
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
     ProgramRequest request = make_request(
@@ -150,8 +162,8 @@ std::vector<std::string> dumped_files(const Options& options) {
     if (options.device.dump_folder.empty())
         return paths;
     const std::string integrator = integrator_stem(options.transport.integrator);
-    for (const std::string& name :
-         {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING, integrator + GUIDED_ENDING}) {
+    for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING,
+                                    integrator + GUIDED_ENDING, integrator + PILOT_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});
     }

@@ -44,6 +44,10 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 Program build_guided_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
                              const PathPlan& paths);
 
+/// Compiles path+light so that it sums the moments of its samples (kernels/film/moments.h).
+Program build_pilot_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
+                            const PathPlan& paths);
+
 /// Compiles the same integrator so that it records what single samples do (kernels/trace), in a precision of
 /// its own.
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,

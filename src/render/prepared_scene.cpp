@@ -57,6 +57,12 @@ Program build_guided_program(const PreparedScene& prepared) {
                                 prepared.tree->bvh.layout, planned.effects.paths);
 }
 
+Program build_pilot_program(const PreparedScene& prepared) {
+    const PlannedScene& planned = *prepared.planned;
+    return build_pilot_program(prepared.device, planned.options, planned.effects.mask,
+                               prepared.tree->bvh.layout, planned.effects.paths);
+}
+
 Program build_replay_program(const PreparedScene& prepared, Precision precision) {
     const PlannedScene& planned = *prepared.planned;
     return build_replay_program(prepared.device, planned.options, precision, planned.effects.mask,

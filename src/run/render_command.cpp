@@ -54,6 +54,8 @@ struct Job {
     std::chrono::steady_clock::time_point start;
     const Device& device;
     std::shared_ptr<PlannedScene> planned;
+    IntegratorChoice choice;
+    std::shared_ptr<const SceneTree> tree; ///< null: it is not built yet
     double load_seconds;
 };
 
@@ -77,6 +79,7 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
             done.prepared ? done.prepared->programs->seconds : 0,
             seconds_since(job.start),
             0,
+            job.choice,
             explain_empty_picture(scene, options, done.render)};
 }
 
@@ -85,7 +88,7 @@ int render_picture(const Job& job, Progress& progress, std::optional<Simulation>
     const Options& options = job.planned->options;
     const Saving saving(job.planned->scene, job.planned->effects.paths, options, job.device.info, progress);
     if (!done)
-        done.emplace(simulate(job.device, job.planned, progress, saving.hooks));
+        done.emplace(simulate(job.device, job.planned, progress, saving.hooks, job.tree));
     else
         simulate_again(progress, saving.hooks, *done);
     progress.finish();
@@ -146,7 +149,8 @@ int run_render(const Options& options) {
     Progress progress(options.run.progress, options.run.verbosity < 0);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
-    const Job job{start, device, plan_scene(std::move(scene), options), load_seconds};
+    Job job{start, device, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
+    job.choice = choose_integrator(device, job.planned, job.tree, progress);
     announce(*job.planned);
     if (options.camera.frames)
         return render_turn(job, progress);

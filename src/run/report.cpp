@@ -74,8 +74,31 @@ void add_facts(const Report& report, Metadata& metadata) {
         metadata.emplace_back("device.facts", describe_facts(*report.facts));
 }
 
-/// Null where all tiles have the same number of samples.
-/// null: no sample is guided.
+/// Null without --integrator auto.
+Json choice_json(const IntegratorChoice& choice) {
+    if (!choice.is_asked)
+        return nullptr;
+    Json json;
+    json["integrator"] = name_of(choice.integrator);
+    json["reason"] = choice.reason;
+    json["pilot"] = nullptr;
+    if (choice.pilot.spp == 0)
+        return json;
+    json["pilot"] = {{"width", choice.pilot.width},
+                     {"height", choice.pilot.height},
+                     {"spp", choice.pilot.spp},
+                     {"seconds", choice.seconds}};
+    json["prices"] = Json::array();
+    for (const IntegratorPrice& price : choice.prices)
+        json["prices"].push_back({{"integrator", name_of(price.integrator)},
+                                  {"squared_error_mse", price.errors[size_t(ErrorMeasure::MSE)]},
+                                  {"squared_error_relative", price.errors[size_t(ErrorMeasure::RELATIVE)]},
+                                  {"rays_of_path", price.work},
+                                  {"efficiency", price.efficiency}});
+    return json;
+}
+
+/// Null where no sample is guided.
 Json guide_json(const GuideProgress& guide) {
     if (guide.guided_from == 0)
         return nullptr;
@@ -104,6 +127,7 @@ Json chains_json(const ChainCounts& counts) {
             {"large_acceptance", rate(counts.taken_large, counts.large)}};
 }
 
+/// Null where all tiles have the same number of samples.
 Json adaptive_json(const RenderProgress& render) {
     const Film& film = render.film;
     if (!is_adaptive(film))
@@ -157,6 +181,7 @@ std::string report_json(const Report& report) {
     json["version"] = CLRT_VERSION;
     json["command"] = command_text(report.options);
     json["integrator"] = name_of(report.options.transport.integrator);
+    json["choice"] = choice_json(report.choice);
     json["width"] = render.film.width;
     json["height"] = render.film.height;
     json["spp"] = film_samples(render.film);

@@ -7,6 +7,7 @@
 #include "effects/effects.h"
 #include "output/image.h"
 #include "render/error_report.h"
+#include "render/integrator_choice.h"
 #include "render/render.h"
 #include "replay/causes.h"
 
@@ -29,6 +30,7 @@ struct Report {
     std::vector<CauseCount> causes; ///< of the bad samples that were replayed
     double load_seconds = 0, compile_seconds = 0, total_seconds = 0;
     double exposure_ev = 0;                        ///< stops of the 8-bit pictures
+    IntegratorChoice choice = {};                  ///< of --integrator auto
     std::optional<std::string> empty_picture = {}; ///< why the picture shows nothing, where it does not
 };
 

@@ -39,6 +39,11 @@ std::string adaptive_line(const Report& report) {
     return expected_gain(round) > 0 ? fmt::format("adaptive {}\n", gain_text(round)) : "";
 }
 
+std::string choice_line(const Report& report) {
+    const std::string text = choice_text(report.choice);
+    return text.empty() ? "" : fmt::format("chosen   {}\n", text);
+}
+
 std::string guide_line(const Report& report) {
     const std::string text = guide_text(report.render.guide);
     return text.empty() ? "" : fmt::format("guide    {}\n", text);
@@ -121,7 +126,8 @@ std::string proof_lines(const Report& report) {
 
 std::string format_report(const Report& report) {
     std::string text =
-        picture_line(report) + adaptive_line(report) + guide_line(report) + chain_line(report) +
+        picture_line(report) + choice_line(report) + adaptive_line(report) + guide_line(report) +
+        chain_line(report) +
         time_line(report) + format_error_report(report.error) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         left_out_lines(report) + bad_lines(report);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace clrt {
 
@@ -51,11 +52,11 @@ std::vector<CauseCount> explain_bad_samples(const PreparedScene& prepared, const
 } // namespace
 
 Simulation simulate(const Device& device, const std::shared_ptr<const PlannedScene>& planned,
-                    Progress& progress, const RenderHooks& hooks) {
+                    Progress& progress, const RenderHooks& hooks, std::shared_ptr<const SceneTree> tree) {
     Simulation done;
     if (!planned->effects.paths.is_empty) {
         progress.update({"compile", -1, 0, -1});
-        done.prepared.emplace(prepare_render(device, planned));
+        done.prepared.emplace(prepare_render(device, planned, {std::move(tree), nullptr}));
         done.facts = ask_facts(device, planned->options, progress);
         simulate_again(progress, hooks, done);
     } else {

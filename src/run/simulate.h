@@ -23,9 +23,11 @@ struct Simulation {
 };
 
 /// Prepares a scene and renders it. What cannot be told about the device or about bad samples is only said.
-/// Where no path is asked for this is the black picture, and nothing is prepared. Throws DeviceError.
+/// Where no path is asked for this is the black picture, and nothing is prepared. `tree`: that of the plan,
+/// or null. Throws DeviceError.
 Simulation simulate(const Device& device, const std::shared_ptr<const PlannedScene>& planned,
-                    Progress& progress, const RenderHooks& hooks);
+                    Progress& progress, const RenderHooks& hooks,
+                    std::shared_ptr<const SceneTree> tree = nullptr);
 
 /// Renders again what is prepared, as its plan now is (PreparedScene says what may change in it). Replaces
 /// render and causes. Throws DeviceError.

@@ -191,7 +191,8 @@ class StudyCommand(unittest.TestCase):
 
     def test_takes_the_names_that_clrt_takes(self):
         choices = Choices(CLRT)
-        self.assertEqual(choices.names("--integrator"), ["mlt", "bdpt", "path+light", "path", "light", "distribution", "whitted", "raycast"])
+        self.assertEqual(choices.names("--integrator"), ["mlt", "bdpt", "path+light", "path", "light", "distribution", "whitted",
+                                                          "raycast", "auto"])
         self.assertEqual(choices.names("--precision"), ["single", "double", "fast"])
         self.assertEqual(choices.names("--sampler"), ["sobol", "independent"])
         self.assertEqual(choices.names("--adaptive")[0], "off")

@@ -195,8 +195,8 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
     }
     EXPECT_EQ(
         refusal({"--integrator", "pth", "s.obj"}),
-        "option --integrator: expected raycast, whitted, distribution, light, path, path+light, bdpt or mlt, "
-        "found "
+        "option --integrator: expected raycast, whitted, distribution, light, path, path+light, bdpt, mlt or "
+        "auto, found "
         "'pth'");
 }
 

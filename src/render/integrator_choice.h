@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// --integrator auto: which integrator renders the picture.
+//
+// What it must be able to do decides first: options that only path takes, light that path cannot find, a film
+// that is gone on with. Where both could, a pilot of at most PILOT_SHARE of the render's work is taken by
+// path+light (render/pilot.h), and the integrator with the least squared error times work wins. Work is
+// counted in rays, each weighing what it was measured to cost, never in seconds: the same picture comes out
+// everywhere. The pilot's samples are dropped, so that the picture is, bit for bit, that of the integrator by
+// name.
+#pragma once
+
+#include "console/progress.h"
+#include "render/pilot.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// Of a render's work, what a pilot may take.
+constexpr double PILOT_SHARE = 0.05;
+
+/// What a pilot says of an integrator, a sample a pixel.
+struct IntegratorPrice {
+    Integrator integrator = Integrator::PATH;
+    SquaredErrors errors{}; ///< squared, by ErrorMeasure
+    double work = 0;        ///< in rays of path
+    double efficiency = 1;  ///< 1 / (squared error times work), path's being 1
+};
+
+/// Which integrator renders, and why.
+struct IntegratorChoice {
+    Integrator integrator = Integrator::PATH;
+    bool is_asked = false;               ///< by --integrator auto; else it is that of the options
+    std::string reason;                  ///< in words, where it was asked
+    PilotSize pilot;                     ///< 0 spp: there was none
+    std::vector<IntegratorPrice> prices; ///< that it has found out
+    double seconds = 0; ///< of choosing, compilation and tree included; nothing depends on it
+};
+
+/// Size of the pilot of a render; none where so small a one tells nothing.
+std::optional<PilotSize> pilot_size(const Options& options);
+
+/// Chooses, where --integrator auto asks, says so, and plans for what is chosen. `tree` is that of the plan,
+/// or null; where the pilot needed one it is there. Throws DeviceError, KernelBuildError and SceneError.
+IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+                                   std::shared_ptr<const SceneTree>& tree, Progress& progress);
+
+/// "path+light: ..." for the report; empty where nothing was asked.
+std::string choice_text(const IntegratorChoice& choice);
+
+} // namespace clrt

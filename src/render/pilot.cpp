@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/pilot.h"
+
+#include "film/error_measure.h"
+#include "film/film_buffers.h"
+#include "kernels/shared/moment_types.h"
+#include "render/launcher.h"
+#include "render/render_params.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clrt {
+
+namespace {
+
+/// Of the pilot's samples, whatever --seed is: pictures of all seeds are rendered alike and can be merged,
+/// and hardly any of them uses these samples again.
+constexpr std::uint32_t PILOT_SEED = 0x70696c6fu;
+
+/// Their spread is what splats and paths together scatter by; fewer samples each are no net.
+constexpr int PILOT_REPLICATES = 4;
+
+/// The options of the pilot's picture: the same view, coarser, without a pixel filter.
+Options pilot_options(const Options& options, const PilotSize& size) {
+    Options pilot = options;
+    const Crop window = render_window(options.film);
+    const double scale_x = double(size.width) / (window.x1 - window.x0);
+    const double scale_y = double(size.height) / (window.y1 - window.y0);
+    const auto scaled = [](int x, double scale) { return int(std::lround(x * scale)); };
+    pilot.film.size = {std::max(scaled(options.film.size.x, scale_x), size.width),
+                       std::max(scaled(options.film.size.y, scale_y), size.height)};
+    if (options.film.crop) {
+        const int x = std::min(scaled(window.x0, scale_x), pilot.film.size.x - size.width);
+        const int y = std::min(scaled(window.y0, scale_y), pilot.film.size.y - size.height);
+        pilot.film.crop = Crop{x, y, x + size.width, y + size.height};
+    }
+    pilot.film.filter = Filter::BOX;
+    pilot.film.filter_radius.reset();
+    pilot.sampling.seed = PILOT_SEED;
+    pilot.sampling.replicates = PILOT_REPLICATES;
+    return pilot;
+}
+
+/// The film of a pilot that is done, its moments as layers.
+RenderProgress render_pilot(const PreparedScene& prepared, const PilotSize& size) {
+    const PlannedScene& planned = *prepared.planned;
+    RenderProgress render;
+    Film& film = render.film;
+    film.scale = film_scale(planned.scene);
+    RenderParams params = make_render_params(planned.scene, pilot_options(planned.options, size), film.scale);
+    restrict_lights(planned.effects.paths, params);
+    film.width = int(params.crop_width);
+    film.height = int(params.crop_height);
+    film.replicates = PILOT_REPLICATES;
+    film.ranges = {{0, size.spp}};
+    film.sums.resize(PILOT_REPLICATES * film_plane(film));
+    film.shown.assign(film_plane(film) / 3, 0);
+    render.path_layers.assign(MOMENTS_PLANES, film_layer(film));
+    for (Film& layer : render.path_layers)
+        layer.sums.resize(film_plane(film));
+    const FilmBuffers buffers(prepared.device, params, MOMENTS_PLANES);
+    const Program program = build_pilot_program(prepared);
+    Launcher launcher(prepared.device, program, integrator_kernel(planned.options.transport.integrator),
+                      params, prepared.buffers);
+    buffers.bind(launcher.kernel());
+    launcher.run(0, size.spp, 0, params.tile_count);
+    buffers.read_sums(render);
+    buffers.read_shown(film);
+    render.counts = buffers.read_counts();
+    render.counts.primary = size.samples();
+    return render;
+}
+
+/// Means a sample of a value of the film.
+class Means {
+public:
+    explicit Means(const RenderProgress& render)
+        : render_(render), samples_(double(film_samples(render.film))), quantum_(render.film.scale.quantum) {}
+    double radiance(size_t i) const {
+        double sum = 0;
+        for (size_t at = i; at < render_.film.sums.size(); at += film_plane(render_.film))
+            sum += double(render_.film.sums[at]);
+        return sum / samples_ * quantum_;
+    }
+    double gathered(size_t i) const { return of_layer(MOMENTS_GATHERED, i) * quantum_; }
+    double square(size_t layer, size_t i) const {
+        return of_layer(layer, i) * MOMENT_UNIT * quantum_ * quantum_;
+    }
+
+private:
+    double of_layer(size_t layer, size_t i) const {
+        return double(render_.path_layers[layer].sums[i]) / samples_;
+    }
+    const RenderProgress& render_;
+    double samples_, quantum_;
+};
+
+/// Squared errors of a sample by a measure, over the pixels that show the scene. Those of path+light are what
+/// its replicates scatter by; by how much more those of path would, its moments tell.
+void set_errors(const RenderProgress& render, ErrorMeasure measure, PilotResult& result) {
+    const Film& film = render.film;
+    const PixelChoice choice(film, ErrorPixels::SCENE);
+    const ErrorWeights weights(film, choice, measure);
+    const Means means(render);
+    const double n = double(film_samples(film));
+    double more = 0, mean = 0, count = 0;
+    for (size_t i = 0; i < film_plane(film); ++i) {
+        if (!choice.has(i / 3))
+            continue;
+        // A squared mean is too large by the variance of a sample over their number. Splats are many and
+        // rare: the variance of their sum is the sum of their squares.
+        const double gathered = means.gathered(i), radiance = means.radiance(i);
+        const double with = (means.square(MOMENTS_SPLATTED, i) - gathered * gathered) * n / (n - 1);
+        const double without = means.square(MOMENTS_ALONE, i) - radiance * radiance + with / n;
+        more += weights.of(i) * (without - with);
+        mean += radiance;
+        count += 1;
+    }
+    const std::optional<FilmError> error = film_error(film, ErrorPixels::SCENE, measure);
+    result.is_black = !error;
+    if (!error)
+        return;
+    const double errors = error->relative_rmse * error->relative_rmse * n;
+    result.path_light[size_t(measure)] = errors;
+    result.path[size_t(measure)] = errors + more * count / (mean * mean);
+}
+
+} // namespace
+
+PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {
+    const RenderProgress render = render_pilot(prepared, size);
+    PilotResult result;
+    for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
+        set_errors(render, measure, result);
+    for (const std::int64_t rays : render.path_layers[MOMENTS_RAYS].sums)
+        result.light_rays += double(rays);
+    result.eye_rays = (double(render.counts.rays()) - result.light_rays) / double(size.samples());
+    result.light_rays /= double(size.samples());
+    return result;
+}
+
+} // namespace clrt

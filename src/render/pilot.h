@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small picture by path+light that tells what the noise of path+light is, and what that of path would be
+// (kernels/film/moments.h).
+#pragma once
+
+#include "film/film.h"
+#include "film/render_progress.h"
+#include "render/prepared_scene.h"
+
+#include <array>
+#include <cstdint>
+
+namespace clrt {
+
+/// Size of a pilot's picture, and samples a pixel.
+struct PilotSize {
+    int width = 0, height = 0;
+    std::uint32_t spp = 0;
+    std::uint64_t samples() const { return std::uint64_t(width) * std::uint64_t(height) * spp; }
+};
+
+/// Squared errors of one sample a pixel, by ErrorMeasure: the mean over pixels and channels of the variance.
+using SquaredErrors = std::array<double, 2>;
+
+/// What a pilot has found out.
+struct PilotResult {
+    SquaredErrors path{}, path_light{};
+    double eye_rays = 0, light_rays = 0; ///< a sample: of paths from the eye and of those from the lights
+    bool is_black = false;               ///< no light was found: there are no errors
+};
+
+/// Renders it with a program of its own. The scene is prepared for path+light, with or without programs. The
+/// same for every seed and range of samples of the picture, and with any number of threads. Throws
+/// DeviceError and KernelBuildError.
+PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size);
+
+} // namespace clrt

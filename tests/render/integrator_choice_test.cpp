@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// --integrator auto: what decides, that a pilot's figures are those of the integrators, and that the picture
+// is that of the one that is chosen.
+#include "film/film_error.h"
+#include "render/integrator_choice.h"
+#include "support/render_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+/// A choice, and the plan that it leaves.
+struct Chosen {
+    IntegratorChoice choice;
+    std::shared_ptr<PlannedScene> planned;
+    std::shared_ptr<const SceneTree> tree;
+};
+
+/// A box with a lamp under its ceiling, and spheres on its floor.
+struct Box : TestScene {
+    Box() {
+        build.material("matte", "Kd 0.6 0.6 0.6").material("lamp", "Kd 0 0 0\nKe 9 8 7");
+        build.material("glass", "Ni 1.5\nillum 7");
+        build.use("matte").floor(2);
+        build.polygon({{-2, 0, -2}, {2, 0, -2}, {2, 3, -2}, {-2, 3, -2}});
+        look({0, 1.5, 4}, {0, 1, 0}, 50);
+        options.film.size = {64, 48};
+        options.sampling.spp = 256;
+        options.sampling.replicates = 4;
+        options.light.environment = glm::dvec3(0);
+        options.transport.choose = true;
+    }
+    void add_lamp(double side) {
+        build.use("lamp").polygon(
+            {{-side, 2.9, -side}, {side, 2.9, -side}, {side, 2.9, side}, {-side, 2.9, side}});
+    }
+    void add_glass() { build.use("glass").icosphere({0, 0.8, 0}, 0.5, 3, Facing::OUTWARD, Shading::SMOOTH); }
+    /// A small lamp whose light is gathered by glass.
+    void add_caustic() {
+        add_lamp(0.05);
+        add_glass();
+    }
+
+    Chosen choose() const {
+        Chosen chosen{{}, plan_loaded(test_device(), load(), options), nullptr};
+        Progress silent(Toggle::OFF, true);
+        chosen.choice = choose_integrator(test_device(), chosen.planned, chosen.tree, silent);
+        EXPECT_EQ(chosen.planned->options.transport.integrator, chosen.choice.integrator);
+        return chosen;
+    }
+    Integrator integrator() const { return choose().choice.integrator; }
+};
+
+/// Squared error of a sample a pixel by an integrator, over many.
+double squared_error(const Box& box, Integrator integrator) {
+    Options options = box.options;
+    options.transport.integrator = integrator;
+    options.transport.choose = false;
+    options.sampling.spp = 512;
+    options.sampling.replicates = 64; // 8 samples each: nets as of a pilot
+    const auto error =
+        film_error(render_loaded(box.load(), options).film, ErrorPixels::SCENE, ErrorMeasure::RELATIVE);
+    return error ? error->relative_rmse * error->relative_rmse * 512 : 0;
+}
+
+} // namespace
+
+TEST(IntegratorChoice, CausticsAreLeftToLightPaths) {
+    Box box;
+    box.add_caustic();
+    const Chosen chosen = box.choose();
+    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH_LIGHT) << chosen.choice.reason;
+    EXPECT_TRUE(chosen.tree) << "the pilot's is the picture's";
+    ASSERT_EQ(chosen.choice.prices.size(), 2u);
+    EXPECT_GT(chosen.choice.prices[1].efficiency, 3) << chosen.choice.reason;
+}
+
+TEST(IntegratorChoice, APilotToldWhatSplatsWouldNotGain) {
+    Box box;
+    box.add_lamp(1.2); // which paths from the eye find through glass as well
+    box.add_glass();
+    const Chosen chosen = box.choose();
+    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
+    ASSERT_EQ(chosen.choice.prices.size(), 2u);
+    EXPECT_LT(chosen.choice.prices[1].efficiency, 1) << chosen.choice.reason;
+}
+
+TEST(IntegratorChoice, APilotsErrorsAreThoseOfTheIntegrators) {
+    // Of the smallest lamp paths from the eye find next to nothing in so few samples, and what path+light is
+    // left with are paths as rare.
+    for (const double side : {0.05, 0.4, 1.2}) {
+        Box box;
+        box.add_lamp(side);
+        box.add_glass();
+        box.options.sampling.spp = 16384; // a pilot of all pixels
+        const std::vector<IntegratorPrice> prices = box.choose().choice.prices;
+        ASSERT_EQ(prices.size(), 2u);
+        for (size_t i = 0; i < (side < 0.1 ? 1 : 2); ++i) {
+            const double ratio =
+                prices[i].errors[size_t(ErrorMeasure::RELATIVE)] / squared_error(box, prices[i].integrator);
+            EXPECT_GT(ratio, 0.5) << name_of(prices[i].integrator) << ", lamp " << side;
+            EXPECT_LT(ratio, 2.2) << name_of(prices[i].integrator) << ", lamp " << side;
+        }
+    }
+}
+
+TEST(IntegratorChoice, ThePictureIsThatOfTheChosenOne) {
+    for (const bool has_small_lamp : {false, true}) {
+        Box box;
+        box.add_lamp(has_small_lamp ? 0.05 : 1.2);
+        box.add_glass();
+        const Chosen chosen = box.choose();
+        const Render render =
+            render_silently(prepare_render(test_device(), chosen.planned, {chosen.tree, nullptr}));
+        box.options.transport.choose = false;
+        box.options.transport.integrator = chosen.choice.integrator;
+        EXPECT_TRUE(render.film.sums == box.render().film.sums) << name_of(chosen.choice.integrator);
+    }
+}
+
+TEST(IntegratorChoice, SeedAndRangeOfSamplesChangeNothing) {
+    Box box;
+    box.add_caustic();
+    const std::vector<IntegratorPrice> expected = box.choose().choice.prices;
+    box.options.sampling.seed = 7;
+    box.options.sampling.first_sample = 256;
+    const std::vector<IntegratorPrice> found = box.choose().choice.prices;
+    ASSERT_EQ(found.size(), expected.size());
+    for (size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].errors, expected[i].errors);
+        EXPECT_EQ(found[i].work, expected[i].work);
+    }
+}
+
+TEST(IntegratorChoice, WithoutCausticsNothingIsTried) {
+    Box box;
+    box.add_lamp(0.05);
+    const Chosen chosen = box.choose();
+    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH);
+    EXPECT_TRUE(chosen.choice.prices.empty());
+    EXPECT_NE(chosen.choice.reason.find("LS+DE"), std::string::npos);
+}
+
+TEST(IntegratorChoice, WhatOptionsNeedComesFirst) {
+    Box box;
+    box.add_caustic();
+    const Options usual = box.options;
+    const auto reason = [&](const auto& change) {
+        box.options = usual;
+        change(box.options);
+        const IntegratorChoice choice = box.choose().choice;
+        EXPECT_EQ(choice.integrator, Integrator::PATH) << choice.reason;
+        EXPECT_TRUE(choice.prices.empty());
+        return choice.reason.substr(0, choice.reason.find(' '));
+    };
+    EXPECT_EQ(reason([](Options& o) { o.transport.paths = "LD*E"; }), "--paths");
+    EXPECT_EQ(reason([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "--aov");
+    EXPECT_EQ(reason([](Options& o) { o.sampling.adaptive = ErrorMeasure::RELATIVE; }), "--adaptive");
+    EXPECT_EQ(reason([](Options& o) { o.transport.guide = Toggle::ON; }), "--guide");
+    EXPECT_EQ(reason([](Options& o) { o.sampling.spp = 8; }), "too");
+}
+
+TEST(IntegratorChoice, LightThatPathCannotFindIsReasonEnough) {
+    Box box;
+    box.add_glass();
+    box.options.light.points = {{{0, 2.9, 0}, {5, 5, 5}}};
+    const IntegratorChoice choice = box.choose().choice;
+    EXPECT_EQ(choice.integrator, Integrator::PATH_LIGHT) << choice.reason;
+    EXPECT_NE(choice.reason.find("path does not see"), std::string::npos) << choice.reason;
+    EXPECT_TRUE(choice.prices.empty());
+}
+
+TEST(IntegratorChoice, WhereAPilotSeesNoLightItIsPath) {
+    Box box;
+    box.add_caustic();
+    box.look({0, 20, 4}, {0, 40, 0}, 50); // away from everything
+    const IntegratorChoice choice = box.choose().choice;
+    EXPECT_EQ(choice.integrator, Integrator::PATH);
+    EXPECT_EQ(choice.reason, "a pilot finds no light");
+}
+
+TEST(IntegratorChoice, APilotIsAShareOfTheRender) {
+    Box box;
+    box.options.film.size = {640, 480};
+    const auto share = [&](double samples) { // 2.6 to 3.3 samples of path each
+        const std::optional<PilotSize> pilot = pilot_size(box.options);
+        return pilot ? 3.3 * double(pilot->samples()) / samples : -1.0;
+    };
+    for (const std::uint32_t spp : {4u, 16u, 64u, 1024u}) {
+        box.options.sampling.spp = spp;
+        EXPECT_LT(share(640. * 480 * spp), 0.055) << spp;
+        EXPECT_GT(share(640. * 480 * spp), 0) << spp;
+    }
+    box.options.film.crop = Crop{320, 240, 352, 272}; // a light path for every pixel of the picture
+    EXPECT_FALSE(pilot_size(box.options));
+    box.options.film.crop.reset();
+    box.options.sampling.spp.reset();
+    box.options.sampling.time_seconds = 1;
+    EXPECT_FALSE(pilot_size(box.options));
+    box.options.sampling.time_seconds = 60;
+    EXPECT_TRUE(pilot_size(box.options));
+    box.options.film.size = {7, 1};
+    EXPECT_TRUE(pilot_size(box.options)->width <= 7 && pilot_size(box.options)->height == 1);
+}
+
+} // namespace clrt
