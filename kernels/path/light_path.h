@@ -84,6 +84,10 @@ static inline real light_path_nan_of(const CameraConnection* camera)
 typedef struct {
     real2 film;
     real3 radiance;
+#if FILM_MOMENTS
+    uint slot;
+    real rivals; /* splat_rivals */
+#endif
 } LightSplat;
 
 /* Connects the vertex to the camera; false where nothing arrives in the window. `segment` counts the path's
@@ -126,6 +130,10 @@ static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderPar
     arriving->film = splat.film;
     arriving->radiance = radiance * splat.weight * visible_share(scene, params, &shadow);
     TRACE_VECTOR(scene, TRACE_CONNECTION, arriving->radiance);
+#if FILM_MOMENTS
+    arriving->slot = slot;
+    arriving->rivals = splat_rivals(params, vertex, wi, camera.pdf_a, &path->weights);
+#endif
     return true;
 }
 
@@ -142,8 +150,7 @@ static inline void light_path_splat(const Scene* scene, const RenderParams* para
     if (fault != COUNT_WORDS)
         sink->fault = fault;
 #if FILM_MOMENTS
-    moments_add_splat(params, sink->film, slot, &path->sampler, segment, radiance,
-                      splat_rivals(params, vertex, wi, camera.pdf_a, &path->weights));
+    moments_add_splat(params, sink->film, splat.slot, &path->sampler, segment, splat.radiance, splat.rivals);
 #endif
 }
 

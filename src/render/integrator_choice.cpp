@@ -19,7 +19,7 @@ namespace {
 /// within a pixel counts as noise of both integrators and hides how they differ.
 constexpr std::uint32_t PILOT_SPP = 8;
 /// Fewer samples of all pixels together tell nothing reliable of caustics, more tell nothing new.
-constexpr double FEWEST_SAMPLES = 8192, MOST_SAMPLES = 131072;
+constexpr double FEWEST_SAMPLES = 8192, MOST_PILOT_SAMPLES = 131072;
 /// What a sample of a pilot costs, in samples of path (2.6 to 3.3 in all, processor seconds of three scenes):
 /// its path from the eye, weighted twice, and its light path.
 constexpr double PILOT_EYE_WORK = 1.7, PILOT_LIGHT_WORK = 1.5;
@@ -72,11 +72,11 @@ double price(const IntegratorPrice& of, const Options& options) {
 /// The integrators between which a pilot decides, with what it says of them. The first is taken where no
 /// other one is worth it. Another one is a row more.
 std::vector<IntegratorPrice> prices_of(const PilotResult& pilot, const Options& options) {
-    std::vector<IntegratorPrice> prices = {{Integrator::PATH, pilot.path, pilot.eye_rays},
-                                           {Integrator::PATH_LIGHT, pilot.path_light,
-                                            SPLATTED_EYE_RAY_WORK * pilot.eye_rays +
-                                                LIGHT_RAY_WORK * pilot.light_rays +
-                                                LIGHT_PATH_WORK * light_paths_a_sample(options)}};
+    std::vector<IntegratorPrice> prices = {
+        {Integrator::PATH, pilot.path, pilot.eye_rays},
+        {Integrator::PATH_LIGHT, pilot.path_light,
+         SPLATTED_EYE_RAY_WORK * pilot.eye_rays + LIGHT_RAY_WORK * pilot.light_rays +
+             LIGHT_PATH_WORK * pilot.aimed * light_paths_a_sample(options)}};
     for (size_t i = 1; i < prices.size(); ++i)
         prices[i].efficiency = price(prices[0], options) / price(prices[i], options);
     return prices;
@@ -140,7 +140,7 @@ std::optional<PilotSize> pilot_size(const Options& options) {
     const Crop window = render_window(options.film);
     const double width = window.x1 - window.x0, height = window.y1 - window.y0;
     const double work = PILOT_EYE_WORK + PILOT_LIGHT_WORK * light_paths_a_sample(options);
-    const double samples = std::min(PILOT_SHARE / work * expected_samples(options), MOST_SAMPLES);
+    const double samples = std::min(PILOT_SHARE / work * expected_samples(options), MOST_PILOT_SAMPLES);
     if (samples < FEWEST_SAMPLES)
         return std::nullopt;
     const double scale = std::min(std::sqrt(samples / PILOT_SPP / (width * height)), 1.0);

@@ -6,6 +6,7 @@
 #include "kernels/shared/moment_types.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
+#include "scene/light_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,6 +138,7 @@ PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {
         result.light_rays += double(rays);
     result.eye_rays = (double(render.counts.rays()) - result.light_rays) / double(size.samples());
     result.light_rays /= double(size.samples());
+    result.aimed = plan_emission(prepared.planned->scene, false).aimed;
     return result;
 }
 

@@ -26,6 +26,7 @@ using SquaredErrors = std::array<double, 2>;
 struct PilotResult {
     SquaredErrors path{}, path_light{};
     double eye_rays = 0, light_rays = 0; ///< a sample: of paths from the eye and of those from the lights
+    double aimed = 1;                    ///< light paths for each pixel (EmissionPlan)
     bool is_black = false;               ///< no light was found: there are no errors
 };
 

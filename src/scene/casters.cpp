@@ -28,7 +28,7 @@ struct CasterCorners {
 
 using Part = std::vector<CasterCorners>;
 
-CasterCorners corners_of(const Scene& scene, const Triangle& triangle) {
+CasterCorners caster_corners(const Scene& scene, const Triangle& triangle) {
     CasterCorners corners;
     for (const u32 corner : {triangle.v0, triangle.v1, triangle.v2}) {
         corners.points.push_back(to_dvec3(scene.positions[corner]));
@@ -102,7 +102,7 @@ std::vector<vec4> find_casters(const Scene& scene) {
     Part all;
     for (const Triangle& triangle : scene.triangles)
         if (is_caster(scene.materials[triangle.material]))
-            all.push_back(corners_of(scene, triangle));
+            all.push_back(caster_corners(scene, triangle));
     return all.empty() ? std::vector<vec4>() : cover(std::move(all), 0);
 }
 
