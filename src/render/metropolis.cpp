@@ -13,14 +13,14 @@ namespace clrt {
 
 namespace {
 
-/// Pixels a chain of each replicate: few chains walk far, many keep a device busy (four times as many: 0.7
-/// times the efficiency behind a door ajar, 0.6 times in a caustic).
+/// Pixels a chain of each replicate: few chains walk far, many keep a device busy (with four times as many the
+/// efficiency behind a door ajar was about 0.7 times).
 constexpr u32 PIXELS_PER_CHAIN = 256;
 /// Chains of a replicate at most: 16384 in four keep a large device busy, and their words are 16 MB.
 constexpr u32 LARGEST_CHAINS = 4096;
 /// The first epoch, samples of each replicate.
 constexpr std::uint64_t FIRST_EPOCH = 4;
-/// New paths for each step of the epoch: a few per cent of the picture's error come from their mean.
+/// New paths for each step of the epoch.
 constexpr double PATHS_PER_STEP = 0.0625;
 /// New paths of a replicate: fewer tell too little, more are no launch of seconds any more, and longer epochs
 /// would need them.
