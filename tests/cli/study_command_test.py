@@ -198,7 +198,7 @@ class StudyCommand(unittest.TestCase):
         self.assertEqual(choices.names("--adaptive")[0], "off")
         default = choices.default_method()
         self.assertEqual((default.integrator, default.precision, default.sampler, default.guide, default.adaptive),
-                         ("path", "single", "sobol", "off", "off"))
+                         ("path", "single", "sobol", "auto", "off"))
         self.assertEqual(study_runs.REFERENCE_METHOD, Method("path", "single", "sobol"))
         for option, found in (("-i", "path,pth"), ("-p", "half"), ("--samplers", "sobol,sobol"), ("--adaptive", "of")):
             done = self.run_command("scene.obj", "--clrt", CLRT, option, found)

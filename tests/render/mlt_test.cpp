@@ -6,7 +6,7 @@
 #include "probes/statistics.h"
 #include "render/chain_starts.h"
 #include "support/film_agrees.h"
-#include "support/render_scene.h"
+#include "support/lit_rooms.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ namespace clrt {
 namespace {
 
 /// A room with a lamp, a mirror and a ball of glass; a caustic on the floor.
-struct Room : TestScene {
-    Room() {
+struct CausticRoom : TestScene {
+    CausticRoom() {
         build.material("matte", "Kd 0.6 0.5 0.4").material("mirror", "Ks 0.9 0.8 0.7\nillum 3");
         build.material("glass", "Ni 1.5\nillum 7").material("lamp", "Kd 0 0 0\nKe 12 10 8");
         build.use("matte").floor(3);
@@ -37,29 +37,10 @@ struct Room : TestScene {
     }
 };
 
-struct TileMeans {
-    std::vector<double> mean, variance;
-};
-
-TileMeans tile_means(const TestScene& scene, Integrator integrator) {
-    Options options = scene.options;
-    options.transport.integrator = integrator;
-    const Render render = render_loaded(scene.load(), options);
-    EXPECT_EQ(render.counts.bad(), 0u) << name_of(integrator);
-    TileMeans tiles;
-    for (int y = 0; y < render.film.height; y += 8)
-        for (int x = 0; x < render.film.width; x += 8)
-            for (int channel = 0; channel < 3; ++channel) {
-                const Estimate tile = film_estimate(render.film, channel, {x, y, x + 8, y + 8});
-                tiles.mean.push_back(tile.mean);
-                tiles.variance.push_back(tile.error * tile.error);
-            }
-    return tiles;
-}
-
 /// Whether chains bring what `other` does, in every tile, to `sharpness` of the picture's mean.
 void expect_chains_agree(const TestScene& scene, Integrator other, double sharpness) {
-    const TileMeans a = tile_means(scene, Integrator::MLT), b = tile_means(scene, other);
+    const TileMeans a = tile_means(scene, scene.options, Integrator::MLT, ""),
+                    b = tile_means(scene, scene.options, other, "");
     double mean = 0, noise = 0;
     for (size_t i = 0; i < a.mean.size(); ++i) {
         mean += b.mean[i] / double(b.mean.size());
@@ -89,14 +70,14 @@ Moments means_over_seeds(const TestScene& scene, int seeds) {
 } // namespace
 
 TEST(Mlt, ChangesNoMeanUnderAnyKindOfLight) {
-    const std::pair<const char*, void (*)(Room&)> lightings[] = {
-        {"lamp", [](Room&) {}},
-        {"sky", [](Room& room) { room.options.light.environment = glm::dvec3(0.5, 1, 1.5); }},
+    const std::pair<const char*, void (*)(CausticRoom&)> lightings[] = {
+        {"lamp", [](CausticRoom&) {}},
+        {"sky", [](CausticRoom& room) { room.options.light.environment = glm::dvec3(0.5, 1, 1.5); }},
         {"disc",
-         [](Room& room) {
+         [](CausticRoom& room) {
              room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 20});
          }},
-        {"map", [](Room& room) {
+        {"map", [](CausticRoom& room) {
              std::vector<float> texels;
              for (int i = 0; i < 8 * 4 * 3; ++i)
                  texels.push_back(i / 3 == 12 ? 30.0f : 0.2f + 0.1f * float(i * 7 % 5));
@@ -106,20 +87,20 @@ TEST(Mlt, ChangesNoMeanUnderAnyKindOfLight) {
          }}};
     for (const auto& [name, add] : lightings) {
         SCOPED_TRACE(name);
-        Room room;
+        CausticRoom room;
         add(room);
         expect_chains_agree(room, Integrator::PATH, 0.15);
     }
 }
 
 TEST(Mlt, FindsWhatPathsFromTheEyeCannot) {
-    Room room; // point lights behind glass
+    CausticRoom room; // point lights behind glass
     room.options.light.points.push_back({{0.5, 1.8, 0.3}, {4, 5, 6}});
     expect_chains_agree(room, Integrator::PATH_LIGHT, 0.15);
 }
 
 TEST(Mlt, ThroughLensAndFilterAndInAWindow) {
-    Room room;
+    CausticRoom room;
     room.options.film.filter = Filter::GAUSSIAN;
     room.options.film.filter_radius = 1.5;
     room.options.camera.aperture = 0.05;
@@ -130,7 +111,7 @@ TEST(Mlt, ThroughLensAndFilterAndInAWindow) {
 
 // What short chains get wrong if they start anywhere, or if their scale is that of other replicates.
 TEST(Mlt, HasNoStartUpBiasHoweverFewItsSteps) {
-    Room room;
+    CausticRoom room;
     room.options.film.size = {16, 16};
     room.options.sampling.replicates = 4;
     room.options.transport.max_depth = 4;
@@ -230,7 +211,7 @@ TEST(Mlt, TheErrorKnowsTheMeanScore) {
 }
 
 TEST(Mlt, OneSegmentIsWhatTheCameraSees) {
-    Room room;
+    CausticRoom room;
     room.options.transport.max_depth = 1;
     room.options.sampling.spp = 8;
     const Render mlt = room.render();
@@ -239,7 +220,7 @@ TEST(Mlt, OneSegmentIsWhatTheCameraSees) {
 }
 
 TEST(Mlt, TheSameSamplesAreTheSameBits) {
-    Room room;
+    CausticRoom room;
     room.options.sampling.spp = 48;
     EXPECT_TRUE(room.render().film.sums == room.render().film.sums);
     const Film film = room.render().film;
@@ -249,7 +230,7 @@ TEST(Mlt, TheSameSamplesAreTheSameBits) {
 
 // Chains are not kept in a film: a render that goes on begins new ones.
 TEST(Mlt, GoesOnWithNewChains) {
-    Room room;
+    CausticRoom room;
     room.options.film.size = {16, 16};
     room.options.sampling.replicates = 4;
     room.options.transport.max_depth = 4;
@@ -282,7 +263,7 @@ TEST(Mlt, GoesOnWithNewChains) {
 }
 
 TEST(Mlt, SamplesOfOtherNumbersAreOthers) {
-    Room room;
+    CausticRoom room;
     room.options.sampling.spp = 16;
     const Film film = room.render().film;
     room.options.sampling.first_sample = 16;
@@ -290,7 +271,7 @@ TEST(Mlt, SamplesOfOtherNumbersAreOthers) {
 }
 
 TEST(Mlt, TellsThatMaxDepthCutsPaths) {
-    Room room;
+    CausticRoom room;
     room.options.sampling.spp = 16;
     EXPECT_GT(room.render().counts.cut_paths, 0u);
 }

@@ -83,6 +83,25 @@ void Room::add_bent_normals() {
     build.use("glass").icosphere({0.8, 0.4, 1}, 0.3, 1, Facing::OUTWARD, Shading::SMOOTH);
 }
 
+void expect_crop_is_a_part(Integrator integrator) {
+    Room room;
+    room.add_lamp();
+    room.options.transport.integrator = integrator;
+    room.options.sampling.spp = 16;
+    room.options.sampling.replicates = 8;
+    const Film whole = room.render().film;
+    room.options.film.crop = Crop{5, 9, 24, 30};
+    const Film window = room.render().film;
+    const auto at = [](const Film& film, int replicate, int x, int y) {
+        const size_t pixel = size_t(y) * size_t(film.width) + size_t(x);
+        return film.sums[size_t(replicate) * film_plane(film) + 3 * pixel];
+    };
+    for (int replicate = 0; replicate < 8; ++replicate)
+        for (int y = 0; y < window.height; ++y)
+            for (int x = 0; x < window.width; ++x)
+                ASSERT_EQ(at(window, replicate, x, y), at(whole, replicate, x + 5, y + 9)) << x << "," << y;
+}
+
 const std::vector<Lighting>& lightings() {
     static const std::vector<Lighting> all = {
         {"lamp", [](Room& room) { room.add_lamp(); }},

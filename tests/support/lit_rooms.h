@@ -31,6 +31,9 @@ struct Room : TestScene {
     void add_bent_normals();
 };
 
+/// Whether a window of a lit room has the bits that it has in the whole picture.
+void expect_crop_is_a_part(Integrator integrator);
+
 /// A way to light a room.
 struct Lighting {
     const char* name;
