@@ -34,7 +34,9 @@ typedef struct {
     BVH_ARRAYS(SCENE_ARRAY)
     SCENE_ARRAYS(SCENE_ARRAY)
 #undef SCENE_ARRAY
-    GuideArrays guide; /* unset without PATH_GUIDE */
+#if PATH_GUIDE
+    GuideArrays guide;
+#endif
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     bool moves; /* triangles move while the shutter is open */
 #endif

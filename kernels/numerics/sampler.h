@@ -39,9 +39,9 @@
 #define SAMPLE_CLASS 9u       /* matte or glossy, where a path filter must know and both are possible */
 #define SAMPLE_LENS 10u       /* point of the lens; camera rays are bounce 0 */
 #define SAMPLE_TIME 11u       /* within the shutter's opening: the first of a pair */
+#define SAMPLE_PARTNER 12u    /* which vertex of a light path a vertex of the eye's is connected to */
 #define SAMPLE_SPLAT 13u      /* which of the pixels around it a splat goes to */
-#define SAMPLE_PARTNER 14u    /* which vertex of a light path a vertex of the eye's is connected to */
-#define SAMPLE_STRATEGY 14u   /* how a chain's path is found; bounce 0, which has no partner */
+#define SAMPLE_STRATEGY 14u   /* how a chain's path is found; bounce 0 */
 #define SAMPLE_STEP 15u       /* of a chain: whether it is large, and (bounce 1) whether it is taken */
 #define SAMPLER_PURPOSES 16u
 

@@ -45,14 +45,17 @@ static inline Guide guide_none(void)
 static inline Guide guide_at(const Scene* scene, const RenderParams* params, real3 position, const Bsdf* bsdf)
 {
     Guide guide = guide_none();
-    if (!PATH_GUIDE || !guide_suits(bsdf))
+#if PATH_GUIDE
+    if (!guide_suits(bsdf))
         return guide;
     guide.cell = cell_at(scene->guide.links, (real)params->scene_extent, position, bsdf->frame.z);
     guide.share = (real)scene->guide.cells[guide.cell].share;
     guide.radiance = (real)scene->guide.cells[guide.cell].radiance;
+#endif
     return guide;
 }
 
+#if PATH_GUIDE
 /* The density with which the cell samples a direction, and the direction's bin. */
 static inline real guide_pdf_w(const Scene* scene, const Guide* guide, real3 wi, uint* number)
 {
@@ -92,6 +95,7 @@ static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf,
     TRACE_SET(next.lobe, 0u);
     return next;
 }
+#endif
 
 /* Samples a direction by the mixture. One number chooses between cell and BSDF, and what is left of it the
    lobe. The density that it says is that of the BSDF alone: emission that is met is weighted against light
@@ -99,7 +103,8 @@ static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf,
 static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real u_lobe, real2 u,
                                       Guide* guide)
 {
-    if (!PATH_GUIDE || guide->cell == NO_INDEX)
+#if PATH_GUIDE
+    if (guide->cell == NO_INDEX)
         return bsdf_sample(bsdf, u_lobe, u);
     if (u_lobe < guide->share)
         return guide_sample_cell(scene, bsdf, u, guide);
@@ -114,6 +119,9 @@ static inline BsdfSample guide_sample(const Scene* scene, const Bsdf* bsdf, real
     guide->ratio = guide_mixture(guide, next.pdf_w, pdf_w) / next.pdf_w;
     next.weight /= guide->ratio;
     return next;
+#else
+    return bsdf_sample(bsdf, u_lobe, u);
+#endif
 }
 
 #endif

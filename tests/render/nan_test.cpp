@@ -89,24 +89,25 @@ std::vector<Place> direct_places(const char* file, const char* first) {
 
 std::vector<Place> light_places() {
     const char* const file = "path/light_path.h";
-    return {{file,
-             "path->emission = emission_sample(scene, params, &numbers);",
-             {{"path->emission.power.y"}, {"path->emission.ray.direction.x"}, {"path->emission.pdf"}}},
-            {"path/light_vertex.h",
-             "vertex.surface = visible_surface(scene, params, ray, hit);",
-             {{"vertex.surface.position.y"}, {"vertex.surface.normal_g.x"}, {"vertex.surface.normal_s.z"}}},
-            {"path/light_vertex.h",
-             "vertex.bsdf = material_bsdf(scene, &vertex.surface, -ray->direction, TRANSPORT_IMPORTANCE);",
-             {{"vertex.bsdf.wo.z"}, {"vertex.bsdf.frame.z.y"}, {"vertex.bsdf.matte.x"}}},
-            {file,
-             "const CameraConnection camera =\n"
-             "        camera_project_at(params, surface->position, lens, surface_time(surface));",
-             {{"camera.pdf_a"}, {"camera.film.x"}, {"camera.lens.y"}}},
-            {file, "const BsdfValue eval = bsdf_eval(&vertex->bsdf, wi);", {{"eval.value.z"}}},
-            {file,
-             "const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);",
-             {{"next.wi.x"}, {"next.weight.x"}}},
-            {file, "path->throughput *= next.weight;", {{"path->throughput.y"}}}};
+    return {
+        {file,
+         "path->emission = emission_sample(scene, params, &numbers);",
+         {{"path->emission.power.y"}, {"path->emission.ray.direction.x"}, {"path->emission.pdf"}}},
+        {"path/light_vertex.h",
+         "vertex->surface = visible_surface(scene, params, ray, hit);",
+         {{"vertex->surface.position.y"}, {"vertex->surface.normal_g.x"}, {"vertex->surface.normal_s.z"}}},
+        {"path/light_vertex.h",
+         "light_vertex_complete(scene, -ray->direction, vertex);",
+         {{"vertex->bsdf.wo.z"}, {"vertex->bsdf.frame.z.y"}, {"vertex->bsdf.matte.x"}}},
+        {file,
+         "const CameraConnection camera =\n"
+         "        camera_project_at(params, surface->position, lens, surface_time(surface));",
+         {{"camera.pdf_a"}, {"camera.film.x"}, {"camera.lens.y"}}},
+        {file, "const BsdfValue eval = bsdf_eval(&vertex->bsdf, wi);", {{"eval.value.z"}}},
+        {file,
+         "const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);",
+         {{"next.wi.x"}, {"next.weight.x"}}},
+        {file, "path->throughput *= next.weight;", {{"path->throughput.y"}}}};
 }
 
 std::vector<Place> whitted_places() {
