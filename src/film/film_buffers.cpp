@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film_buffers.h"
 
+#include "device/buffer_values.h"
 #include "device/opencl_error.h"
 
 #include <algorithm>
@@ -27,14 +28,7 @@ std::int64_t number_of_sum(std::int64_t bits) {
     return bits < 0 ? INT64_MAX : bits;
 }
 
-template <class T>
-std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t first, size_t count) {
-    std::vector<T> values(count);
-    check_opencl("reading the picture back", [&] {
-        device.queue.enqueueReadBuffer(buffer, CL_TRUE, first * sizeof(T), count * sizeof(T), values.data());
-    });
-    return values;
-}
+const char* const READING_FILM = "reading the picture back";
 
 } // namespace
 
@@ -127,8 +121,8 @@ void FilmBuffers::write_plane(size_t plane, const std::int64_t* sums) const {
 
 void FilmBuffers::read_plane(size_t plane, std::int64_t* sums) const {
     for (const Band& band : bands()) {
-        const auto piece =
-            read_buffer<std::int64_t>(device_, film_, 3 * first_slot(plane, band), 3 * slot_count(band));
+        const auto piece = read_values<std::int64_t>(device_, READING_FILM, film_,
+                                                     3 * first_slot(plane, band), 3 * slot_count(band));
         for_each_pixel(band, [&](size_t on_device, size_t in_film) {
             std::transform(&piece[on_device], &piece[on_device] + 3, sums + in_film, number_of_sum);
         });
@@ -186,8 +180,9 @@ void FilmBuffers::read_shown(Film& film) const {
     if (film.shown.empty())
         return;
     for (const Band& band : bands()) {
-        const auto rays = read_buffer<u32>(device_, pixel_rays_, first_slot(0, band) * PIXEL_RAYS_WORDS,
-                                           slot_count(band) * PIXEL_RAYS_WORDS);
+        const auto rays =
+            read_values<u32>(device_, READING_FILM, pixel_rays_, first_slot(0, band) * PIXEL_RAYS_WORDS,
+                             slot_count(band) * PIXEL_RAYS_WORDS);
         for_each_pixel(band, [&](size_t on_device, size_t in_film) {
             film.shown[in_film / 3] |= std::uint8_t(rays[on_device / 3 * PIXEL_RAYS_WORDS + PIXEL_SHOWN]);
         });
@@ -195,7 +190,8 @@ void FilmBuffers::read_shown(Film& film) const {
 }
 
 RenderCounts FilmBuffers::read_counts() const {
-    const auto words = read_buffer<u32>(device_, counters_, 0, COUNT_WORDS + 2 * REPLAY_CAPACITY);
+    const auto words =
+        read_values<u32>(device_, READING_FILM, counters_, 0, COUNT_WORDS + 2 * REPLAY_CAPACITY);
     RenderCounts counts;
     counts.nan = words[COUNT_NAN];
     counts.infinite = words[COUNT_INFINITE];
@@ -206,7 +202,7 @@ RenderCounts FilmBuffers::read_counts() const {
         counts.bad_samples.emplace_back(words[COUNT_WORDS + 2 * i], words[COUNT_WORDS + 2 * i + 1]);
     for (const Band& band : bands()) {
         const size_t first = first_slot(0, band);
-        const auto rays = read_buffer<u32>(device_, pixel_rays_, first * PIXEL_RAYS_WORDS,
+        const auto rays = read_values<u32>(device_, READING_FILM, pixel_rays_, first * PIXEL_RAYS_WORDS,
                                            slot_count(band) * PIXEL_RAYS_WORDS);
         for (size_t i = 0; i < rays.size(); i += PIXEL_RAYS_WORDS) {
             counts.secondary += rays[i + PIXEL_RAYS_SECONDARY];

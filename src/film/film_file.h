@@ -15,11 +15,13 @@
 //                the round
 //   16 t n       with --adaptive: noise of one sample as 64-bit floating point numbers: n times first
 //                half, second half
-//   16 n         of a guided film: n nodes of the trees over space (kernels/shared/guide_types.h)
+//   4 n          of a guided film: n nodes of the trees over space as unsigned 32-bit integers
+//                (guide/guide.h)
 //   534 c        of its c cells: 255 splits as unsigned 16-bit integers (guide/direction_bins.h), then sum
-//   and
-//                number of records and number of vertices as 64-bit floating point numbers
+//                and number of records and number of vertices as 64-bit floating point numbers
 //   2056 c       sums of the present epoch as unsigned 64-bit integers
+//   4 t          of t tiles, what gains weigh (guide/guide_progress.h) as 32-bit floating point numbers;
+//                none where the guide is not on trial
 //   16           XXH3-128 of all bytes before it, canonical (most significant byte first)
 //
 // Integers are little endian.

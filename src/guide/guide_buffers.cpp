@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guide/guide_buffers.h"
 
-#include "device/opencl_error.h"
+#include "device/buffer_values.h"
 
 #include <numeric>
 
@@ -13,10 +13,8 @@ constexpr size_t LINK_BYTES = GUIDE_LINKS * sizeof(u32);
 constexpr size_t CELL_BYTES = GUIDE_CELLS * sizeof(GuideCell);
 constexpr size_t SUM_BYTES = size_t(GUIDE_CELLS) * GUIDE_SUMS * sizeof(std::uint64_t);
 
-template <class T>
-void write_buffer(const Device& device, const cl::Buffer& buffer, const std::vector<T>& values) {
-    device.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
-}
+const char* const WRITING_GUIDE = "writing the guide";
+const char* const READING_GUIDE = "reading the guide";
 
 } // namespace
 
@@ -37,33 +35,22 @@ void GuideBuffers::bind(Kernel& kernel) const {
 
 void GuideBuffers::write(const Guide& guide, const std::vector<std::uint64_t>& sums) const {
     const std::vector<std::uint64_t> zeros(sums.empty() ? guide.lore().size() * GUIDE_SUMS : 0);
-    check_opencl("writing the guide", [&] {
-        write_buffer(device_, links_, guide.device_links());
-        write_buffer(device_, cells_, guide.device_cells());
-        write_buffer(device_, sums_, sums.empty() ? zeros : sums);
-    });
+    write_values(device_, WRITING_GUIDE, links_, guide.device_links());
+    write_values(device_, WRITING_GUIDE, cells_, guide.device_cells());
+    write_values(device_, WRITING_GUIDE, sums_, sums.empty() ? zeros : sums);
 }
 
 std::vector<std::uint64_t> GuideBuffers::read_sums(size_t cells) const {
-    std::vector<std::uint64_t> sums(cells * GUIDE_SUMS);
-    check_opencl("reading the guide", [&] {
-        device_.queue.enqueueReadBuffer(sums_, CL_TRUE, 0, sums.size() * sizeof(sums[0]), sums.data());
-    });
-    return sums;
+    return read_values<std::uint64_t>(device_, READING_GUIDE, sums_, 0, cells * GUIDE_SUMS);
 }
 
 void GuideBuffers::write_weights(const std::vector<float>& weights) const {
-    check_opencl("writing what a guide's gains weigh", [&] {
-        write_buffer(device_, weights_, weights);
-        write_buffer(device_, gains_, std::vector<std::int64_t>(tiles_));
-    });
+    write_values(device_, WRITING_GUIDE, weights_, weights);
+    write_values(device_, WRITING_GUIDE, gains_, std::vector<std::int64_t>(tiles_));
 }
 
 double GuideBuffers::read_gain() const {
-    std::vector<std::int64_t> gains(tiles_);
-    check_opencl("reading a guide's gains", [&] {
-        device_.queue.enqueueReadBuffer(gains_, CL_TRUE, 0, gains.size() * sizeof(gains[0]), gains.data());
-    });
+    const auto gains = read_values<std::int64_t>(device_, READING_GUIDE, gains_, 0, tiles_);
     return std::accumulate(gains.begin(), gains.end(), 0.0) / GUIDE_GAIN_UNITS;
 }
 

@@ -2,7 +2,6 @@
 #include "render/guiding.h"
 
 #include "film/film_buffers.h"
-#include "options/guide_refusal.h"
 
 #include <algorithm>
 #include <array>
@@ -214,12 +213,13 @@ void Guiding::begin_epoch(std::uint64_t samples) {
 void Guiding::advance(std::uint64_t samples, const RenderCounts& counts) {
     if (samples < end())
         return;
+    if (progress_.stage == GuideStage::PILOT &&
+        double(counts.rays()) < prepared_.planned->options.transport.guide_after_rays) {
+        progress_.end = 2 * samples;
+        return;
+    }
     film_.read_sums(render_);
     if (progress_.stage == GuideStage::PILOT) {
-        if (double(counts.rays()) < prepared_.planned->options.transport.guide_after_rays) {
-            progress_.end = 2 * samples;
-            return;
-        }
         end_pilot(samples);
         if (progress_.stage == GuideStage::OFF)
             return; // the picture is that of a render without a guide

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/metropolis.h"
 
-#include "device/opencl_error.h"
+#include "device/buffer_values.h"
 #include "render/chain_starts.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace clrt {
 
 namespace {
 
-/// Pixels a chain of each replicate: few chains walk far, many keep a device busy (with four times as many the
-/// efficiency behind a door ajar was about 0.7 times).
+/// Pixels a chain of each replicate: few chains walk far, many keep a device busy (with four times as many
+/// the efficiency behind a door ajar was about 0.7 times).
 constexpr u32 PIXELS_PER_CHAIN = 256;
 /// Chains of a replicate at most: 16384 in four keep a large device busy, and their words are 16 MB.
 constexpr u32 LARGEST_CHAINS = 4096;
@@ -30,21 +30,8 @@ constexpr u32 PATHS_AT_ONCE = 1u << 16;
 /// Dark tiles count as if they had this part of the picture's mean: they are found by chance alone.
 constexpr double IMPORTANCE_FLOOR = 0.1;
 
-template <class T>
-void write_buffer(const Device& device, const cl::Buffer& buffer, const std::vector<T>& values) {
-    check_opencl("writing chains", [&] {
-        device.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
-    });
-}
-
-template <class T>
-std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, size_t count) {
-    std::vector<T> values(count);
-    check_opencl("reading chains", [&] {
-        device.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
-    });
-    return values;
-}
+const char* const WRITING_CHAINS = "writing chains";
+const char* const READING_CHAINS = "reading chains";
 
 std::uint64_t pixels_of(const RenderParams& params) {
     return std::uint64_t(params.crop_width) * params.crop_height;
@@ -141,7 +128,7 @@ void Metropolis::write_importance(std::uint64_t samples) {
         for (size_t i = 0; i < tiles.size() && mean > 0; ++i)
             importance[i] = float(1 / (tiles[i] / mean + IMPORTANCE_FLOOR));
     }
-    write_buffer(prepared_.device, importance_, importance);
+    write_values(prepared_.device, WRITING_CHAINS, importance_, importance);
 }
 
 void Metropolis::find_paths() {
@@ -152,7 +139,8 @@ void Metropolis::find_paths() {
 
 void Metropolis::choose_starts_of_replicates() {
     const size_t paths = size_t(launch_.paths) * launch_.lengths;
-    const auto scores = read_buffer<float>(prepared_.device, scores_, params_.replicates * paths);
+    const auto scores =
+        read_values<float>(prepared_.device, READING_CHAINS, scores_, 0, params_.replicates * paths);
     std::vector<u32> starts;
     std::vector<float> scales;
     for (u32 replicate = 0; replicate < params_.replicates; ++replicate) {
@@ -162,8 +150,8 @@ void Metropolis::choose_starts_of_replicates() {
         const double steps = double(launch_.steps) * double(launch_.chains);
         scales.push_back(float(chosen.sum / double(launch_.paths) * double(pixels_of(params_)) / steps));
     }
-    write_buffer(prepared_.device, starts_, starts);
-    write_buffer(prepared_.device, scales_, scales);
+    write_values(prepared_.device, WRITING_CHAINS, starts_, starts);
+    write_values(prepared_.device, WRITING_CHAINS, scales_, scales);
 }
 
 void Metropolis::advance(std::uint64_t samples, std::uint64_t next) {
@@ -195,7 +183,7 @@ void Metropolis::walk(std::uint64_t first, std::uint32_t count) {
 void Metropolis::read_back() {
     render_.chains = ended_;
     const size_t chains = size_t(params_.replicates) * launch_.chains;
-    for (const Chain& chain : read_buffer<Chain>(prepared_.device, chains_, chains)) {
+    for (const Chain& chain : read_values<Chain>(prepared_.device, READING_CHAINS, chains_, 0, chains)) {
         render_.chains.small += chain.steps - chain.large_steps;
         render_.chains.large += chain.large_steps;
         render_.chains.taken_small += chain.taken_small;

@@ -140,6 +140,20 @@ TEST(MergeFilms, AdaptiveFilmsAreRefused) {
               std::string::npos);
 }
 
+TEST(MergeFilms, AGuideIsOfOnePartAlone) {
+    FilmFile guided = part(0, 5);
+    guided.render.guide.stage = GuideStage::ON;
+    guided.render.guide.guided_from = 2;
+    guided.render.guide.guide.emplace();
+    for (const bool is_first : {true, false}) {
+        FilmFile sum = is_first ? guided : part(5, 5);
+        merge_film(sum, "a", is_first ? part(5, 5) : guided, "b");
+        EXPECT_EQ(sum.render.film.ranges, (std::vector<SampleRange>{{0, 10}}));
+        EXPECT_EQ(sum.render.guide.stage, GuideStage::OFF);
+        EXPECT_FALSE(sum.render.guide.guide);
+    }
+}
+
 TEST(MergeFilms, SumsThatDoNotFitAreRefused) {
     FilmFile a = part(0, 5);
     const FilmFile b = part(5, 5);
