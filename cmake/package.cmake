@@ -6,7 +6,7 @@
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   set(CLRT_MAN_PAGES)
-  foreach(program clrt clrt-merge clrt-bench clrt-stability clrt-compare clrt-study clrt-mitsuba)
+  foreach(program clrt clrt-merge clrt-bench clrt-stability clrt-agree clrt-compare clrt-study clrt-mitsuba)
     set(page ${CMAKE_BINARY_DIR}/${program}.1)
     if(TARGET ${program})
       set(path $<TARGET_FILE:${program}>)
@@ -45,7 +45,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # An OpenCL device: PoCL brings the CPU and the compiler it needs; any vendor's driver does as well.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "pocl-opencl-icd | opencl-icd")
-# What clrt-compare and clrt-study need.
+# What clrt-agree, clrt-compare and clrt-study need.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
   "python3, python3-numpy, python3-scipy, python3-openimageio, python3-xxhash, python3-matplotlib, \
 python3-jinja2")

@@ -15,6 +15,7 @@ SUMMARIES = {"clrt": "render a Wavefront OBJ on any OpenCL device",
              "clrt-merge": "merge film files of clrt into one picture",
              "clrt-bench": "compare clrt's ray traversal with Embree's",
              "clrt-stability": "run clrt's catalogue of numerically hard cases",
+             "clrt-agree": "test whether integrators agree and error bars hold",
              "clrt-compare": "compare two pictures by statistical tests",
              "clrt-mitsuba": "render a scene of clrt with Mitsuba 3, to compare with",
              "clrt-study": "measure what accuracy costs in time"}

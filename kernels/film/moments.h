@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Second moments, for a pilot that compares path tracing with and without splats (-DFILM_MOMENTS=1). Both are
-// told by the same samples. Let a path contribute c = f / (p_hit + p_connect + p_splat) to its pixel, by
-// whichever of the three techniques it was found (balance heuristic). Of the pixel's estimate by all three the
-// second moment is the sum of c^2, and of that by the first two alone the sum of c^2 / (1 - w), w being
-// p_splat's share: both are integrals of f^2 over a density, and these samples have the density of the sum
-// (Grittmann, Yazici, Georgiev, Slusallek 2022). So light paths tell the variance of caustics that paths from
+// Second moments, for a pilot that compares path tracing with an integrator that has its techniques and more
+// (-DFILM_MOMENTS=1): splats, or splats and inner connections. Both are told by the same samples. Let a path
+// contribute c = f / (p_hit + p_connect + p_others) to its pixel, by whichever technique it was found
+// (balance heuristic). Of the pixel's estimate by all techniques the second moment is the sum of c^2, and of
+// that by the first two alone the sum of c^2 e, the excess e being the sum of all densities over p_hit +
+// p_connect: both are integrals of f^2 over a density, and these samples have the density of the sum
+// (Grittmann, Yazici, Georgiev, Slusallek 2022). So light paths tell the variance of light that paths from
 // the eye meet too seldom to tell it themselves, and the noise of the comparison is common to both.
 //
 // What one path from the eye gathers at several vertices is correlated. If y_i is what it would gather at a
-// vertex without splats, and x_i = (1 - w_i) y_i what it does, its part of the second moment without splats is
+// vertex by hits and next-event estimation alone, and x_i = (1 - w_i) y_i what it does, its part of the
+// second moment without the others is
 //     (sum y_i)^2 - sum w_i y_i^2:
 // squares of y_i alone are left to the samples of all techniques, each with its share.
 #ifndef CLRT_FILM_MOMENTS_H
@@ -17,33 +19,41 @@
 #include "film/film.h"
 #include "shared/moment_types.h"
 
-/* Stands for infinity where nothing rivals a splat: 0 times it is 0. */
+/* Stands for infinity where paths from the eye find nothing: 0 times it is 0. */
 #define MOMENT_RIVALLED REAL(1e30)
 
 #ifndef FILM_MOMENTS
 #define FILM_MOMENTS 0
 #endif
 
-/* What a path from the eye would have gathered without splats, and what the paths from the lights beside it
-   have cost. */
+/* What a path from the eye would have gathered alone, and what the others beside it have cost. */
 typedef struct {
     real3 radiance;
-    real3 shared;                    /* sum of w y^2 */
-    real3 connection;                /* of the present vertex, if nothing is in between */
+    real3 shared;                 /* sum of w y^2, less what inner connections tell */
+    real3 connection;             /* of the present vertex, if nothing is in between */
     uint light_rays, camera_rays; /* of the paths from the lights; from those to the camera */
+    uint inner_rays;              /* of inner connections */
 } Moments;
 
 static inline void moments_begin(Moments* moments)
 {
+    moments->light_rays = moments->camera_rays = moments->inner_rays = 0u;
     moments->radiance = moments->shared = moments->connection = (real3)(REAL(0.0));
-    moments->light_rays = moments->camera_rays = 0u;
 }
 
-/* Light that is weighted against splats, and the same without them. */
+/* Light that is weighted against splats and inner connections, and the same without them. */
 static inline void moments_gather(real3 with, real3 without, Moments* moments)
 {
     moments->radiance += without;
     moments->shared += without * (without - with);
+}
+
+/* Light by an inner connection, as it would be if all of `count` vertices were connected: one of them is, and
+   counts for all. `excess` as of moments_add_splat. */
+static inline void moments_connect(real3 light, real count, real excess, Moments* moments)
+{
+    ++moments->inner_rays;
+    moments->shared -= light * light * (count * fmin(excess, MOMENT_RIVALLED));
 }
 
 /* A square as a number to be added. */
@@ -71,6 +81,7 @@ static inline void moments_add_sample(const RenderParams* params, global long* f
     global long* rays = film_plane_sums(params, film, slot, params->film_replicates + MOMENTS_RAYS);
     sum_add(rays, moments->light_rays);
     sum_add(rays + 1, moments->camera_rays);
+    sum_add(rays + 2, moments->inner_rays);
     if (film_fault(params, radiance) != COUNT_WORDS || film_fault(params, moments->radiance) != COUNT_WORDS)
         return;
     const uint word = sampler_word(sampler, 0u, SAMPLE_ROUNDING);
@@ -80,17 +91,17 @@ static inline void moments_add_sample(const RenderParams* params, global long* f
                 moments->radiance * moments->radiance - moments->shared);
 }
 
-/* Adds a good splat, number `number` of its sample. `rivals`: (1 - w) / w, the densities of the other
-   techniques over that of the splat; 0 where they cannot find it. */
+/* Adds a good splat, number `number` of its sample. `excess`: all densities over those of hit and next-event
+   estimation; infinite where they cannot find it. */
 static inline void moments_add_splat(const RenderParams* params, global long* film, uint slot,
-                                     const Sampler* sampler, uint number, real3 radiance, real rivals)
+                                     const Sampler* sampler, uint number, real3 radiance, real excess)
 {
     if (film_fault(params, radiance) != COUNT_WORDS)
         return;
     const uint word = sampler_word(sampler, number, SAMPLE_ROUNDING);
     const real3 squares = radiance * radiance;
     moments_add(params, film, slot, MOMENTS_SPLATTED, word, squares);
-    moments_add(params, film, slot, MOMENTS_ALONE, word, squares + squares * fmin(REAL(1.0) / rivals, MOMENT_RIVALLED));
+    moments_add(params, film, slot, MOMENTS_ALONE, word, squares * fmin(excess, MOMENT_RIVALLED));
 }
 
 #endif

@@ -27,6 +27,10 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
     ++rays->shadow;
     const real share = (real)count * visible_share(scene, params, &connection.shadow);
     vertex_add(scene, throughput * connection.light * share, &sample->radiance);
+#if FILM_MOMENTS
+    moments_connect(throughput * connection.light * (share / (real)count), (real)count, connection.excess,
+                    &sample->moments);
+#endif
 }
 
 /* Handles the vertex at the end of a segment of the path from the eye. */
@@ -47,6 +51,9 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
+#if FILM_MOMENTS
+        alone_emission(scene, params, &surface, path, wo, emitted, &sample->moments);
+#endif
     }
     if (segment >= params->max_depth) {
         path_end(scene, params, sampler, segment, &surface, path, rays);
@@ -63,6 +70,9 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     Guide guide = guide_none();
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
+#if FILM_MOMENTS
+    alone_connect(scene, params, &surface, &bsdf, wo, path, &sample->moments);
+#endif
     bdpt_connect(scene, params, segment, eye, kept, path->throughput, sample, rays);
     if (!next.is_valid)
         return;
@@ -85,9 +95,13 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
         bdpt_vertex(scene, params, segment, &path, &eye, kept, sample, rays);
         rays->secondary += path.is_alive ? 1u : 0u;
         rays->shadow += path.is_connected ? 1u : 0u;
-        if (path.is_connected)
-            path_add_connection(scene, &path, visible_share(scene, params, &path.shadow), &sample->radiance,
-                                &sample->layers);
+        if (!path.is_connected)
+            continue;
+        const real share = visible_share(scene, params, &path.shadow);
+        path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
+#if FILM_MOMENTS
+        moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);
+#endif
     }
     nan_carry(scene, nan_of_vector(path.throughput + path.watched), &sample->radiance);
 }

@@ -28,6 +28,9 @@ static CLRT_NOINLINE void light_paths_trace(const Scene* scene, const RenderPara
                                             CameraSample* sample, LightVertices* kept, PixelRays* rays)
 {
     SplatSink sink = {sample->film, sample->replicate, COUNT_WORDS, (real3)(REAL(0.0)), 0};
+#if FILM_MOMENTS
+    const PixelRays before = *rays;
+#endif
     const ulong of_pass = params->light_path_count;
     const uint of_window = params->crop_width * params->crop_height;
     for (ulong path = sample->place; path < of_pass; path += of_window)
@@ -38,6 +41,10 @@ static CLRT_NOINLINE void light_paths_trace(const Scene* scene, const RenderPara
         const ulong own = light_paths_of_pixel(params, sample->place);
         light_path_trace(scene, params, sample->index * of_pass + own, &sink, rays);
     }
+#if FILM_MOMENTS
+    sample->moments.light_rays = rays->secondary - before.secondary;
+    sample->moments.camera_rays = rays->shadow - before.shadow;
+#endif
     if (sink.fault != COUNT_WORDS)
         sample->splat_fault = sink.fault;
     nan_carry(scene, nan_of_vector(sink.watched), &sample->radiance);

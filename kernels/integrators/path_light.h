@@ -10,30 +10,6 @@
 #include "path/cut.h"
 #include "splat_escape.h"
 
-#if FILM_MOMENTS
-/* Weights that leave splats out: those of paths that nothing splats. */
-#define NO_SPLATS {REAL(0.0), REAL(0.0)}
-
-/* Notes what a vertex of the path would be connected to without splats. */
-static inline void path_light_note(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                   const Bsdf* bsdf, real3 wo, const Path* path, Moments* moments)
-{
-    const SplatWeights none = NO_SPLATS;
-    Path alone = *path;
-    splat_connect(scene, params, surface, bsdf, wo, &none, &alone);
-    moments->connection = alone.connection;
-}
-
-/* Gathers the light from outside the scene, which has brought `sky` so far, with and without splats. */
-static inline void path_light_gather_sky(const Scene* scene, const RenderParams* params, uint segment,
-                                         const Path* path, real3 sky, Moments* moments)
-{
-    const SplatWeights none = NO_SPLATS;
-    const real3 alone = segment == 1u ? sky : path->throughput * splat_escape(scene, params, path, &none);
-    moments_gather(sky, alone, moments);
-}
-#endif
-
 /* Handles the vertex at the end of a segment of the path from the eye. */
 static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderParams* params, uint segment,
                                             Path* path, SplatWeights* weights, CameraSample* sample,
@@ -43,13 +19,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     const Sampler* sampler = &sample->sampler;
     path->is_alive = path->is_connected = false;
     if (path->hit.triangle == NO_INDEX) {
-#if FILM_MOMENTS
-        const real3 before = sample->radiance;
-#endif
         splat_add_escape(scene, params, segment, path, weights, sample, rays);
-#if FILM_MOMENTS
-        path_light_gather_sky(scene, params, segment, path, sample->radiance - before, &sample->moments);
-#endif
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
@@ -58,9 +28,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
 #if FILM_MOMENTS
-        const SplatWeights none = NO_SPLATS;
-        const real3 alone = splat_emission(scene, params, &surface, path, wo, &none);
-        moments_gather(path->throughput * emitted, path->throughput * alone, &sample->moments);
+        alone_emission(scene, params, &surface, path, wo, emitted, &sample->moments);
 #endif
     }
     if (segment >= params->max_depth) {
@@ -76,7 +44,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS
-    path_light_note(scene, params, &surface, &bsdf, wo, path, &sample->moments);
+    alone_connect(scene, params, &surface, &bsdf, wo, path, &sample->moments);
 #endif
     if (!next.is_valid)
         return;
@@ -114,14 +82,7 @@ static CLRT_NOINLINE void path_light_radiance(const Scene* scene, const RenderPa
 {
     for (uint k = 0; k < count; ++k) {
         path_light_trace(scene, params, &samples[k], rays);
-#if FILM_MOMENTS
-        const PixelRays before = *rays;
-#endif
         light_paths_trace(scene, params, &samples[k], 0, rays);
-#if FILM_MOMENTS
-        samples[k].moments.light_rays = rays->secondary - before.secondary;
-        samples[k].moments.camera_rays = rays->shadow - before.shadow;
-#endif
     }
 }
 

@@ -3,7 +3,7 @@
 #ifndef CLRT_INTEGRATORS_SPLAT_ESCAPE_H
 #define CLRT_INTEGRATORS_SPLAT_ESCAPE_H
 
-#include "path/splat_connect.h"
+#include "path/splat_alone.h"
 #include "pixel.h"
 
 /* Adds the light from outside the scene. */
@@ -17,6 +17,9 @@ static inline void splat_add_escape(const Scene* scene, const RenderParams* para
     const real3 sky = segment == 1u ? vertex_sky(scene, params, 1u, 0, &path->ray, REAL(0.0), KINDS_ALL)
                                     : splat_escape(scene, params, path, weights);
     vertex_add(scene, path->throughput * sky, &sample->radiance);
+#if FILM_MOMENTS
+    alone_sky(scene, params, segment, path, path->throughput * sky, &sample->moments);
+#endif
 }
 
 #endif

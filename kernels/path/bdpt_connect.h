@@ -24,6 +24,9 @@ typedef struct {
 typedef struct {
     Ray shadow;
     real3 light;
+#if FILM_MOMENTS
+    real excess; /* all densities over those of hit and next-event estimation */
+#endif
 } InnerConnection;
 
 /* A kept vertex as it was when the light path was there. */
@@ -85,6 +88,10 @@ static CLRT_NOINLINE bool bdpt_join(const Scene* scene, const EyeVertex* eye, co
     const real others = bdpt_others(eye, &light, &kept->weights, wi, to_light.pdf_w, to_eye.pdf_w);
     connection->light = to_light.value * to_eye.value * vload3(0, kept->power) / (square + others);
     connection->shadow = bdpt_shadow_ray(eye->surface, &light.surface, wi);
+#if FILM_MOMENTS
+    connection->excess = (square + others) / (to_light.pdf_w * splat_cosine(light.surface.normal_g, wi) *
+                                              splat_weights_at(&light.bsdf, -wi, &kept->alone));
+#endif
     return true;
 }
 

@@ -36,6 +36,9 @@ typedef struct {
     Ray ray;          /* the segment to trace */
     real3 throughput; /* product of BSDF times cosine over pdf */
     SplatWeights weights;
+#if FILM_MOMENTS
+    SplatWeights alone; /* the same without inner connections */
+#endif
 } LightPath;
 
 /* The random numbers of light path `number` of a replicate: all its paths, whichever pixel's samples they
@@ -86,7 +89,7 @@ typedef struct {
     real3 radiance;
 #if FILM_MOMENTS
     uint slot;
-    real rivals; /* splat_rivals */
+    real excess; /* all densities over those of hit and next-event estimation */
 #endif
 } LightSplat;
 
@@ -132,7 +135,8 @@ static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderPar
     TRACE_VECTOR(scene, TRACE_CONNECTION, arriving->radiance);
 #if FILM_MOMENTS
     arriving->slot = slot;
-    arriving->rivals = splat_rivals(params, vertex, wi, camera.pdf_a, &path->weights);
+    arriving->excess = (REAL(1.0) + splat_rivals(params, vertex, wi, camera.pdf_a, &path->weights)) /
+                       splat_rivals(params, vertex, wi, camera.pdf_a, &path->alone);
 #endif
     return true;
 }
@@ -150,7 +154,7 @@ static inline void light_path_splat(const Scene* scene, const RenderParams* para
     if (fault != COUNT_WORDS)
         sink->fault = fault;
 #if FILM_MOMENTS
-    moments_add_splat(params, sink->film, splat.slot, &path->sampler, segment, splat.radiance, splat.rivals);
+    moments_add_splat(params, sink->film, splat.slot, &path->sampler, segment, splat.radiance, splat.excess);
 #endif
 }
 
@@ -187,6 +191,12 @@ static inline bool light_path_meet(const Scene* scene, const RenderParams* param
         else
             splat_weights_go(hit->t, &path->weights);
         splat_weights_meet(&vertex->surface, wo, &path->weights);
+#if FILM_MOMENTS
+        if (segment == 1u)
+            path->alone = path->weights;
+        else
+            splat_weights_meet(&vertex->surface, wo, &path->alone);
+#endif
     }
     return true;
 }
@@ -220,6 +230,10 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     }
     if (SPLATS_ARE_WEIGHTED)
         splat_weights_leave(bsdf, next.wi, next.pdf_w, &path->weights);
+#if FILM_MOMENTS
+    splat_weights_leave(bsdf, next.wi, next.pdf_w, &path->alone);
+    path->alone.open = REAL(0.0);
+#endif
     path->ray = surface_ray(&vertex->surface, next.reflects, next.wi);
     return true;
 }
@@ -235,6 +249,9 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
         light_vertices_keep(segment, hit, -path->ray.direction, path->emission.power * path->throughput,
                             &path->weights, sink->kept);
+#if FILM_MOMENTS
+        light_vertices_keep_alone(&path->alone, sink->kept);
+#endif
     }
     return light_path_leave(scene, params, segment, hit, &vertex, path, &sink->watched, rays);
 }

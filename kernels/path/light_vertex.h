@@ -11,9 +11,10 @@
 #include "lights/emission.h"
 #include "vertex.h"
 
-/* Nearer to the horizon of the shading normal a path may have bent it: MATERIAL_SMALLEST_COS, and room for
-   its rounding. */
-#define LIGHT_SMALLEST_COS REAL(1.01e-3)
+/* Nearer to the horizon of the shading normal a path may have bent it: from a cosine c below 0 to
+   MATERIAL_SMALLEST_COS / sqrt(1 - c^2). That covers normals up to 4.8 degrees from those seen from right
+   behind. */
+#define LIGHT_SMALLEST_COS REAL(1.2e-2)
 
 typedef struct {
     Surface surface; /* flat: its rays start at the facet */

@@ -4,6 +4,7 @@
 #ifndef CLRT_PATH_LIGHT_VERTICES_H
 #define CLRT_PATH_LIGHT_VERTICES_H
 
+#include "film/moments.h"
 #include "splat_weight.h"
 
 /* Of a path, at most: a literal of the program (src/render/kernels.h). */
@@ -19,6 +20,9 @@ typedef struct {
     real wo[3];           /* unit, to where the light has come from */
     real power[3];        /* that arrives: emitted, times the throughput */
     SplatWeights weights; /* of the path up to the vertex */
+#if FILM_MOMENTS
+    SplatWeights alone; /* the same without inner connections */
+#endif
 } KeptVertex;
 
 /* Those of one path, from the light on. */
@@ -42,6 +46,15 @@ static inline void light_vertices_keep(uint segment, const Hit* hit, real3 wo, r
     vstore3(power, 0, vertex->power);
     vertex->weights = *weights;
 }
+
+#if FILM_MOMENTS
+/* Completes the vertex that was kept last. */
+static inline void light_vertices_keep_alone(const SplatWeights* alone, LightVertices* kept)
+{
+    if (INNER_CONNECTIONS && kept != 0)
+        kept->at[kept->count - 1u].alone = *alone;
+}
+#endif
 
 /* How many vertices are at most `segments` segments from the light. */
 static inline uint light_vertices_within(const LightVertices* kept, uint segments)

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pilot of path+light sums besides the picture (kernels/film/moments.h).
+// What a pilot sums besides the picture (kernels/film/moments.h).
 #ifndef CLRT_SHARED_MOMENT_TYPES_H
 #define CLRT_SHARED_MOMENT_TYPES_H
 
 #include "types.h"
 
 /* Planes of the film behind the replicates. Squares are of channels. */
-#define MOMENTS_GATHERED 0  /* radiance of the paths from the eye, as weighted against splats */
+#define MOMENTS_GATHERED 0  /* radiance of the paths from the eye, as weighted against others */
 #define MOMENTS_SPLATTED 1  /* squares: of what such a path gathers, and of each splat */
-#define MOMENTS_ALONE 2     /* squares of what a path from the eye would gather if nothing were splatted */
-#define MOMENTS_RAYS 3      /* counts: rays of paths from the lights, those from them to the camera, 0 */
+#define MOMENTS_ALONE 2     /* squares of what a path from the eye would gather alone */
+#define MOMENTS_RAYS 3      /* counts: rays of paths from the lights, from them to the camera, between both */
 #define MOMENTS_PLANES 4
 
 /* A square of 2^12 squared quanta counts 1: of the level, the power of two nearest the mean radiance

@@ -12,8 +12,8 @@ namespace clrt {
 namespace {
 
 const Integrator DEFAULT_INTEGRATOR = TransportOptions{}.integrator;
-const char* const CHOICE_HELP = "path or path+light, as a small pilot picture finds less noise for the work; "
-                                "its plan is printed";
+const char* const CHOICE_HELP = "path, path+light or bdpt, as small pilot pictures find least noise for the "
+                                "work; the plan is printed";
 
 /// Calls `say` with every row; those that simulate most come first.
 template <typename Say>

@@ -145,10 +145,13 @@ void check_chains(const Options& options) {
 /// What is asked for by name is done or refused.
 void check_guide(const Options& options) {
     const std::optional<GuideRefusal> refusal = guide_refusal(options);
-    if (refusal && options.transport.guide == Toggle::ON &&
-        takes_option(options.transport.integrator, TAKES_GUIDE))
-        reject(options, std::string("options --guide on and ") + refusal->option +
-                            ": expected one of them, found both; " + refusal->reason);
+    if (!refusal || options.transport.guide != Toggle::ON)
+        return;
+    std::string other = refusal->option;
+    if (!takes_option(options.transport.integrator, TAKES_GUIDE))
+        other += std::string(" ") + name_of(options.transport.integrator);
+    reject(options,
+           "options --guide on and " + other + ": expected one of them, found both; " + refusal->reason);
 }
 
 /// Placeholders that are known; {frame} where there are frames.

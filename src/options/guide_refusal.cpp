@@ -12,7 +12,7 @@ constexpr int FEWEST_GUIDED_REPLICATES = 4;
 
 std::optional<GuideRefusal> guide_refusal(const Options& options) {
     if (!takes_option(options.transport.integrator, TAKES_GUIDE))
-        return GuideRefusal{"--integrator", "it chooses no direction that could be guided"};
+        return GuideRefusal{"--integrator", "its paths are not guided"};
     if (options.sampling.first_sample != 0)
         return GuideRefusal{"--first-sample",
                             "guided samples need those before them; render other parts of a "

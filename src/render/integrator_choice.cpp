@@ -20,15 +20,22 @@ namespace {
 constexpr std::uint32_t PILOT_SPP = 8;
 /// Fewer samples of all pixels together tell nothing reliable of caustics, more tell nothing new.
 constexpr double FEWEST_SAMPLES = 8192, MOST_PILOT_SAMPLES = 131072;
-/// What a sample of a pilot costs, in samples of path (2.6 to 3.3 in all, processor seconds of three scenes):
-/// its path from the eye, weighted twice, and its light path.
-constexpr double PILOT_EYE_WORK = 1.7, PILOT_LIGHT_WORK = 1.5;
 /// Samples of path in a second that a slow machine takes, for renders that end by time.
 constexpr double SLOW_PACE = 2e5;
-/// What path+light costs, in rays of path: its rays from the eye, where every vertex is weighted against
-/// splats and paths are followed one by one, those from the lights, and a sample besides, whose light path is
-/// begun. Within 10 % of the processor seconds of seven scenes with 3 to 11 rays a sample.
-constexpr double SPLATTED_EYE_RAY_WORK = 1.35, LIGHT_RAY_WORK = 1, LIGHT_PATH_WORK = 1.3;
+/// An integrator that has path's techniques and more, and what it costs in rays of path: its own rays from
+/// the eye, of which every vertex is weighted against the other techniques and paths are followed one by one,
+/// those from the lights and those between both, and a light path besides, which is begun. `pilot_eye` and
+/// `pilot_light` are samples of path that a sample of its pilot costs, and a light path of it.
+struct Candidate {
+    Integrator integrator;
+    double eye_ray, light_ray, inner_ray, light_path;
+    double pilot_eye, pilot_light;
+};
+
+/// Rays within 10 % of the processor seconds of seven scenes with 3 to 11 rays a sample; pilots of path+light
+/// 2.6 to 3.3 in all, of three.
+constexpr Candidate CANDIDATES[] = {{Integrator::PATH_LIGHT, 1.35, 1, 0, 1.3, 1.7, 1.5},
+                                    {Integrator::BDPT, 1.25, 1.2, 1, 1.3, 1.7, 1.5}};
 
 /// What is expected to gain less than this is not taken: pilots were up to a third off.
 constexpr double WORTHWHILE_GAIN = 1.1;
@@ -63,44 +70,100 @@ double expected_samples(const Options& options) {
     return sampling.time_seconds ? std::min(samples, SLOW_PACE * *sampling.time_seconds) : samples;
 }
 
-/// Squared error times work: by the relative measure, or by that which --error judges by.
-double price(const IntegratorPrice& of, const Options& options) {
-    const ErrorMeasure measure = options.sampling.error ? options.sampling.measure() : ErrorMeasure::RELATIVE;
-    return of.errors[size_t(measure)] * of.work;
+/// The candidates between whom pilots decide.
+std::vector<Candidate> candidates_of(const PlannedScene& planned) {
+    std::vector<Candidate> candidates;
+    for (const Candidate& candidate : CANDIDATES)
+        if (candidate.integrator != Integrator::PATH_LIGHT || has_caustics(planned))
+            candidates.push_back(candidate);
+    return candidates;
 }
 
-/// The integrators between which a pilot decides, with what it says of them. The first is taken where no
-/// other one is worth it. Another one is a row more.
-std::vector<IntegratorPrice> prices_of(const PilotResult& pilot, const Options& options) {
-    std::vector<IntegratorPrice> prices = {
-        {Integrator::PATH, pilot.path, pilot.eye_rays},
-        {Integrator::PATH_LIGHT, pilot.path_light,
-         SPLATTED_EYE_RAY_WORK * pilot.eye_rays + LIGHT_RAY_WORK * pilot.light_rays +
-             LIGHT_PATH_WORK * pilot.aimed * light_paths_a_sample(options)}};
-    for (size_t i = 1; i < prices.size(); ++i)
-        prices[i].efficiency = price(prices[0], options) / price(prices[i], options);
-    return prices;
+/// Samples of path that a sample of every candidate's pilot costs.
+double pilot_work(const std::vector<Candidate>& candidates, const Options& options) {
+    double work = 0;
+    for (const Candidate& candidate : candidates)
+        work += candidate.pilot_eye + candidate.pilot_light * light_paths_a_sample(options);
+    return work;
 }
 
-/// Decides by a pilot.
-void decide(const PilotResult& pilot, const Options& options, IntegratorChoice& choice) {
-    if (pilot.is_black) {
-        choice.reason = "a pilot finds no light";
-        return;
-    }
-    choice.prices = prices_of(pilot, options);
+/// Squared error by the relative measure, or by that which --error judges by.
+double error_of(const SquaredErrors& errors, const Options& options) {
+    return errors[size_t(options.sampling.error ? options.sampling.measure() : ErrorMeasure::RELATIVE)];
+}
+
+/// What a candidate's pilot says of it. Its errors are compared with those that the same samples tell of
+/// path.
+IntegratorPrice price_of(const Candidate& candidate, const PilotResult& pilot, const Options& options) {
+    IntegratorPrice price{candidate.integrator, pilot.own, pilot.path};
+    price.work = candidate.eye_ray * pilot.eye_rays + candidate.light_ray * pilot.light_rays +
+                 candidate.inner_ray * pilot.inner_rays + candidate.light_path * pilot.light_paths;
+    price.efficiency =
+        error_of(pilot.path, options) * pilot.eye_rays / (error_of(pilot.own, options) * price.work);
+    return price;
+}
+
+/// The longest paths that an integrator takes of those that --max-depth, or path, asks for.
+int longest_paths(Integrator integrator, std::optional<int> asked) {
+    const int wanted = asked.value_or(integrator_row(Integrator::PATH).depth.usual);
+    return std::min(wanted, integrator_row(integrator).depth.longest);
+}
+
+/// Has the plan rendered by an integrator.
+void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned) {
+    planned.options.transport.max_depth = asked;
+    if (longest_paths(integrator, asked) < longest_paths(Integrator::PATH, asked))
+        planned.options.transport.max_depth = longest_paths(integrator, asked);
+    take_integrator(integrator, planned);
+}
+
+/// Decides by pilots, a candidate after the other.
+void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+            const std::vector<Candidate>& candidates, std::shared_ptr<const SceneTree>& tree,
+            IntegratorChoice& choice) {
+    const std::optional<int> asked = planned->options.transport.max_depth;
+    std::vector<std::string> told = {"path 1"};
     double best = WORTHWHILE_GAIN;
-    std::vector<std::string> efficiencies;
-    for (const IntegratorPrice& row : choice.prices) {
-        efficiencies.push_back(fmt::format("{} {:.2g}", name_of(row.integrator), row.efficiency));
-        if (row.efficiency > best) {
-            best = row.efficiency;
-            choice.integrator = row.integrator;
+    for (const Candidate& candidate : candidates) {
+        take(candidate.integrator, asked, *planned);
+        const PreparedScene prepared = prepare_scene(device, planned, {tree, nullptr});
+        tree = prepared.tree;
+        const PilotResult pilot = run_pilot(prepared, choice.pilot);
+        if (pilot.is_black) {
+            choice.reason = "a pilot finds no light";
+            break;
+        }
+        if (choice.prices.empty())
+            choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
+        const IntegratorPrice price = price_of(candidate, pilot, planned->options);
+        choice.prices.push_back(price);
+        told.push_back(fmt::format("{} {:.2g}", name_of(price.integrator), price.efficiency));
+        const int longest = longest_paths(candidate.integrator, asked);
+        const bool is_whole = longest == longest_paths(Integrator::PATH, asked) || !pilot.is_cut;
+        if (!is_whole)
+            told.back() += fmt::format(" (which would cut paths at {} segments)", longest);
+        if (is_whole && price.efficiency > best) {
+            best = price.efficiency;
+            choice.integrator = price.integrator;
         }
     }
-    choice.reason =
-        fmt::format("efficiency {} by a pilot of {} x {} pixels, {} spp", fmt::join(efficiencies, ", "),
-                    choice.pilot.width, choice.pilot.height, choice.pilot.spp);
+    if (choice.reason.empty())
+        choice.reason =
+            fmt::format("efficiency {} by pilots of {} x {} pixels, {} spp", fmt::join(told, ", "),
+                        choice.pilot.width, choice.pilot.height, choice.pilot.spp);
+    take(choice.integrator, asked, *planned);
+}
+
+/// Size of the pilots, all of one; none where so small ones tell nothing.
+std::optional<PilotSize> size_of_pilots(const std::vector<Candidate>& candidates, const Options& options) {
+    const Crop window = render_window(options.film);
+    const double width = window.x1 - window.x0, height = window.y1 - window.y0;
+    const double samples = std::min(PILOT_SHARE / pilot_work(candidates, options) * expected_samples(options),
+                                    MOST_PILOT_SAMPLES);
+    if (samples < FEWEST_SAMPLES)
+        return std::nullopt;
+    const double scale = std::min(std::sqrt(samples / PILOT_SPP / (width * height)), 1.0);
+    return PilotSize{std::max(int(width * scale), 1), std::max(int(height * scale), 1), PILOT_SPP};
 }
 
 /// The integrator of the film that is gone on with.
@@ -113,20 +176,21 @@ Integrator integrator_of_film(const std::string& path) {
     return found.value_or(Integrator::PATH);
 }
 
-/// Decides by what the options and the scene say; false where a pilot must, whose size is set.
-bool decide_by_facts(PlannedScene& planned, IntegratorChoice& choice) {
+/// Decides by what the options and the scene say; false where pilots must, whose size is set.
+bool decide_by_facts(const PlannedScene& planned, const std::vector<Candidate>& candidates,
+                     IntegratorChoice& choice) {
     if (!planned.options.film_file.resume_path.empty()) {
         choice.integrator = integrator_of_film(planned.options.film_file.resume_path);
         choice.reason = "as the film that is gone on with";
     } else if (const auto reason = reason_for_path(planned.options)) {
         choice.reason = *reason;
-    } else if (planned.effects.paths.is_empty || !has_caustics(planned)) {
-        choice.reason = "no mirror or smooth glass casts light on a surface (LS+DE)";
-    } else if (!planned.effects.paths.blind_spots.empty()) {
+    } else if (planned.effects.paths.is_empty || candidates.empty()) {
+        choice.reason = "there is nothing to choose";
+    } else if (!planned.effects.paths.blind_spots.empty() && has_caustics(planned)) {
         choice.integrator = Integrator::PATH_LIGHT;
         choice.reason = fmt::format("path does not see {} ({})", planned.effects.paths.blind_spots[0].paths,
                                     planned.effects.paths.blind_spots[0].cause);
-    } else if (const auto size = pilot_size(planned.options)) {
+    } else if (const auto size = size_of_pilots(candidates, planned.options)) {
         choice.pilot = *size;
         return false;
     } else
@@ -136,15 +200,8 @@ bool decide_by_facts(PlannedScene& planned, IntegratorChoice& choice) {
 
 } // namespace
 
-std::optional<PilotSize> pilot_size(const Options& options) {
-    const Crop window = render_window(options.film);
-    const double width = window.x1 - window.x0, height = window.y1 - window.y0;
-    const double work = PILOT_EYE_WORK + PILOT_LIGHT_WORK * light_paths_a_sample(options);
-    const double samples = std::min(PILOT_SHARE / work * expected_samples(options), MOST_PILOT_SAMPLES);
-    if (samples < FEWEST_SAMPLES)
-        return std::nullopt;
-    const double scale = std::min(std::sqrt(samples / PILOT_SPP / (width * height)), 1.0);
-    return PilotSize{std::max(int(width * scale), 1), std::max(int(height * scale), 1), PILOT_SPP};
+std::optional<PilotSize> pilot_size(const PlannedScene& planned) {
+    return size_of_pilots(candidates_of(planned), planned.options);
 }
 
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
@@ -155,14 +212,13 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     choice.is_asked = planned->options.transport.choose;
     if (!choice.is_asked)
         return choice;
-    if (!decide_by_facts(*planned, choice)) {
+    const std::vector<Candidate> candidates = candidates_of(*planned);
+    if (decide_by_facts(*planned, candidates, choice))
+        take_integrator(choice.integrator, *planned);
+    else {
         progress.update({"pilot", -1, 0, -1, -1});
-        take_integrator(Integrator::PATH_LIGHT, *planned);
-        const PreparedScene prepared = prepare_scene(device, planned, {tree, nullptr});
-        tree = prepared.tree;
-        decide(run_pilot(prepared, choice.pilot), planned->options, choice);
+        decide(device, planned, candidates, tree, choice);
     }
-    take_integrator(choice.integrator, *planned);
     choice.seconds = seconds_since(start);
     progress.finish();
     spdlog::info("integrator: {}", choice_text(choice));

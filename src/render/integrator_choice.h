@@ -2,11 +2,14 @@
 // --integrator auto: which integrator renders the picture.
 //
 // What it must be able to do decides first: options that only path takes, light that path cannot find, a film
-// that is gone on with. Where both could, a pilot of at most PILOT_SHARE of the render's work is taken by
-// path+light (render/pilot.h), and the integrator with the least squared error times work wins. Work is
-// counted in rays, each weighing what it was measured to cost, never in seconds: the same picture comes out
-// everywhere. The pilot's samples are dropped, so that the picture is, bit for bit, that of the integrator by
-// name.
+// that is gone on with. Where several could, each but path takes a pilot (render/pilot.h), all together at
+// most PILOT_SHARE of the render's work, and the integrator with the least squared error times work wins:
+// each is compared with what its own samples tell of path. Work is counted in rays, each weighing what it was
+// measured to cost, never in seconds: the same picture comes out everywhere. The pilots' samples are dropped,
+// so that the picture is, bit for bit, that of the integrator by name.
+//
+// Where --max-depth is not asked for, bdpt takes as long paths as it can, and only where none in its pilot
+// was longer.
 #pragma once
 
 #include "console/progress.h"
@@ -18,13 +21,14 @@
 
 namespace clrt {
 
-/// Of a render's work, what a pilot may take.
+/// Of a render's work, what pilots may take.
 constexpr double PILOT_SHARE = 0.05;
 
-/// What a pilot says of an integrator, a sample a pixel.
+/// What pilots say of an integrator, a sample a pixel.
 struct IntegratorPrice {
     Integrator integrator = Integrator::PATH;
     SquaredErrors errors{}; ///< squared, by ErrorMeasure
+    SquaredErrors path{};   ///< those of path, by the same samples
     double work = 0;        ///< in rays of path
     double efficiency = 1;  ///< 1 / (squared error times work), path's being 1
 };
@@ -34,13 +38,13 @@ struct IntegratorChoice {
     Integrator integrator = Integrator::PATH;
     bool is_asked = false;               ///< by --integrator auto; else it is that of the options
     std::string reason;                  ///< in words, where it was asked
-    PilotSize pilot;                     ///< 0 spp: there was none
+    PilotSize pilot;                     ///< of each; 0 spp: there was none
     std::vector<IntegratorPrice> prices; ///< that it has found out
     double seconds = 0; ///< of choosing, compilation and tree included; nothing depends on it
 };
 
-/// Size of the pilot of a render; none where so small a one tells nothing.
-std::optional<PilotSize> pilot_size(const Options& options);
+/// Size of the pilots of a render; none where so small ones tell nothing.
+std::optional<PilotSize> pilot_size(const PlannedScene& planned);
 
 /// Chooses, where --integrator auto asks, says so, and plans for what is chosen. `tree` is that of the plan,
 /// or null; where the pilot needed one it is there. Throws DeviceError, KernelBuildError and SceneError.

@@ -6,7 +6,6 @@
 #include "kernels/shared/moment_types.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
-#include "scene/light_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,10 +42,16 @@ Options pilot_options(const Options& options, const PilotSize& size) {
     return pilot;
 }
 
-/// The film of a pilot that is done, its moments as layers.
-RenderProgress render_pilot(const PreparedScene& prepared, const PilotSize& size) {
-    const PlannedScene& planned = *prepared.planned;
+/// A pilot that is done: its film, with its moments as layers, and its light paths a sample.
+struct PilotRender {
     RenderProgress render;
+    double light_paths = 0;
+};
+
+PilotRender render_pilot(const PreparedScene& prepared, const PilotSize& size) {
+    const PlannedScene& planned = *prepared.planned;
+    PilotRender pilot;
+    RenderProgress& render = pilot.render;
     Film& film = render.film;
     film.scale = film_scale(planned.scene);
     RenderParams params = make_render_params(planned.scene, pilot_options(planned.options, size), film.scale);
@@ -70,7 +75,8 @@ RenderProgress render_pilot(const PreparedScene& prepared, const PilotSize& size
     buffers.read_shown(film);
     render.counts = buffers.read_counts();
     render.counts.primary = size.samples();
-    return render;
+    pilot.light_paths = double(params.light_path_count) / (double(film.width) * double(film.height));
+    return pilot;
 }
 
 /// Means a sample of a value of the film.
@@ -97,8 +103,8 @@ private:
     double samples_, quantum_;
 };
 
-/// Squared errors of a sample by a measure, over the pixels that show the scene. Those of path+light are what
-/// its replicates scatter by; by how much more those of path would, its moments tell.
+/// Squared errors of a sample by a measure, over the pixels that show the scene. The integrator's are what
+/// its replicates scatter by; by how much more path's would, its moments tell.
 void set_errors(const RenderProgress& render, ErrorMeasure measure, PilotResult& result) {
     const Film& film = render.film;
     const PixelChoice choice(film, ErrorPixels::SCENE);
@@ -123,22 +129,32 @@ void set_errors(const RenderProgress& render, ErrorMeasure measure, PilotResult&
     if (!error)
         return;
     const double errors = error->relative_rmse * error->relative_rmse * n;
-    result.path_light[size_t(measure)] = errors;
+    result.own[size_t(measure)] = errors;
     result.path[size_t(measure)] = errors + more * count / (mean * mean);
+}
+
+/// Rays and light paths of a sample.
+void count_rays(const PilotRender& pilot, PilotResult& result) {
+    const std::vector<std::int64_t>& sums = pilot.render.path_layers[MOMENTS_RAYS].sums;
+    const double samples = double(pilot.render.counts.primary);
+    for (size_t i = 0; i < sums.size(); i += 3) {
+        result.light_rays += double(sums[i] + sums[i + 1]) / samples;
+        result.inner_rays += double(sums[i + 2]) / samples;
+    }
+    result.eye_rays = double(pilot.render.counts.rays()) / samples - result.light_rays - result.inner_rays;
+    result.light_paths = pilot.light_paths;
 }
 
 } // namespace
 
 PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {
-    const RenderProgress render = render_pilot(prepared, size);
+    const PilotRender pilot = render_pilot(prepared, size);
+    const RenderProgress& render = pilot.render;
     PilotResult result;
     for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
         set_errors(render, measure, result);
-    for (const std::int64_t rays : render.path_layers[MOMENTS_RAYS].sums)
-        result.light_rays += double(rays);
-    result.eye_rays = (double(render.counts.rays()) - result.light_rays) / double(size.samples());
-    result.light_rays /= double(size.samples());
-    result.aimed = plan_emission(prepared.planned->scene, false).aimed;
+    count_rays(pilot, result);
+    result.is_cut = render.counts.cut_paths > 0;
     return result;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small picture by path+light that tells what the noise of path+light is, and what that of path would be
-// (kernels/film/moments.h).
+// A small picture by an integrator that has path's techniques and more: what its noise is, and what that of
+// path would be (kernels/film/moments.h).
 #pragma once
 
 #include "film/film.h"
@@ -22,17 +22,20 @@ struct PilotSize {
 /// Squared errors of one sample a pixel, by ErrorMeasure: the mean over pixels and channels of the variance.
 using SquaredErrors = std::array<double, 2>;
 
-/// What a pilot has found out.
+/// What a pilot has found out, a sample a pixel.
 struct PilotResult {
-    SquaredErrors path{}, path_light{};
-    double eye_rays = 0, light_rays = 0; ///< a sample: of paths from the eye and of those from the lights
-    double aimed = 1;                    ///< light paths for each pixel (EmissionPlan)
-    bool is_black = false;               ///< no light was found: there are no errors
+    SquaredErrors own{}, path{}; ///< of the integrator, and of path
+    double eye_rays = 0;         ///< of paths from the eye, and from them to lights: path has as many
+    double light_rays = 0;       ///< of paths from the lights, and from them to the camera
+    double inner_rays = 0;       ///< between both
+    double light_paths = 0;
+    bool is_black = false; ///< no light was found: there are no errors
+    bool is_cut = false;   ///< --max-depth has ended paths
 };
 
-/// Renders it with a program of its own. The scene is prepared for path+light, with or without programs. The
-/// same for every seed and range of samples of the picture, and with any number of threads. Throws
-/// DeviceError and KernelBuildError.
+/// Renders it with a program of its own. The scene is prepared for path+light or bdpt, with or without
+/// programs. The same for every seed and range of samples of the picture, and with any number of threads.
+/// Throws DeviceError and KernelBuildError.
 PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size);
 
 } // namespace clrt

@@ -43,19 +43,19 @@ TEST_F(ChoiceCommand, ThePlanIsSaidAndDoesNotDependOnThreads) {
     nlohmann::json choices;
     for (const char* const threads : {"1", "2"}) {
         const auto result =
-            clrt(small({"-i", "auto", "-s", "256", "-j", threads, "-o", std::string(threads) + ".exr",
+            clrt(small({"-i", "auto", "-s", "512", "-j", threads, "-o", std::string(threads) + ".exr",
                         "--stats", "a.json", "--aov", "none"}));
         EXPECT_EQ(result.exit_code, 0);
         EXPECT_TRUE(holds(result.out, {"chosen   path+light: efficiency path 1, path+light "}));
         nlohmann::json json = statistics("a.json");
         EXPECT_EQ(json["integrator"], "path+light");
         json["choice"]["pilot"].erase("seconds");
-        EXPECT_EQ(json["choice"]["prices"].size(), 2u);
+        EXPECT_EQ(json["choice"]["prices"].size(), 3u);
         choices.push_back(json["choice"]);
     }
     EXPECT_EQ(choices[0], choices[1]);
     EXPECT_TRUE(picture("1.exr") == picture("2.exr"));
-    clrt(small({"-i", "path+light", "-s", "256", "-o", "named.exr", "--stats", "a.json", "--aov", "none"}));
+    clrt(small({"-i", "path+light", "-s", "512", "-o", "named.exr", "--stats", "a.json", "--aov", "none"}));
     EXPECT_TRUE(picture("1.exr") == picture("named.exr"));
     EXPECT_TRUE(statistics("a.json")["choice"].is_null());
 }
@@ -63,11 +63,11 @@ TEST_F(ChoiceCommand, ThePlanIsSaidAndDoesNotDependOnThreads) {
 TEST_F(ChoiceCommand, AFilmGoesOnByItsIntegrator) {
     // Too short for a pilot: by path, and so the film goes on where a pilot would choose otherwise.
     clrt(small({"-i", "auto", "-s", "8", "-o", "a.exr", "--checkpoint", "a.film"}));
-    const auto result = clrt({"--resume", "a.film", "-s", "256", "-o", "b.exr", "--stats", "b.json"});
+    const auto result = clrt({"--resume", "a.film", "-s", "512", "-o", "b.exr", "--stats", "b.json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.out, {"chosen   path: as the film that is gone on with"}));
     EXPECT_EQ(statistics("b.json")["integrator"], "path");
-    clrt(small({"-i", "path", "-s", "256", "-o", "c.exr"}));
+    clrt(small({"-i", "path", "-s", "512", "-o", "c.exr"}));
     EXPECT_TRUE(picture("b.exr") == picture("c.exr"));
 
     clrt(small({"-i", "path+light", "-s", "8", "-o", "a.exr", "--checkpoint", "b.film"}));
@@ -77,14 +77,14 @@ TEST_F(ChoiceCommand, AFilmGoesOnByItsIntegrator) {
 }
 
 TEST_F(ChoiceCommand, ASampleIsReplayedByTheChosenOne) {
-    const auto result = clrt(small({"-i", "auto", "-s", "256", "--pixel", "32,40", "--stats", "a.json"}));
+    const auto result = clrt(small({"-i", "auto", "-s", "512", "--pixel", "32,40", "--stats", "a.json"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(statistics("a.json")["integrator"], "path+light");
     EXPECT_TRUE(holds(result.err, {"integrator: path+light: efficiency path 1, path+light "}));
 }
 
 TEST_F(ChoiceCommand, WhatOnlyPathTakesIsTaken) {
-    const auto result = clrt(small({"-i", "auto", "-s", "256", "--guide", "on", "-o", "a.exr"}));
+    const auto result = clrt(small({"-i", "auto", "-s", "512", "--guide", "on", "-o", "a.exr"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.out, {"chosen   path: --guide on guides paths from the eye"}));
 }

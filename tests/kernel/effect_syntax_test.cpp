@@ -61,10 +61,12 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
                 EXPECT_EQ(complaints(own, "CL1.2", mask), "") << name << ", " << describe_effects(mask);
             EXPECT_EQ(complaints(traced, "CL1.2", EFFECT_ALL), "") << name;
         }
-        const std::string pilot = folder.write("pilot.cl", "#define FILM_MOMENTS 1\n" + defines +
-                                                               "#include \"integrators/path_light.cl\"\n");
-        for (const u32 mask : {EFFECT_ALL, 0u})
-            EXPECT_EQ(complaints(pilot, "CL1.2", mask), "") << "pilot, " << describe_effects(mask);
+        for (const char* const name : {"path_light", "bdpt"}) {
+            const std::string pilot =
+                folder.write("pilot.cl", "#define FILM_MOMENTS 1\n" + defines + entry_points({name}));
+            for (const u32 mask : {EFFECT_ALL, 0u})
+                EXPECT_EQ(complaints(pilot, "CL1.2", mask), "") << "pilot, " << describe_effects(mask);
+        }
         const std::string recording = folder.write("replay.cl", "#define CLRT_TRACE 1\n" + defines +
                                                                     "#include \"integrators/path.cl\"\n");
         EXPECT_EQ(complaints(recording, "CL1.2", EFFECT_ALL), "") << int64;

@@ -100,6 +100,19 @@ TEST(Bidirectional, LeavesBentNormalsAndCurvedFacetsToTheEye) {
     expect_bdpt_is(room, Integrator::PATH, 0.05);
 }
 
+TEST(Bidirectional, LeavesNormalsThatAreSeenFromFarBehindToTheEye) {
+    // Ridges along a floor that the camera looks at flatly.
+    Room room;
+    room.add_lamp();
+    room.texture8("ridges.png", 2, 2, 1, {60, 200, 60, 200});
+    room.build.material("ridges", "Kd 0.7 0.7 0.7\nbump -bm 20 -s 1 1 1 ridges.png").use("ridges");
+    room.build.textured_quad({{-1.5, 0.1, 1.5}, {1.5, 0.1, 1.5}, {1.5, 0.1, -1}, {-1.5, 0.1, -1}});
+    room.look({1.5, 0.8, 3.5}, {0, 0.1, 0.2}, 40);
+    room.options.transport.max_depth = 2;
+    room.options.sampling.spp = 2048;
+    expect_bdpt_is(room, Integrator::PATH, 0.02);
+}
+
 TEST(Bidirectional, ConnectsAtOneTimeThroughALens) {
     // All that is seen has moved in between, the lamp has not; what is in front of the focus is blurred.
     Room room;

@@ -27,7 +27,7 @@ struct Box : TestScene {
         build.polygon({{-2, 0, -2}, {2, 0, -2}, {2, 3, -2}, {-2, 3, -2}});
         look({0, 1.5, 4}, {0, 1, 0}, 50);
         options.film.size = {64, 48};
-        options.sampling.spp = 256;
+        options.sampling.spp = 512; // with pilots of two integrators
         options.sampling.replicates = 4;
         options.light.environment = glm::dvec3(0);
         options.transport.choose = true;
@@ -65,6 +65,15 @@ double squared_error(const Box& box, Integrator integrator) {
     return error ? error->relative_rmse * error->relative_rmse * 512 : 0;
 }
 
+/// What a pilot says of an integrator; the choice has asked one.
+IntegratorPrice price_of(const IntegratorChoice& choice, Integrator integrator) {
+    for (const IntegratorPrice& price : choice.prices)
+        if (price.integrator == integrator)
+            return price;
+    ADD_FAILURE() << name_of(integrator) << ": " << choice.reason;
+    return {};
+}
+
 } // namespace
 
 TEST(IntegratorChoice, CausticsAreLeftToLightPaths) {
@@ -73,8 +82,8 @@ TEST(IntegratorChoice, CausticsAreLeftToLightPaths) {
     const Chosen chosen = box.choose();
     EXPECT_EQ(chosen.choice.integrator, Integrator::PATH_LIGHT) << chosen.choice.reason;
     EXPECT_TRUE(chosen.tree) << "the pilot's is the picture's";
-    ASSERT_EQ(chosen.choice.prices.size(), 2u);
-    EXPECT_GT(chosen.choice.prices[1].efficiency, 3) << chosen.choice.reason;
+    EXPECT_EQ(chosen.choice.prices.size(), 3u);
+    EXPECT_GT(price_of(chosen.choice, Integrator::PATH_LIGHT).efficiency, 3) << chosen.choice.reason;
 }
 
 TEST(IntegratorChoice, APilotToldWhatSplatsWouldNotGain) {
@@ -83,8 +92,7 @@ TEST(IntegratorChoice, APilotToldWhatSplatsWouldNotGain) {
     box.add_glass();
     const Chosen chosen = box.choose();
     EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
-    ASSERT_EQ(chosen.choice.prices.size(), 2u);
-    EXPECT_LT(chosen.choice.prices[1].efficiency, 1) << chosen.choice.reason;
+    EXPECT_LT(price_of(chosen.choice, Integrator::PATH_LIGHT).efficiency, 1) << chosen.choice.reason;
 }
 
 TEST(IntegratorChoice, APilotsErrorsAreThoseOfTheIntegrators) {
@@ -95,15 +103,54 @@ TEST(IntegratorChoice, APilotsErrorsAreThoseOfTheIntegrators) {
         box.add_lamp(side);
         box.add_glass();
         box.options.sampling.spp = 16384; // a pilot of all pixels
-        const std::vector<IntegratorPrice> prices = box.choose().choice.prices;
-        ASSERT_EQ(prices.size(), 2u);
-        for (size_t i = 0; i < (side < 0.1 ? 1 : 2); ++i) {
-            const double ratio =
-                prices[i].errors[size_t(ErrorMeasure::RELATIVE)] / squared_error(box, prices[i].integrator);
-            EXPECT_GT(ratio, 0.5) << name_of(prices[i].integrator) << ", lamp " << side;
-            EXPECT_LT(ratio, 2.2) << name_of(prices[i].integrator) << ", lamp " << side;
+        const IntegratorChoice choice = box.choose().choice;
+        const double path = squared_error(box, Integrator::PATH);
+        for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT}) {
+            const IntegratorPrice price = price_of(choice, integrator);
+            const size_t measure = size_t(ErrorMeasure::RELATIVE);
+            const double of_path = price.path[measure] / path;
+            EXPECT_GT(of_path, 0.5) << name_of(integrator) << ", lamp " << side;
+            EXPECT_LT(of_path, 2.2) << name_of(integrator) << ", lamp " << side;
+            if (side < 0.1)
+                continue;
+            const double of_own = price.errors[measure] / squared_error(box, integrator);
+            EXPECT_GT(of_own, 0.5) << name_of(integrator) << ", lamp " << side;
+            EXPECT_LT(of_own, 2.2) << name_of(integrator) << ", lamp " << side;
         }
     }
+}
+
+TEST(IntegratorChoice, LightBehindAScreenIsLeftToPathsFromBothEnds) {
+    Box box;
+    box.options.sampling.spp = 1024;
+    box.add_lamp(0.05);
+    // Below the lamp: all that is seen has been reflected by the ceiling or the wall.
+    box.build.use("matte").polygon({{-0.4, 2.7, -0.4}, {-0.4, 2.7, 0.4}, {0.4, 2.7, 0.4}, {0.4, 2.7, -0.4}});
+    box.build.polygon({{-2, 3.3, -2}, {2, 3.3, -2}, {2, 3.3, 2}, {-2, 3.3, 2}});
+    const Chosen chosen = box.choose();
+    EXPECT_EQ(chosen.choice.integrator, Integrator::BDPT) << chosen.choice.reason;
+    EXPECT_EQ(chosen.planned->options.transport.max_depth, LARGEST_BDPT_DEPTH) << "as path, all but";
+    const double told = price_of(chosen.choice, Integrator::BDPT).path[size_t(ErrorMeasure::RELATIVE)] /
+                        price_of(chosen.choice, Integrator::BDPT).errors[size_t(ErrorMeasure::RELATIVE)];
+    const double measured = squared_error(box, Integrator::PATH) / squared_error(box, Integrator::BDPT);
+    EXPECT_GT(told, 0.6 * measured);
+    EXPECT_LT(told, 1.7 * measured);
+}
+
+TEST(IntegratorChoice, WhatWouldCutPathsIsNotTaken) {
+    Box box;
+    box.build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3");
+    box.add_caustic();
+    // A mirror in front of another one, and the camera in between.
+    box.build.use("mirror").polygon({{-2, 0, -1.9}, {2, 0, -1.9}, {2, 3, -1.9}, {-2, 3, -1.9}});
+    box.build.polygon({{-2, 0, 4.2}, {-2, 3, 4.2}, {2, 3, 4.2}, {2, 0, 4.2}});
+    const IntegratorChoice choice = box.choose().choice;
+    EXPECT_NE(choice.integrator, Integrator::BDPT);
+    EXPECT_NE(choice.reason.find("(which would cut paths at 64 segments)"), std::string::npos)
+        << choice.reason;
+    box.options.transport.max_depth = 8; // then all do
+    EXPECT_EQ(box.choose().choice.reason.find("would cut"), std::string::npos);
+    EXPECT_EQ(box.choose().planned->options.transport.max_depth, 8);
 }
 
 TEST(IntegratorChoice, ThePictureIsThatOfTheChosenOne) {
@@ -134,13 +181,14 @@ TEST(IntegratorChoice, SeedAndRangeOfSamplesChangeNothing) {
     }
 }
 
-TEST(IntegratorChoice, WithoutCausticsNothingIsTried) {
+TEST(IntegratorChoice, WithoutCausticsSplatsAloneAreNotTried) {
     Box box;
     box.add_lamp(0.05);
     const Chosen chosen = box.choose();
-    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH);
-    EXPECT_TRUE(chosen.choice.prices.empty());
-    EXPECT_NE(chosen.choice.reason.find("LS+DE"), std::string::npos);
+    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
+    ASSERT_EQ(chosen.choice.prices.size(), 2u);
+    EXPECT_EQ(chosen.choice.prices[1].integrator, Integrator::BDPT);
+    EXPECT_FALSE(chosen.planned->options.transport.max_depth);
 }
 
 TEST(IntegratorChoice, WhatOptionsNeedComesFirst) {
@@ -181,28 +229,30 @@ TEST(IntegratorChoice, WhereAPilotSeesNoLightItIsPath) {
     EXPECT_EQ(choice.reason, "a pilot finds no light");
 }
 
-TEST(IntegratorChoice, APilotIsAShareOfTheRender) {
+TEST(IntegratorChoice, PilotsAreAShareOfTheRender) {
     Box box;
+    box.add_caustic();
     box.options.film.size = {640, 480};
-    const auto share = [&](double samples) { // 2.6 to 3.3 samples of path each
-        const std::optional<PilotSize> pilot = pilot_size(box.options);
-        return pilot ? 3.3 * double(pilot->samples()) / samples : -1.0;
+    const auto size = [&] { return pilot_size(*plan_loaded(test_device(), box.load(), box.options)); };
+    const auto share = [&](double samples) { // 2.6 to 3.3 samples of path each, of either
+        const std::optional<PilotSize> pilot = size();
+        return pilot ? 2 * 3.3 * double(pilot->samples()) / samples : -1.0;
     };
-    for (const std::uint32_t spp : {4u, 16u, 64u, 1024u}) {
+    for (const std::uint32_t spp : {8u, 16u, 64u, 1024u}) {
         box.options.sampling.spp = spp;
         EXPECT_LT(share(640. * 480 * spp), 0.055) << spp;
         EXPECT_GT(share(640. * 480 * spp), 0) << spp;
     }
     box.options.film.crop = Crop{320, 240, 352, 272}; // a light path for every pixel of the picture
-    EXPECT_FALSE(pilot_size(box.options));
+    EXPECT_FALSE(size());
     box.options.film.crop.reset();
     box.options.sampling.spp.reset();
     box.options.sampling.time_seconds = 1;
-    EXPECT_FALSE(pilot_size(box.options));
+    EXPECT_FALSE(size());
     box.options.sampling.time_seconds = 60;
-    EXPECT_TRUE(pilot_size(box.options));
+    EXPECT_TRUE(size());
     box.options.film.size = {7, 1};
-    EXPECT_TRUE(pilot_size(box.options)->width <= 7 && pilot_size(box.options)->height == 1);
+    EXPECT_TRUE(size()->width <= 7 && size()->height == 1);
 }
 
 } // namespace clrt

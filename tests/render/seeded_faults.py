@@ -233,6 +233,8 @@ FAULTS = [
      "-path->ray.direction, path->emission.power,", "bdpt_test"),
     ("light paths by the window's numbers", "integrators/light_paths.h", "return tile_pixel_number(params, x, y);", "return place;",
      "bdpt_test"),
+    ("normals that the eye bends from far behind shared with light paths", "path/light_vertex.h",
+     "#define LIGHT_SMALLEST_COS REAL(1.2e-2)", "#define LIGHT_SMALLEST_COS REAL(1.01e-3)", "bdpt_test"),
     ("eyes connected to another pixel's light path", "integrators/light_paths.h", "if (!INNER_CONNECTIONS || !light_paths_has_eye(params, path))",
      "if (true)", "bdpt_test"),
     ("a strategy of a chain counts as if there were one", "path/chain_path.h", "found.radiance * (real)STRATEGY_COUNT +",

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether methods that simulate the same paths agree, and whether their error bars hold: independent pictures of every method,
+each with a seed of its own, and what follows from them.
+
+Two methods agree by the tests of clrt-compare (verdict.py), the pictures of the seeds being replicates. An error bar is judged by
+its own method's other pictures: with the means a and b of two halves of them, mean((x - a) (x - b)) is the squared error of x
+without theirs, so that what all of a method's pictures lack shows in the tests above and not here."""
+import dataclasses
+import itertools
+import math
+import shlex
+
+import numpy
+from scipy.special import betaincinv
+
+from clrt_tools import picture_file, verdict
+from clrt_tools.study_runs import Point
+
+# What error bars promise, and the shares that are taken as that, of all and of a scene.
+NOMINAL, LEAST, MOST, LEAST_OF_A_SCENE = 0.95, 0.93, 0.97, 0.85
+# Fewer pictures leave no two halves beside the one that is judged.
+FEWEST_SEEDS = 3
+# Groups of methods that simulate the same paths: all of them, and those that the others do (src/options/integrators.h).
+GROUPS = (("path", "path+light", "bdpt", "mlt"),
+          ("light", "path --paths L((D|S)*D)?E"),
+          ("distribution --min-contribution 0", "path --paths LD?(G|S)*E"),
+          ("whitted --min-contribution 0", "path --paths LD?S*E"),
+          ("raycast", "path --paths LD?E"))
+
+
+@dataclasses.dataclass(frozen=True)
+class Participant:
+    """A method by the words of clrt's command line: an integrator's name, and options."""
+    text: str
+
+    def words(self):
+        """The part of clrt's command line that says so."""
+        return ["-i", *shlex.split(self.text)]
+
+    def __str__(self):
+        return self.text
+
+
+@dataclasses.dataclass
+class Sample:
+    """The pictures of a method, and what clrt says of the error of each over all pixels: (rel. RMSE, low, high), or None."""
+    pictures: list
+    errors: list
+
+    def joined(self):
+        """Their mean; they are its replicates."""
+        values = numpy.array([picture.mean for picture in self.pictures])
+        first = self.pictures[0]
+        return picture_file.Picture(first.path, first.window, values.mean(axis=0), values.var(axis=0, ddof=1) / len(values),
+                                    len(values) - 1, values)
+
+
+@dataclasses.dataclass(frozen=True)
+class Calibration:
+    """How many of `count` error bars held the error, and the errors that they tell over those that there are."""
+    held: int
+    count: int
+    told_over_true: float = float("nan")
+
+    @property
+    def share(self):
+        return self.held / self.count
+
+    def interval(self, level=NOMINAL):
+        """Of the share (Clopper and Pearson 1934)."""
+        tail, missed = (1 - level) / 2, self.count - self.held
+        low = betaincinv(self.held, missed + 1, tail) if self.held else 0.0
+        high = betaincinv(self.held + 1, missed, 1 - tail) if missed else 1.0
+        return float(low), float(high)
+
+
+def render(runner, participant, seeds, spp, name):
+    """The pictures of a method, one a seed."""
+    runs = [runner.run(f"{name}-{seed}", Point(participant, spp, seed)) for seed in seeds]
+    errors = [(run.stats.get("error") or {}).get("whole_picture") for run in runs]
+    return Sample([picture_file.read_picture(run.picture) for run in runs],
+                  [error and (error["rel_rmse"], error["low"], error["high"]) for error in errors])
+
+
+def compare_pairs(samples, tile, alpha, margin):
+    """[(first, second, Verdict)] of every pair. `samples`: {participant: Sample}."""
+    joined = {participant: sample.joined() for participant, sample in samples.items()}
+    return [(a, b, verdict.judge(joined[a], joined[b], tile, alpha, margin)) for a, b in itertools.combinations(samples, 2)]
+
+
+def true_error(values, index):
+    """Squared error of a picture, over its mean: by the mean of the others in two halves."""
+    others = [value for i, value in enumerate(values) if i != index]
+    halves = [numpy.mean(others[start::2], axis=0) for start in (0, 1)]
+    squared = float(((values[index] - halves[0]) * (values[index] - halves[1])).mean())
+    return max(squared, 0.0) / float(values[index].mean()) ** 2
+
+
+def calibrate(sample):
+    """Of a method's error bars; None where it has none."""
+    told = [(i, error) for i, error in enumerate(sample.errors) if error and sample.pictures[i].mean.mean() > 0]
+    if not told:
+        return None
+    values = [picture.mean for picture in sample.pictures]
+    true = {i: true_error(values, i) for i, _ in told}
+    held = sum(low <= math.sqrt(true[i]) <= high for i, (_, low, high) in told)
+    all_true = sum(true.values())
+    ratio = math.sqrt(sum(error[0] ** 2 for _, error in told) / all_true) if all_true > 0 else float("nan")
+    return Calibration(held, len(told), ratio)
+
+
+def pool(calibrations):
+    """All of them as one."""
+    return Calibration(sum(each.held for each in calibrations), sum(each.count for each in calibrations))
+
+
+def is_calibrated(calibration, scenes):
+    """Whether the pooled share can be one that is taken as the nominal one, and none of a scene is surely below the least."""
+    low, high = calibration.interval()
+    return low <= MOST and high >= LEAST and all(each.interval()[1] >= LEAST_OF_A_SCENE for each in scenes)
