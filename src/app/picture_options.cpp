@@ -68,6 +68,11 @@ std::vector<OptionSpec> picture_options() {
         {group, "", "--exposure", "auto|EV", EXPOSURE_HELP, apply_exposure},
         {group, "", "--tonemap", "NAME", TONEMAP_HELP, apply_tonemap},
         {group, "", "--aov", "LIST", aov_help.c_str(), apply_aov, REPEATABLE},
+        {group, "", "--exr-names", "clrt|blender",
+         "names of the layers of EXR files: ours, or those of Blender's passes (Combined, Depth, Normal, "
+         "Position, Denoising Albedo), which it loads; alpha is 1 where the background is seen, unless "
+         "--background transparent or --aov alpha (default clrt)",
+         [](Options& o, const OptionValue& v) { o.output.exr_names = parse_choice<ExrNames>(v); }},
     };
 }
 

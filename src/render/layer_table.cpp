@@ -110,21 +110,51 @@ std::vector<float> make_bad_samples(const LayerSources& from) {
     return values;
 }
 
+/// Blender's pass of the picture itself.
+const std::string BLENDER_PICTURE = "Combined";
+
+/// A layer with a channel a letter.
+LayerChannels within(const std::string& layer, const std::string& letters) {
+    LayerChannels result{layer, {}};
+    for (const char letter : letters)
+        result.channels.emplace_back(1, letter);
+    return result;
+}
+
+/// A channel by itself.
+LayerChannels alone(const std::string& channel) {
+    return {"", {channel}};
+}
+
+Layer make_named(const LayerChannels& names, std::vector<float> values) {
+    Layer layer;
+    layer.name = names.layer;
+    layer.channel_names = names.channels;
+    layer.values = std::move(values);
+    return layer;
+}
+
 } // namespace
 
 const std::vector<LayerRow>& layer_table() {
     using Default = LayerDefault;
     static const std::vector<LayerRow> rows = {
-        {"albedo", {"R", "G", "B"}, Default::SHOWN, true, false, make_albedo},
-        {"N", {"X", "Y", "Z"}, Default::SHOWN, true, false, make_normal},
-        {"Z", {"Z"}, Default::SHOWN, true, false, make_depth},
-        {"P", {"X", "Y", "Z"}, Default::SHOWN, true, false, make_position},
-        {"objectId", {"objectId"}, Default::SHOWN, true, true, make_id<AOV_OBJECT>},
-        {"materialId", {"materialId"}, Default::SHOWN, true, true, make_id<AOV_MATERIAL>},
-        {"variance", {"R", "G", "B"}, Default::SHOWN, false, false, make_variance},
-        {"samples", {"samples"}, Default::SHOWN, false, false, make_samples},
-        {"badSamples", {"badSamples"}, Default::SHOWN_WHERE_BAD, false, true, make_bad_samples},
-        {ALPHA_LAYER, {"A"}, Default::HIDDEN, true, false, make_alpha},
+        {"albedo", within("albedo", "RGB"), within("Denoising Albedo", "RGB"), Default::SHOWN, true, false,
+         make_albedo},
+        {"N", within("N", "XYZ"), within("Normal", "XYZ"), Default::SHOWN, true, false, make_normal},
+        {"Z", alone("Z"), within("Depth", "Z"), Default::SHOWN, true, false, make_depth},
+        {"P", within("P", "XYZ"), within("Position", "XYZ"), Default::SHOWN, true, false, make_position},
+        {"objectId", alone("objectId"), within("Object Index", "X"), Default::SHOWN, true, true,
+         make_id<AOV_OBJECT>},
+        {"materialId", alone("materialId"), within("Material Index", "X"), Default::SHOWN, true, true,
+         make_id<AOV_MATERIAL>},
+        {"variance", within("variance", "RGB"), within("Variance", "RGB"), Default::SHOWN, false, false,
+         make_variance},
+        {"samples", alone("samples"), within("Debug Sample Count", "X"), Default::SHOWN, false, false,
+         make_samples},
+        {"badSamples", alone("badSamples"), within("Bad Samples", "X"), Default::SHOWN_WHERE_BAD, false, true,
+         make_bad_samples},
+        {ALPHA_LAYER, alone("A"), within(BLENDER_PICTURE, "A"), Default::HIDDEN, true, false, make_alpha},
     };
     return rows;
 }
@@ -136,8 +166,32 @@ const LayerRow* find_layer(const std::string& name) {
     return found == rows.end() ? nullptr : &*found;
 }
 
-Layer make_layer(const LayerRow& row, std::vector<float> values) {
-    return {row.channels.size() > 1 ? row.name : "", row.channels, std::move(values), row.is_id};
+bool is_layer_taken(const std::string& layer) {
+    const auto holds = [&](const LayerChannels& names) {
+        return std::any_of(names.channels.begin(), names.channels.end(), [&](const std::string& channel) {
+            const std::string whole = names.layer.empty() ? channel : names.layer + "." + channel;
+            return whole.rfind(layer + ".", 0) == 0;
+        });
+    };
+    const std::vector<LayerRow>& rows = layer_table();
+    return std::any_of(rows.begin(), rows.end(), [&](const LayerRow& row) {
+        return row.name == layer || holds(row.clrt) || holds(row.blender);
+    });
+}
+
+Layer make_layer(const LayerRow& row, std::vector<float> values, ExrNames names) {
+    Layer layer = make_named(names == ExrNames::BLENDER ? row.blender : row.clrt, std::move(values));
+    layer.is_id = row.is_id;
+    layer.is_coverage = row.name == ALPHA_LAYER;
+    return layer;
+}
+
+Layer make_radiance_layer(std::vector<float> values, ExrNames names) {
+    return make_named(within(names == ExrNames::BLENDER ? BLENDER_PICTURE : "", "RGB"), std::move(values));
+}
+
+Layer make_opaque_layer(size_t pixels) {
+    return make_named(within(BLENDER_PICTURE, "A"), std::vector<float>(pixels, 1));
 }
 
 std::string layer_names(const char* separator) {
