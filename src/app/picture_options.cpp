@@ -42,7 +42,7 @@ std::vector<OptionSpec> picture_options() {
     static const std::string aov_help =
         "layers of EXR files, such as albedo,N or none: " + layer_names(" ") +
         ", and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: all but "
-        "alpha, badSamples where there are any)";
+        "alpha, badSamples where there are any, and the mattes cryptoObject and cryptoMaterial)";
     const char* const group = "Picture";
     return {
         {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/layer_table.h"
 
+#include "output/cryptomatte.h"
 #include "render/render.h"
 #include "render/render_params.h"
 #include "scene/normalise.h"
@@ -110,6 +111,42 @@ std::vector<float> make_bad_samples(const LayerSources& from) {
     return values;
 }
 
+const std::string OBJECT_MATTES = "CryptoObject", MATERIAL_MATTES = "CryptoMaterial";
+
+/// By kind of matte.
+const std::vector<std::string>& matte_names(const Scene& scene, u32 kind) {
+    return kind == MATTE_OBJECTS ? scene.object_names : scene.material_names;
+}
+
+/// Ids and coverage, MATTE_RANKS pairs a pixel.
+template <u32 kind>
+std::vector<float> make_mattes(const LayerSources& from) {
+    const HitSums& hits = from.render.hits;
+    const Film& film = from.render.film;
+    std::vector<float> values, ids;
+    if (hits.mattes[0].empty())
+        return values;
+    for (const std::string& name : matte_names(from.scene, kind))
+        ids.push_back(matte_id(name));
+    const size_t pixels = film_plane(film) / 3;
+    values.reserve(2 * MATTE_RANKS * pixels);
+    for (size_t pixel = 0; pixel < pixels; ++pixel) {
+        std::vector<MatteShare> shares;
+        for (const IndexShare& share : matte_shares(hits, film, pixel, kind))
+            shares.push_back({ids[share.index], share.coverage});
+        append_mattes(values, std::move(shares));
+    }
+    return values;
+}
+
+Metadata object_attributes(const Scene& scene) {
+    return matte_attributes(OBJECT_MATTES, scene.object_names);
+}
+
+Metadata material_attributes(const Scene& scene) {
+    return matte_attributes(MATERIAL_MATTES, scene.material_names);
+}
+
 /// Blender's pass of the picture itself.
 const std::string BLENDER_PICTURE = "Combined";
 
@@ -138,23 +175,42 @@ Layer make_named(const LayerChannels& names, std::vector<float> values) {
 
 const std::vector<LayerRow>& layer_table() {
     using Default = LayerDefault;
+    using Source = LayerSource;
     static const std::vector<LayerRow> rows = {
-        {"albedo", within("albedo", "RGB"), within("Denoising Albedo", "RGB"), Default::SHOWN, true, false,
-         make_albedo},
-        {"N", within("N", "XYZ"), within("Normal", "XYZ"), Default::SHOWN, true, false, make_normal},
-        {"Z", alone("Z"), within("Depth", "Z"), Default::SHOWN, true, false, make_depth},
-        {"P", within("P", "XYZ"), within("Position", "XYZ"), Default::SHOWN, true, false, make_position},
-        {"objectId", alone("objectId"), within("Object Index", "X"), Default::SHOWN, true, true,
+        {"albedo", within("albedo", "RGB"), within("Denoising Albedo", "RGB"), Default::SHOWN, Source::HITS,
+         false, make_albedo},
+        {"N", within("N", "XYZ"), within("Normal", "XYZ"), Default::SHOWN, Source::HITS, false, make_normal},
+        {"Z", alone("Z"), within("Depth", "Z"), Default::SHOWN, Source::HITS, false, make_depth},
+        {"P", within("P", "XYZ"), within("Position", "XYZ"), Default::SHOWN, Source::HITS, false,
+         make_position},
+        {"objectId", alone("objectId"), within("Object Index", "X"), Default::SHOWN, Source::HITS, true,
          make_id<AOV_OBJECT>},
-        {"materialId", alone("materialId"), within("Material Index", "X"), Default::SHOWN, true, true,
+        {"materialId", alone("materialId"), within("Material Index", "X"), Default::SHOWN, Source::HITS, true,
          make_id<AOV_MATERIAL>},
-        {"variance", within("variance", "RGB"), within("Variance", "RGB"), Default::SHOWN, false, false,
-         make_variance},
-        {"samples", alone("samples"), within("Debug Sample Count", "X"), Default::SHOWN, false, false,
+        {"variance", within("variance", "RGB"), within("Variance", "RGB"), Default::SHOWN, Source::FILM,
+         false, make_variance},
+        {"samples", alone("samples"), within("Debug Sample Count", "X"), Default::SHOWN, Source::FILM, false,
          make_samples},
-        {"badSamples", alone("badSamples"), within("Bad Samples", "X"), Default::SHOWN_WHERE_BAD, false, true,
-         make_bad_samples},
-        {ALPHA_LAYER, alone("A"), within(BLENDER_PICTURE, "A"), Default::HIDDEN, true, false, make_alpha},
+        {"badSamples", alone("badSamples"), within("Bad Samples", "X"), Default::SHOWN_WHERE_BAD,
+         Source::FILM, true, make_bad_samples},
+        {ALPHA_LAYER, alone("A"), within(BLENDER_PICTURE, "A"), Default::HIDDEN, Source::HITS, false,
+         make_alpha},
+        {"cryptoObject",
+         {"", matte_channels(OBJECT_MATTES)},
+         {"", matte_channels(OBJECT_MATTES)},
+         Default::HIDDEN,
+         Source::MATTES,
+         false,
+         make_mattes<MATTE_OBJECTS>,
+         object_attributes},
+        {"cryptoMaterial",
+         {"", matte_channels(MATERIAL_MATTES)},
+         {"", matte_channels(MATERIAL_MATTES)},
+         Default::HIDDEN,
+         Source::MATTES,
+         false,
+         make_mattes<MATTE_MATERIALS>,
+         material_attributes},
     };
     return rows;
 }

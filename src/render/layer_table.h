@@ -29,6 +29,13 @@ enum class LayerDefault {
     SHOWN_WHERE_BAD, ///< where the render has bad samples
 };
 
+/// What a layer's values come from.
+enum class LayerSource {
+    FILM,
+    HITS,   ///< sums over the primary hits (film/hit_sums.h)
+    MATTES, ///< counts of samples by object and material (film/matte_sums.h)
+};
+
 /// How a layer's channels are called in EXR files: "layer.channel", or "channel" where the layer is "".
 struct LayerChannels {
     std::string layer;
@@ -41,10 +48,12 @@ struct LayerRow {
     LayerChannels clrt;    ///< by our names
     LayerChannels blender; ///< by those of Blender 5.0's passes, where it has one of the kind
     LayerDefault by_default;
-    bool is_from_hits; ///< needs the sums over the primary hits (film/hit_sums.h)
-    bool is_id;        ///< written as uint
+    LayerSource source;
+    bool is_id; ///< written as uint
     /// The values, channel by channel of each pixel; none where the render has no such layer.
     std::vector<float> (*make)(const LayerSources&);
+    /// What files say of it besides; null: nothing.
+    Metadata (*attributes)(const Scene&) = nullptr;
 };
 
 /// The layer that a transparent picture always has: the share of the samples that hit something.

@@ -43,8 +43,11 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
         if (!is_wanted(row, render, options) && !(picture.is_transparent && row.name == ALPHA_LAYER))
             continue;
         std::vector<float> values = row.make({render, scene, options});
-        if (!values.empty())
-            picture.layers.push_back(make_layer(row, std::move(values), options.output.exr_names));
+        if (values.empty())
+            continue;
+        picture.layers.push_back(make_layer(row, std::move(values), options.output.exr_names));
+        if (row.attributes)
+            picture.layers.back().attributes = row.attributes(scene);
     }
     const bool has_coverage = std::any_of(picture.layers.begin(), picture.layers.end(),
                                           [](const Layer& layer) { return layer.is_coverage; });
