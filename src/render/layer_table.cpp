@@ -58,6 +58,13 @@ std::vector<float> make_normal(const LayerSources& from) {
     });
 }
 
+/// What denoisers are guided by: the mean over all samples, those that miss as 0, so that edges are as soft
+/// as the picture's.
+template <size_t vector>
+std::vector<float> make_guide(const LayerSources& from) {
+    return from_hits(from, [](const PixelHits& hits) { return hits.share * hits.mean(vector); });
+}
+
 /// Distance of the mean position, world units: along the look vector, in panoramas from the eye; infinite
 /// where nothing was hit. The camera is that of the shutter's opening.
 std::vector<float> make_depth(const LayerSources& from) {
@@ -177,8 +184,8 @@ const std::vector<LayerRow>& layer_table() {
     using Default = LayerDefault;
     using Source = LayerSource;
     static const std::vector<LayerRow> rows = {
-        {"albedo", within("albedo", "RGB"), within("Denoising Albedo", "RGB"), Default::SHOWN, Source::HITS,
-         false, make_albedo},
+        {"albedo", within("albedo", "RGB"), within("Albedo", "RGB"), Default::SHOWN, Source::HITS, false,
+         make_albedo},
         {"N", within("N", "XYZ"), within("Normal", "XYZ"), Default::SHOWN, Source::HITS, false, make_normal},
         {"Z", alone("Z"), within("Depth", "Z"), Default::SHOWN, Source::HITS, false, make_depth},
         {"P", within("P", "XYZ"), within("Position", "XYZ"), Default::SHOWN, Source::HITS, false,
@@ -195,6 +202,10 @@ const std::vector<LayerRow>& layer_table() {
          Source::FILM, true, make_bad_samples},
         {ALPHA_LAYER, alone("A"), within(BLENDER_PICTURE, "A"), Default::HIDDEN, Source::HITS, false,
          make_alpha},
+        {"denoisingAlbedo", within("denoisingAlbedo", "RGB"), within("Denoising Albedo", "RGB"),
+         Default::HIDDEN, Source::HITS, false, make_guide<AOV_ALBEDO>},
+        {"denoisingNormal", within("denoisingNormal", "XYZ"), within("Denoising Normal", "XYZ"),
+         Default::HIDDEN, Source::HITS, false, make_guide<AOV_NORMAL>},
         {"cryptoObject",
          {"", matte_channels(OBJECT_MATTES)},
          {"", matte_channels(OBJECT_MATTES)},

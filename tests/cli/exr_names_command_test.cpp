@@ -21,12 +21,14 @@ const std::vector<std::pair<std::string, std::string>> NAME_PAIRS = {
     {"P.X", "Position.X"},
     {"P.Y", "Position.Y"},
     {"P.Z", "Position.Z"},
-    {"albedo.R", "Denoising Albedo.R"},
-    {"albedo.G", "Denoising Albedo.G"},
-    {"albedo.B", "Denoising Albedo.B"},
+    {"albedo.R", "Albedo.R"},
+    {"albedo.G", "Albedo.G"},
+    {"albedo.B", "Albedo.B"},
     {"objectId", "Object Index.X"},
     {"materialId", "Material Index.X"},
     {"samples", "Debug Sample Count.X"},
+    {"denoisingAlbedo.G", "Denoising Albedo.G"},
+    {"denoisingNormal.Z", "Denoising Normal.Z"},
     {"sky.R", "sky.R"},
 };
 
@@ -56,7 +58,8 @@ bool same_bits(float a, float b) {
 } // namespace
 
 TEST_F(ExrNamesCommand, BlendersNamesHoldTheSameBits) {
-    const std::vector<std::string> layers = {"--aov", "albedo,N,Z,P,objectId,materialId,samples,sky=LE"};
+    const std::vector<std::string> layers = {
+        "--aov", "albedo,N,Z,P,objectId,materialId,samples,denoisingAlbedo,denoisingNormal,sky=LE"};
     std::vector<std::string> blender = layers;
     blender.insert(blender.end(), {"--exr-names", "blender"});
     const ReadPicture ours = render(layers), theirs = render(blender);

@@ -112,6 +112,7 @@ TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
     film_.ranges = {{0, 16}};
     Film equal = film_;
     equal.tile_samples = {};
+    int edges = 0;
     for (size_t pixel = 0; pixel < film_plane(film_) / 3; ++pixel) {
         const PixelHits a = pixel_hits(halves, film_, pixel), b = pixel_hits(whole, equal, pixel);
         ASSERT_NEAR(a.share, b.share, 1e-15);
@@ -119,7 +120,9 @@ TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
         ASSERT_NEAR(a.mean(AOV_POSITION).z, b.mean(AOV_POSITION).z, 1e-14);
         ASSERT_NEAR(coverage(halves, film_, pixel), a.share, 1e-15) << "all have slots";
         ASSERT_NEAR(coverage(whole, equal, pixel), b.share, 1e-15);
+        edges += matte_shares(whole, equal, pixel, MATTE_MATERIALS).size() == 2;
     }
+    EXPECT_GT(edges, 10) << "leaf and floor";
 }
 
 TEST_F(HitLayersTest, SumsOfManySamplesLoseNothing) {

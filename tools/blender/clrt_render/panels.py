@@ -54,7 +54,7 @@ class CLRT_PT_passes(_Panel):
     def draw(self, context):
         self.rows(context.view_layer, "use_pass_z", "use_pass_normal", "use_pass_position",
                   "use_pass_cryptomatte_object", "use_pass_cryptomatte_material")
-        self.rows(context.scene.clrt, "use_pass_albedo")
+        self.rows(context.scene.clrt, "use_denoising_data")
 
 
 PANELS = (CLRT_PT_sampling, CLRT_PT_device, CLRT_PT_passes)

@@ -7,7 +7,7 @@ import numpy as np
 from .axes import to_blender
 
 MATTE_LAYERS = 3
-VECTORS = ("Normal", "Position")  # in world axes
+VECTORS = ("Normal", "Position", "Denoising Normal")  # in world axes
 
 
 def wanted(scene, view_layer):
@@ -17,7 +17,8 @@ def wanted(scene, view_layer):
             (view_layer.use_pass_z, "Depth", "Z", "VALUE", "Z"),
             (view_layer.use_pass_normal, "Normal", "XYZ", "VECTOR", "N"),
             (view_layer.use_pass_position, "Position", "XYZ", "VECTOR", "P"),
-            (scene.clrt.use_pass_albedo, "Denoising Albedo", "RGB", "COLOR", "albedo")):
+            (scene.clrt.use_denoising_data, "Denoising Albedo", "RGB", "COLOR", "denoisingAlbedo"),
+            (scene.clrt.use_denoising_data, "Denoising Normal", "XYZ", "VECTOR", "denoisingNormal")):
         if asked:
             rows.append((name, channels, kind, layer))
     for asked, name, layer in ((view_layer.use_pass_cryptomatte_object, "CryptoObject", "cryptoObject"),

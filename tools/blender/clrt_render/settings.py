@@ -23,7 +23,8 @@ class ClrtSettings(bpy.types.PropertyGroup):
                            "empty: the first GPU, else the CPU")
     seed: IntProperty(name="Seed", default=0, min=0, description="Chooses the noise")
     further: StringProperty(name="Further options", description="As on clrt's command line, such as --max-depth 8")
-    use_pass_albedo: BoolProperty(name="Albedo", description="Pass Denoising Albedo: reflectance of what is seen")
+    use_denoising_data: BoolProperty(name="Denoising Data", description="Passes Denoising Albedo and Denoising Normal, "
+                                     "for the compositor's Denoise node")
 
     def options(self):
         """The chosen ones as clrt's command line has them."""

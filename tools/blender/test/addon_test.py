@@ -47,7 +47,8 @@ class AddOn(unittest.TestCase):
 
     def test_all_passes_arrive(self):
         passes, _path = self.render()
-        for name in ("Combined.A", "Depth.Z", "Normal.X", "Position.Z", "Denoising Albedo.B", "CryptoObject02.A",
+        for name in ("Combined.A", "Depth.Z", "Normal.X", "Position.Z", "Denoising Albedo.B", "Denoising Normal.Z",
+                     "CryptoObject02.A",
                      "CryptoMaterial00.R"):
             self.assertIn(name, list(passes))
         self.assertTrue((passes["Combined.A"] == 1).all())

@@ -67,6 +67,13 @@ def compare_colours(ours, theirs, our_mattes, their_mattes):
     return is_well
 
 
+def compare_albedo(ours, theirs, edges):
+    """Of the pixels at edges, where means must be over all samples."""
+    a, b = [np.dstack([passes["Denoising Albedo." + c] for c in "RGB"])[edges] for passes in (ours, theirs)]
+    print(f"Albedo at {edges.sum()} pixels of edges: root of mean squared difference {np.sqrt(((a - b)**2).mean()):.4f}, "
+          f"mean {a.mean():.4f}, Cycles {b.mean():.4f}")
+
+
 def main():
     folder = sys.argv[1]
     samples = int(sys.argv[2]) if len(sys.argv) > 2 else 1024
@@ -87,6 +94,8 @@ def main():
     print("Mean colour by material, pixels wholly inside:")
     colours = compare_colours(found["CLRT"][0], found["CYCLES"][0], mattes["CryptoMaterial", "CLRT"],
                               mattes["CryptoMaterial", "CYCLES"])
+    compare_albedo(found["CLRT"][0], found["CYCLES"][0],
+                   np.max(list(mattes["CryptoObject", "CLRT"].values()), axis=0) < 0.98)
     sys.exit(0 if places and colours else 1)
 
 

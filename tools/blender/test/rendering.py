@@ -17,7 +17,8 @@ def render(scene, engine, path, samples):
     for name in PASSES:
         setattr(view_layer, name, True)
     scene.render.engine = engine
-    scene.clrt.use_pass_albedo, scene.clrt.samples = True, samples
+    scene.clrt.use_denoising_data, scene.clrt.samples = True, samples
+    view_layer.cycles.denoising_store_passes = True
     cycles = scene.cycles
     cycles.samples, cycles.use_adaptive_sampling, cycles.use_denoising = samples, False, False
     cycles.pixel_filter_type = "BOX"
