@@ -88,9 +88,15 @@ def _lamp(lamp, matrix, options, surfaces, notes):
         surfaces.append(_surface(lamp.name, light, _placed(vertices, matrix), faces))
         if light.spread < math.pi - 1e-4:
             notes.append(f"{lamp.name} shines to all sides of its front")
+    elif light.type == "SPOT":
+        outer = math.degrees(light.spot_size / 2)
+        inner = outer * (1 - light.spot_blend)  # as Blender's glTF exporter has it
+        forward = -matrix.to_3x3().col[2].normalized()
+        options += ["--spot", ",".join((point(matrix.translation), point(forward),
+                                        numbers(_colour(light) / (4 * math.pi)), numbers((outer, inner))))]
+        if light.shadow_soft_size > 0:
+            notes.append(f"{lamp.name} has hard shadows")
     else:
-        if light.type == "SPOT":
-            notes.append(f"{lamp.name}, a spot, shines as a point to all sides")
         # Most lamps are hidden from the camera, which no surface of ours can be; those are points, with hard shadows.
         if light.shadow_soft_size > 0 and lamp.visible_camera:
             vertices, faces = _sphere(light.shadow_soft_size)

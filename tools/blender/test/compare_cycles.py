@@ -3,7 +3,7 @@
 """Renders one scene by Cycles and by clrt and compares: where every object is in the picture, and the mean colour of
 every material.
 
-    compare_cycles.py FOLDER [SAMPLES [WIDTH HEIGHT]]
+    compare_cycles.py FOLDER [still_life|balls [SAMPLES [WIDTH HEIGHT]]]
 
 Needs Python 3.11 with the packages bpy and numpy, and clrt in the variable CLRT or the search path. Leaves both
 pictures in the folder. Exit code 1 if an object is elsewhere, or if a colour differs by more than it may."""
@@ -76,11 +76,12 @@ def compare_albedo(ours, theirs, edges):
 
 def main():
     folder = sys.argv[1]
-    samples = int(sys.argv[2]) if len(sys.argv) > 2 else 1024
-    width, height = [int(x) for x in sys.argv[3:5]] or (160, 120)
+    name = sys.argv[2] if len(sys.argv) > 2 else "still_life"
+    samples = int(sys.argv[3]) if len(sys.argv) > 3 else 1024
+    width, height = [int(x) for x in sys.argv[4:6]] or (160, 120)
     os.makedirs(folder, exist_ok=True)
     clrt_render.register()
-    scene = scenes.still_life(width, height)
+    scene = {"still_life": scenes.still_life, "balls": scenes.balls}[name](width, height)
     found = {}
     for engine in ("CLRT", "CYCLES"):
         path = os.path.join(folder, engine.lower() + ".exr")
@@ -94,8 +95,10 @@ def main():
     print("Mean colour by material, pixels wholly inside:")
     colours = compare_colours(found["CLRT"][0], found["CYCLES"][0], mattes["CryptoMaterial", "CLRT"],
                               mattes["CryptoMaterial", "CYCLES"])
-    compare_albedo(found["CLRT"][0], found["CYCLES"][0],
-                   np.max(list(mattes["CryptoObject", "CLRT"].values()), axis=0) < 0.98)
+    things = [share for name, share in mattes["CryptoObject", "CLRT"].items() if name not in scene.objects
+              or scene.objects[name].type == "MESH"]
+    cover = np.max(things, axis=0)
+    compare_albedo(found["CLRT"][0], found["CYCLES"][0], (cover > 0.02) & (cover < 0.98) & (sum(things) > 0.9))
     sys.exit(0 if places and colours else 1)
 
 

@@ -80,11 +80,51 @@ def ball(name, material, place, radius):
     return own
 
 
-def still_life(width=160, height=120):
-    """Everything at once."""
+def checked(name):
+    """A material of a picture, packed into the Blender file."""
+    material = principled(name, Roughness=0.6)
+    image = bpy.data.images.new(name, 64, 64)
+    image.generated_type = "COLOR_GRID"
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    material.node_tree.links.new(node.outputs["Color"],
+                                 material.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+    return material
+
+
+def _room(width, height):
     scene = clear()
     scene.render.resolution_x, scene.render.resolution_y = width, height
     scene.render.resolution_percentage = 100
+    return scene
+
+
+def balls(width=160, height=120):
+    """Materials of many lobes in a row, before a wall with a picture, under a spot and a panel."""
+    scene = _room(width, height)
+    mesh = bpy.ops.mesh
+    add(mesh.primitive_plane_add, "floor", matte("grey", (0.5, 0.5, 0.5)), size=40)
+    add(mesh.primitive_plane_add, "wall", checked("picture"), size=6, location=(0, 3, 2), rotation=(math.pi / 2, 0, 0))
+    for i, material in enumerate((
+            principled("glass", Base_Color=(0.9, 0.95, 1.0), Transmission_Weight=1.0, Roughness=0.0, IOR=1.45),
+            principled("frosted", Base_Color=(1.0, 1.0, 1.0), Transmission_Weight=1.0, Roughness=0.4),
+            principled("coated", Base_Color=(0.6, 0.05, 0.05), Coat_Weight=1.0, Roughness=0.5),
+            principled("velvet", Base_Color=(0.1, 0.1, 0.4), Sheen_Weight=0.5, Roughness=0.8),
+            principled("gold", Base_Color=(1.0, 0.77, 0.34), Metallic=1.0, Roughness=0.2, Anisotropic=0.5),
+            principled("rough", Base_Color=(0.8, 0.8, 0.8), Roughness=1.0))):
+        ball(material.name + " ball", material, (1.1 * i - 2.75, 0.3 * (i % 2), 0.5), 0.5)
+    spot = lamp(scene, "spot", "SPOT", (-3, -3, 4), 600, spot_size=math.radians(50), spot_blend=0.2, shadow_soft_size=0)
+    spot.rotation_euler = (0.75, 0, -0.6)
+    panel = lamp(scene, "panel", "AREA", (3, -4, 6), 500, shape="SQUARE", size=2)
+    panel.rotation_euler = (0.6, 0, 0.5)
+    set_sky(scene, (1, 1, 1), 0.2)
+    set_camera(scene, (0, -8, 2.5), (78, 0, 0), lens=40)
+    return scene
+
+
+def still_life(width=160, height=120):
+    """Everything at once."""
+    scene = _room(width, height)
     mesh = bpy.ops.mesh
     add(mesh.primitive_plane_add, "floor", matte("grey", (0.5, 0.5, 0.5)), size=40)
     add(mesh.primitive_cube_add, "red box", matte("red", (0.7, 0.1, 0.05)), size=1.4, location=(-1.6, 0.8, 0.7),
