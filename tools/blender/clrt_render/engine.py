@@ -27,7 +27,7 @@ class ClrtEngine(bpy.types.RenderEngine):
                 self._render(depsgraph, folder)
             except (ValueError, RuntimeError, OSError) as error:
                 # Blender does not outlive the writing of a picture that was never begun.
-                self.end_result(self.begin_result(0, 0, self.resolution_x, self.resolution_y))
+                self.end_result(self._begin(depsgraph))
                 self.report({"ERROR"}, str(error))
                 self.error_set(str(error))
 
@@ -57,6 +57,8 @@ class ClrtEngine(bpy.types.RenderEngine):
         options += camera.camera_options(depsgraph, eye, width, height, notes)
         options += world.world_options(scene, folder, notes)
         options += ["--size", f"{width}x{height}", "--studio", "off"]
+        if scene.render.use_border:
+            options += ["--crop", ",".join(str(side) for side in self._window(scene.render))]
         if scene.render.threads_mode == "FIXED":
             options += ["--threads", str(scene.render.threads)]
         for note in notes:
@@ -81,10 +83,22 @@ class ClrtEngine(bpy.types.RenderEngine):
         """Whether the user wants no more."""
         return self.test_break()
 
+    def _window(self, render):
+        """Left, top, right and bottom of what is rendered, pixels from the top left."""
+        width, height = self.resolution_x, self.resolution_y
+        if not render.use_border:
+            return 0, 0, width, height
+        # Rounded as Blender does, which counts from the bottom.
+        return (int(render.border_min_x * width), height - int(render.border_max_y * height),
+                int(render.border_max_x * width), height - int(render.border_min_y * height))
+
+    def _begin(self, depsgraph):
+        left, top, right, bottom = self._window(depsgraph.scene.render)
+        return self.begin_result(0, 0, right - left, bottom - top, layer=depsgraph.view_layer_eval.name)
+
     def _show(self, depsgraph, picture, is_last):
         """Loads the passes of the file."""
-        result = self.begin_result(0, 0, self.resolution_x, self.resolution_y,
-                                   layer=depsgraph.view_layer_eval.name)
+        result = self._begin(depsgraph)
         layer = result.layers[0]
         layer.load_from_file(picture)
         passes.turn_vectors(layer)

@@ -87,6 +87,17 @@ class AddOn(unittest.TestCase):
         x = (share * columns).sum() / share.sum() + 0.5
         self.assertAlmostEqual((x - 24) * 8 / 48, 2.6, delta=0.05)
 
+    def test_a_border_has_the_pixels_of_the_whole(self):
+        whole, _path = self.render()
+        render = self.scene.render
+        render.use_border = render.use_crop_to_border = True
+        render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.25, 0.7, 0.2, 0.55
+        part, _path = self.render()
+        left, right, top, bottom = 12, 33, 36 - 19, 36 - 7
+        for name in ("Combined.R", "Normal.Z", "CryptoObject00.R"):
+            self.assertEqual(part[name].shape, (bottom - top, right - left))
+            np.testing.assert_array_equal(part[name], whole[name][top:bottom, left:right])
+
     def test_a_missing_program_is_said(self):
         before = os.environ.get("CLRT")
         os.environ["CLRT"] = "/nowhere/clrt"
