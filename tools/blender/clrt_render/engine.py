@@ -61,7 +61,9 @@ class ClrtEngine(bpy.types.RenderEngine):
             options += ["--crop", ",".join(str(side) for side in self._window(scene.render))]
         if scene.render.threads_mode == "FIXED":
             options += ["--threads", str(scene.render.threads)]
-        for note in notes:
+        if scene.render.use_motion_blur:
+            notes.append("nothing moves while the shutter is open")
+        for note in dict.fromkeys(notes):
             self.report({"WARNING"}, note)
         return [settings.program(), "--no-sidecar", files.path] + options + scene.clrt.options()
 

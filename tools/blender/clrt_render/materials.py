@@ -25,9 +25,11 @@ class Writer:
         return "\n".join(self.lines) + "\n"
 
     def colour(self, key, node, socket, factor=1):
-        """A colour, and the image that is linked to it."""
+        """A colour, or the image that is linked to it, times a factor."""
         if not self._map(key, node, socket):
             self.put(key, *(factor * c for c in value_of(node, socket)[:3]))
+        elif factor != 1:
+            self.put(key, *[factor] * 3)
 
     def number(self, key, node, socket):
         if not self._map(key, node, socket):
@@ -122,6 +124,9 @@ def material_text(material, name, folder, notes):
     out = Writer(name, folder, notes)
     output = material.node_tree.get_output_node("ALL") if material and material.node_tree else None
     shader = output and linked_node(output.inputs["Surface"])
+    for socket in ("Volume", "Displacement"):
+        if output and output.inputs[socket].is_linked:
+            out.note(f"{socket} is left out")
     if shader and shader.type in SHADERS:
         SHADERS[shader.type](shader, out)
         return out.text()

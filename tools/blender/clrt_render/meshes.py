@@ -8,6 +8,7 @@ from . import lights, materials
 from .axes import numbers, to_clrt
 
 GEOMETRY = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
+UNKNOWN = {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}
 # How far behind an area light its dark back is, of the light's size: where other surfaces shine on both sides,
 # so would it.
 BACK_DISTANCE = 1e-4
@@ -103,6 +104,8 @@ class SceneFiles:
             for instance in depsgraph.object_instances:
                 if instance.show_self and instance.object.type in GEOMETRY:
                     self._object(writer, instance)
+                elif instance.object.type in UNKNOWN:
+                    self.notes.append(f"{instance.object.name} ({instance.object.type.lower()}) is left out")
             for i, surface in enumerate(surfaces):
                 self._lamp(writer, surface, f"lamp {i}")
         with open(os.path.join(self.folder, "scene.mtl"), "w", encoding="utf-8") as file:
