@@ -20,6 +20,18 @@ SHARED_BEGIN
 #define AOV_MATERIAL 2u
 #define AOV_WORDS 3u
 
+/* Mattes: how many samples see which object and which material first. The first MATTE_SLOTS of each kind that
+   a pixel's samples come to have a slot, two more than are written; more would cost memory for what is a few
+   percent of a pixel. */
+#define MATTE_OBJECTS 0u
+#define MATTE_MATERIALS 1u
+#define MATTE_SLOTS 8u
+#define MATTE_INDEX 0u   /* words of a slot: object or material */
+#define MATTE_SAMPLES 1u /* 0: the slot is free */
+#define MATTE_SLOT_WORDS 2u
+#define MATTE_KIND_WORDS (MATTE_SLOT_WORDS * MATTE_SLOTS)
+#define MATTE_WORDS (2u * MATTE_KIND_WORDS)
+
 /* One in fixed point is 2^AOV_BITS: floats from 2^-7 on are exact. Values are below 64, so that 2^26 samples
    fit, more than a film of 64 replicates holds. */
 #define AOV_BITS 31

@@ -24,8 +24,8 @@ void add_path_layer(Options& o, const OptionValue& v, const std::string& name,
                          LETTERS.find(name[0]) != std::string::npos &&
                          name.find_first_not_of(LETTERS + REST) == std::string::npos;
     const bool is_taken =
-        find_layer(name) || std::any_of(o.output.path_layers.begin(), o.output.path_layers.end(),
-                                        [&](const auto& l) { return l.name == name; });
+        is_layer_taken(name) || std::any_of(o.output.path_layers.begin(), o.output.path_layers.end(),
+                                            [&](const auto& l) { return l.name == name; });
     if (!is_name || is_taken)
         reject_value(v,
                      "NAME=EXPR with a new name of letters, digits, '_' and '-' that starts with a letter");

@@ -42,7 +42,8 @@ std::vector<OptionSpec> picture_options() {
     static const std::string aov_help =
         "layers of EXR files, such as albedo,N or none: " + layer_names(" ") +
         ", and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: all but "
-        "alpha, badSamples where there are any)";
+        "alpha, denoisingAlbedo and denoisingNormal, which are means over misses too, and the mattes "
+        "cryptoObject and cryptoMaterial; badSamples where there are any)";
     const char* const group = "Picture";
     return {
         {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",
@@ -68,6 +69,11 @@ std::vector<OptionSpec> picture_options() {
         {group, "", "--exposure", "auto|EV", EXPOSURE_HELP, apply_exposure},
         {group, "", "--tonemap", "NAME", TONEMAP_HELP, apply_tonemap},
         {group, "", "--aov", "LIST", aov_help.c_str(), apply_aov, REPEATABLE},
+        {group, "", "--exr-names", "clrt|blender",
+         "names of the layers of EXR files: ours, or those of Blender's passes (Combined, Depth, Normal, "
+         "Position, Albedo), which it loads; alpha is 1 where the background is seen, unless "
+         "--background transparent or --aov alpha (default clrt)",
+         [](Options& o, const OptionValue& v) { o.output.exr_names = parse_choice<ExrNames>(v); }},
     };
 }
 

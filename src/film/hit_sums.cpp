@@ -11,17 +11,15 @@ bool has_all_samples(const HitSums& hits, const Film& film) {
 }
 
 PixelHits pixel_hits(const HitSums& hits, const Film& film, size_t pixel) {
-    const bool has_halves = !hits.tile_samples[0].empty();
+    const double weight = 1.0 / double(hits.halves());
     PixelHits result;
-    for (size_t half = 0; half < (has_halves ? 2 : 1); ++half) {
-        const double samples =
-            has_halves ? hits.tile_samples[half][film_tile(film, pixel)] : double(hits.samples);
+    for (size_t half = 0; half < hits.halves(); ++half) {
+        const double samples = hits.half_samples(film, half, pixel);
         const u32* words = &hits.words[half][AOV_WORDS * pixel];
         if (words[AOV_HITS] == 0)
             continue;
         if (result.share == 0)
             std::copy_n(words, AOV_WORDS, result.first.begin());
-        const double weight = has_halves ? 0.5 : 1;
         result.share += weight * (words[AOV_HITS] / samples);
         for (size_t i = 0; i < AOV_SUMS; ++i)
             result.means[i] += weight * (double(hits.values[half][AOV_SUMS * pixel + i]) / samples);

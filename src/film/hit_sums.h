@@ -4,6 +4,7 @@
 #pragma once
 
 #include "film/film.h"
+#include "film/matte_sums.h"
 #include "kernels/shared/aov_types.h"
 
 #include <array>
@@ -19,9 +20,16 @@ namespace clrt {
 struct HitSums {
     std::array<std::vector<std::int64_t>, 2> values; ///< AOV_SUMS a pixel
     std::array<std::vector<u32>, 2> words;           ///< AOV_WORDS a pixel
-    std::uint64_t samples = 0;                       ///< a pixel, of a film that is not adaptive
-    TileSamples tile_samples;                        ///< of an adaptive film
+    MatteSlots mattes;
+    std::uint64_t samples = 0; ///< a pixel, of a film that is not adaptive
+    TileSamples tile_samples;  ///< of an adaptive film
     bool empty() const { return values[0].empty(); }
+    /// How many halves there are sums of.
+    size_t halves() const { return tile_samples[0].empty() ? 1 : 2; }
+    /// How many samples of a pixel those of a half are.
+    double half_samples(const Film& film, size_t half, size_t pixel) const {
+        return halves() == 2 ? tile_samples[half][film_tile(film, pixel)] : double(samples);
+    }
 };
 
 /// Whether they have all samples of the film.

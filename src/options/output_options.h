@@ -19,6 +19,13 @@ inline constexpr Named<Tonemap> NAMES<Tonemap>[] = {{Tonemap::NONE, "none"},
                                                     {Tonemap::FILMIC, "filmic"},
                                                     {Tonemap::AGX, "agx"}};
 
+/// Whose names the layers of EXR files have.
+enum class ExrNames { CLRT, BLENDER };
+
+template <>
+inline constexpr Named<ExrNames> NAMES<ExrNames>[] = {{ExrNames::CLRT, "clrt"},
+                                                      {ExrNames::BLENDER, "blender"}};
+
 /// An EXR layer with the light of some paths.
 struct PathLayerOption {
     std::string name;
@@ -32,8 +39,9 @@ struct OutputOptions {
     Tonemap tonemap = Tonemap::NONE;
     std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
     std::vector<PathLayerOption> path_layers;     ///< further EXR layers, made from the picture's light
-    std::string stats_path;                       ///< JSON; empty: none
-    std::optional<double> save_every_seconds;     ///< between two pictures so far
+    ExrNames exr_names = ExrNames::CLRT;
+    std::string stats_path;                   ///< JSON; empty: none
+    std::optional<double> save_every_seconds; ///< between two pictures so far
 };
 
 } // namespace clrt

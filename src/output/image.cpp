@@ -109,7 +109,7 @@ void check_output_folder(const std::string& path) {
 
 const std::vector<float>* picture_coverage(const Picture& picture) {
     for (const Layer& layer : picture.layers)
-        if (picture.is_transparent && layer.name.empty() && layer.channel_names.front() == "A")
+        if (picture.is_transparent && layer.is_coverage)
             return &layer.values;
     return nullptr;
 }

@@ -11,6 +11,9 @@
 
 namespace clrt {
 
+/// One metadata entry; numbers are written as their text.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
 /// A layer of a picture: `channels` values a pixel, rows from the top.
 struct Layer {
     std::string name; ///< "" for the picture itself
@@ -18,10 +21,9 @@ struct Layer {
         channel_names;         ///< such as {"R","G","B"}; in the file "name.R", or "R" if name is empty
     std::vector<float> values; ///< width * height * channels
     bool is_id = false;        ///< written as uint; values are exact integers below 2^24
+    bool is_coverage = false;  ///< the share of each pixel's samples that hit something
+    Metadata attributes = {};  ///< what an EXR file says of the layer, under these very names
 };
-
-/// One metadata entry; numbers are written as their text.
-using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 /// A rendered picture: linear radiance in layers[0], then the other layers.
 struct Picture {
@@ -29,7 +31,7 @@ struct Picture {
     int x0 = 0, y0 = 0;        ///< the window's place in the whole picture
     int full_width = 0, full_height = 0;
     std::vector<Layer> layers;
-    bool is_transparent = false; ///< layer "A" is the coverage by which layers[0] is multiplied
+    bool is_transparent = false; ///< a layer is the coverage by which layers[0] is multiplied
     Metadata metadata;
 };
 

@@ -30,6 +30,8 @@ ImageLayout exr_layout(const Picture& picture) {
         {"compression", "zip"}, {"oiio:ColorSpace", "Linear"}, {"Software", "clrt " CLRT_VERSION}};
     for (const auto& [name, value] : picture.metadata)
         layout.attributes.emplace_back("clrt." + name, value);
+    for (const Layer& layer : picture.layers)
+        layout.attributes.insert(layout.attributes.end(), layer.attributes.begin(), layer.attributes.end());
     return layout;
 }
 

@@ -29,7 +29,7 @@ Picture film_picture(const FilmFile& file) {
     picture.y0 = window.window.y0;
     picture.full_width = window.size.x;
     picture.full_height = window.size.y;
-    picture.layers.push_back({"", {"R", "G", "B"}, film_mean(film), false});
+    picture.layers.push_back(make_radiance_layer(film_mean(film)));
     picture.is_transparent = file.identity.value("background", FilmIdentity()) == TRANSPARENT_BACKGROUND;
     const std::vector<std::string> layer_names = film_layer_names(file.identity);
     for (size_t i = 0; i < layer_names.size(); ++i)

@@ -3,10 +3,10 @@
 
 #include "console/signals.h"
 #include "device/opencl_error.h"
+#include "render/tile_pixels.h"
 
 #include <algorithm>
 #include <chrono>
-#include <tbb/parallel_for.h>
 
 namespace clrt {
 
@@ -45,14 +45,18 @@ std::vector<u32> step_towards(const std::vector<u32>& from, const std::vector<u3
 } // namespace
 
 HitLayers::HitLayers(const Device& device, const Program& program, const RenderParams& params,
-                     bool is_adaptive, const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums)
+                     bool is_adaptive, const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums,
+                     bool has_mattes)
     : device_(device), params_(params), film_buffers_(film_buffers), sums_(sums),
       launcher_(device, program, "render_aov", params, scene), launch_size_(device.info.compute_units),
-      largest_launch_(u32(std::min<size_t>(params.tile_count, LARGEST_BUFFER_BYTES / TILE_BYTES))) {
+      largest_launch_(u32(std::min<size_t>(params.tile_count, LARGEST_BUFFER_BYTES / TILE_BYTES))),
+      has_mattes_(has_mattes) {
     const size_t pixels = size_t(params.crop_width) * params.crop_height;
     for (size_t half = 0; half < (is_adaptive ? 2 : 1); ++half) {
         sums_.values[half].resize(AOV_SUMS * pixels);
         sums_.words[half].resize(AOV_WORDS * pixels);
+        if (has_mattes)
+            sums_.mattes[half].resize(MATTE_WORDS * pixels);
     }
     make_buffers();
     read_values_.resize(TILE_VALUES * largest_launch_);
@@ -69,14 +73,19 @@ void HitLayers::make_buffers() {
             values_ =
                 create_buffer(device_, "hit_sums", TILE_VALUES * largest_launch_ * sizeof(std::int64_t));
             words_ = create_buffer(device_, "hit_words", TILE_WORDS * largest_launch_ * sizeof(u32));
+            if (has_mattes_)
+                mattes_.emplace(device_, params_, largest_launch_);
             break;
         } catch (const DeviceError&) {
             values_ = words_ = {};
+            mattes_.reset();
             if (largest_launch_ <= 1)
                 throw;
         }
     launcher_.kernel().set("hit_sums", values_);
     launcher_.kernel().set("hit_words", words_);
+    if (mattes_)
+        mattes_->bind(launcher_.kernel());
 }
 
 void HitLayers::advance(const Film& film, const std::function<void(double)>& report) {
@@ -131,6 +140,8 @@ void HitLayers::run_tiles(size_t half, double samples, Launch&& launch) {
     for (u32 tile = 0; tile < params_.tile_count;) {
         const u32 end =
             tile + std::min(largest_launch_, launch_size_.tiles(samples, params_.tile_count - tile));
+        if (mattes_)
+            mattes_->write(sums_.mattes[half], tile, end);
         const auto start = Clock::now();
         launch(tile, end);
         launch_size_.took(end - tile, samples, std::chrono::duration<double>(Clock::now() - start).count());
@@ -139,7 +150,7 @@ void HitLayers::run_tiles(size_t half, double samples, Launch&& launch) {
     }
 }
 
-/// Reads the sums of a launch; tiles are spread over the picture as in kernels/film/tile.h.
+/// Reads the sums of a launch.
 void HitLayers::add_launch(size_t half, u32 first_tile, u32 end_tile) {
     const size_t tiles = end_tile - first_tile;
     check_opencl("reading the layers back", [&] {
@@ -148,26 +159,20 @@ void HitLayers::add_launch(size_t half, u32 first_tile, u32 end_tile) {
         device_.queue.enqueueReadBuffer(words_, CL_TRUE, 0, tiles * TILE_WORDS * sizeof(u32),
                                         read_words_.data());
     });
-    tbb::parallel_for(size_t(0), tiles, [&](size_t i) {
-        const size_t tile = (first_tile + i) * params_.tile_stride % params_.tile_count;
-        for (size_t place = 0; place < TILE_PIXELS; ++place) {
-            const size_t x = tile % params_.tiles_x * TILE_SIZE + place % TILE_SIZE;
-            const size_t y = tile / params_.tiles_x * TILE_SIZE + place / TILE_SIZE;
-            if (x >= params_.crop_width || y >= params_.crop_height)
-                continue;
-            const size_t slot = i * TILE_PIXELS + place, pixel = y * params_.crop_width + x;
-            const u32* words = &read_words_[slot * AOV_WORDS];
-            if (words[AOV_HITS] == 0)
-                continue;
-            u32* sum_words = &sums_.words[half][pixel * AOV_WORDS];
-            if (sum_words[AOV_HITS] == 0)
-                std::copy_n(words, AOV_WORDS, sum_words);
-            else
-                sum_words[AOV_HITS] += words[AOV_HITS];
-            for (size_t k = 0; k < AOV_SUMS; ++k)
-                sums_.values[half][pixel * AOV_SUMS + k] += read_values_[slot * AOV_SUMS + k];
-        }
+    for_tile_pixels(params_, first_tile, end_tile, [&](size_t slot, size_t pixel) {
+        const u32* words = &read_words_[slot * AOV_WORDS];
+        if (words[AOV_HITS] == 0)
+            return;
+        u32* sum_words = &sums_.words[half][pixel * AOV_WORDS];
+        if (sum_words[AOV_HITS] == 0)
+            std::copy_n(words, AOV_WORDS, sum_words);
+        else
+            sum_words[AOV_HITS] += words[AOV_HITS];
+        for (size_t k = 0; k < AOV_SUMS; ++k)
+            sums_.values[half][pixel * AOV_SUMS + k] += read_values_[slot * AOV_SUMS + k];
     });
+    if (mattes_)
+        mattes_->read(sums_.mattes[half], first_tile, end_tile);
 }
 
 } // namespace clrt

@@ -8,8 +8,10 @@
 #include "film/hit_sums.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
+#include "render/matte_buffer.h"
 
 #include <functional>
+#include <optional>
 
 namespace clrt {
 
@@ -18,9 +20,9 @@ class HitLayers {
 public:
     /// Takes all memory that it will need: the sums of the window on the host, and on the device a buffer for
     /// the tiles of one launch, fewer where memory is scarce. Throws DeviceError where not even one tile
-    /// fits.
+    /// fits. `has_mattes`: the program counts samples by object and material.
     HitLayers(const Device& device, const Program& program, const RenderParams& params, bool is_adaptive,
-              const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums);
+              const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums, bool has_mattes = false);
 
     /// Adds the samples that the film has and the sums lack, in launches of LAUNCH_SECONDS; `report` is told
     /// after each which share of all samples is there. After a signal it leaves out what takes more than one
@@ -42,7 +44,9 @@ private:
     Launcher launcher_;
     LaunchSize launch_size_;
     u32 largest_launch_; ///< tiles that the buffers hold
+    bool has_mattes_;
     cl::Buffer values_, words_;
+    std::optional<MatteBuffer> mattes_;
     std::vector<std::int64_t> read_values_;
     std::vector<u32> read_words_;
 };

@@ -69,6 +69,11 @@ std::vector<std::string> picture_defines(const Device& device, const Options& op
     return defines;
 }
 
+/// What the program of the layers is built with where they have mattes.
+std::vector<std::string> matte_defines(const Options& options) {
+    return wants_mattes(options) ? std::vector<std::string>{"AOV_MATTES=1"} : std::vector<std::string>{};
+}
+
 } // namespace
 
 std::vector<std::string> branch_defines(const TransportOptions& transport) {
@@ -98,12 +103,20 @@ bool wants_layers(const Options& options) {
     if (has_transparent_background(options.light) &&
         std::any_of(outputs.begin(), outputs.end(), can_hold_alpha))
         return true;
-    const bool has_exr =
-        std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
+    const bool has_exr = std::any_of(outputs.begin(), outputs.end(), is_layered_output);
     if (!has_exr || !options.output.aovs)
         return has_exr;
     return std::any_of(options.output.aovs->begin(), options.output.aovs->end(),
-                       [](const std::string& name) { return find_layer(name)->is_from_hits; });
+                       [](const std::string& name) { return find_layer(name)->source != LayerSource::FILM; });
+}
+
+bool wants_mattes(const Options& options) {
+    const auto& outputs = options.output.files;
+    const auto& aovs = options.output.aovs;
+    return aovs && std::any_of(outputs.begin(), outputs.end(), is_layered_output) &&
+           std::any_of(aovs->begin(), aovs->end(), [](const std::string& name) {
+               return find_layer(name)->source == LayerSource::MATTES;
+           });
 }
 
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
@@ -118,7 +131,7 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     programs.picture =
         build(integrator_stem(options.transport.integrator), picture_defines(device, options, paths));
     if (wants_layers(options))
-        programs.layers = build(HIT_LAYERS_PROGRAM, {});
+        programs.layers = build(HIT_LAYERS_PROGRAM, matte_defines(options));
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return programs;
 }

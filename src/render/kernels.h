@@ -25,6 +25,9 @@ BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& devic
 /// True if some output file can hold auxiliary layers and the options want one.
 bool wants_layers(const Options& options);
 
+/// True if they have mattes besides (output/cryptomatte.h).
+bool wants_mattes(const Options& options);
+
 /// Literals of the rays that a vertex branches into, and of how many can wait
 /// (kernels/integrators/distribution_ray.h); none where the integrator does not branch so.
 std::vector<std::string> branch_defines(const TransportOptions& transport);

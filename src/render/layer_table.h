@@ -3,6 +3,7 @@
 // read them.
 #pragma once
 
+#include "options/output_options.h"
 #include "output/image.h"
 #include "scene/scene.h"
 
@@ -28,16 +29,31 @@ enum class LayerDefault {
     SHOWN_WHERE_BAD, ///< where the render has bad samples
 };
 
+/// What a layer's values come from.
+enum class LayerSource {
+    FILM,
+    HITS,   ///< sums over the primary hits (film/hit_sums.h)
+    MATTES, ///< counts of samples by object and material (film/matte_sums.h)
+};
+
+/// How a layer's channels are called in EXR files: "layer.channel", or "channel" where the layer is "".
+struct LayerChannels {
+    std::string layer;
+    std::vector<std::string> channels;
+};
+
 /// One layer.
 struct LayerRow {
-    std::string name; ///< in --aov
-    /// In the file "name.R", or a single one by itself.
-    std::vector<std::string> channels;
+    std::string name;      ///< in --aov
+    LayerChannels clrt;    ///< by our names
+    LayerChannels blender; ///< by those of Blender 5.0's passes, where it has one of the kind
     LayerDefault by_default;
-    bool is_from_hits; ///< needs the sums over the primary hits (film/hit_sums.h)
-    bool is_id;        ///< written as uint
+    LayerSource source;
+    bool is_id; ///< written as uint
     /// The values, channel by channel of each pixel; none where the render has no such layer.
     std::vector<float> (*make)(const LayerSources&);
+    /// What files say of it besides; null: nothing.
+    Metadata (*attributes)(const Scene&) = nullptr;
 };
 
 /// The layer that a transparent picture always has: the share of the samples that hit something.
@@ -49,8 +65,17 @@ const std::vector<LayerRow>& layer_table();
 /// The row of a name, or null.
 const LayerRow* find_layer(const std::string& name);
 
+/// Whether channels of some row lie in a layer of this name, by whosever names.
+bool is_layer_taken(const std::string& layer);
+
 /// The layer of a row with these values.
-Layer make_layer(const LayerRow& row, std::vector<float> values);
+Layer make_layer(const LayerRow& row, std::vector<float> values, ExrNames names = ExrNames::CLRT);
+
+/// The layer of the picture's radiance.
+Layer make_radiance_layer(std::vector<float> values, ExrNames names = ExrNames::CLRT);
+
+/// The coverage that Blender expects in a picture whose samples count wherever they go: 1.
+Layer make_opaque_layer(size_t pixels);
 
 /// All names, with this between them.
 std::string layer_names(const char* separator);

@@ -29,7 +29,7 @@ Picture make_plain_picture(const Render& render, const Options& options) {
     picture.y0 = window.y0;
     picture.full_width = options.film.size.x;
     picture.full_height = options.film.size.y;
-    picture.layers.push_back({"", {"R", "G", "B"}, film_mean(render.film), false});
+    picture.layers.push_back(make_radiance_layer(film_mean(render.film), options.output.exr_names));
     picture.is_transparent = has_transparent_background(options.light);
     return picture;
 }
@@ -43,9 +43,16 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
         if (!is_wanted(row, render, options) && !(picture.is_transparent && row.name == ALPHA_LAYER))
             continue;
         std::vector<float> values = row.make({render, scene, options});
-        if (!values.empty())
-            picture.layers.push_back(make_layer(row, std::move(values)));
+        if (values.empty())
+            continue;
+        picture.layers.push_back(make_layer(row, std::move(values), options.output.exr_names));
+        if (row.attributes)
+            picture.layers.back().attributes = row.attributes(scene);
     }
+    const bool has_coverage = std::any_of(picture.layers.begin(), picture.layers.end(),
+                                          [](const Layer& layer) { return layer.is_coverage; });
+    if (options.output.exr_names == ExrNames::BLENDER && !picture.is_transparent && !has_coverage)
+        picture.layers.push_back(make_opaque_layer(film_plane(render.film) / 3));
     return picture;
 }
 

@@ -14,7 +14,7 @@ class HitLayersCommand : public ClrtCommand {
 protected:
     /// A slanted triangle of radiance 1, black elsewhere: the picture is the coverage of its pixels.
     HitLayersCommand() {
-        folder.write("scene.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n");
+        folder.write("scene.mtl", "newmtl lamp\nKd 0.4 0.4 0.4\nKe 1 1 1\n");
         folder.write("scene.obj",
                      "mtllib scene.mtl\nusemtl lamp\nv -1 -0.8 0\nv 0.9 -0.3 0.2\nv 0.1 1 -0.1\nf 1 2 3\n");
     }
@@ -86,6 +86,20 @@ TEST_F(HitLayersCommand, AlphaIsTheCoverageOfThePicture) {
     expect_alpha_is_the_picture("path.exr");
     render("wide.exr", {"-s", "40", "--filter", "gaussian:1.5"});
     expect_alpha_is_the_picture("wide.exr");
+}
+
+TEST_F(HitLayersCommand, GuidesOfDenoisersAreAsSoftAsThePicture) {
+    render("a.exr", {"-i", "raycast", "-s", "64", "--aov", "denoisingAlbedo,denoisingNormal"});
+    const ReadPicture picture(folder.file("a.exr"));
+    int edges = 0;
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 24; ++x) {
+            const float alpha = picture.at(x, y, "A");
+            EXPECT_FLOAT_EQ(picture.at(x, y, "denoisingAlbedo.G"), alpha * picture.at(x, y, "albedo.G"));
+            EXPECT_NEAR(picture.at(x, y, "denoisingNormal.Z"), alpha * picture.at(x, y, "N.Z"), 1e-6);
+            edges += alpha > 0 && alpha < 1 && picture.at(x, y, "albedo.G") > 0.1f;
+        }
+    EXPECT_GT(edges, 20);
 }
 
 TEST_F(HitLayersCommand, AdaptiveTilesHaveTheSamplesOfThePicture) {

@@ -94,6 +94,7 @@ TEST_F(PathsCommand, WhatCannotBeDoneIsRefused) {
         {{"--aov", "a=LDE"}, "an output that ends in .exr for the layer 'a', found none; add -o FILE.exr"},
         {{"--aov", "albedo=LDE", "-o", "a.exr"}, "a new name of letters"},
         {{"--aov", "a=LDE,a=LE", "-o", "a.exr"}, "a new name of letters"},
+        {{"--aov", "Combined=LDE", "-o", "a.exr"}, "a new name of letters"},
         {{"--aov", "9=LDE", "-o", "a.exr"}, "a new name of letters"},
         {{"--aov", "a.b=LDE", "-o", "a.exr"}, "a new name of letters"},
         {{"--aov", "=LDE", "-o", "a.exr"}, "a new name of letters"},

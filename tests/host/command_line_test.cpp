@@ -52,6 +52,7 @@ const std::map<std::string, std::string>& samples() {
         {"--exposure", "-1.5"},
         {"--tonemap", "aces"},
         {"--aov", "albedo,N"},
+        {"--exr-names", "blender"},
         {"--eye", "-1,2,-3.5"},
         {"--at", "-0,.5,1e2"},
         {"--up", "0,0,1"},
@@ -217,6 +218,8 @@ TEST(CommandLine, PictureOptionsArrive) {
     EXPECT_EQ(o.output.tonemap, Tonemap::REINHARD);
     EXPECT_EQ(o.output.aovs, (std::vector<std::string>{"N", "Z"}));
     EXPECT_TRUE(parse({"--aov", "none"}).output.aovs->empty());
+    EXPECT_EQ(parse({}).output.exr_names, ExrNames::CLRT);
+    EXPECT_EQ(parse({"--exr-names", "blender"}).output.exr_names, ExrNames::BLENDER);
     EXPECT_FALSE(o.output.auto_exposure);
     for (const auto& [text, ev] :
          std::map<std::string, double>{{"auto", 0}, {"auto+1", 1}, {"auto-0.5", -0.5}}) {

@@ -29,6 +29,7 @@ protected:
         options.film.size = {27, 21}; // tiles at the edges are not whole
         options.sampling.replicates = 4;
         options.output.files = {"a.exr"};
+        options.output.aovs = {{"albedo", "cryptoObject"}};
         prepared_.emplace(prepare_loaded(test_device(), test_.load(), options));
         params_ = launch_params(*prepared_->planned);
         film_.width = options.film.size.x;
@@ -41,7 +42,7 @@ protected:
         HitSums sums;
         FilmBuffers film_buffers(test_device(), params_, 0);
         HitLayers layers(test_device(), *prepared_->programs->layers, params_, false, prepared_->buffers,
-                         film_buffers, sums);
+                         film_buffers, sums, true);
         for (const std::vector<SampleRange>& ranges : films) {
             film_.ranges = ranges;
             layers.advance(film_, [](double) {});
@@ -53,7 +54,7 @@ protected:
         HitSums sums;
         FilmBuffers film_buffers(test_device(), params_, 0);
         HitLayers layers(test_device(), *prepared_->programs->layers, params_, true, prepared_->buffers,
-                         film_buffers, sums);
+                         film_buffers, sums, true);
         film_.ranges = {{0, 1}};
         for (const u32 count : samples) {
             for (u32 half = 0; half < 2; ++half) {
@@ -65,8 +66,16 @@ protected:
         return sums;
     }
     static bool same(const HitSums& a, const HitSums& b) {
-        return a.values == b.values && a.words == b.words && a.samples == b.samples &&
+        return a.values == b.values && a.words == b.words && a.mattes == b.mattes && a.samples == b.samples &&
                a.tile_samples == b.tile_samples;
+    }
+
+    /// Of all materials in a pixel.
+    static double coverage(const HitSums& hits, const Film& film, size_t pixel) {
+        double sum = 0;
+        for (const IndexShare& share : matte_shares(hits, film, pixel, MATTE_MATERIALS))
+            sum += share.coverage;
+        return sum;
     }
 
     TestScene test_;
@@ -94,7 +103,7 @@ TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
     HitSums halves;
     FilmBuffers film_buffers(test_device(), params_, 0);
     HitLayers layers(test_device(), *prepared_->programs->layers, params_, true, prepared_->buffers,
-                     film_buffers, halves);
+                     film_buffers, halves, true);
     for (size_t half = 0; half < 2; ++half)
         film_.tile_samples[half].assign(film_tiles(film_), 8);
     layers.advance(film_, [](double) {});
@@ -103,12 +112,17 @@ TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
     film_.ranges = {{0, 16}};
     Film equal = film_;
     equal.tile_samples = {};
+    int edges = 0;
     for (size_t pixel = 0; pixel < film_plane(film_) / 3; ++pixel) {
         const PixelHits a = pixel_hits(halves, film_, pixel), b = pixel_hits(whole, equal, pixel);
         ASSERT_NEAR(a.share, b.share, 1e-15);
         ASSERT_NEAR(a.mean(AOV_ALBEDO).x, b.mean(AOV_ALBEDO).x, 1e-14);
         ASSERT_NEAR(a.mean(AOV_POSITION).z, b.mean(AOV_POSITION).z, 1e-14);
+        ASSERT_NEAR(coverage(halves, film_, pixel), a.share, 1e-15) << "all have slots";
+        ASSERT_NEAR(coverage(whole, equal, pixel), b.share, 1e-15);
+        edges += matte_shares(whole, equal, pixel, MATTE_MATERIALS).size() == 2;
     }
+    EXPECT_GT(edges, 10) << "leaf and floor";
 }
 
 TEST_F(HitLayersTest, SumsOfManySamplesLoseNothing) {
@@ -135,7 +149,7 @@ TEST_F(HitLayersTest, ASignalEndsWhatTakesLong) {
     HitSums hits;
     FilmBuffers film_buffers(test_device(), params_, 0);
     HitLayers layers(test_device(), *prepared_->programs->layers, params_, false, prepared_->buffers,
-                     film_buffers, hits);
+                     film_buffers, hits, true);
     film_.ranges = {{0, all}};
     layers.advance(film_, [&](double share) { reported.push_back(share); });
     EXPECT_GT(hits.samples, 0u) << "a whole pass at least";

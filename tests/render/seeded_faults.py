@@ -178,6 +178,7 @@ FAULTS = [
      "true ? vector_from(params->background)", "background_test"),
     ("layers start over", "integrators/aov.cl", "sample_counter_make(&params, range.first)",
      "sample_counter_make(&params, 0u)", "hit_layers_test"),
+    ("mattes forget what has a slot", "film/matte.h", "if (slot[MATTE_SAMPLES] == 0u)", "if (i == 0u)", "hit_layers_test"),
     ("squared index kept for importance", "scattering/bsdf_types.h",
      "return (bsdf->flags & TRANSPORT_IMPORTANCE) ? x : x * bsdf->eta * bsdf->eta;",
      "return x * bsdf->eta * bsdf->eta;", "light_paths_test"),

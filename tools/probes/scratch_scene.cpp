@@ -33,10 +33,10 @@ void write_texture(const std::string& path, int width, int height, int channels,
 std::shared_ptr<const RenderPrograms> programs_for(const ProbeDevice& device, const PlannedScene& planned) {
     const Options& options = planned.options;
     const std::string key =
-        fmt::format("render: {} {} {} {:#x} {} {} {} {} {} {}", int(options.transport.integrator),
+        fmt::format("render: {} {} {} {:#x} {} {} {} {} {} {} {}", int(options.transport.integrator),
                     int(options.device.precision), int(options.sampling.sampler), planned.effects.mask,
                     int(choose_layout(options.bvh.layout, device.info)), wants_layers(options),
-                    fmt::join(path_defines(planned.effects.paths), " "),
+                    wants_mattes(options), fmt::join(path_defines(planned.effects.paths), " "),
                     fmt::join(branch_defines(options.transport), " "),
                     fmt::join(vertex_defines(options.transport), " "), options.device.kernels_folder);
     return device.once<std::shared_ptr<const RenderPrograms>>(key,
