@@ -58,4 +58,10 @@ constant float SHEEN_ALBEDO_MEAN[] = {
     0.27268f, 0.28470f, 0.29384f, 0.29965f,
 };
 
+/* Covariance of the albedo with (1 - cos)^5 over a hemisphere of equal radiance. */
+constant float SHEEN_SCHLICK_COVARIANCE[] = {
+    0.01232f, 0.01232f, 0.01229f, 0.01227f, 0.01228f, 0.01233f, 0.01242f, 0.01254f, 0.01268f, 0.01284f, 0.01298f, 0.01309f,
+    0.01314f, 0.01310f, 0.01293f, 0.01261f,
+};
+
 #endif

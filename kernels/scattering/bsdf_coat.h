@@ -36,7 +36,10 @@ static inline real3 bsdf_coat_sample(const Bsdf* bsdf, BsdfChoice choice, real2 
     TRACE_SET(sample->lobe, LOBE_COAT);
     const real alpha = bsdf->cover.film.alpha;
     const real3 h = microfacet_sample(bsdf->wo, alpha, alpha, u);
-    return REAL(2.0) * vector_dot(bsdf->wo, h) * h - bsdf->wo;
+    const real3 wi = REAL(2.0) * vector_dot(bsdf->wo, h) * h - bsdf->wo;
+    /* Below the surface the coat finds nothing, whatever glass under it lets pass there. */
+    sample->is_weighted = !(wi.z > REAL(0.0));
+    return wi;
 }
 
 #endif

@@ -72,19 +72,29 @@ static inline real cover_left(const Bsdf* bsdf, real3 w, real coat_left)
                                         cover_sheen_albedo(bsdf->cover.sheen_alpha, fmin(fabs(w.z), REAL(1.0))));
 }
 
-/* Of light from everywhere. The product of the means stands for the mean of the product: both fall towards
-   the horizon, so it is rather too large, and the matte lobe rather too dark. */
+/* The variance of (1 - cos)^5 over a hemisphere of equal radiance, 1 / 66 - 1 / 21^2. */
+#define COVER_SCHLICK_VARIANCE REAL(0.012883941)
+
+/* What both leave of light from everywhere, in a product with what the reflection below leaves to the matte
+   lobe, over the latter's mean. All fall together towards the horizon, so the mean of the product is more
+   than that of the means, by their covariances: those of smooth films, which vary most, so that no light is
+   made. */
 static inline real cover_mean_left(const Bsdf* bsdf)
 {
-    real left = REAL(1.0);
-    if (cover_has_coat(bsdf))
-        left -= cover_coat_albedo(bsdf, albedo_reflection_mean(&bsdf->cover.film));
+    const real below = (bsdf->flags & BSDF_COUPLED) ? REAL(1.0) / (REAL(1.0) - FRESNEL_SCHLICK_MEAN) : REAL(0.0);
+    real coat_left = REAL(1.0), coat_schlick = REAL(0.0), sheen_left = REAL(1.0), sheen_varies = REAL(0.0);
+    if (cover_has_coat(bsdf)) {
+        coat_left -= cover_coat_albedo(bsdf, albedo_reflection_mean(&bsdf->cover.film));
+        coat_schlick = bsdf->cover.coat * (REAL(1.0) - COVER_COAT_F0);
+    }
     if (cover_has_sheen(bsdf)) {
         const AlbedoPlace y = cover_sheen_place(bsdf->cover.sheen_alpha);
-        left *= REAL(1.0) - vector_max_component(bsdf->cover.sheen) *
-                                albedo_mean_line(SHEEN_ALBEDO_MEAN, y.node, y);
+        const real color = vector_max_component(bsdf->cover.sheen);
+        sheen_left -= color * albedo_mean_line(SHEEN_ALBEDO_MEAN, y.node, y);
+        sheen_varies = color * albedo_mean_line(SHEEN_SCHLICK_COVARIANCE, y.node, y);
     }
-    return left;
+    return coat_left * sheen_left + (coat_schlick + coat_left * below) * sheen_varies +
+           coat_schlick * below * COVER_SCHLICK_VARIANCE * sheen_left;
 }
 
 /* Sets what depends on wo. */

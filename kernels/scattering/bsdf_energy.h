@@ -201,6 +201,8 @@ static inline void bsdf_energy_set(Bsdf* bsdf)
     bsdf->multiple = bsdf->multiple_glass = bsdf->multiple_through = (real3)(REAL(0.0));
     bsdf->multiple_reflects = REAL(1.0);
     bsdf->multiple_size = REAL(0.0);
+    if (HAS(EFFECT_PART_GLASS | EFFECT_COAT | EFFECT_SHEEN))
+        bsdf->matte_size = vector_color_size(bsdf->matte);
     if (HAS(EFFECT_GLOSSY | EFFECT_MIRROR) && (bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
         bsdf_energy_set_reflection(bsdf);
     if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) && bsdf->alpha_x > REAL(0.0) &&

@@ -60,8 +60,12 @@ static inline real3 bsdf_glossy_sample_single(const Bsdf* bsdf, real2 u)
 static inline real3 bsdf_glossy_sample(const Bsdf* bsdf, BsdfChoice choice, real2 u, BsdfSample* sample)
 {
     TRACE_SET(sample->lobe, LOBE_GLOSSY);
-    return choice.u < choice.before + bsdf_energy_multiple_choice(bsdf, LOBE_GLOSSY) ? bsdf_energy_multiple_sample(u)
-                                                            : bsdf_glossy_sample_single(bsdf, u);
+    const bool is_multiple = choice.u < choice.before + bsdf_energy_multiple_choice(bsdf, LOBE_GLOSSY);
+    const real3 wi = is_multiple ? bsdf_energy_multiple_sample(u) : bsdf_glossy_sample_single(bsdf, u);
+    /* Below the surface this lobe finds nothing, whatever the glass beside it lets pass there. */
+    if (bsdf_is_part_glass(bsdf) && !(wi.z > REAL(0.0)))
+        sample->is_weighted = true;
+    return wi;
 }
 
 #endif
