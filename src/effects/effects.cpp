@@ -180,16 +180,19 @@ void find_material_effects(const Scene& scene, const Options& options, EffectFin
                                                      name_of(replacement->which))
                                        : "";
     for (const LobeSpec& lobe : LOBE_SPECS)
-        finder.material(lobe.effect, lobe.absent + by,
-                        [&](const Material& m) { return (m.lobes & lobe.bit) != 0; });
+        finder.material(lobe.effect, lobe.absent + by, [&](const Material& m) {
+            const bool is_mixed = lobe.bit == LOBE_DIELECTRIC && (m.flags & MATERIAL_PART_GLASS);
+            return (m.lobes & lobe.bit) || is_mixed; // part glass implies refraction
+        });
     const auto flagged = [&](u32 effect, u32 flag, const char* absent) {
         finder.material(effect, absent + by, [flag](const Material& m) { return (m.flags & flag) != 0; });
     };
     flagged(EFFECT_PART_GLASS, MATERIAL_PART_GLASS, "no material is partly glass");
     flagged(EFFECT_ATTENUATION, MATERIAL_ATTENUATES, "no solid absorbs on the way through it");
     flagged(EFFECT_ROTATION, MATERIAL_TURNED, "no stretched highlight is turned");
-    finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough" + by,
-                    [](const Material& m) { return (m.lobes & LOBE_DIELECTRIC) && m.alpha_x > 0; });
+    finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough" + by, [](const Material& m) {
+        return (m.lobes & LOBE_DIELECTRIC) && m.alpha_x > 0 && MATERIAL_INDEX(m) != 1.0f;
+    });
     finder.map(EFFECT_TEXTURES, "no material has a map" + by, [&](size_t i) { return maps_of(scene, i); });
     finder.map(EFFECT_NORMAL_MAP, "no material has one" + by, [&](size_t i) {
         return std::vector<u32>{scene.materials[i].map_normal, scene.materials[i].map_bump};

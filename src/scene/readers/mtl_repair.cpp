@@ -175,10 +175,12 @@ bool is_glass_by_tf(const MtlMaterial& m, const PictureFacts&) {
     return transmission_share(m) == 1;
 }
 
-/// Each crossing takes the root of Kd: a body, which is crossed twice, has the colour Kd (Cycles).
+/// Each crossing takes the root of Kd: a body, which is crossed twice, has the colour Kd (Cycles). A thin
+/// wall is crossed once.
 void make_glass(MtlMaterial& m) {
     m.illum = 7;
-    m.tf = glm::sqrt(m.kd.value_or(glm::dvec3(1)));
+    const glm::dvec3 base = m.kd.value_or(glm::dvec3(1));
+    m.tf = m.thin_walled.value_or(0) > 0 ? base : glm::sqrt(base);
     m.pr = m.pr.value_or(m.map_pr ? 1 : 0);
     m.pm.reset();
     m.map_pm.reset();
