@@ -168,7 +168,10 @@ TEST(LoadScene, LibrariesAreReadAsTheirWritersMeanThem) {
                                            "9 mean d (and 2 more)"),
               1)
         << "one line a repair";
-    EXPECT_EQ(count_notices(scene.notices, "Pc (coat) has no effect"), 1);
+    EXPECT_TRUE(scene.materials[2].lobes & LOBE_COAT);
+    ASSERT_EQ(scene.extensions.size(), scene.materials.size()) << "one for each material";
+    EXPECT_EQ(scene.extensions[2].coat, 1);
+    EXPECT_EQ(scene.extensions[0].coat, 0);
 
     options.scene.mtl = MtlReading::PLAIN;
     const Scene plain = load(options);

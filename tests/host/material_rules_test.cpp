@@ -342,15 +342,52 @@ TEST(MaterialRules, NormalMapsAloneHaveAStrength) {
     EXPECT_EQ(missing.m.bump_scale, 0.7f) << "an unreadable bump map does not count";
 }
 
-TEST(MaterialRules, WhatHasNoLobeIsSaidWhereItIsAskedFor) {
-    const Ruled r(
-        "Pr 0.5\nPc 0.5\nPs 0.5\nmap_Ps s.png\naniso 0.5\nanisor 0.25\nmap_Ns n.png\nmap_refl r.png\n");
-    for (const char* notice :
-         {"a.mtl:3: Pc (coat) has no effect", "a.mtl:4: Ps (sheen) has no effect",
-          "a.mtl:5: map_Ps (sheen) has no effect", "a.mtl:7: anisor (turn of the highlight)",
-          "a.mtl:8: map_Ns has no effect", "a.mtl:9: map_refl has no effect"})
+TEST(MaterialRules, KeysWithoutAMeaningAreSaid) {
+    const Ruled r("Pr 0.5\nmap_Ns n.png\nmap_refl r.png\n");
+    for (const char* notice : {"a.mtl:3: map_Ns has no effect", "a.mtl:4: map_refl has no effect"})
         EXPECT_EQ(count_notices(r.notices, notice), 1) << notice;
-    EXPECT_TRUE(Ruled("Pr 0.5\nPc 0\nPcr 0.03\nPs 0\naniso 0\nanisor 0.5\n").notices.empty());
+}
+
+TEST(MaterialRules, CoatsSheensAndTurnedHighlightsAreLobesOfAnyModel) {
+    const Ruled bare("Pr 0.5\nPc 0\nPcr 0.03\nPs 0\naniso 0\nanisor 0.5\n");
+    EXPECT_TRUE(bare.notices.empty());
+    EXPECT_FALSE(bare.m.lobes & (LOBE_COAT | LOBE_SHEEN));
+    EXPECT_FALSE(bare.m.flags & MATERIAL_TURNED) << "what is not stretched has no direction";
+    EXPECT_EQ(Ruled("illum 1\nKd 1 1 1\nPc 0.5\nPs 0.5\n").m.lobes, LOBE_MATTE | LOBE_COAT | LOBE_SHEEN);
+    EXPECT_TRUE(Ruled("Pm 1\nPr 0.5\naniso 0.5\nanisor 0.25\n").m.flags & MATERIAL_TURNED);
+}
+
+TEST(MaterialRules, PanesAndSolidsThatAbsorb) {
+    EXPECT_EQ(Ruled("illum 7\nthin_walled 1\n").m.lobes, LOBE_PANE);
+    const char* const honey = "illum 7\nattenuation 0.5 0.5 0.5\n";
+    EXPECT_TRUE(Ruled(honey).m.flags & MATERIAL_ATTENUATES);
+    EXPECT_FALSE(Ruled(std::string(honey) + "thin_walled 1\n").m.flags & MATERIAL_ATTENUATES) << "no inside";
+    EXPECT_FALSE(Ruled(std::string(honey) + "Ke 1 1 1\n").m.flags & MATERIAL_ATTENUATES);
+    EXPECT_FALSE(Ruled("illum 1\nattenuation 0.5 0.5 0.5\n").m.flags & MATERIAL_ATTENUATES) << "no glass";
+}
+
+TEST(MaterialRules, TheExtensionIsInUnitsOfTheKernels) {
+    MaterialDescription d;
+    d.reflection = Reflection::METALLIC;
+    d.base.value = glm::dvec3(0.5);
+    d.transmission_weight.value = 0.25;
+    d.attenuation_colour = {0.5, 1, 0};
+    d.attenuation_distance = 2;
+    d.roughness.value = 0.5;
+    d.anisotropy = 0.5;
+    d.anisotropy_rotation = 0.25;
+    d.coat_weight.value = 0.75;
+    d.coat_roughness.value = 0.5;
+    const MaterialContext half{0.5, false};
+    const MaterialExtension e = build_extension(d, build_material(d, half, {}), half, {}).extension;
+    EXPECT_FLOAT_EQ(e.attenuation.x, float(std::log(2.0))) << "behind one unit of the frame half is left";
+    EXPECT_EQ(e.attenuation.y, 0);
+    EXPECT_TRUE(std::isfinite(e.attenuation.z));
+    EXPECT_EQ(EXTENSION_TRANSMISSION(e), 0.25f);
+    EXPECT_NEAR(e.turn_cos, 0, 1e-7);
+    EXPECT_EQ(e.turn_sin, 1);
+    EXPECT_EQ(e.coat, 0.75f);
+    EXPECT_EQ(e.coat_alpha, 0.25f);
 }
 
 TEST(MaterialRules, TheReflectanceOfTheDielectricPartCanBeGiven) {

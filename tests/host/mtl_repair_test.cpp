@@ -205,19 +205,21 @@ TEST(MtlRepair, TransmissionOfWeightOneIsGlass) {
     EXPECT_FALSE(plain("Kd 1 1 1\nTf 1 1 1\n").m.illum) << "3ds Max and Maya write it for opaque";
     const Repaired black = plain("Kd 0 0 0\nPr 0\nPm 0\nTf 1 1 1\nNi 1.5\n");
     EXPECT_EQ(black.m.tf, glm::dvec3(0)) << "black glass";
-    const Repaired mapped = plain("map_Kd a.png\nPr 0\nTf 1 1 1\n");
-    EXPECT_EQ(mapped.m.tf, glm::dvec3(1));
-    EXPECT_EQ(count_notices(mapped.notices, "a.mtl:2: map_Kd does not tint glass"), 1);
+    EXPECT_EQ(plain("Kd 0.2 0.3 0.4\nPr 0\nTf 1 1 1\nthin_walled 1\n").m.tf, glm::dvec3(0.2, 0.3, 0.4))
+        << "crossed once";
 }
 
-TEST(MtlRepair, PartialTransmissionIsTheNearerOfAllAndNothing) {
+TEST(MtlRepair, PartialTransmissionIsAWeight) {
     const Repaired quarter(BLENDER_PBR_MTL, "quarter_glass");
-    EXPECT_EQ(ruled(quarter.m).lobes, LOBE_MATTE | LOBE_GLOSSY);
-    EXPECT_EQ(count_notices(quarter.notices, "the nearer of glass and none"), 1);
-    const Repaired most = plain("Kd 1 1 1\nPm 0.25\nPr 0.1\nTf 0.8 0.8 0.8\n"); // 0.8 times 0.75
-    EXPECT_EQ(most.m.illum, 7);
-    EXPECT_EQ(count_notices(most.notices, "a.mtl:5: Tf beside Pr or Pm"), 2);
-    EXPECT_FALSE(plain("Kd 1 1 1\nPm 0.5\nPr 0.1\nTf 0.8 0.8 0.8\n").m.illum);
+    EXPECT_EQ(ruled(quarter.m).lobes, LOBE_MATTE | LOBE_GLOSSY | LOBE_DIELECTRIC);
+    EXPECT_EQ(ruled(quarter.m).flags, u32(MATERIAL_METALLIC_ROUGHNESS | MATERIAL_PART_GLASS));
+    EXPECT_EQ(count_notices(quarter.notices, "the surface is partly glass"), 1);
+    const Repaired most = plain("Kd 1 1 1\nPm 0.25\nPr 0.1\nTf 0.8 0.8 0.8\n");
+    EXPECT_DOUBLE_EQ(*most.m.transmission_weight, 0.8) << "of what is no metal";
+    EXPECT_FALSE(most.m.illum || most.m.tf);
+    EXPECT_EQ(count_notices(most.notices, "a.mtl:5: Tf beside Pr or Pm"), 1);
+    EXPECT_DOUBLE_EQ(*plain("map_Kd a.png\nPr 0\nTf 1 1 1\n").m.transmission_weight, 1) << "its tint varies";
+    EXPECT_FALSE(plain("Kd 1 1 1\nPm 1\nPr 0.1\nTf 0.8 0.8 0.8\n").m.transmission_weight) << "all is metal";
 }
 
 TEST(MtlRepair, CoatsAreScaledAndSaid) {
@@ -229,10 +231,7 @@ TEST(MtlRepair, CoatsAreScaledAndSaid) {
     EXPECT_EQ(plain("Pr 0.5\nPc 0.5\n").m.pc, 0.5);
     EXPECT_EQ(Repaired(BLENDER_HEADER + "newmtl a\nPr 0\nPc 1\n").m.pc, 0.25);
     EXPECT_EQ(Repaired(BLENDER_HEADER + "newmtl a\nPr 0\nPc 9\n").m.pc, 1);
-    NoticeList notices;
-    rule_material(
-        coated.m, {}, [](const TextureUse&, TextureRole) { return NO_INDEX; }, notices);
-    EXPECT_EQ(count_notices(notices, "Pc (coat) has no effect here and is ignored"), 1);
+    EXPECT_TRUE(ruled(coated.m).lobes & LOBE_COAT);
 }
 
 TEST(MtlRepair, NormalMapsInMapBumpAreFound) {

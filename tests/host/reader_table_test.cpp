@@ -83,7 +83,7 @@ TEST(ObjScene, WritersWhoseUpIsZAreKnown) {
 
 TEST(ObjScene, MaterialsAreThoseOfFacesInTheOrderOfTheirUse) {
     const TemporaryFolder folder;
-    folder.write("a.mtl", "newmtl unused\nnewmtl glass\nillum 7\nPc 1\nd 0\n");
+    folder.write("a.mtl", "newmtl unused\nnewmtl glass\nillum 7\nmap_Ns n.png\nd 0\n");
     const Described described({folder.path("a.obj"), std::string("mtllib a.mtl\n") + TRIANGLE +
                                                          "usemtl glass\nf 1 2 3\nusemtl none\nf 1 2 3\n"});
     const std::vector<MaterialDescription>& materials = described.scene.materials;
@@ -99,9 +99,9 @@ TEST(ObjScene, MaterialsAreThoseOfFacesInTheOrderOfTheirUse) {
     EXPECT_EQ(described.scene.files[0].path, folder.path("a.mtl"));
     EXPECT_EQ(count_notices(described.notices, "usemtl 'none': no library defines it"), 1);
     EXPECT_EQ(count_notices(described.notices, "d is 0"), 1) << "coverage outlives another surface";
-    EXPECT_EQ(count_notices(described.notices, "Pc (coat)"), 0);
+    EXPECT_EQ(count_notices(described.notices, "map_Ns"), 0);
     ASSERT_EQ(materials[1].surface_remarks.size(), 1u);
-    EXPECT_EQ(materials[1].surface_remarks[0].text, "Pc (coat) has no effect here and is ignored");
+    EXPECT_EQ(materials[1].surface_remarks[0].text, "map_Ns has no effect here and is ignored");
 }
 
 } // namespace clrt

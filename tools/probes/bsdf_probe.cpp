@@ -10,8 +10,10 @@ namespace {
 
 const char* const TEXT = R"(
 #define PROBE_BSDF const vec4 matte, const vec4 specular, const vec4 transmission, const vec4 shape, \
-                   const vec4 normal_g, const u32 lobes, const u32 fresnel, const u32 transport
-#define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, lobes, fresnel, transport
+                   const vec4 normal_g, const vec4 parts, const vec4 sheen, const u32 lobes, const u32 fresnel, \
+                   const u32 transport
+#define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, parts, sheen, lobes, fresnel, \
+                             transport
 
 Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
 {
@@ -30,7 +32,13 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     bsdf.exponent = REAL(0.0);
     bsdf.lobes = lobes;
     bsdf.fresnel = fresnel;
-    bsdf.flags = transport != 0u ? TRANSPORT_IMPORTANCE : TRANSPORT_RADIANCE;
+    bsdf.flags = transport & (TRANSPORT_IMPORTANCE | BSDF_INSIDE);
+    bsdf.glass = (real)parts.x;
+    bsdf.flags |= parts.x > 0.0f ? MATERIAL_PART_GLASS : 0u;
+    bsdf.cover.coat = (lobes & LOBE_COAT) ? (real)parts.y : REAL(0.0);
+    bsdf.cover.film = albedo_roughness((real)parts.z, (real)parts.z);
+    bsdf.cover.sheen = (lobes & LOBE_SHEEN) ? vector_from(sheen) : (real3)(REAL(0.0));
+    bsdf.cover.sheen_alpha = (real)parts.w;
     bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
@@ -104,6 +112,9 @@ LobeSet rough(LobeSet set, const char* name, double alpha_x, double alpha_y, u32
     return set;
 }
 
+/// Of bsdf_types.h.
+constexpr u32 TRANSPORT_IMPORTANCE = 0x80000u, BSDF_INSIDE = 0x200000u;
+
 LobeSet dielectric(const char* name, double alpha, double eta) {
     LobeSet set{name, LOBE_DIELECTRIC};
     set.specular = {1, 1, 1};
@@ -113,7 +124,77 @@ LobeSet dielectric(const char* name, double alpha, double eta) {
     return set;
 }
 
+LobeSet with_coat(LobeSet set, const char* name, double weight, double alpha) {
+    set.name = name;
+    set.lobes |= LOBE_COAT;
+    set.coat = weight;
+    set.coat_alpha = alpha;
+    return set;
+}
+
+LobeSet with_sheen(LobeSet set, const char* name, double alpha) {
+    set.name = name;
+    set.lobes |= LOBE_SHEEN;
+    set.sheen = {0.9, 0.6, 0.8};
+    set.sheen_alpha = alpha;
+    return set;
+}
+
+/// Matte and Schlick's reflection with a share of glass.
+LobeSet part_glass(const char* name, double alpha, double eta) {
+    LobeSet set = dielectric(name, alpha, eta);
+    set.lobes |= LOBE_MATTE | (alpha > 0 ? LOBE_GLOSSY : LOBE_MIRROR);
+    set.fresnel = FRESNEL_SCHLICK;
+    set.glass = 0.3;
+    set.matte = (1 - set.glass) * glm::dvec3(0.5, 0.4, 0.8);
+    set.specular = {0.04, 0.2, 0.3};
+    set.transmission *= set.glass;
+    return set;
+}
+
+/// Sets of the lobes that few materials have.
+std::vector<LobeSet> rare_lobe_sets() {
+    const LobeSet none{"", 0};
+    LobeSet matte{"", LOBE_MATTE, {0.75, 0.5, 0.25}}, pane = dielectric("rough pane", 0.3, 1 / 1.5);
+    pane.lobes = LOBE_PANE;
+    const LobeSet coated = rough({"", LOBE_MATTE | LOBE_GLOSSY, {0.5, 0.3, 0.1}, {0.04, 0.04, 0.04}}, "", 0.3,
+                                 0.3, FRESNEL_SCHLICK);
+    LobeSet inside = with_coat(dielectric("", 0.3, 1.5), "coated glass from inside", 0.8, 0.2);
+    inside.is_inside = true;
+    LobeSet part_pane = part_glass("partly a rough pane", 0.3, 1 / 1.5);
+    part_pane.lobes ^= LOBE_DIELECTRIC | LOBE_PANE;
+    std::vector<LobeSet> sets = {
+        rough(pane, "smooth pane", 0, 0, FRESNEL_NONE),
+        pane,
+        with_coat(none, "coat", 1, 0.2),
+        with_coat(none, "narrow coat", 0.5, 0.15),
+        with_sheen(none, "sheen", 0.25),
+        with_sheen(none, "narrow sheen", 0.1),
+        with_coat(matte, "coated matte", 1, 0.1),
+        with_sheen(matte, "velvet", 0.25),
+        with_coat(with_sheen(matte, "", 0.4), "coated velvet", 0.7, 0.15),
+        with_coat(coated, "coated matte and glossy", 1, 0.15),
+        part_glass("partly rough glass from outside", 0.3, 1 / 1.5),
+        part_glass("partly rough glass from inside", 0.3, 1.5),
+        part_glass("partly smooth glass", 0, 1 / 1.5),
+        part_pane,
+        with_coat(dielectric("", 0.3, 1 / 1.5), "coated glass from outside", 0.8, 0.2),
+        inside};
+    for (LobeSet& set : sets)
+        set.has_textbook = false;
+    return sets;
+}
+
 } // namespace
+
+LobeSet LobeSet::from_other_side() const {
+    LobeSet other = *this;
+    if (!(lobes & LOBE_PANE))
+        other.eta = 1 / eta;
+    if (lobes & LOBE_DIELECTRIC)
+        other.is_inside = !is_inside;
+    return other;
+}
 
 std::vector<LobeSet> all_lobe_sets() {
     const LobeSet matte{"matte", LOBE_MATTE, {0.75, 0.5, 0.25}};
@@ -122,22 +203,25 @@ std::vector<LobeSet> all_lobe_sets() {
     const LobeSet coated{"", LOBE_MATTE | LOBE_GLOSSY, {0.5, 0.3, 0.1}, {0.04, 0.04, 0.04}};
     const LobeSet varnished{
         "matte and mirror", LOBE_MATTE | LOBE_MIRROR, {0.5, 0.25, 0.125}, {0.25, 0.25, 0.5}};
-    return {matte,
-            rough(glossy, "glossy", 0.4, 0.4, FRESNEL_NONE),
-            rough(glossy, "glossy, Schlick", 0.2, 0.2, FRESNEL_SCHLICK),
-            rough(glossy, "glossy, full roughness", 1, 1, FRESNEL_SCHLICK),
-            rough(glossy, "glossy, anisotropic", 0.5, 0.15, FRESNEL_NONE),
-            rough(glossy, "glossy, anisotropic, Schlick", 0.15, 0.6, FRESNEL_SCHLICK),
-            mirror,
-            rough(mirror, "mirror, Schlick", 0, 0, FRESNEL_SCHLICK),
-            dielectric("smooth glass from outside", 0, 1 / 1.5),
-            dielectric("smooth glass from inside", 0, 1.5),
-            dielectric("rough glass from outside", 0.3, 1 / 1.5),
-            dielectric("rough glass from inside", 0.3, 1.5),
-            rough(coated, "matte and glossy", 0.25, 0.25, FRESNEL_SCHLICK),
-            rough(coated, "matte and glossy, no Fresnel", 0.3, 0.3, FRESNEL_NONE),
-            varnished,
-            rough(varnished, "matte and mirror, Schlick", 0, 0, FRESNEL_SCHLICK)};
+    std::vector<LobeSet> sets = {matte,
+                                 rough(glossy, "glossy", 0.4, 0.4, FRESNEL_NONE),
+                                 rough(glossy, "glossy, Schlick", 0.2, 0.2, FRESNEL_SCHLICK),
+                                 rough(glossy, "glossy, full roughness", 1, 1, FRESNEL_SCHLICK),
+                                 rough(glossy, "glossy, anisotropic", 0.5, 0.15, FRESNEL_NONE),
+                                 rough(glossy, "glossy, anisotropic, Schlick", 0.15, 0.6, FRESNEL_SCHLICK),
+                                 mirror,
+                                 rough(mirror, "mirror, Schlick", 0, 0, FRESNEL_SCHLICK),
+                                 dielectric("smooth glass from outside", 0, 1 / 1.5),
+                                 dielectric("smooth glass from inside", 0, 1.5),
+                                 dielectric("rough glass from outside", 0.3, 1 / 1.5),
+                                 dielectric("rough glass from inside", 0.3, 1.5),
+                                 rough(coated, "matte and glossy", 0.25, 0.25, FRESNEL_SCHLICK),
+                                 rough(coated, "matte and glossy, no Fresnel", 0.3, 0.3, FRESNEL_NONE),
+                                 varnished,
+                                 rough(varnished, "matte and mirror, Schlick", 0, 0, FRESNEL_SCHLICK)};
+    for (const LobeSet& set : rare_lobe_sets())
+        sets.push_back(set);
+    return sets;
 }
 
 LobeSet lobe_set(const std::string& name) {
@@ -165,7 +249,11 @@ Kernel BsdfProbe::prepare(const char* name, const LobeSet& set, const std::vecto
     kernel.set("normal_g", to_vec4(normal_g));
     kernel.set("lobes", set.lobes);
     kernel.set("fresnel", set.fresnel);
-    kernel.set("transport", u32(set.is_importance));
+    kernel.set("parts",
+               vec4{float(set.glass), float(set.coat), float(set.coat_alpha), float(set.sheen_alpha)});
+    kernel.set("sheen", to_vec4(set.sheen));
+    kernel.set("transport",
+               (set.is_importance ? TRANSPORT_IMPORTANCE : 0u) | (set.is_inside ? BSDF_INSIDE : 0u));
     kernel.set("in_a", probe_.upload(to_vec4s(a)));
     kernel.set("in_b", probe_.upload(to_vec4s(b)));
     kernel.set("count", u32(a.size()));

@@ -19,6 +19,16 @@ struct LobeSet {
     double alpha_x = 0, alpha_y = 0, eta = 1;
     u32 fresnel = FRESNEL_NONE;
     bool is_importance = false; ///< carried; else radiance
+    double glass = 0; ///< weight of the glass beside other lobes; matte and transmission have it inside
+    double coat = 0, coat_alpha = 1;
+    glm::dvec3 sheen{0};
+    double sheen_alpha = 1;
+    bool is_inside = false;   ///< of glass with a coat or a sheen: wo is below it
+    bool has_textbook = true; ///< tests/support/bsdf_reference.h knows it
+
+    /// The index ratio across, and from the other side.
+    double crossed_eta() const { return lobes & LOBE_PANE ? 1 : eta; }
+    LobeSet from_other_side() const;
 };
 
 /// All lobe sets that material rules make: matte, glossy with and without Fresnel, mirrors, dielectrics from

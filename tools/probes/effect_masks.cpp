@@ -18,12 +18,13 @@ bool is_permitted(u32 effects) {
 
 namespace {
 
-/// The set with what it cannot be without; matte where any lobe would do, lamps where any light.
+/// The set with what it cannot be without; matte where any lobe would do, else the first that does.
 u32 completed(u32 effects) {
     effects = with_implied(effects);
-    if ((effects & EFFECT_LIGHT_TREE) && !is_permitted(effects))
-        effects |= EFFECT_AREA_LIGHT;
-    return is_permitted(effects) ? effects : with_implied(effects | EFFECT_MATTE);
+    for (const EffectSpec& effect : effect_table())
+        if ((effects & effect.bit) && effect.one_of && !(effects & effect.one_of))
+            effects |= effect.one_of & EFFECT_MATTE ? EFFECT_MATTE : effect.one_of & ~(effect.one_of - 1);
+    return with_implied(effects);
 }
 
 /// Every two bits with their values in a set, as numbers.
@@ -153,6 +154,18 @@ void SceneOfEffects::add_materials() {
     build.material("mirror", tint + "Ks 0.7 0.7 0.6\nillum 3" + map("map_Ks"));
     build.material("glass", "Ni 1.5\nTf 0.9 1 0.9\nillum 7");
     build.material("frosted", "Ni 1.4\nillum 7\nPr 0.5" + map("map_Pr"));
+    const std::string turned = "\nPr 0.4\naniso 0.7\nanisor 0.2";
+    build.material("honey", "Ni 1.4\nillum 7\nattenuation 0.3 0.6 0.9");
+    build.material("stained",
+                   tint + "Pm 0\nTf 0.6" + (has(EFFECT_MIRROR) ? "\nPr 0\nNi 1.5" : "\nPr 0.4\nNi 1"));
+    build.material("lacquer", tint + "Pc 0.9\nPcr 0.2");
+    build.material("velvet", tint + "Ps 0.8");
+    build.material("pane", "illum 7\nthin_walled 1");
+    build.material("turned",
+                   has(EFFECT_GLOSSY)
+                       ? tint + "Pm 0.8" + turned
+                       : "illum 7" + turned + (has(EFFECT_ROUGH_REFRACTION) ? "" : "\nthin_walled 1"));
+    build.material("turned_glass", "illum 7" + turned);
     build.material("screen", base + "\nd 0.6" + map("map_d"));
     build.material("lamp", "Kd 0 0 0\nKe 8 7 5" + map("map_Ke"));
 }
@@ -173,11 +186,30 @@ void SceneOfEffects::add_bodies() {
     if (has(EFFECT_ROUGH_REFRACTION))
         build.use("frosted").textured_quad(
             {{0.3, 0.1, 0.6}, {0.9, 0.1, 0.6}, {0.9, 0.7, 0.5}, {0.3, 0.7, 0.5}});
+    add_rare_bodies();
     if (has(EFFECT_SMOOTH_NORMALS))
         build.use(has(EFFECT_REFRACTION) ? "glass" : "plain")
             .icosphere({0.1, 0.9, -0.4}, 0.25, 1, Facing::OUTWARD, Shading::SMOOTH);
     if (has(EFFECT_CUT_OUT))
         build.use("screen").textured_quad({{-1, 0.1, 0.8}, {0, 0.1, 0.8}, {0, 1.2, 0.6}, {-1, 1.2, 0.6}});
+}
+
+void SceneOfEffects::add_rare_bodies() {
+    if (has(EFFECT_ATTENUATION))
+        build.use("honey").icosphere({1.2, 1.3, -0.3}, 0.25, 1);
+    if (has(EFFECT_PART_GLASS))
+        build.use("stained").icosphere({-1.2, 1.4, -0.3}, 0.25, 1);
+    if (has(EFFECT_COAT))
+        build.use("lacquer").icosphere({0.5, 1.3, -0.6}, 0.2, 1);
+    if (has(EFFECT_SHEEN))
+        build.use("velvet").icosphere({-0.5, 1.4, -0.6}, 0.2, 1);
+    if (has(EFFECT_THIN_WALL))
+        build.use("pane").textured_quad(
+            {{-1.7, 0.1, 0.4}, {-1.2, 0.1, 0.4}, {-1.2, 0.6, 0.2}, {-1.7, 0.6, 0.2}});
+    if (has(EFFECT_ROTATION) && has(EFFECT_ROUGH_REFRACTION))
+        build.use("turned_glass").textured_quad({{1, 1, 0}, {1.4, 1, 0}, {1.4, 1.3, 0}, {1, 1.3, 0}});
+    if (has(EFFECT_ROTATION))
+        build.use("turned").textured_quad({{1.1, 0.1, 0.2}, {1.7, 0.1, 0.2}, {1.7, 0.7, 0}, {1.1, 0.7, 0}});
 }
 
 void SceneOfEffects::add_lights() {

@@ -39,6 +39,7 @@ private:
     bool has(u32 effect) const { return (effects_ & effect) != 0; }
     void add_materials();
     void add_bodies();
+    void add_rare_bodies();
     void add_lights();
     const u32 effects_;
 };
