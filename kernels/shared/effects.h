@@ -23,7 +23,8 @@
 #define EFFECT_LIGHT_TREE 0x8000u      /* lights chosen by what they may send to a vertex */
 #define EFFECT_MOTION_BLUR 0x10000u    /* what moves while the shutter is open; rays have a time */
 #define EFFECT_DEPTH_OF_FIELD 0x20000u /* a lens wider than a point */
-#define EFFECT_ALL 0x3ffffu
+#define EFFECT_SPOT 0x400000u          /* point lights that shine within a cone */
+#define EFFECT_ALL 0x43ffffu
 
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS

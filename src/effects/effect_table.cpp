@@ -23,7 +23,7 @@ std::string with_hyphens(std::string name) {
 const std::vector<EffectSpec>& effect_table() {
     static const std::vector<EffectSpec> table = {
         {EFFECT_AREA_LIGHT, "area lights", 0, 0, "emissive triangles are dark"},
-        {EFFECT_DELTA_LIGHT, "point lights and suns", 0, 0, "--point and --sun are not there"},
+        {EFFECT_DELTA_LIGHT, "point lights and suns", 0, 0, "--point, --spot and --sun are not there"},
         {EFFECT_ENVIRONMENT, "environment", 0, 0, "black outside the scene, background included"},
         {EFFECT_ENVIRONMENT_MAP, "environment map", EFFECT_ENVIRONMENT, 0,
          "a constant sky of the map's mean radiance"},
@@ -42,6 +42,7 @@ const std::vector<EffectSpec>& effect_table() {
          "lights are chosen by tables, as by --light-sampler mixture"},
         {EFFECT_MOTION_BLUR, "motion blur", 0, 0, "the picture of the moment when the shutter opens"},
         {EFFECT_DEPTH_OF_FIELD, "depth of field", 0, 0, "a pinhole: all depths are sharp"},
+        {EFFECT_SPOT, "spot lights", EFFECT_DELTA_LIGHT, 0, "--spot shines all around, as --point does"},
         {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
          "direct light only: paths of two segments"},
     };

@@ -143,11 +143,14 @@ std::vector<double> build_materials(const std::vector<MaterialDescription>& desc
 }
 
 /// Emitters first, which the studio asks for; the ground last, which no fit may see.
-void load_camera_and_lights(const SceneRequest& request, const std::vector<double>& exitance,
-                            const Bounds& bounds, Scene& scene, NoticeList& notices) {
+void load_camera_and_lights(const SceneRequest& request, const SceneDescription& description,
+                            const std::vector<double>& exitance, const Bounds& bounds, Scene& scene,
+                            NoticeList& notices) {
     Emitters emitters = build_emitters(scene.positions, scene.triangles, exitance);
     scene.emitters = std::move(emitters.emitters);
     LightOptions light = request.light;
+    light.points.insert(light.points.end(), description.points.begin(), description.points.end());
+    light.suns.insert(light.suns.end(), description.suns.begin(), description.suns.end());
     const bool has_light = !scene.emitters.empty() || !light.points.empty() || !light.suns.empty();
     scene.is_studio = light.studio && !has_light && !light.environment && light.environment_file.empty();
     scene.camera = fit_camera(request.camera, request.size, scene, bounds, notices);
@@ -159,6 +162,7 @@ void load_camera_and_lights(const SceneRequest& request, const std::vector<doubl
     scene.radius = bounds.radius() * scene.normalisation.scale;
     Lights lights = build_lights(light, scene.normalisation, scene.radius, notices);
     scene.lights = std::move(lights.lights);
+    scene.light_sources = std::move(lights.sources);
     scene.emitted_power = emitters.power + lights.power;
     scene.environment = load_environment(light, has_light, notices);
     if (light.background)
@@ -230,7 +234,7 @@ Scene load_all(SceneRequest request, Progress& progress) {
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
                                      path, cut.vast, cut.vast + cut.added));
     store_vertex_colours(scene, path);
-    load_camera_and_lights(request, exitance, bounds, scene, notices);
+    load_camera_and_lights(request, description, exitance, bounds, scene, notices);
     finish_moves(request.scene.end_path, scene);
     scene.notices = notices.lines();
     return scene;
