@@ -24,7 +24,8 @@
 #define EFFECT_MOTION_BLUR 0x10000u    /* what moves while the shutter is open; rays have a time */
 #define EFFECT_DEPTH_OF_FIELD 0x20000u /* a lens wider than a point */
 #define EFFECT_SPOT 0x400000u          /* point lights that shine within a cone */
-#define EFFECT_ALL 0x43ffffu
+#define EFFECT_CONDUCTOR 0x800000u     /* reflection by a complex index of refraction */
+#define EFFECT_ALL 0xc3ffffu
 
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS

@@ -24,6 +24,7 @@ ASSERT_SIZE(Triangle, 48);
 /* What scales LOBE_GLOSSY and LOBE_MIRROR. */
 #define FRESNEL_NONE 0u    /* colour `specular` at every angle */
 #define FRESNEL_SCHLICK 1u /* F0 = `specular`, 1 at grazing */
+#define FRESNEL_CONDUCTOR 2u /* index `transmission` + i `specular`, channel by channel */
 
 /* `specular` is F0 of the part that is no metal: specular = mix(specular, matte, metallic),
    matte = matte (1 - metallic). */

@@ -43,6 +43,8 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_MOTION_BLUR, "motion blur", 0, 0, "the picture of the moment when the shutter opens"},
         {EFFECT_DEPTH_OF_FIELD, "depth of field", 0, 0, "a pinhole: all depths are sharp"},
         {EFFECT_SPOT, "spot lights", EFFECT_DELTA_LIGHT, 0, "--spot shines all around, as --point does"},
+        {EFFECT_CONDUCTOR, "conductors", 0, EFFECT_GLOSSY | EFFECT_MIRROR,
+         "metals reflect by Schlick's approximation from their colour head-on"},
         {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
          "direct light only: paths of two segments"},
     };

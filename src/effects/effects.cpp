@@ -196,6 +196,14 @@ void find_cut_outs(EffectFinder& finder) {
                     [](const Material& m) { return (m.flags & MATERIAL_CUT_OUT) != 0; });
 }
 
+bool is_conductor(const Material& m) {
+    return m.fresnel == FRESNEL_CONDUCTOR && (m.lobes & (LOBE_GLOSSY | LOBE_MIRROR));
+}
+
+void find_conductors(EffectFinder& finder) {
+    finder.material(EFFECT_CONDUCTOR, "no material has a complex index of refraction", is_conductor);
+}
+
 void find_filter(const Options& options, EffectFinder& finder) {
     const bool filtered = options.film.filter != Filter::BOX;
     finder.fact(EFFECT_FILTER, filtered, filtered ? describe_option(options, "--filter") : "box filter",
@@ -296,6 +304,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_motion_blur(scene, options, finder);
     find_depth_of_field(scene, options, finder);
     find_spots(scene, finder);
+    find_conductors(finder);
     find_interreflection(scene, options, finder);
 
     effects.list = std::move(finder.list);

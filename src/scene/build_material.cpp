@@ -50,6 +50,9 @@ public:
         case Reflection::DIELECTRIC:
             set_dielectric();
             break;
+        case Reflection::CONDUCTOR:
+            set_conductor();
+            break;
         }
         set_emission();
         set_coverage();
@@ -141,6 +144,18 @@ private:
         m_.lobes = LOBE_DIELECTRIC;
         if (MATERIAL_INDEX(m_) != 1.0f)
             set_roughness(roughness());
+    }
+
+    /// Nothing below a metal's surface is seen.
+    void set_conductor() {
+        const auto inside = [](const glm::dvec3& index, double smallest) {
+            return glm::clamp(index, smallest, CONDUCTOR_LARGEST_INDEX);
+        };
+        set_lobe(inside(from_.conductor.k, 0));
+        m_.transmission = to_vec4(inside(from_.conductor.eta, CONDUCTOR_SMALLEST_ETA), from_.ior);
+        m_.fresnel = FRESNEL_CONDUCTOR;
+        if (from_.whitted_mirror)
+            m_.flags |= MATERIAL_WHITTED_MIRROR;
     }
 
     /// F0 = mix(F, base, metallic), where F is the part's that is no metal; matte base (1 - metallic) of what

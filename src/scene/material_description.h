@@ -36,7 +36,13 @@ enum class Reflection {
     SCHLICK,  ///< `specular` head-on, 1 at grazing angles
     /// Metallic-roughness: Schlick with F0 = mix(dielectric_f0, base, metallic), matte base (1 - metallic)
     METALLIC,
-    DIELECTRIC ///< reflection and refraction with exact Fresnel; no matte part
+    DIELECTRIC, ///< reflection and refraction with exact Fresnel; no matte part
+    CONDUCTOR   ///< exact Fresnel by `conductor`; no matte part
+};
+
+/// Complex index of refraction, channel by channel: eta + i k.
+struct ConductorIndex {
+    glm::dvec3 eta{1}, k{0};
 };
 
 /// Something that a material asks for and does not get.
@@ -61,6 +67,7 @@ struct MaterialDescription {
     std::optional<double> phong_exponent; ///< that the roughness was made of, where no map multiplies it
     bool whitted_mirror = false;          ///< `whitted` follows its reflection as a mirror's
     double ior = DEFAULT_IOR;             ///< of DIELECTRIC, above 0
+    ConductorIndex conductor;             ///< of CONDUCTOR, from 0
     glm::dvec3 transmission{1};           ///< tint of each crossing
 
     Mapped<glm::dvec3> emission; ///< radiance on the front side

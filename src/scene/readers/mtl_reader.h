@@ -21,13 +21,15 @@ struct MtlTexture : TextureUse {
 };
 
 /// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their
-/// ranges: Ka Kd Ks Tf d Tr Pr Pm Ps Pcr aniso in [0,1], Ke, Ns, Pc and anisor not below 0, Ni above 0.
+/// ranges: Ka Kd Ks Tf d Tr Pr Pm Ps Pcr aniso in [0,1], Ke, Ns, Pc, anisor, eta and k not below 0, Ni above
+/// 0.
 struct MtlMaterial {
     std::string name;
     SourcePlace place;
     MtlWriter writer;                        ///< of the library
     std::map<std::string, size_t> key_lines; ///< where each key was given last; lower case, no other names
     std::optional<glm::dvec3> ka, kd, ks, ke, tf;
+    std::optional<glm::dvec3> eta, k; ///< complex index of refraction; `conductor` gives both by a name
     std::optional<double> ns, ni, d, tr, pr, pm, ps, pc, pcr, aniso, anisor;
     std::optional<int> illum; ///< 0..9
     std::optional<MtlTexture> map_kd, map_ks, map_ke, map_d, map_pr, map_pm, map_ps, map_normal, map_bump;
