@@ -25,6 +25,22 @@ void apply_environment(Options& o, const OptionValue& v) {
     o.light.environment = radiance;
 }
 
+void apply_sky(Options& o, const OptionValue& v) {
+    const std::string expected = "elevation,azimuth[,turbidity[,albedo]]: degrees, the elevation from -12 to "
+                                 "90; a turbidity from 1 to "
+                                 "10, an albedo of the ground from 0 to 1";
+    const std::vector<double> n = parse_numbers(v, 2, 4, expected);
+    SkyOptions sky{n[0], n[1]};
+    if (n.size() > 2)
+        sky.turbidity = n[2];
+    if (n.size() > 3)
+        sky.ground_albedo = n[3];
+    if (!(sky.elevation_degrees >= -12 && sky.elevation_degrees <= 90 && sky.turbidity >= 1 &&
+          sky.turbidity <= 10 && sky.ground_albedo >= 0 && sky.ground_albedo <= 1))
+        reject_value(v, expected);
+    o.light.sky = sky;
+}
+
 void apply_sun(Options& o, const OptionValue& v) {
     const std::string expected =
         "x,y,z,r,g,b[,deg]: a direction other than 0,0,0, an irradiance of numbers from 0, "
@@ -101,7 +117,12 @@ std::vector<OptionSpec> light_options() {
          "environment: a latitude-longitude picture or one radiance (default: none; --studio where nothing "
          "else gives light)",
          apply_environment},
-        {group, "", "--env-scale", "X", "factor on the environment's radiance (default 1)",
+        {group, "", "--sky", "ELEVATION,AZIMUTH[,TURBIDITY[,ALBEDO]]",
+         "clear sky and its sun in place of --env: degrees above the horizon, degrees clockwise from -z "
+         "(from +y "
+         "where z is up), haze (default 2.5; 1: clean air), ground below the horizon (default 0.2)",
+         apply_sky},
+        {group, "", "--env-scale", "X", "factor on the radiance of environment or sky (default 1)",
          [](Options& o, const OptionValue& v) {
              o.light.environment_scale = parse_number(v, "a factor from 0", not_negative);
          }},

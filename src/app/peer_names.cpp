@@ -140,6 +140,8 @@ const std::vector<std::pair<const char*, const char*>>& peer_names() {
         {"ibl", "--env FILE"},
         {"skybox", "--env FILE"},
         {"world", "--env FILE"},
+        {"addsky", "--sky ELEVATION,AZIMUTH"},
+        {"add-skyenv", "--sky ELEVATION,AZIMUTH"},
         {"point-light", "--point X,Y,Z,R,G,B"},
         {"spot-light", "--spot X,Y,Z,DX,DY,DZ,R,G,B"},
         {"sun-direction", "--sun X,Y,Z,R,G,B"},

@@ -129,10 +129,11 @@ void find_environment(const Scene& scene, const Options& options, EffectFinder& 
     const bool map = !sky.texels.empty();
     const bool bright = largest_component(sky.radiance) > 0;
     const bool is_backdrop = !bright && scene.background && largest_component(*scene.background) > 0;
-    const bool given =
-        scene.is_studio || !options.light.environment_file.empty() || options.light.environment;
-    const std::string option = describe_light(scene, options, "--env");
-    const SourcePlace place = place_of(options, "--env");
+    const bool given = scene.is_studio || !options.light.environment_file.empty() ||
+                       options.light.environment || options.light.sky;
+    const char* const name = options.light.sky ? "--sky" : "--env";
+    const std::string option = describe_light(scene, options, name);
+    const SourcePlace place = place_of(options, name);
     finder.fact(EFFECT_ENVIRONMENT, bright || is_backdrop,
                 is_backdrop
                     ? describe_option(options, "--background") + ": radiance above 0, to the camera alone"

@@ -34,6 +34,14 @@ struct PointOptions {
     const char* source = "--point"; ///< by what it is there, in messages
 };
 
+/// A clear sky with its sun, by the scattering of light in air (scene/daylight.h).
+struct SkyOptions {
+    double elevation_degrees = 45; ///< of the sun above the horizon, -12 to 90
+    double azimuth_degrees = 0;    ///< of the sun, clockwise seen from above; 0: -z, where z is up +y
+    double turbidity = 2.5;        ///< optical depth of the air with haze over that of clean air, 1 to 10
+    double ground_albedo = 0.2;    ///< of the ground around, 0 to 1
+};
+
 /// What camera rays that hit nothing show, in place of the environment and the discs of suns. It lights
 /// nothing: rays that have left a surface see the sky.
 struct BackgroundOptions {
@@ -52,6 +60,7 @@ struct LightOptions {
     std::optional<glm::dvec3> environment; ///< constant radiance
     double environment_scale = 1;
     double environment_rotation_degrees = 0; ///< about +Y
+    std::optional<SkyOptions> sky;           ///< in place of the environment, with a sun of its own
     std::vector<SunOptions> suns;
     std::vector<PointOptions> points;
     bool two_sided = false; ///< emissive faces shine on both sides
