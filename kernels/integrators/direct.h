@@ -21,8 +21,9 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
     if (HAS(EFFECT_GLOSSY) && highlight && bsdf->exponent > REAL(0.0)) {
         const real cos_r = vector_dot(vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z), wi);
         if (cos_r > REAL(0.0))
-            value += bsdf_reflection_albedo(bsdf) * ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
-                                       real_pow(cos_r, bsdf->exponent) * wi.z);
+            value += bsdf_reflection_albedo(bsdf) *
+                     ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
+                      real_pow(cos_r, bsdf->exponent) * wi.z);
     }
     return value;
 }

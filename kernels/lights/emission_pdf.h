@@ -80,7 +80,8 @@ typedef struct {
     real one_minus_cos; /* 2: all around */
 } EmissionCone;
 
-/* All around from within the sphere, else only to the sphere; of a spot its own cone where that is narrower. */
+/* All around from within the sphere, else only to the sphere; of a spot its own cone where that is
+   narrower. */
 static inline EmissionCone emission_point_cone(const RenderParams* params, global const Light* light)
 {
     EmissionCone cone = {(real3)(REAL(0.0), REAL(0.0), REAL(1.0)), REAL(2.0)};

@@ -78,8 +78,8 @@ static inline real3 fresnel_schlick_mean(real3 f0)
 
 /* Reflectance of a conductor of index eta + i k beside air for unpolarised light. With a + i b the root of
    (eta + i k)^2 - sin^2, where a b = eta k and a^2 - b^2 = eta^2 - k^2 - sin^2, it is a quotient of sums of
-   squares for either polarisation (Born and Wolf 1999, sec. 14.2), so nothing cancels. Both indices are within
-   [0, CONDUCTOR_LARGEST_INDEX]. */
+   squares for either polarisation (Born and Wolf 1999, sec. 14.2), so nothing cancels. Indices are those of
+   src/scene/build_material.h: CONDUCTOR_SMALLEST_ETA and up, CONDUCTOR_LARGEST_INDEX at most. */
 static inline real fresnel_conductor(real cos_i, real eta, real k)
 {
     const real cosine = clamp(cos_i, REAL(0.0), REAL(1.0));
@@ -110,8 +110,8 @@ static inline real3 fresnel_conductor_color(real cos_i, real3 eta, real3 k)
                    fresnel_conductor(cos_i, eta.z, k.z));
 }
 
-/* Its mean over a hemisphere of equal radiance, 2 int F(c) c dc, by Gauss's rule of three nodes for the weight
-   c (Abramowitz and Stegun 1972, table 25.8): within 2e-3 for metals. */
+/* Its mean over a hemisphere of equal radiance, 2 int F(c) c dc, by Gauss's rule of three nodes for the
+   weight c (Abramowitz and Stegun 1972, table 25.8): within 2e-3 for metals. */
 static inline real3 fresnel_conductor_mean(real3 eta, real3 k)
 {
     return fresnel_conductor_color(REAL(0.21234053823915295), eta, k) * REAL(0.13965395980291398) +

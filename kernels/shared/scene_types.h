@@ -98,7 +98,7 @@ typedef struct {
     u32 kind;           /* LIGHT_* */
     float probability;  /* of choosing this light among the lights of this array */
     u32 alias, threshold; /* as in Emitter */
-    float one_minus_cos; /* LIGHT_SUN: 1 - cos(angular radius); 0: a delta light. Spots: 1 - cos(outer angle) */
+    float one_minus_cos; /* LIGHT_SUN: 1 - cos(angular radius); 0: a delta light. Of spots: of the outer angle */
     float axis_x, axis_y, axis_z; /* of spots: unit direction in which they shine */
 } Light;
 ASSERT_SIZE(Light, 64);

@@ -4,6 +4,7 @@
 #include "stability/cases/shading_expressions.h"
 
 #include "probes/random_inputs.h"
+#include "probes/reference.h"
 
 #include <fmt/format.h>
 
