@@ -20,11 +20,10 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
         value += bsdf_eval_matte(bsdf, wi);
     if (HAS(EFFECT_GLOSSY) && highlight && bsdf->exponent > REAL(0.0)) {
         const real cos_r = vector_dot(vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z), wi);
-        const real3 specular =
-            bsdf_is_part_glass(bsdf) ? bsdf->specular * (REAL(1.0) - bsdf->glass) : bsdf->specular;
         if (cos_r > REAL(0.0))
-            value += specular * ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
-                                       real_pow(cos_r, bsdf->exponent) * wi.z);
+            value += bsdf_reflection_albedo(bsdf) *
+                     ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
+                      real_pow(cos_r, bsdf->exponent) * wi.z);
     }
     if (HAS(EFFECT_SHEEN) && (bsdf->lobes & LOBE_SHEEN))
         value += bsdf_eval_lobes(bsdf, LOBE_SHEEN, wi).value;

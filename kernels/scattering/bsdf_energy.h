@@ -24,14 +24,25 @@
 /* The colour of a reflection whose half vector meets the directions at this cosine. */
 static inline real3 bsdf_reflection_color(const Bsdf* bsdf, real cos_h)
 {
+    if (HAS(EFFECT_CONDUCTOR) && bsdf->fresnel == FRESNEL_CONDUCTOR)
+        return fresnel_conductor_color(cos_h, bsdf->transmission, bsdf->specular);
     const real3 color =
         bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
     return bsdf_is_part_glass(bsdf) ? color * (REAL(1.0) - bsdf->glass) : color;
 }
 
+/* The same head-on. */
+static inline real3 bsdf_reflection_albedo(const Bsdf* bsdf)
+{
+    return HAS(EFFECT_CONDUCTOR | EFFECT_PART_GLASS) ? bsdf_reflection_color(bsdf, REAL(1.0))
+                                                     : bsdf->specular;
+}
+
 /* The facets' reflectance in light from everywhere. */
 static inline real3 bsdf_energy_facet_mean(const Bsdf* bsdf)
 {
+    if (HAS(EFFECT_CONDUCTOR) && bsdf->fresnel == FRESNEL_CONDUCTOR)
+        return fresnel_conductor_mean(bsdf->transmission, bsdf->specular);
     return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick_mean(bsdf->specular) : bsdf->specular;
 }
 

@@ -15,7 +15,7 @@ static inline real bsdf_glossy_size(const Bsdf* bsdf)
     return vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
 }
 
-static inline real3 bsdf_glossy_albedo(const Bsdf* bsdf) { return bsdf->specular; }
+static inline real3 bsdf_glossy_albedo(const Bsdf* bsdf) { return bsdf_reflection_albedo(bsdf); }
 
 /* One facet: BSDF times cos_i (Walter et al. 2007, eq. 20) and its density. */
 static inline BsdfValue bsdf_glossy_eval_single(const Bsdf* bsdf, real3 wi)

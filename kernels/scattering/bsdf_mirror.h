@@ -12,7 +12,7 @@ static inline real bsdf_mirror_size(const Bsdf* bsdf)
     return vector_color_size(bsdf_reflection_color(bsdf, bsdf->wo.z));
 }
 
-static inline real3 bsdf_mirror_albedo(const Bsdf* bsdf) { return bsdf->specular; }
+static inline real3 bsdf_mirror_albedo(const Bsdf* bsdf) { return bsdf_reflection_albedo(bsdf); }
 
 /* No direction but one, which has no density. */
 static inline void bsdf_mirror_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum) {}

@@ -25,6 +25,22 @@ void apply_environment(Options& o, const OptionValue& v) {
     o.light.environment = radiance;
 }
 
+void apply_sky(Options& o, const OptionValue& v) {
+    const std::string expected = "elevation,azimuth[,turbidity[,albedo]]: degrees, the elevation from -12 to "
+                                 "90; a turbidity from 1 to "
+                                 "10, an albedo of the ground from 0 to 1";
+    const std::vector<double> n = parse_numbers(v, 2, 4, expected);
+    SkyOptions sky{n[0], n[1]};
+    if (n.size() > 2)
+        sky.turbidity = n[2];
+    if (n.size() > 3)
+        sky.ground_albedo = n[3];
+    if (!(sky.elevation_degrees >= -12 && sky.elevation_degrees <= 90 && sky.turbidity >= 1 &&
+          sky.turbidity <= 10 && sky.ground_albedo >= 0 && sky.ground_albedo <= 1))
+        reject_value(v, expected);
+    o.light.sky = sky;
+}
+
 void apply_sun(Options& o, const OptionValue& v) {
     const std::string expected =
         "x,y,z,r,g,b[,deg]: a direction other than 0,0,0, an irradiance of numbers from 0, "
@@ -44,6 +60,24 @@ void apply_point(Options& o, const OptionValue& v) {
     if (!is_colour(point.intensity))
         reject_value(v, expected);
     o.light.points.push_back(point);
+}
+
+void apply_spot(Options& o, const OptionValue& v) {
+    const std::string expected =
+        "x,y,z,dx,dy,dz,r,g,b[,outer[,inner]]: a position, a direction other than 0,0,0, an intensity of "
+        "numbers from 0, and angles in degrees, outer from 0 to 180, inner from 0 to outer";
+    const std::vector<double> n = parse_numbers(v, 9, 11, expected);
+    SpotCone cone{{n[3], n[4], n[5]}};
+    if (n.size() > 9)
+        cone.outer_degrees = n[9];
+    if (n.size() > 10)
+        cone.inner_degrees = n[10];
+    const PointOptions spot{{n[0], n[1], n[2]}, {n[6], n[7], n[8]}, cone, "--spot"};
+    const bool angles_fit =
+        cone.inner_degrees >= 0 && cone.inner_degrees <= cone.outer_degrees && cone.outer_degrees <= 180;
+    if (cone.direction == glm::dvec3(0) || !is_colour(spot.intensity) || !angles_fit)
+        reject_value(v, expected);
+    o.light.points.push_back(spot);
 }
 
 void apply_studio(Options& o, const OptionValue& v) {
@@ -83,7 +117,12 @@ std::vector<OptionSpec> light_options() {
          "environment: a latitude-longitude picture or one radiance (default: none; --studio where nothing "
          "else gives light)",
          apply_environment},
-        {group, "", "--env-scale", "X", "factor on the environment's radiance (default 1)",
+        {group, "", "--sky", "ELEVATION,AZIMUTH[,TURBIDITY[,ALBEDO]]",
+         "clear sky and its sun in place of --env: degrees above the horizon, degrees clockwise from -z "
+         "(from +y "
+         "where z is up), haze (default 2.5; 1: clean air), ground below the horizon (default 0.2)",
+         apply_sky},
+        {group, "", "--env-scale", "X", "factor on the radiance of environment or sky (default 1)",
          [](Options& o, const OptionValue& v) {
              o.light.environment_scale = parse_number(v, "a factor from 0", not_negative);
          }},
@@ -95,6 +134,10 @@ std::vector<OptionSpec> light_options() {
          "direction to the sun, irradiance, angular diameter in degrees; repeatable", apply_sun, REPEATABLE},
         {group, "", "--point", "X,Y,Z,R,G,B", "point light: position, intensity in W/sr; repeatable",
          apply_point, REPEATABLE},
+        {group, "", "--spot", "X,Y,Z,DX,DY,DZ,R,G,B[,OUTER[,INNER]]",
+         "spot light: position, direction in which it shines, intensity on its axis in W/sr, angles from the "
+         "axis in degrees: none from OUTER on (default 45), all up to INNER (default 0); repeatable",
+         apply_spot, REPEATABLE},
         {group, "", "--two-sided-lights", "", "emissive faces shine on both sides (default: on their front)",
          [](Options& o, const OptionValue&) { o.light.two_sided = true; }},
         {group, "", "--studio", "auto|off",

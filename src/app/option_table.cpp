@@ -40,6 +40,8 @@ const std::vector<std::pair<std::string, std::string>>& exclusive_options() {
         {"--fov", "--ortho-height"},
         {"--focal-length", "--ortho-height"},
         {"--film-width", "--ortho-height"},
+        {"--env", "--sky"},
+        {"--env-rotate", "--sky"}, // its azimuth turns it
     };
     return pairs;
 }

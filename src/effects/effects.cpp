@@ -4,6 +4,7 @@
 #include "colour.h"
 #include "paths/path_report.h"
 #include "scene/light_leaves.h"
+#include "scene/lights.h"
 #include "scene/lobes.h"
 #include "scene/material_override.h"
 #include "scene/material_table.h"
@@ -109,19 +110,28 @@ private:
 };
 
 void find_delta_lights(const Scene& scene, const Options& options, EffectFinder& finder) {
-    const auto is_point = [](const Light& light) { return light.kind == LIGHT_POINT; };
-    const auto points = std::count_if(scene.lights.begin(), scene.lights.end(), is_point);
-    const auto suns = std::ptrdiff_t(scene.lights.size()) - points;
     std::vector<std::string> parts;
-    if (points > 0)
-        parts.push_back(fmt::format("{} by {}", points, describe_light(scene, options, "--point")));
-    if (suns > 0)
-        parts.push_back(fmt::format("{} by {}", suns, describe_light(scene, options, "--sun")));
+    std::string first = "--point";
+    for (const u32 kind : {LIGHT_POINT, LIGHT_SUN})
+        for (const SourceCount& lights : count_lights(scene, kind)) {
+            if (parts.empty())
+                first = lights.source;
+            parts.push_back(
+                fmt::format("{} by {}", lights.count, describe_light(scene, options, lights.source)));
+        }
     const bool given = !options.light.points.empty() || !options.light.suns.empty();
     if (parts.empty())
-        parts.push_back(given ? "no --point, no --sun with power" : "no --point, no --sun");
+        parts.push_back(given ? "no --point, no --spot, no --sun with power"
+                              : "no --point, no --spot, no --sun");
     finder.fact(EFFECT_DELTA_LIGHT, !scene.lights.empty(), fmt::format("{}", fmt::join(parts, ", ")),
-                place_of(options, points > 0 ? "--point" : "--sun"));
+                place_of(options, first));
+}
+
+void find_spots(const Scene& scene, EffectFinder& finder) {
+    const auto is_spot = [](const Light& light) { return LIGHT_SHARPNESS(light) > 0; };
+    const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), is_spot);
+    finder.fact(EFFECT_SPOT, count > 0,
+                count > 0 ? fmt::format("{} shine within a cone", count) : "no light shines within a cone");
 }
 
 void find_environment(const Scene& scene, const Options& options, EffectFinder& finder) {
@@ -129,10 +139,11 @@ void find_environment(const Scene& scene, const Options& options, EffectFinder& 
     const bool map = !sky.texels.empty();
     const bool bright = largest_component(sky.radiance) > 0;
     const bool is_backdrop = !bright && scene.background && largest_component(*scene.background) > 0;
-    const bool given =
-        scene.is_studio || !options.light.environment_file.empty() || options.light.environment;
-    const std::string option = describe_light(scene, options, "--env");
-    const SourcePlace place = place_of(options, "--env");
+    const bool given = scene.is_studio || !options.light.environment_file.empty() ||
+                       options.light.environment || options.light.sky;
+    const char* const name = options.light.sky ? "--sky" : "--env";
+    const std::string option = describe_light(scene, options, name);
+    const SourcePlace place = place_of(options, name);
     finder.fact(EFFECT_ENVIRONMENT, bright || is_backdrop,
                 is_backdrop
                     ? describe_option(options, "--background") + ": radiance above 0, to the camera alone"
@@ -214,6 +225,14 @@ void find_smooth_normals(const Scene& scene, EffectFinder& finder) {
 void find_cut_outs(EffectFinder& finder) {
     finder.material(EFFECT_CUT_OUT, "no coverage below 1",
                     [](const Material& m) { return (m.flags & MATERIAL_CUT_OUT) != 0; });
+}
+
+bool is_conductor(const Material& m) {
+    return m.fresnel == FRESNEL_CONDUCTOR && (m.lobes & (LOBE_GLOSSY | LOBE_MIRROR));
+}
+
+void find_conductors(EffectFinder& finder) {
+    finder.material(EFFECT_CONDUCTOR, "no material has a complex index of refraction", is_conductor);
 }
 
 void find_filter(const Options& options, EffectFinder& finder) {
@@ -315,6 +334,8 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_light_tree(scene, options, accepted_kinds(effects.paths), finder);
     find_motion_blur(scene, options, finder);
     find_depth_of_field(scene, options, finder);
+    find_spots(scene, finder);
+    find_conductors(finder);
     find_interreflection(scene, options, finder);
 
     effects.list = finder.take();

@@ -2,6 +2,7 @@
 #include "effects/take_out.h"
 
 #include "effects/effect_table.h"
+#include "scene/conductors.h"
 #include "scene/emission.h"
 #include "scene/lobes.h"
 #include "scene/vectors.h"
@@ -19,6 +20,12 @@ void take_out_area_lights(Scene& scene) {
     scene.emitters.clear();
     for (Triangle& triangle : scene.triangles)
         triangle.emitter = NO_INDEX;
+}
+
+void take_out_cones(Scene& scene) {
+    for (Light& light : scene.lights)
+        if (LIGHT_SHARPNESS(light) > 0)
+            light.axis_x = light.axis_y = light.axis_z = light.one_minus_cos = LIGHT_SHARPNESS(light) = 0;
 }
 
 /// The mean of the map's texels over the sphere, factor included.
@@ -81,6 +88,17 @@ void take_out_rough_refraction(Scene& scene) {
             material.alpha_x = material.alpha_y = 0;
             material.roughness_sqrt_x = material.roughness_sqrt_y = 0;
             material.map_roughness = NO_INDEX;
+        }
+}
+
+void take_out_conductors(Scene& scene) {
+    for (Material& material : scene.materials)
+        if (material.fresnel == FRESNEL_CONDUCTOR) {
+            const ConductorIndex index{to_dvec3(material.transmission), to_dvec3(material.specular)};
+            const glm::dvec3 head_on = conductor_head_on(index);
+            material.specular = {float(head_on.x), float(head_on.y), float(head_on.z), material.specular.w};
+            material.transmission = {1, 1, 1, material.transmission.w};
+            material.fresnel = FRESNEL_SCHLICK;
         }
 }
 
@@ -147,6 +165,8 @@ void take_out_lights(u32 effects, Scene& scene) {
         take_out_area_lights(scene);
     if (effects & EFFECT_DELTA_LIGHT)
         scene.lights.clear();
+    if (effects & EFFECT_SPOT)
+        take_out_cones(scene);
     if (effects & EFFECT_ENVIRONMENT) {
         set_sky(scene.environment, glm::dvec3(0));
         if (scene.background)
@@ -160,6 +180,8 @@ void take_out_lobes(u32 effects, Scene& scene) {
     for (const LobeSpec& lobe : LOBE_SPECS)
         if (effects & lobe.effect)
             take_out_lobe(lobe.bit, scene);
+    if (effects & EFFECT_CONDUCTOR)
+        take_out_conductors(scene);
     if (effects & EFFECT_ROUGH_REFRACTION)
         take_out_rough_refraction(scene);
     if (effects & EFFECT_PART_GLASS)

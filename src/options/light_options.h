@@ -11,15 +11,35 @@ namespace clrt {
 
 /// The sun: a disc at infinity.
 struct SunOptions {
-    glm::dvec3 towards{0, 1, 0}; ///< direction to the sun, any length but 0
-    glm::dvec3 irradiance{0};    ///< at normal incidence, linear RGB
-    double diameter_degrees = 0; ///< angular diameter; 0 is a delta light
+    glm::dvec3 towards{0, 1, 0};  ///< direction to the sun, any length but 0
+    glm::dvec3 irradiance{0};     ///< at normal incidence, linear RGB
+    double diameter_degrees = 0;  ///< angular diameter; 0 is a delta light
+    const char* source = "--sun"; ///< by what it is there, in messages
 };
 
-/// A point light.
+/// The cone in which a spot light shines: by all of its intensity up to the inner angle from the axis, not at
+/// all from the outer one on, in between by the square of (cos a - cos outer) / (cos inner - cos outer), as
+/// glTF's KHR_lights_punctual has it.
+struct SpotCone {
+    glm::dvec3 direction{0, 0, -1}; ///< in which it shines, any length but 0
+    double outer_degrees = 45;      ///< 0 to 180; 0: no light
+    double inner_degrees = 0;       ///< 0 to the outer angle
+};
+
+/// A point light, or a spot.
 struct PointOptions {
-    glm::dvec3 position{0};  ///< scene units
-    glm::dvec3 intensity{0}; ///< W/sr per channel, lengths in scene units
+    glm::dvec3 position{0};         ///< scene units
+    glm::dvec3 intensity{0};        ///< W/sr per channel, lengths in scene units
+    std::optional<SpotCone> cone{}; ///< absent: it shines all around
+    const char* source = "--point"; ///< by what it is there, in messages
+};
+
+/// A clear sky with its sun, by the scattering of light in air (scene/daylight.h).
+struct SkyOptions {
+    double elevation_degrees = 45; ///< of the sun above the horizon, -12 to 90
+    double azimuth_degrees = 0;    ///< of the sun, clockwise seen from above; 0: -z, where z is up +y
+    double turbidity = 2.5;        ///< optical depth of the air with haze over that of clean air, 1 to 10
+    double ground_albedo = 0.2;    ///< of the ground around, 0 to 1
 };
 
 /// What camera rays that hit nothing show, in place of the environment and the discs of suns. It lights
@@ -40,6 +60,7 @@ struct LightOptions {
     std::optional<glm::dvec3> environment; ///< constant radiance
     double environment_scale = 1;
     double environment_rotation_degrees = 0; ///< about +Y
+    std::optional<SkyOptions> sky;           ///< in place of the environment, with a sun of its own
     std::vector<SunOptions> suns;
     std::vector<PointOptions> points;
     bool two_sided = false; ///< emissive faces shine on both sides

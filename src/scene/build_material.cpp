@@ -50,6 +50,9 @@ public:
         case Reflection::DIELECTRIC:
             set_dielectric(from_.transmission);
             break;
+        case Reflection::CONDUCTOR:
+            set_conductor();
+            break;
         }
         set_extension_flags();
         set_emission();
@@ -185,6 +188,18 @@ private:
             m_.lobes |= LOBE_COAT;
         if (is_positive(from_.sheen.value))
             m_.lobes |= LOBE_SHEEN;
+    }
+
+    /// Nothing below a metal's surface is seen.
+    void set_conductor() {
+        const auto inside = [](const glm::dvec3& index, double smallest) {
+            return glm::clamp(index, smallest, CONDUCTOR_LARGEST_INDEX);
+        };
+        set_lobe(inside(from_.conductor.k, 0));
+        m_.transmission = to_vec4(inside(from_.conductor.eta, CONDUCTOR_SMALLEST_ETA), from_.ior);
+        m_.fresnel = FRESNEL_CONDUCTOR;
+        if (from_.whitted_mirror)
+            m_.flags |= MATERIAL_WHITTED_MIRROR;
     }
 
     /// F0 = mix(F, base, metallic), where F is the part's that is no metal; matte base (1 - metallic) of what

@@ -8,6 +8,10 @@
 
 namespace clrt {
 
+/// Indices of conductors are kept within these: squares of their squares fit floats, and an index of 0, of
+/// which the reflectance head-on has no value, is one of total reflection.
+constexpr double CONDUCTOR_LARGEST_INDEX = 1e4, CONDUCTOR_SMALLEST_ETA = 1e-3;
+
 /// GGX lobes narrower than this become delta lobes: microfacet arithmetic is tested down to alpha = 1e-4 and
 /// the pictures do not differ from there on.
 constexpr double SMOOTH_ALPHA = 1e-4;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/load_scene.h"
 
+#include "colour.h"
 #include "error.h"
 #include "output/standard_streams.h"
 #include "scene/assemble_geometry.h"
@@ -8,6 +9,7 @@
 #include "scene/camera_fit.h"
 #include "scene/camera_motion.h"
 #include "scene/cut_vast.h"
+#include "scene/daylight.h"
 #include "scene/emission.h"
 #include "scene/environment.h"
 #include "scene/far_notices.h"
@@ -143,13 +145,26 @@ std::vector<double> build_materials(const std::vector<MaterialDescription>& desc
     return exitance;
 }
 
+/// The sky that is asked for; its sun joins the others.
+Daylight add_daylight(const glm::dvec3& up, LightOptions& light) {
+    Daylight daylight = make_daylight(*light.sky, up);
+    daylight.sun.irradiance *= light.environment_scale;
+    if (largest_component(daylight.sun.irradiance) > 0)
+        light.suns.push_back(daylight.sun);
+    return daylight;
+}
+
 /// Emitters first, which the studio asks for; the ground last, which no fit may see.
-void load_camera_and_lights(const SceneRequest& request, const std::vector<double>& exitance,
-                            const Bounds& bounds, Scene& scene, NoticeList& notices) {
+void load_camera_and_lights(const SceneRequest& request, const SceneDescription& description,
+                            const std::vector<double>& exitance, const Bounds& bounds, Scene& scene,
+                            NoticeList& notices) {
     Emitters emitters = build_emitters(scene.positions, scene.triangles, exitance);
     scene.emitters = std::move(emitters.emitters);
     LightOptions light = request.light;
-    const bool has_light = !scene.emitters.empty() || !light.points.empty() || !light.suns.empty();
+    light.points.insert(light.points.end(), description.points.begin(), description.points.end());
+    light.suns.insert(light.suns.end(), description.suns.begin(), description.suns.end());
+    const bool has_light =
+        light.sky || !scene.emitters.empty() || !light.points.empty() || !light.suns.empty();
     scene.is_studio = light.studio && !has_light && !light.environment && light.environment_file.empty();
     scene.camera = fit_camera(request.camera, request.size, scene, bounds, notices);
     note_far_options(scene.camera, request.size, light.points, bounds, notices);
@@ -157,11 +172,16 @@ void load_camera_and_lights(const SceneRequest& request, const std::vector<doubl
     if (scene.is_studio)
         light = studio_light(light, scene, up, notices);
 
+    std::optional<Daylight> daylight;
+    if (light.sky)
+        daylight = add_daylight(up, light);
     scene.radius = bounds.radius() * scene.normalisation.scale;
     Lights lights = build_lights(light, scene.normalisation, scene.radius, notices);
     scene.lights = std::move(lights.lights);
+    scene.light_sources = std::move(lights.sources);
     scene.emitted_power = emitters.power + lights.power;
-    scene.environment = load_environment(light, has_light, notices);
+    scene.environment = daylight ? map_environment(daylight->image, light.environment_scale, 0, notices)
+                                 : load_environment(light, has_light, notices);
     if (light.background)
         scene.background = light.background->radiance;
     if (light.ground && light.ground->albedo)
@@ -231,7 +251,7 @@ Scene load_all(SceneRequest request, Progress& progress) {
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
                                      path, cut.vast, cut.vast + cut.added));
     store_vertex_colours(scene, path);
-    load_camera_and_lights(request, exitance, bounds, scene, notices);
+    load_camera_and_lights(request, description, exitance, bounds, scene, notices);
     finish_moves(request.scene.end_path, scene);
     scene.notices = notices.lines();
     return scene;

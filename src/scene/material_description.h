@@ -36,7 +36,13 @@ enum class Reflection {
     SCHLICK,  ///< `specular` head-on, 1 at grazing angles
     /// Metallic-roughness: Schlick with F0 = mix(dielectric_f0, base, metallic), matte base (1 - metallic)
     METALLIC,
-    DIELECTRIC ///< reflection and refraction with exact Fresnel; no matte part
+    DIELECTRIC, ///< reflection and refraction with exact Fresnel; no matte part
+    CONDUCTOR   ///< exact Fresnel by `conductor`; no matte part
+};
+
+/// Complex index of refraction, channel by channel: eta + i k.
+struct ConductorIndex {
+    glm::dvec3 eta{1}, k{0};
 };
 
 /// Something that a material asks for and does not get.
@@ -63,6 +69,7 @@ struct MaterialDescription {
     double anisotropy_rotation = 0;       ///< turns of the stretched highlight, from growing u to growing v
     glm::dvec3 specular_tint{1};          ///< of METALLIC: factor of dielectric_f0
     double ior = DEFAULT_IOR;             ///< of DIELECTRIC and transmission_weight, above 0
+    ConductorIndex conductor;             ///< of CONDUCTOR, from 0
     glm::dvec3 transmission{1};           ///< of DIELECTRIC: tint of each crossing
 
     /// Of METALLIC, in [0,1]: the share of what is no metal that is glass of index `ior`. It is tinted by the

@@ -21,10 +21,11 @@ std::string roughness(const Material& m) {
 }
 
 std::string reflection(const Material& m, const char* name) {
-    const std::string kind = m.flags & MATERIAL_METALLIC_ROUGHNESS
-                                 ? fmt::format("F0 from Kd and Pm {:.4g}", MATERIAL_METALLIC(m))
-                             : m.fresnel == FRESNEL_SCHLICK ? "F0 " + colour(m.specular)
-                                                            : colour(m.specular);
+    const std::string kind =
+        m.flags & MATERIAL_METALLIC_ROUGHNESS ? fmt::format("F0 from Kd and Pm {:.4g}", MATERIAL_METALLIC(m))
+        : m.fresnel == FRESNEL_CONDUCTOR ? "index " + colour(m.transmission) + " + i " + colour(m.specular)
+        : m.fresnel == FRESNEL_SCHLICK   ? "F0 " + colour(m.specular)
+                                         : colour(m.specular);
     return fmt::format("{} {}", name, kind);
 }
 

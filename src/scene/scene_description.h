@@ -2,6 +2,7 @@
 // What a reader makes of a file: everything in terms of the field, nothing of the format's own.
 #pragma once
 
+#include "options/light_options.h"
 #include "output/named_file.h"
 #include "scene/material_description.h"
 #include "scene/mesh.h"
@@ -15,6 +16,8 @@ struct SceneDescription {
     Mesh mesh;
     std::vector<Remark> colour_remarks; ///< about Mesh::colours, not said where another surface takes theirs
     std::vector<MaterialDescription> materials; ///< those that triangles use
+    std::vector<PointOptions> points;           ///< lights that are no geometry, in the units of the options
+    std::vector<SunOptions> suns;
     std::string z_up_reason;      ///< "it ...": why its up is z; empty where the file does not tell
     std::vector<NamedFile> files; ///< opened beside the scene's own
     size_t dropped_faces = 0;     ///< with a non-finite vertex or fewer than three corners

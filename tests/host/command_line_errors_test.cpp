@@ -171,6 +171,16 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--sun", "0,1,0,1,1,1,91"},
         {"--point", "0,1,0,1,1"},
         {"--point", "0,1,0,1,1,-1"},
+        {"--spot", "0,1,0,0,0,0,1,1,1"},
+        {"--spot", "0,1,0,0,-1,0,1,1,-1"},
+        {"--spot", "0,1,0,0,-1,0,1,1"},
+        {"--spot", "0,1,0,0,-1,0,1,1,1,30,31"},
+        {"--spot", "0,1,0,0,-1,0,1,1,1,181"},
+        {"--sky", "30"},
+        {"--sky", "91,0"},
+        {"--sky", "-13,0"},
+        {"--sky", "30,0,0.5"},
+        {"--sky", "30,0,3,1.5"},
         {"--studio", "on"},
         {"--ground", "grey"},
         {"--ground", "0.5,0.5,1.01"},
@@ -209,6 +219,8 @@ TEST(CommandLine, ContradictionsAreNamed) {
     };
     expect({"-q", "-v"}, "options --quiet and --verbose: expected one of them");
     expect({"--cache", "on", "--no-cache"}, "options --cache and --no-cache");
+    expect({"--env", "1,1,1", "--sky", "30,0"}, "options --env and --sky: expected one of them");
+    expect({"--env-rotate", "9", "--sky", "30,0"}, "options --env-rotate and --sky");
     expect({"--fov", "40", "--focal-length", "35", "--film-width", "24"}, "options --fov and --focal-length");
     expect({"--projection", "orthographic", "--fov", "40"}, "option --fov: expected --ortho-height");
     expect({"--projection", "orthographic", "--focal-length", "35", "--film-width", "24"},

@@ -2,6 +2,7 @@
 // Every rule of the MTL table, and what it makes for the kernels.
 #include "scene/readers/mtl_rules.h"
 
+#include "scene/conductors.h"
 #include "scene/material_table.h"
 #include "scene_support.h"
 #include "support/mtl_material.h"
@@ -185,6 +186,39 @@ TEST(MaterialRules, MatteAndReflectionTogetherGiveBackAtMostWhatTheyGet) {
     }
     expect_colour(Ruled("Kd 0.5\nKs 0.5\n").m.matte, 0.5, 0.5, 0.5);
     expect_colour(Ruled("illum 1\nKd 1\nKs 1\n").m.matte, 1, 1, 1);
+}
+
+TEST(MaterialRules, EtaMakesAConductor) {
+    const Ruled r("Kd 0.9 0.7 0.2\nKs 1\nPm 1\nPr 0.5\neta 0.2 1.1 1.2\nk 3.9 2.4 2.2\n");
+    EXPECT_EQ(r.rule, "conductor eta, k, Pr");
+    EXPECT_EQ(r.m.fresnel, FRESNEL_CONDUCTOR);
+    EXPECT_EQ(r.m.lobes, LOBE_GLOSSY) << "nothing below a metal's surface is seen";
+    expect_colour(r.m.transmission, 0.2, 1.1, 1.2);
+    expect_colour(r.m.specular, 3.9, 2.4, 2.2);
+    EXPECT_FLOAT_EQ(r.m.alpha_x, 0.25f);
+    const Ruled polished("conductor gold\nNs 20\n");
+    EXPECT_EQ(polished.m.lobes, LOBE_MIRROR);
+    EXPECT_TRUE(polished.m.flags & MATERIAL_WHITTED_MIRROR);
+    // What has no reflectance, or no float to square, is kept away from the kernels.
+    const Ruled odd("eta 0 1e30 1\nk 0 1e30 0\n");
+    expect_colour(odd.m.transmission, CONDUCTOR_SMALLEST_ETA, CONDUCTOR_LARGEST_INDEX, 1);
+    expect_colour(odd.m.specular, 0, CONDUCTOR_LARGEST_INDEX, 0);
+    EXPECT_EQ(count_notices(Ruled("k 2\nKd 1\n").notices, "k without eta has no effect"), 1);
+    EXPECT_EQ(Ruled("k 2\nKd 1\n").m.lobes, LOBE_MATTE);
+}
+
+TEST(MaterialRules, MetalsHaveTheColoursThatTheyAreKnownBy) {
+    const auto head_on = [](const char* name) { return conductor_head_on(*find_conductor(name)); };
+    const glm::dvec3 gold = head_on("gold"), copper = head_on("copper"), silver = head_on("silver");
+    EXPECT_GT(gold.x, 0.95);
+    EXPECT_LT(gold.z, 0.4);
+    EXPECT_GT(copper.x, copper.y + 0.2);
+    EXPECT_GT(copper.y, copper.z);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_GT(silver[c], 0.95);
+        EXPECT_NEAR(head_on("aluminium")[c], 0.92, 0.02);
+        EXPECT_NEAR(head_on("iron")[c], 0.57, 0.03);
+    }
 }
 
 TEST(MaterialRules, PrIsTheRoughnessOfWhateverLobeThereIs) {

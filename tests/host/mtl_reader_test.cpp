@@ -3,6 +3,7 @@
 #include "scene/readers/mtl_reader.h"
 
 #include "error.h"
+#include "scene/conductors.h"
 #include "scene/readers/mtl_libraries.h"
 #include "scene_support.h"
 
@@ -70,6 +71,22 @@ TEST(MtlReader, ReadsEveryKey) {
     EXPECT_EQ(m.pc, 4);
     EXPECT_EQ(m.pcr, 0.1);
     EXPECT_EQ(m.anisor, 1.5);
+}
+
+TEST(MtlReader, MetalsAreGivenByTheirIndexOrTheirName) {
+    const MtlMaterial m = parse_one("eta 0.2 1.1 1.2\nk 3.9 2.4 2.2\n");
+    EXPECT_EQ(m.eta, glm::dvec3(0.2, 1.1, 1.2));
+    EXPECT_EQ(m.k, glm::dvec3(3.9, 2.4, 2.2));
+    for (const std::string& name : conductor_names()) {
+        const MtlMaterial named = parse_one("conductor " + name + " # a metal\n");
+        EXPECT_EQ(named.eta, find_conductor(name)->eta) << name;
+        EXPECT_EQ(named.k, find_conductor(name)->k) << name;
+    }
+    EXPECT_EQ(parse_one("Conductor GOLD\n").eta, find_conductor("gold")->eta);
+    const Parsed p = parse("newmtl m\nconductor unobtainium\n");
+    EXPECT_FALSE(p.materials[0].eta);
+    EXPECT_EQ(count_notices(p.notices, "a.mtl:2: conductor 'unobtainium' is no known metal"), 1);
+    EXPECT_EQ(count_notices(p.notices, "aluminium, brass, copper, gold"), 1);
 }
 
 TEST(MtlReader, AbsentKeysStayAbsent) {

@@ -237,6 +237,7 @@ TEST(BsdfEnergy, NothingIsLostWhereNothingAbsorbs) {
         materials.add("Pm 1\nKd 1 1 1\n" + roughness);
         materials.add("Pm 0\nKd 1 1 1\n" + roughness);
         materials.add("illum 3\nKd 0 0 0\nKs 1 1 1\n" + roughness);
+        materials.add("eta 0.001\nk 5\n" + roughness); // absorbs 2e-4 head-on
         materials.add("illum 5\nKd 1 1 1\nKs 0.3 0.3 0.3\n" + roughness);
         for (const double index : {1.1, 1.5, 2.4})
             materials.add(fmt::format("illum 7\nNi {}\n", index) + roughness);

@@ -4,9 +4,11 @@
 #include "probes/kernel_probe.h"
 #include "probes/random_inputs.h"
 #include "probes/reference.h"
+#include "scene/conductors.h"
 #include "support/test_device.h"
 
 #include <algorithm>
+#include <complex>
 #include <gtest/gtest.h>
 
 using namespace clrt;
@@ -31,6 +33,8 @@ KernelProbe& probe() {
         made.add<float(float, float)>("schlick", "fresnel_schlick((real3)(a), b).x");
         made.add<vec4(vec4, float)>("schlick_color",
                                     "probe_vec4(fresnel_schlick(vector_from(a), b), REAL(0.0))");
+        made.add<float(float, float, float)>("conductor", "fresnel_conductor(a, b, c)");
+        made.add<float(float, float)>("conductor_mean", "fresnel_conductor_mean((real3)(a), (real3)(b)).x");
         // a: wo, b: the normal on its side, c: eta; gives the refracted direction and the cosine that went in
         made.add<vec4(vec4, vec4, float)>(
             "refract", "real t; const real ci = vector_dot(vector_from(a), vector_from(b));"
@@ -46,6 +50,7 @@ KernelProbe& double_probe() {
         KernelProbe made(test_device(), {"scattering/fresnel.h"}, {Precision::DOUBLE, {}});
         made.add<double(float, float)>("dielectric",
                                        "real t; out = fresnel_dielectric((real)a, (real)b, &t);");
+        made.add<double(float, float, float)>("conductor", "fresnel_conductor((real)a, (real)b, (real)c)");
         return made;
     }();
     return instance;
@@ -62,6 +67,31 @@ std::vector<float> ratios() {
         for (const double eta : {index, 1 / index})
             ratios.push_back(float(eta));
     return ratios;
+}
+
+struct Index {
+    float eta, k;
+};
+
+/// Metals, what absorbs next to nothing or nothing, what reflects all, and nearly no boundary.
+std::vector<Index> conductors() {
+    std::vector<Index> found = {{0.001f, 0},    {0.001f, 5}, {1.5f, 0},        {1.5f, 1e-6f}, {0.7f, 0},
+                                {1, 1e-3f},     {1, 1},      {1.0001f, 1e-4f}, {10, 10},      {1e4f, 1e4f},
+                                {0.001f, 1e4f}, {1e4f, 0},   {2.5f, 1e-20f}};
+    for (const std::string& name : conductor_names()) {
+        const ConductorIndex index = *find_conductor(name);
+        for (int c = 0; c < 3; ++c)
+            found.push_back({float(index.eta[c]), float(index.k[c])});
+    }
+    return found;
+}
+
+/// Of the reflectance in numbers of roundoff u: seven roundings, and the root of (eta + i k)^2 - sin^2 where
+/// next to nothing is left of it, near a critical angle.
+double conductor_error(const Index& index, float cosine, double u) {
+    const std::complex<double> n(index.eta, index.k);
+    const double left = std::abs(n * n - (1 - double(cosine) * cosine));
+    return 8 * u + 16 * u / std::sqrt(std::max(left, u));
 }
 
 /// Cosines from 0 to 1, denser at both ends.
@@ -83,6 +113,56 @@ TEST(Fresnel, ReflectanceOfDielectricsIsThatOfTheTextbook) {
         for (size_t i = 0; i < grid.size(); ++i)
             ASSERT_NEAR(got[i], reference::fresnel_dielectric(grid[i], eta), REFLECTANCE)
                 << "cos " << grid[i] << " eta " << eta;
+    }
+}
+
+TEST(Fresnel, ReflectanceOfConductorsIsThatOfTheTextbook) {
+    const std::vector<float> grid = cosines(2048);
+    for (const Index& index : conductors()) {
+        const std::vector<float> got =
+            probe().run<float>("conductor", grid, same(index.eta, grid.size()), same(index.k, grid.size()));
+        for (size_t i = 0; i < grid.size(); ++i)
+            ASSERT_NEAR(got[i], reference::fresnel_conductor(grid[i], index.eta, index.k),
+                        conductor_error(index, grid[i], FLOAT_U))
+                << "cos " << grid[i] << " eta " << index.eta << " k " << index.k;
+        if (!test_device().info.fp64)
+            continue;
+        const std::vector<double> twin = double_probe().run<double>(
+            "conductor", grid, same(index.eta, grid.size()), same(index.k, grid.size()));
+        for (size_t i = 0; i < grid.size(); ++i)
+            ASSERT_NEAR(twin[i], reference::fresnel_conductor(grid[i], index.eta, index.k),
+                        conductor_error(index, grid[i], 0x1p-53))
+                << "cos " << grid[i] << " eta " << index.eta << " k " << index.k;
+    }
+}
+
+TEST(Fresnel, ConductorsThatAbsorbNothingAreDielectrics) {
+    const std::vector<float> grid = cosines(512);
+    for (const float eta : ratios()) {
+        const std::vector<float> metal =
+            probe().run<float>("conductor", grid, same(eta, grid.size()), same(0, grid.size()));
+        const std::vector<float> glass = probe().run<float>("dielectric", grid, same(1 / eta, grid.size()));
+        for (size_t i = 0; i < grid.size(); ++i) // 1 / eta is rounded
+            ASSERT_NEAR(metal[i], glass[i], eta < 1.01f ? 2e-3 : 10 * REFLECTANCE)
+                << "cos " << grid[i] << " eta " << eta;
+    }
+    // No boundary reflects nothing, at grazing incidence, too.
+    for (const float none :
+         probe().run<float>("conductor", std::vector<float>{0, 1e-6f, 0.5f, 1}, same(1, 4), same(0, 4)))
+        EXPECT_EQ(none, 0);
+}
+
+TEST(Fresnel, TheMeanOfConductorsIsThatOfTheHemisphere) {
+    for (const std::string& name : conductor_names()) {
+        const ConductorIndex index = *find_conductor(name);
+        for (int c = 0; c < 3; ++c) {
+            double exact = 0;
+            for (int i = 0; i < 4096; ++i)
+                exact += reference::fresnel_conductor(std::sqrt((i + 0.5) / 4096), index.eta[c], index.k[c]);
+            const float got = probe().run<float>("conductor_mean", std::vector<float>{float(index.eta[c])},
+                                                 std::vector<float>{float(index.k[c])})[0];
+            EXPECT_NEAR(got, exact / 4096, 2e-3) << name;
+        }
     }
 }
 

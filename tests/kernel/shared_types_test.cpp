@@ -64,8 +64,8 @@ const Layout EMITTER = {
 const Layout LIGHT = {
     "Light",
     sizeof(Light),
-    {M(vector), M(emission), M(kind), M(probability), M(alias), M(threshold), M(one_minus_cos), M(unused0),
-     M(unused1), M(unused2)}};
+    {M(vector), M(emission), M(kind), M(probability), M(alias), M(threshold), M(one_minus_cos), M(axis_x),
+     M(axis_y), M(axis_z)}};
 #undef M
 #define M(name) MEMBER(EnvironmentTexel, name)
 const Layout ENVIRONMENT_TEXEL = {
@@ -143,7 +143,7 @@ const Layout ARRAY_PLACES = {
 const std::vector<Layout> LAYOUTS = {
     TRIANGLE,           MATERIAL,     TEXTURE,     EMITTER,       LIGHT,
     ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
-    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL, CHAIN,         CHAIN_LAUNCH};
+    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL,  CHAIN,         CHAIN_LAUNCH};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.

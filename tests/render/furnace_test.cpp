@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Furnaces: surroundings of equal radiance, in which every material shows its albedo and nothing else.
 #include "probes/closed_forms.h"
+#include "probes/reference.h"
 #include "render/kernels.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -266,6 +268,26 @@ TEST(Furnace, ASmoothBoundaryOfGlassReflectsAndRefracts) {
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), f + (1 - f) * eta * eta)) << cos_o;
         scene.options.transport.integrator = Integrator::WHITTED;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), f + (1 - f) * eta * eta, 1e-5, 1e-5)) << cos_o;
+    }
+}
+
+TEST(Furnace, ConductorsFollowFresnel) {
+    const double eta = 0.6, k = 2.5;
+    const std::string keys = fmt::format("eta {}\nk {}\n", eta, k);
+    const auto fresnel = [&](double c) { return reference::fresnel_conductor(c, eta, k); };
+    double mean = 0;
+    for (int i = 0; i < 512; ++i)
+        mean += fresnel(std::sqrt((i + 0.5) / 512)) / 512;
+    for (const double cosine : {0.05, 0.3, 1.0}) {
+        expect_albedo(keys, cosine, fresnel(cosine));
+        for (const double roughness : {0.3, 0.8}) {
+            const double alpha = roughness * roughness;
+            const RoughSurface surface{alpha, alpha, cosine, 0};
+            const double lost = 1 - rough_reflection_albedo(surface, [](double) { return 1.0; });
+            expect_albedo(keys + fmt::format("Pr {}\n", roughness), cosine,
+                          rough_reflection_albedo(surface, fresnel) +
+                              multiple_colour(mean, mean_loss(alpha)) * lost);
+        }
     }
 }
 

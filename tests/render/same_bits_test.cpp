@@ -24,15 +24,18 @@ void make_room(TestScene& scene) {
     scene.look({0.2, 1, 0.9}, {0, 0.7, -1}, 80);
 }
 
-/// A smooth ball of glass and a mirror over a floor: sun and point, refraction, mirror, smooth normals.
+/// A smooth ball of glass, a mirror and copper over a floor: sun, point and spot, refraction, mirror,
+/// conductor, smooth normals.
 void make_optics(TestScene& scene) {
     scene.build.material("white", "Kd 0.7 0.7 0.7").material("glass", "Ni 1.5\nTf 0.9 1 0.9\nillum 7");
     scene.build.material("mirror", "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.7\nillum 3");
     scene.build.use("white").floor(4);
     scene.build.use("glass").icosphere({-0.5, 0.6, 0}, 0.5, 2, Facing::OUTWARD, Shading::SMOOTH);
     scene.build.use("mirror").box({0.3, 0.01, -0.6}, {1.1, 0.9, 0.2});
+    scene.build.material("copper", "conductor copper").use("copper").box({-0.1, 0.01, 0.6}, {0.3, 0.3, 0.9});
     scene.options.light.suns.push_back({{1, 2, 1}, {3, 3, 2}, 3});
     scene.options.light.points.push_back({{-1, 2, 1}, {2, 2, 4}});
+    scene.options.light.points.push_back({{1, 2, 1}, {4, 3, 2}, SpotCone{{-1, -2, -1}, 30, 10}, "--spot"});
     scene.look({0, 1.5, 3}, {0, 0.4, 0}, 45);
 }
 

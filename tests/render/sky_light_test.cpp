@@ -2,6 +2,7 @@
 // Light from outside the scene: constant skies and latitude-longitude maps, seen and as irradiance.
 #include "probes/closed_forms.h"
 #include "render/kernels.h"
+#include "scene/daylight.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 
@@ -212,6 +213,32 @@ TEST(SkyLight, TheDimHalfOfAMapLightsAFloorWhateverEndsThePaths) {
                 scene.options.transport.roulette_depth = roulette;
                 EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.5 * irradiance / PI, 1.5e-3, 2e-5));
             }
+}
+
+TEST(SkyLight, AClearSkyAndItsSunLightAFloorByTheirIrradiance) {
+    SkyOptions sky;
+    sky.elevation_degrees = 25;
+    sky.azimuth_degrees = 200;
+    const Daylight light = make_daylight(sky, {0, 1, 0});
+    glm::dvec3 irradiance = light.sun.irradiance * light.sun.towards.y;
+    for (int channel = 0; channel < 3; ++channel) {
+        GreyMap map(light.image.width, light.image.height);
+        for (size_t i = 0; i < map.values.size(); ++i)
+            map.values[i] = light.image.texels[i][channel];
+        irradiance[channel] += map.irradiance({0, 1, 0});
+    }
+    for (const Integrator integrator : {Integrator::PATH, Integrator::DISTRIBUTION}) {
+        TestScene scene;
+        scene.build.material("matte", "Kd 0.5 0.5 0.5").use("matte").floor(1);
+        scene.look_at_point({0, 2, 0.5}, {0, 0, 0});
+        scene.options.light.sky = sky;
+        scene.options.light.environment_scale = 2;
+        scene.options.transport.integrator = integrator;
+        const Film film = scene.render().film;
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_TRUE(agrees(film_estimate(film, channel), 2 * 0.5 / PI * irradiance[channel], 2e-3, 1e-5))
+                << name_of(integrator) << ", channel " << channel;
+    }
 }
 
 TEST(SkyLight, AMirrorShowsTheMapAsItIs) {

@@ -12,15 +12,32 @@ namespace clrt::reference {
 using glm::dvec3;
 
 dvec3 reflection_color(const LobeSet& set, double cosine) {
+    if (set.fresnel == FRESNEL_CONDUCTOR)
+        return {fresnel_conductor(cosine, set.transmission.x, set.specular.x),
+                fresnel_conductor(cosine, set.transmission.y, set.specular.y),
+                fresnel_conductor(cosine, set.transmission.z, set.specular.z)};
     const auto channel = [&](double f0) {
         return set.fresnel == FRESNEL_SCHLICK ? fresnel_schlick(f0, cosine) : f0;
     };
     return {channel(set.specular.x), channel(set.specular.y), channel(set.specular.z)};
 }
 
+namespace {
+
+/// The facets' mean reflectance as the kernels have it: 1 / 21 of Schlick's, three nodes of Gauss's rule for
+/// the weight 2 c of a conductor's.
+dvec3 facet_mean(const LobeSet& set) {
+    if (set.fresnel == FRESNEL_CONDUCTOR)
+        return reflection_color(set, 0.212340538239153) * 0.139653959802914 +
+               reflection_color(set, 0.590533135559265) * 0.458482212719170 +
+               reflection_color(set, 0.911412040487296) * 0.401863827477916;
+    return set.fresnel == FRESNEL_SCHLICK ? set.specular + (dvec3(1) - set.specular) / 21.0 : set.specular;
+}
+
+} // namespace
+
 dvec3 multiple_color(const LobeSet& set, double mean_loss) {
-    const dvec3 f =
-        set.fresnel == FRESNEL_SCHLICK ? set.specular + (dvec3(1) - set.specular) / 21.0 : set.specular;
+    const dvec3 f = facet_mean(set);
     return f * f * (1 - mean_loss) / (dvec3(1) - f * mean_loss);
 }
 

@@ -200,6 +200,10 @@ std::vector<LobeSet> all_lobe_sets() {
     const LobeSet matte{"matte", LOBE_MATTE, {0.75, 0.5, 0.25}};
     const LobeSet glossy{"", LOBE_GLOSSY, {0, 0, 0}, {0.9, 0.6, 0.3}};
     const LobeSet mirror{"mirror", LOBE_MIRROR, {0, 0, 0}, {0.875, 0.75, 0.5}};
+    // Silver, copper and lead, about: FRESNEL_CONDUCTOR has eta and k in these places.
+    const LobeSet metal{"", LOBE_GLOSSY, {0, 0, 0}, {3.9, 2.6, 4.2}, {0.03, 0.8, 2.6}};
+    LobeSet polished = metal;
+    polished.lobes = LOBE_MIRROR;
     const LobeSet coated{"", LOBE_MATTE | LOBE_GLOSSY, {0.5, 0.3, 0.1}, {0.04, 0.04, 0.04}};
     const LobeSet varnished{
         "matte and mirror", LOBE_MATTE | LOBE_MIRROR, {0.5, 0.25, 0.125}, {0.25, 0.25, 0.5}};
@@ -211,6 +215,9 @@ std::vector<LobeSet> all_lobe_sets() {
                                  rough(glossy, "glossy, anisotropic, Schlick", 0.15, 0.6, FRESNEL_SCHLICK),
                                  mirror,
                                  rough(mirror, "mirror, Schlick", 0, 0, FRESNEL_SCHLICK),
+                                 rough(metal, "glossy, conductor", 0.3, 0.3, FRESNEL_CONDUCTOR),
+                                 rough(metal, "glossy, anisotropic, conductor", 0.2, 0.5, FRESNEL_CONDUCTOR),
+                                 rough(polished, "mirror, conductor", 0, 0, FRESNEL_CONDUCTOR),
                                  dielectric("smooth glass from outside", 0, 1 / 1.5),
                                  dielectric("smooth glass from inside", 0, 1.5),
                                  dielectric("rough glass from outside", 0.3, 1 / 1.5),

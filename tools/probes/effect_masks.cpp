@@ -152,6 +152,8 @@ void SceneOfEffects::add_materials() {
     build.material("gloss", tint + "Ks 0.6 0.6 0.5\nNs 30\nillum 2" + map("map_Ks"));
     build.material("brushed", tint + "Pm 0.8\nPr 0.4\naniso 0.7" + (has(EFFECT_MATTE) ? map("map_Pr") : ""));
     build.material("mirror", tint + "Ks 0.7 0.7 0.6\nillum 3" + map("map_Ks"));
+    build.material("copper", "conductor copper");
+    build.material("gold", "conductor gold\nPr 0.4");
     build.material("glass", "Ni 1.5\nTf 0.9 1 0.9\nillum 7");
     build.material("frosted", "Ni 1.4\nillum 7\nPr 0.5" + map("map_Pr"));
     const std::string turned = "\nPr 0.4\naniso 0.7\nanisor 0.2";
@@ -181,6 +183,12 @@ void SceneOfEffects::add_bodies() {
     }
     if (has(EFFECT_MIRROR))
         build.use("mirror").box({0.9, 0.01, -0.9}, {1.5, 0.9, -0.4});
+    if (has(EFFECT_CONDUCTOR)) {
+        if (has(EFFECT_MIRROR))
+            build.use("copper").box({1.5, 0.01, 0.2}, {1.8, 0.6, 0.5});
+        if (has(EFFECT_GLOSSY))
+            build.use("gold").icosphere({-1.2, 0.3, 0.1}, 0.25, 1);
+    }
     if (has(EFFECT_REFRACTION))
         build.use("glass").icosphere({-0.4, 0.4, 0.3}, 0.3, 1);
     if (has(EFFECT_ROUGH_REFRACTION))
@@ -222,6 +230,8 @@ void SceneOfEffects::add_lights() {
         options.light.suns.push_back({{1, 2, 1}, {3, 3, 2}, 3});
         options.light.points.push_back({{-1, 2, 1}, {2, 2, 4}});
     }
+    if (has(EFFECT_SPOT))
+        options.light.points.push_back({{1, 2, 1}, {5, 4, 2}, SpotCone{{-1, -1.5, -1}, 30, 10}, "--spot"});
     if (has(EFFECT_ENVIRONMENT))
         options.light.environment = glm::dvec3(0.4, 0.5, 0.6);
     if (has(EFFECT_ENVIRONMENT_MAP)) {

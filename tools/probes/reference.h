@@ -6,6 +6,7 @@
 #include "probes/random_inputs.h"
 
 #include <algorithm>
+#include <complex>
 
 namespace clrt::reference {
 
@@ -30,6 +31,15 @@ inline double fresnel_dielectric(double cos_i, double eta) {
 
 inline double fresnel_schlick(double f0, double cos_i) {
     return f0 + (1 - f0) * std::pow(1 - std::clamp(cos_i, 0.0, 1.0), 5);
+}
+
+/// Of a conductor of index eta + i k beside air: the same mean, with complex amplitudes.
+inline double fresnel_conductor(double cos_i, double eta, double k) {
+    using Complex = std::complex<long double>;
+    const long double c = cos_i;
+    const Complex n(eta, k), ct = std::sqrt(Complex(1) - Complex(1 - c * c) / (n * n));
+    const Complex s = (c - n * ct) / (c + n * ct), p = (n * c - ct) / (n * c + ct);
+    return double((std::norm(s) + std::norm(p)) / 2);
 }
 
 /// GGX by slopes: D(h) = P22(-h.x / h.z, -h.y / h.z) / h.z^4.

@@ -2,6 +2,7 @@
 #include "scene/readers/mtl_reader.h"
 
 #include "error.h"
+#include "scene/conductors.h"
 #include "scene/readers/mtl_texture.h"
 #include "scene/readers/text_encoding.h"
 #include "scene/text_scanner.h"
@@ -29,6 +30,8 @@ constexpr ColourKey COLOUR_KEYS[] = {
     {"ke", &MtlMaterial::ke, UNLIMITED},
     {"tf", &MtlMaterial::tf, 1},
     {"attenuation", &MtlMaterial::attenuation, 1},
+    {"eta", &MtlMaterial::eta, UNLIMITED},
+    {"k", &MtlMaterial::k, UNLIMITED},
 };
 
 struct NumberKey {
@@ -164,6 +167,19 @@ std::optional<int> read_illum(const Statement& statement, NoticeList& notices) {
     return int(value);
 }
 
+/// The metal's index; an unknown name is none.
+void read_conductor(const Statement& statement, MtlMaterial& material, NoticeList& notices) {
+    const std::string name = lower(trim(without_comment(statement.value)));
+    if (const auto index = find_conductor(name)) {
+        material.eta = index->eta;
+        material.k = index->k;
+    } else {
+        notices.add(fmt::format("{} {} is no known metal and ignored: expected one of {}", statement.key,
+                                clrt::quoted(name), fmt::join(conductor_names(), ", ")),
+                    statement.place);
+    }
+}
+
 /// Reads a statement into the table's member; false if the key is none of the table's.
 bool read_from_tables(const Statement& statement, const std::string& key, MtlMaterial& material,
                       NoticeList& notices) {
@@ -193,7 +209,9 @@ void read_statement(const Statement& statement, MtlMaterial& material, NoticeLis
     material.key_lines[key] = statement.place.line;
     if (read_from_tables(statement, key, material, notices))
         return;
-    if (key == "ka")
+    if (key == "conductor")
+        read_conductor(statement, material, notices);
+    else if (key == "ka")
         material.ka = read_ambient(statement);
     else if (key == "illum")
         material.illum = read_illum(statement, notices);

@@ -22,14 +22,15 @@ struct MtlTexture : TextureUse {
 
 /// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their
 /// ranges: Ka Kd Ks Tf d Tr Pr Pm Ps Pcr aniso attenuation thin_walled in [0,1], Ke,
-/// Ns, Pc, anisor and attenuation_distance not below 0, Ni above 0. The last three keys are our own, named
-/// as in glTF.
+/// Ns, Pc, anisor, eta, k and attenuation_distance not below 0, Ni above 0. attenuation, attenuation_distance
+/// and thin_walled are our own, named as in glTF.
 struct MtlMaterial {
     std::string name;
     SourcePlace place;
     MtlWriter writer;                        ///< of the library
     std::map<std::string, size_t> key_lines; ///< where each key was given last; lower case, no other names
     std::optional<glm::dvec3> ka, kd, ks, ke, tf, attenuation;
+    std::optional<glm::dvec3> eta, k; ///< complex index of refraction; `conductor` gives both by a name
     std::optional<double> ns, ni, d, tr, pr, pm, ps, pc, pcr, aniso, anisor;
     std::optional<double> attenuation_distance, thin_walled;
     std::optional<int> illum; ///< 0..9

@@ -22,6 +22,7 @@ enum class Model {
     RAY_TRACED,     ///< Ks without Fresnel, rough by Ns below MIRROR_NS, else a mirror
     SCHLICK_MIRROR, ///< a mirror with Schlick's Fresnel from Ks
     DIELECTRIC,     ///< reflection and refraction with exact Fresnel; no matte part
+    CONDUCTOR,      ///< exact Fresnel by eta and k, rough by Pr
     METALLIC        ///< F0 = mix(0.04, Kd, Pm) with Schlick's Fresnel, rough by Pr
 };
 
@@ -32,7 +33,7 @@ struct Rule {
 };
 
 /// The table. Models 0..9 are those of the MTL specification (Wavefront, 1995); METALLIC_RULE replaces them
-/// where Pm or map_Pm is given (Hable and others' PBR extension).
+/// where Pm or map_Pm is given, CONDUCTOR_RULE where eta is (Hable and others' PBR extension).
 constexpr Rule ILLUM_RULES[] = {
     {0, Model::MATTE, "matte Kd"},
     {1, Model::MATTE, "matte Kd"},
@@ -45,6 +46,7 @@ constexpr Rule ILLUM_RULES[] = {
     {8, Model::RAY_TRACED, "matte Kd, reflection Ks by Ns"},
     {9, Model::DIELECTRIC, "dielectric Ni, Tf"},
 };
+constexpr Rule CONDUCTOR_RULE = {-1, Model::CONDUCTOR, "conductor eta, k, Pr"};
 constexpr Rule METALLIC_RULE = {-1, Model::METALLIC, "metallic-roughness Kd, Pm, Pr"};
 
 bool is_positive(const std::optional<glm::dvec3>& colour) {
@@ -53,6 +55,8 @@ bool is_positive(const std::optional<glm::dvec3>& colour) {
 
 /// Ks without the key is 1 with its map, else 0. Without illum: 2 if Ks > 0, else 1.
 const Rule& find_rule(const MtlMaterial& mtl) {
+    if (mtl.eta)
+        return CONDUCTOR_RULE;
     if (mtl.pm || mtl.map_pm)
         return METALLIC_RULE;
     const bool gloss = is_positive(mtl.ks) || (mtl.map_ks && !mtl.ks);
@@ -82,6 +86,8 @@ public:
         to_.ior = mtl_.ni.value_or(DEFAULT_IOR);
         set_base();
         set_reflection();
+        if (mtl_.k && !mtl_.eta)
+            remark("k without eta has no effect", mtl_.place_of("k"));
         set_emission();
         set_coverage();
         set_shape_maps();
@@ -113,9 +119,10 @@ private:
         return fmt::format("{} is 0, so map_{} has no effect", name, name);
     }
 
-    /// Kd without the key: 1 with map_Kd, 0 beside Ks, Ke or Tf, else 0.8. Glass has no matte part.
+    /// Kd without the key: 1 with map_Kd, 0 beside Ks, Ke or Tf, else 0.8. Glass and metals by their index
+    /// have no matte part.
     void set_base() {
-        if (rule_.model == Model::DIELECTRIC)
+        if (rule_.model == Model::DIELECTRIC || rule_.model == Model::CONDUCTOR)
             return;
         const bool beside = mtl_.ks || mtl_.ke || mtl_.tf;
         to_.base = mapped(mtl_.kd, mtl_.map_kd, glm::dvec3(beside ? 0.0 : DEFAULT_REFLECTANCE));
@@ -131,6 +138,10 @@ private:
             break;
         case Model::DIELECTRIC: // Ks, Kd and Ns are ignored; Pr makes the surface rough
             to_.reflection = Reflection::DIELECTRIC;
+            set_roughness();
+            break;
+        case Model::CONDUCTOR:
+            set_conductor();
             set_roughness();
             break;
         case Model::METALLIC:
@@ -158,6 +169,13 @@ private:
         }
         to_.reflection = rule_.model == Model::SCHLICK_MIRROR ? Reflection::SCHLICK : Reflection::CONSTANT;
         to_.whitted_mirror = rule_.model != Model::GLOSS;
+    }
+
+    /// Without k nothing is absorbed; Kd, Ks, Pm and illum are what other readers take instead.
+    void set_conductor() {
+        to_.reflection = Reflection::CONDUCTOR;
+        to_.conductor = {*mtl_.eta, mtl_.k.value_or(glm::dvec3(0))};
+        to_.whitted_mirror = mtl_.pr.value_or(0) <= WHITTED_MIRROR_PR;
     }
 
     void set_metallic() {
@@ -189,6 +207,7 @@ private:
         case Model::RAY_TRACED:
             return !mtl_.ns || *mtl_.ns >= MIRROR_NS;
         case Model::SCHLICK_MIRROR:
+        case Model::CONDUCTOR:
         case Model::DIELECTRIC: // in the wild Ns on glass means nothing
             return true;
         default:
@@ -270,7 +289,7 @@ private:
 } // namespace
 
 std::vector<MaterialRow> material_rows() {
-    std::vector<MaterialRow> rows = {{"Pm 0", METALLIC_RULE.text}};
+    std::vector<MaterialRow> rows = {{"Pm 0", METALLIC_RULE.text}, {"conductor gold", CONDUCTOR_RULE.text}};
     for (const Rule& rule : ILLUM_RULES)
         rows.push_back({fmt::format("illum {}", rule.illum), rule.text});
     return rows;

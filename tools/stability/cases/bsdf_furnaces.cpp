@@ -4,6 +4,7 @@
 #include "stability/cases/shading_expressions.h"
 
 #include "probes/random_inputs.h"
+#include "probes/reference.h"
 
 #include <fmt/format.h>
 
@@ -31,6 +32,16 @@ double mean_loss(const LobeSet& set) {
     return sum / (COSINES * AZIMUTHS);
 }
 
+/// Mean of a function of the cosine over a hemisphere of equal radiance.
+template <class Function>
+double hemispherical_mean(const Function& function) {
+    constexpr int STEPS = 512;
+    double sum = 0;
+    for (int i = 0; i < STEPS; ++i)
+        sum += function(std::sqrt((i + 0.5) / STEPS)) / STEPS;
+    return sum;
+}
+
 /// What white light from everywhere becomes, red channel; radiance behind glass freed of its eta^2. More than
 /// one facet: Kulla and Conty 2017; the matte lobe gets what Fresnel's reflection leaves.
 double expected_albedo(const LobeSet& set, double cosine, double azimuth) {
@@ -44,9 +55,14 @@ double expected_albedo(const LobeSet& set, double cosine, double azimuth) {
     }
     const bool schlick = set.fresnel == FRESNEL_SCHLICK;
     const auto fresnel = [&](double c) {
-        return schlick ? set.specular.x + (1 - set.specular.x) * std::pow(1 - c, 5) : set.specular.x;
+        return set.fresnel == FRESNEL_CONDUCTOR
+                   ? reference::fresnel_conductor(c, set.transmission.x, set.specular.x)
+               : schlick ? set.specular.x + (1 - set.specular.x) * std::pow(1 - c, 5)
+                         : set.specular.x;
     };
-    const double f = schlick ? set.specular.x + (1 - set.specular.x) / 21 : set.specular.x;
+    const double f = set.fresnel == FRESNEL_CONDUCTOR ? hemispherical_mean(fresnel)
+                     : schlick                        ? set.specular.x + (1 - set.specular.x) / 21
+                                                      : set.specular.x;
     const double lost = mean_loss(set), colour = f * f * (1 - lost) / (1 - f * lost);
     const double above = rough_reflection_albedo(surface, fresnel) + colour * loss(set, cosine, azimuth);
     return above + set.matte.x * (schlick ? 1 - above : 1);
