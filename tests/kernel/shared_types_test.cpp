@@ -52,7 +52,7 @@ const Layout TEXTURE = {
     "Texture",
     sizeof(Texture),
     {M(first_word), M(width), M(height), M(format), M(scale_u), M(scale_v), M(offset_u), M(offset_v),
-     M(base), M(gain), M(clamp), M(channel)}};
+     M(shear_u), M(shear_v), M(base), M(gain), M(wrap_u), M(wrap_v), M(channel), M(vertex_word)}};
 #undef M
 #define M(name) MEMBER(Emitter, name)
 const Layout EMITTER = {
@@ -143,7 +143,7 @@ const Layout ARRAY_PLACES = {
 const std::vector<Layout> LAYOUTS = {
     TRIANGLE,           MATERIAL,     TEXTURE,     EMITTER,       LIGHT,
     ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
-    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL, CHAIN,         CHAIN_LAUNCH};
+    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL,  CHAIN,         CHAIN_LAUNCH};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.
