@@ -11,6 +11,7 @@
 #include "scene/emission.h"
 #include "scene/environment.h"
 #include "scene/far_notices.h"
+#include "scene/file_camera.h"
 #include "scene/ground.h"
 #include "scene/lights.h"
 #include "scene/material_override.h"
@@ -56,12 +57,14 @@ public:
     }
 
     PictureFacts facts() {
-        return {[this](const TextureUse& use, TextureRole role) {
-                    return timed([&] { return store_.is_readable(use, role, notices_); });
-                },
-                [this](const TextureUse& use) {
-                    return timed([&] { return store_.is_normal_map(use, notices_); });
-                }};
+        return {
+            [this](const TextureUse& use, TextureRole role) {
+                return timed([&] { return store_.is_readable(use, role, notices_); });
+            },
+            [this](const TextureUse& use) {
+                return timed([&] { return store_.is_normal_map(use, notices_); });
+            },
+            [this](const TextureUse& use) { return timed([&] { return store_.has_alpha(use, notices_); }); }};
     }
 
 private:
@@ -87,7 +90,8 @@ SceneDescription read_scene(const SceneOptions& options, Progress& progress, Pic
     statistics.obj_bytes = file.bytes.size();
     const PictureFacts facts = pictures.facts();
     const SceneReader& reader = find_reader(file);
-    SceneDescription description = reader.read(std::move(file), {progress, notices, facts, options.mtl});
+    SceneDescription description =
+        reader.read(std::move(file), {progress, notices, facts, options.mtl, options.gltf});
     statistics.obj_seconds = watch.seconds() - statistics.texture_seconds;
     statistics.dropped_faces = description.dropped_faces;
     return description;
@@ -112,6 +116,12 @@ void take_pictures(TextureStore& store, Scene& scene) {
     scene.texture_names = store.take_names();
     scene.texture_places = store.take_places();
     scene.texel_words = store.take_words();
+}
+
+/// Adds the file's lights to those of the options.
+void take_lights(const SceneDescription& description, LightOptions& light) {
+    light.points.insert(light.points.end(), description.points.begin(), description.points.end());
+    light.suns.insert(light.suns.end(), description.suns.begin(), description.suns.end());
 }
 
 void note_remarks(const std::vector<Remark>& remarks, NoticeList& notices) {
@@ -188,8 +198,10 @@ void add_end_frame(const SceneRequest& request, Progress& progress, Mesh& mesh, 
     const SceneReader& reader = find_reader(file);
     NoticeList unused; // what is wrong with materials is said of the first file
     const PictureFacts facts = {[](const TextureUse&, TextureRole) { return true; },
+                                [](const TextureUse&) { return false; },
                                 [](const TextureUse&) { return false; }};
-    SceneDescription end = reader.read(std::move(file), {progress, unused, facts, request.scene.mtl});
+    SceneDescription end =
+        reader.read(std::move(file), {progress, unused, facts, request.scene.mtl, request.scene.gltf});
     add_motion({input_name(request.scene.path), request.scene.end_path}, shutter_times(request.camera), mesh,
                std::move(end.mesh), notices);
     files.push_back({"the scene at time 1", request.scene.end_path});
@@ -212,7 +224,9 @@ Scene load_all(SceneRequest request, Progress& progress) {
 
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
-    if (!request.camera.up)
+    take_lights(description, request.light);
+    scene.picture_size = take_file_camera(description.cameras, bounds, request, notices);
+    if (!request.camera.up && !description.is_y_up)
         request.camera =
             with_up(request.camera, find_up(mesh, bounds, description.z_up_reason), path, notices);
     scene.normalisation = fit_normalisation(bounds);

@@ -2,20 +2,33 @@
 // What a reader makes of a file: everything in terms of the field, nothing of the format's own.
 #pragma once
 
+#include "options/light_options.h"
 #include "output/named_file.h"
 #include "scene/material_description.h"
 #include "scene/mesh.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace clrt {
 
+/// A camera of the file, world units; `at` is some point ahead.
+struct FileCamera {
+    std::string name; ///< "" where it has none
+    Camera camera;
+    std::optional<double> aspect{}; ///< width over height of its picture; absent: any
+};
+
 struct SceneDescription {
     Mesh mesh;
     std::vector<Remark> colour_remarks; ///< about Mesh::colours, not said where another surface takes theirs
     std::vector<MaterialDescription> materials; ///< those that triangles use
-    std::string z_up_reason;      ///< "it ...": why its up is z; empty where the file does not tell
+    std::string z_up_reason; ///< "it ...": why its up is z; empty where the file does not tell
+    bool is_y_up = false;    ///< the format says that its up is y
+    std::vector<FileCamera> cameras;
+    std::vector<PointOptions> points; ///< lights of the file, world units
+    std::vector<SunOptions> suns;
     std::vector<NamedFile> files; ///< opened beside the scene's own
     size_t dropped_faces = 0;     ///< with a non-finite vertex or fewer than three corners
 };
