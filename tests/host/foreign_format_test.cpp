@@ -20,8 +20,6 @@ std::string name_of(std::string_view bytes) {
 
 TEST(ForeignFormat, FormatsAreKnownByTheirFirstBytes) {
     EXPECT_EQ(name_of("{}"), "a JSON file");
-    EXPECT_EQ(name_of("ply\nformat ascii 1.0\n"), "a PLY file");
-    EXPECT_EQ(name_of("ply\r\nformat binary_little_endian 1.0\r\n"), "a PLY file");
     EXPECT_EQ(name_of("Kaydara FBX Binary  \0"sv), "an FBX file");
     EXPECT_EQ(name_of("; FBX 7.3.0 project file\n"), "an FBX file");
     EXPECT_EQ(name_of("BLENDER-v300"), "a Blender file");

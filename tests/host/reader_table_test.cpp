@@ -57,7 +57,7 @@ TEST(ReaderTable, BytesSayMoreThanTheExtension) {
         EXPECT_EQ(name_of_reader({name, "\xef\xbb\xbf {\"asset\": {\"version\": \"2.0\"}}"}), "a glTF file")
             << name;
     }
-    EXPECT_EQ(reader_names(), "a Wavefront OBJ, an STL file or a glTF file");
+    EXPECT_EQ(reader_names(), "a Wavefront OBJ, an STL file, a PLY file or a glTF file");
 }
 
 TEST(ReaderTable, OtherFormatsAreNamed) {

@@ -29,8 +29,6 @@ struct Format {
 /// Signatures as the formats' specifications give them; the first that fits counts.
 constexpr Format FORMATS[] = {
     {"{"sv, ""sv, "a JSON file", EXPORT},
-    {"ply\n"sv, ""sv, "a PLY file", EXPORT},
-    {"ply\r"sv, ""sv, "a PLY file", EXPORT},
     {"Kaydara FBX Binary"sv, ""sv, "an FBX file", EXPORT},
     {"; FBX"sv, ""sv, "an FBX file", EXPORT},
     {"BLENDER"sv, ""sv, "a Blender file", EXPORT},
