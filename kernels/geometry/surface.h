@@ -142,7 +142,7 @@ static inline void surface_uv(const Scene* scene, global const Triangle* triangl
     const float2 d1 = scene->uvs[triangle->t1] - t0;
     const float2 d2 = scene->uvs[triangle->t2] - t0;
     surface->uv = t0 + (float)b1 * d1 + (float)b2 * d2;
-    if (!HAS(EFFECT_NORMAL_MAP | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))
+    if (!HAS(EFFECT_NORMAL_MAP | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL))
         return;
     /* Solve e1 = d1.u tangent + d1.v bitangent, e2 alike; no tangent where the map is degenerate. */
     const real det = real_difference_of_products(d1.x, d2.y, d1.y, d2.x);
@@ -246,7 +246,7 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
     surface.time = ray->time;
 #endif
     surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, time, normal);
-    if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION))
+    if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL))
         surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
     surface_smooth(scene, triangle, time, p, hit->b1, hit->b2, &surface);
     return surface;

@@ -39,10 +39,12 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     SplatWeights* weights = &eye->weights;
     path->is_alive = path->is_connected = false;
     if (path->hit.triangle == NO_INDEX) {
+        path_absorb(scene, 0, path);
         splat_add_escape(scene, params, segment, path, weights, sample, rays);
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
+    path_absorb(scene, &surface, path);
     splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);

@@ -17,22 +17,26 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
     if (!(wi.z > REAL(0.0)) || !bsdf_sides_agree(bsdf, wi_world, wi))
         return value;
     if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE))
-        value += bsdf_matte_eval(bsdf, wi);
+        value += bsdf_eval_matte(bsdf, wi);
     if (HAS(EFFECT_GLOSSY) && highlight && bsdf->exponent > REAL(0.0)) {
         const real cos_r = vector_dot(vector_make(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z), wi);
+        const real3 specular =
+            bsdf_is_part_glass(bsdf) ? bsdf->specular * (REAL(1.0) - bsdf->glass) : bsdf->specular;
         if (cos_r > REAL(0.0))
-            value += bsdf->specular * ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
+            value += specular * ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
                                        real_pow(cos_r, bsdf->exponent) * wi.z);
     }
+    if (HAS(EFFECT_SHEEN) && (bsdf->lobes & LOBE_SHEEN))
+        value += bsdf_eval_lobes(bsdf, LOBE_SHEEN, wi).value;
     return value;
 }
 
 /* What one sampled light sends towards the eye by way of the surface. */
 static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                       const Bsdf* bsdf, bool highlight, const LightSample* light,
-                                       PixelRays* rays)
+                                       const Bsdf* bsdf, bool highlight, LightSample* light, PixelRays* rays)
 {
     real3 nothing = (real3)(REAL(0.0));
+    solid_dim_light(scene, surface, light);
     light_record(scene, light);
     if (nan_carry(scene, nan_of_vector(light->wi), &nothing) || light->pdf_w == REAL(0.0))
         return nothing;
@@ -59,20 +63,20 @@ static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* 
     const uint alias_word = sampler_word(sampler, node, SAMPLE_LIGHT_ALIAS);
     if (HAS(EFFECT_AREA_LIGHT) && params->emitter_count != 0u) {
         const uint2 words = sampler_light_words(sampler, node);
-        const LightSample light =
+        LightSample light =
             emitter_sample(scene, params, from, words.x, alias_word, sampler_unit(words.y));
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     if (HAS(EFFECT_ENVIRONMENT)) {
         const uint2 words = sampler_pair_words(sampler, node, SAMPLE_SKY);
-        const LightSample light =
+        LightSample light =
             environment_sample(scene, params, bsdf->frame.z, words.x, alias_word, sampler_unit(words.y));
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     if (!HAS(EFFECT_DELTA_LIGHT))
         return radiance;
     for (uint i = 0; i < params->light_count; ++i) {
-        const LightSample light = delta_light_sample(
+        LightSample light = delta_light_sample(
             scene, i, from, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION));
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }

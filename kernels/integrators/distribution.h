@@ -94,10 +94,11 @@ static inline TreeVertex distribution_vertex_make(const RenderParams* params, co
     }
     const bool is_rough_glass = HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) &&
                                 !bsdf_dielectric_is_delta(bsdf);
-    const bool is_glossy = HAS(EFFECT_GLOSSY) && (bsdf->lobes & LOBE_GLOSSY);
-    vertex.rough = is_rough_glass ? LOBE_DIELECTRIC : is_glossy ? LOBE_GLOSSY : 0u;
+    const bool is_rough_pane =
+        HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE) && !bsdf_pane_is_delta(bsdf);
+    vertex.rough = bsdf_lobes_of(bsdf, LETTER_BIT(LETTER_GLOSSY));
     vertex.rough_rays = distribution_count(
-        is_rough_glass ? DISTRIBUTION_TRANSLUCENT_RAYS : DISTRIBUTION_GLOSS_RAYS, path->share);
+        is_rough_glass || is_rough_pane ? DISTRIBUTION_TRANSLUCENT_RAYS : DISTRIBUTION_GLOSS_RAYS, path->share);
     vertex.shadow_rays = distribution_count(DISTRIBUTION_SHADOW_RAYS, path->share);
     /* The density of a direction is that of the rough lobes' rays alone. */
     if (vertex.rough != 0u)
@@ -135,7 +136,7 @@ static CLRT_NOINLINE uint distribution_shade(const Scene* scene, const RenderPar
 
 /* Follows a ray to its end. */
 static CLRT_NOINLINE uint distribution_follow(const Scene* scene, const RenderParams* params,
-                                              const TreeRay* path, TreeRay* stack, uint top,
+                                              TreeRay* path, TreeRay* stack, uint top,
                                               CameraSample* sample, PixelRays* rays)
 {
     const Sampler sampler = sampler_at(sample->sampler.key, path->index);
@@ -143,10 +144,16 @@ static CLRT_NOINLINE uint distribution_follow(const Scene* scene, const RenderPa
     TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->weight);
     nan_carry(scene, nan_of_vector(path->weight), &sample->radiance);
     if (hit.triangle == NO_INDEX) {
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+        solid_escape(scene, path->solid, &path->weight);
+#endif
         distribution_escape(scene, params, path, &hit, sample, rays);
         return top;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &hit);
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    solid_arrive(scene, path->solid, &surface, hit.t, &path->weight);
+#endif
     distribution_add_emission(scene, params, &surface, &hit, path, sample);
     return distribution_shade(scene, params, path, &surface, &sampler, stack, top, sample, rays);
 }
@@ -158,7 +165,7 @@ static CLRT_NOINLINE void distribution_sample(const Scene* scene, const RenderPa
     uint top = 1u;
     stack[0] = distribution_first(sample);
     while (top != 0u) {
-        const TreeRay path = stack[--top];
+        TreeRay path = stack[--top];
         rays->secondary += path.segment > 1u ? 1u : 0u;
         top = distribution_follow(scene, params, &path, stack, top, sample, rays);
     }

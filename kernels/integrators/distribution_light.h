@@ -22,7 +22,7 @@ static inline LitParts distribution_parts(const TreeVertex* vertex, const LightS
         return parts;
     if (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE) &&
         distribution_accepts(vertex, LETTER_MATTE, light->kind))
-        parts.matte = bsdf_matte_eval(bsdf, wi);
+        parts.matte = bsdf_eval_matte(bsdf, wi);
     if (vertex->rough == 0u || !distribution_accepts(vertex, LETTER_GLOSSY, light->kind))
         return parts;
     const BsdfValue rough = bsdf_eval_lobes(bsdf, vertex->rough, wi);
@@ -34,9 +34,10 @@ static inline LitParts distribution_parts(const TreeVertex* vertex, const LightS
 
 /* Adds what one of `count` samples of a light sends by way of the surface. */
 static CLRT_NOINLINE void distribution_connect(const Scene* scene, const RenderParams* params,
-                                               const TreeVertex* vertex, const LightSample* light, uint count,
+                                               const TreeVertex* vertex, LightSample* light, uint count,
                                                CameraSample* sample, PixelRays* rays)
 {
+    solid_dim_light(scene, vertex->surface, light);
     light_record(scene, light);
     if (nan_carry(scene, nan_of_vector(light->wi), &sample->radiance) || light->pdf_w == REAL(0.0))
         return;
@@ -80,7 +81,7 @@ static inline void distribution_connect_emitters(const Scene* scene, const Rende
         const uint2 words = count == 1u ? sampler_light_words(&branch, node)
                                         : sampler_pair_words(&branch, node, SAMPLE_LIGHT);
         const uint alias_word = sampler_word(&branch, node, SAMPLE_LIGHT_ALIAS);
-        const LightSample light =
+        LightSample light =
             each_light_emitter(scene, params, vertex->surface, normal, words, alias_word);
         distribution_connect(scene, params, vertex, &light, count, sample, rays);
     }
@@ -102,7 +103,7 @@ static inline void distribution_connect_sky(const Scene* scene, const RenderPara
         const Sampler branch = sampler_branch(&vertex->sampler, count, k);
         const uint2 words = sampler_pair_words(&branch, node, SAMPLE_SKY);
         const uint alias_word = sampler_word(&branch, node, SAMPLE_LIGHT_ALIAS);
-        const LightSample light =
+        LightSample light =
             each_light_sky(scene, params, vertex->surface, vertex->bsdf->frame.z, words, alias_word);
         distribution_connect(scene, params, &seen, &light, count, sample, rays);
     }
@@ -117,7 +118,7 @@ static inline void distribution_connect_delta(const Scene* scene, const RenderPa
         for (uint k = 0u; k < count; ++k) {
             const Sampler branch = sampler_branch(&vertex->sampler, count, k);
             const real2 u = sampler_pair(&branch, sampler_hash(vertex->path->node) + i, SAMPLE_LIGHT);
-            const LightSample light = each_light_delta(scene, vertex->surface, i, u);
+            LightSample light = each_light_delta(scene, vertex->surface, i, u);
             distribution_connect(scene, params, vertex, &light, count, sample, rays);
         }
     }

@@ -31,6 +31,9 @@ typedef struct {
     Ray ray;
     LightView view;          /* whence the surface that it left looked at lights; unused where pdf_w is 0 */
     real3 weight;            /* of what it meets in the sample's radiance */
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    uint solid; /* as in Path */
+#endif
     real pdf_w;              /* of its direction, times rough over shadow rays of the vertex that it left;
                                 0 for camera rays and delta lobes */
     bool has_crossed_curved; /* it did not start at the view but at the plane below */
@@ -59,6 +62,9 @@ static inline TreeRay distribution_first(const CameraSample* sample)
     path.view.position = sample->ray.origin;
     path.view.normal = (real3)(REAL(0.0));
     path.weight = (real3)(REAL(1.0));
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    path.solid = NO_INDEX;
+#endif
     path.pdf_w = REAL(0.0);
     path.has_crossed_curved = false;
     path.segment = path.node = path.share = 1u;
@@ -90,12 +96,15 @@ static inline bool distribution_continues(const TreeVertex* vertex, uint letter)
 static inline uint distribution_count(uint asked, uint share) { return max(asked / share, 1u); }
 
 /* A ray that leaves the vertex on one of its ways; all but what rough lobes set besides. */
-static inline TreeRay distribution_child(const TreeVertex* vertex, bool reflects, real3 wi, real3 weight,
+static inline TreeRay distribution_child(const Scene* scene, const TreeVertex* vertex, bool reflects, real3 wi, real3 weight,
                                          uint way, uint letter)
 {
     TreeRay child = *vertex->path;
     child.ray = surface_ray(vertex->surface, reflects, wi);
     child.weight *= weight;
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    child.solid = solid_beside(scene, vertex->surface, reflects);
+#endif
     child.pdf_w = REAL(0.0);
     child.has_crossed_curved = vertex->surface->is_curved && !reflects;
     ++child.segment;
@@ -133,22 +142,22 @@ static CLRT_NOINLINE uint distribution_spawn_smooth(const Scene* scene, const Re
 {
     const Bsdf* bsdf = vertex->bsdf;
     const uint smooth =
-        bsdf->lobes & (uint)BSDF_LOBES & (LOBE_MIRROR | LOBE_DIELECTRIC) & ~vertex->rough;
+        bsdf->lobes & (uint)BSDF_LOBES & (LOBE_MIRROR | LOBES_GLASS) & ~vertex->rough;
     if (smooth == 0u)
         return top;
-    const bool dielectric = (smooth & LOBE_DIELECTRIC) != 0u;
+    const bool dielectric = (smooth & LOBES_GLASS) != 0u;
     const SmoothRays rays =
         tree_smooth_rays(vertex->surface, bsdf, -vertex->path->ray.direction, dielectric);
     /* Which has no side, and so would be no ray. */
     nan_carry(scene, nan_of_vector(rays.reflected), radiance);
     if (rays.reflects && distribution_continues(vertex, LETTER_MIRROR))
         top = distribution_push(scene, params, &vertex->sampler,
-                                distribution_child(vertex, true, rays.reflected, rays.reflected_color,
+                                distribution_child(scene, vertex, true, rays.reflected, rays.reflected_color,
                                                    WAY_REFLECTED, LETTER_MIRROR),
                                 stack, top);
     if (rays.refracts && distribution_continues(vertex, LETTER_REFRACTION))
         top = distribution_push(scene, params, &vertex->sampler,
-                                distribution_child(vertex, false, rays.refracted, rays.refracted_color,
+                                distribution_child(scene, vertex, false, rays.refracted, rays.refracted_color,
                                                    WAY_REFRACTED, LETTER_REFRACTION),
                                 stack, top);
     return top;
@@ -172,7 +181,7 @@ static inline uint distribution_spawn_one(const Scene* scene, const RenderParams
     TRACE_CHOICE(scene, TRACE_CONTINUES, next.is_valid ? 1u : 0u);
     if (nan_carry(scene, nan_of_vector(next.wi), radiance) || !next.is_valid)
         return top;
-    TreeRay child = distribution_child(vertex, next.reflects, next.wi, next.weight / (real)count, WAY_ROUGH,
+    TreeRay child = distribution_child(scene, vertex, next.reflects, next.wi, next.weight / (real)count, WAY_ROUGH,
                                        LETTER_GLOSSY);
     child.view = lights_view(vertex->surface, bsdf_light_normal(vertex->bsdf));
     child.pdf_w = next.pdf_w * ((real)count / (real)vertex->shadow_rays);

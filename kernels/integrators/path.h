@@ -51,10 +51,12 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     path->is_alive = path->is_connected = false;
     guide_arrive(sample->radiance, &path->guided);
     if (path->hit.triangle == NO_INDEX) {
+        path_absorb(scene, 0, path);
         path_escape(scene, params, segment, path, sample, rays);
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
+    path_absorb(scene, &surface, path);
     path_add_emission(scene, params, &surface, path, sample);
     if (segment >= params->max_depth) {
         path_end(scene, params, sampler, segment, &surface, path, rays);

@@ -43,6 +43,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     const Sampler* sampler = &sample->sampler;
     path->is_alive = path->is_connected = false;
     if (path->hit.triangle == NO_INDEX) {
+        path_absorb(scene, 0, path);
 #if FILM_MOMENTS
         const real3 before = sample->radiance;
 #endif
@@ -53,6 +54,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
+    path_absorb(scene, &surface, path);
     splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);

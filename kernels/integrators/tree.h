@@ -37,16 +37,24 @@ static inline SmoothRays tree_smooth_rays(const Surface* surface, const Bsdf* bs
     const real3 n = bsdf->frame.z;
     const real cos_o = clamp(bsdf->wo.z, REAL(0.0), REAL(1.0));
     real cos_t = REAL(0.0);
+    const bool pane = HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE);
     const real f = dielectric ? fresnel_dielectric(cos_o, bsdf->eta, &cos_t) : REAL(1.0);
     rays.reflected = REAL(2.0) * cos_o * n - wo_world;
     rays.reflects = surface_reflects(surface, rays.reflected);
-    rays.reflected_color = dielectric ? bsdf->specular * f : bsdf_reflection_color(bsdf, cos_o);
+    rays.reflected_color = dielectric ? bsdf_glass_color(bsdf) * f : bsdf_reflection_color(bsdf, cos_o);
+    if (dielectric && (bsdf->lobes & LOBE_MIRROR)) /* both reflections go the same way */
+        rays.reflected_color += bsdf_reflection_color(bsdf, cos_o);
+    if (bsdf_is_covered(bsdf))
+        rays.reflected_color *= bsdf->cover.left;
     rays.refracts = false;
     if (f >= REAL(1.0)) /* a mirror, or total reflection */
         return rays;
-    rays.refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
+    rays.refracted = pane ? -wo_world : fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
     rays.refracts = !surface_reflects(surface, rays.refracted);
-    rays.refracted_color = bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
+    rays.refracted_color =
+        bsdf->transmission * (pane ? REAL(1.0) - f : bsdf_cross(bsdf, REAL(1.0) - f));
+    if (bsdf_is_covered(bsdf))
+        rays.refracted_color *= cover_factors(bsdf, frame_to_local(&bsdf->frame, rays.refracted)).other;
     return rays;
 }
 

@@ -14,15 +14,21 @@ typedef struct {
     real3 weight;
     uint segment; /* of the ray, from 1 */
     uint node;    /* number of the ray in the tree, tree_number */
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    uint solid; /* as in Path */
+#endif
 } WhittedRay;
 
 /* The reflected (which = 0) or refracted (1) child of a ray: same tree, one segment on. */
-static inline WhittedRay whitted_child(const WhittedRay* parent, const Surface* surface, real3 wi,
+static inline WhittedRay whitted_child(const Scene* scene, const WhittedRay* parent, const Surface* surface, real3 wi,
                                        real3 weight, uint which)
 {
     WhittedRay child;
     child.ray = surface_ray(surface, which == 0u, wi);
     child.weight = weight;
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    child.solid = solid_beside(scene, surface, which == 0u);
+#endif
     child.segment = parent->segment + 1u;
     child.node = tree_number(parent->node, 2u, which);
     return child;
@@ -38,22 +44,30 @@ static inline uint whitted_push(const RenderParams* params, WhittedRay child, Wh
 }
 
 /* Spawns the reflected and the refracted ray; gives the new stack size. */
-static inline uint whitted_spawn_children(const RenderParams* params, const WhittedRay* parent,
+static inline uint whitted_spawn_children(const Scene* scene, const RenderParams* params, const WhittedRay* parent,
                                           const Surface* surface, const Bsdf* bsdf, real3 wo_world,
                                           WhittedRay* stack, uint top)
 {
-    const bool dielectric = HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC);
-    const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
+    const bool dielectric = (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) ||
+                            (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE));
+    const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (HAS(EFFECT_COAT) && (bsdf->lobes & LOBE_COAT)) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
     if (!dielectric && !mirror)
         return top;
-    const SmoothRays rays = tree_smooth_rays(surface, bsdf, wo_world, dielectric);
+    SmoothRays rays = tree_smooth_rays(surface, bsdf, wo_world, dielectric);
+    if (HAS(EFFECT_COAT) && (bsdf->lobes & LOBE_COAT) && !(bsdf->flags & BSDF_INSIDE)) {
+        /* The coat is a mirror too; where nothing below is one, it is the only one. */
+        const bool is_below = dielectric || (bsdf->lobes & LOBE_MIRROR) ||
+                              (bsdf->flags & MATERIAL_WHITTED_MIRROR);
+        rays.reflected_color = (is_below ? rays.reflected_color : (real3)(REAL(0.0))) +
+                               (real3)(REAL(1.0) - bsdf->cover.coat_left);
+    }
     if (rays.reflects)
         top = whitted_push(
-            params, whitted_child(parent, surface, rays.reflected, parent->weight * rays.reflected_color, 0u),
+            params, whitted_child(scene, parent, surface, rays.reflected, parent->weight * rays.reflected_color, 0u),
             stack, top);
     if (rays.refracts)
         top = whitted_push(
-            params, whitted_child(parent, surface, rays.refracted, parent->weight * rays.refracted_color, 1u),
+            params, whitted_child(scene, parent, surface, rays.refracted, parent->weight * rays.refracted_color, 1u),
             stack, top);
     return top;
 }
@@ -63,7 +77,7 @@ static inline uint whitted_spawn(const Scene* scene, const RenderParams* params,
                                  const Surface* surface, const Bsdf* bsdf, WhittedRay* stack, uint top)
 {
     const uint waiting =
-        whitted_spawn_children(params, parent, surface, bsdf, -parent->ray.direction, stack, top);
+        whitted_spawn_children(scene, params, parent, surface, bsdf, -parent->ray.direction, stack, top);
     TRACE_CHOICE(scene, TRACE_WAITING, waiting);
     return waiting;
 }
@@ -102,16 +116,22 @@ static inline void whitted_cut(const Scene* scene, const WhittedRay* current, co
 /* Handles the end of a ray: adds the light there, and puts the rays that reflection and refraction send on
    upon the stack; gives its new size. */
 static inline uint whitted_vertex(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                  const WhittedRay* current, WhittedRay* stack, uint top, real3* radiance,
+                                  WhittedRay* current, WhittedRay* stack, uint top, real3* radiance,
                                   PixelRays* rays)
 {
     Hit hit = whitted_hit(scene, params, sampler, current, radiance);
     if (hit.triangle == NO_INDEX) {
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+        solid_escape(scene, current->solid, &current->weight);
+#endif
         whitted_escape(scene, params, current, &hit, radiance, rays);
         return top;
     }
     const real3 wo = -current->ray.direction;
     const Surface surface = visible_surface(scene, params, &current->ray, &hit);
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    solid_arrive(scene, current->solid, &surface, hit.t, &current->weight);
+#endif
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
         vertex_add(scene, current->weight * material_emitted(scene, &surface), radiance);
     if (current->segment >= params->max_depth) {
@@ -135,10 +155,13 @@ static CLRT_NOINLINE real3 whitted_sample(const Scene* scene, const RenderParams
     uint top = 1u;
     stack[0].ray = ray;
     stack[0].weight = (real3)(REAL(1.0));
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    stack[0].solid = NO_INDEX;
+#endif
     stack[0].segment = 1u;
     stack[0].node = 1u;
     while (top != 0u) {
-        const WhittedRay current = stack[--top];
+        WhittedRay current = stack[--top];
         rays->secondary += current.segment > 1u ? 1u : 0u;
         top = whitted_vertex(scene, params, sampler, &current, stack, top, &radiance, rays);
     }

@@ -84,6 +84,13 @@ static CLRT_NOINLINE bool bdpt_join(const Scene* scene, const EyeVertex* eye, co
         return false;
     const real others = bdpt_others(eye, &light, &kept->weights, wi, to_light.pdf_w, to_eye.pdf_w);
     connection->light = to_light.value * to_eye.value * vload3(0, kept->power) / (square + others);
+    if (HAS(EFFECT_ATTENUATION)) {
+        uint solid = solid_beside(scene, eye->surface, surface_reflects(eye->surface, wi));
+        if (solid == NO_INDEX)
+            solid = solid_beside(scene, &light.surface, surface_reflects(&light.surface, -wi));
+        if (solid != NO_INDEX)
+            connection->light *= solid_passes(scene, solid, real_sqrt(square));
+    }
     connection->shadow = bdpt_shadow_ray(eye->surface, &light.surface, wi);
     return true;
 }

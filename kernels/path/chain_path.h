@@ -92,11 +92,13 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
         ++rays->secondary;
         if (path.hit.triangle == NO_INDEX) {
             found->watched += nan_of_miss(&path.hit);
+            path_absorb(scene, 0, &path);
             if (connected == 0u && segment == length)
                 found->radiance = chain_hit(scene, params, 0, &path, &weights);
             break;
         }
         const Surface surface = visible_surface(scene, params, &path.ray, &path.hit);
+        path_absorb(scene, &surface, &path);
         splat_eye_meets(params, sampler, segment, path.hit.t, &surface, -path.ray.direction, &weights);
         if (segment == length) {
             found->radiance = chain_hit(scene, params, &surface, &path, &weights);

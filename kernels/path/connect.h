@@ -56,8 +56,9 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
         return;
     if (HAS(EFFECT_PATH_FILTER) && !filter_wants_light(step, bsdf))
         return;
-    const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),
-                                            path->numbers.light, path->numbers.alias);
+    LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), path->numbers.light,
+                                      path->numbers.alias);
+    solid_dim_light(scene, surface, &light);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);
     if (light.pdf_w == REAL(0.0))

@@ -89,7 +89,7 @@ static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf,
     guide->ratio = mixture / value.pdf_w;
     next.weight = value.value / mixture;
     next.reflects = bsdf_reflects(bsdf, next.wi);
-    next.eta = next.reflects ? REAL(1.0) : bsdf->eta;
+    next.eta = next.reflects ? REAL(1.0) : bsdf_crossed_eta(bsdf);
     next.is_weighted = true;
     next.is_valid = value.pdf_w > REAL(0.0) && !vector_is_black(value.value);
     TRACE_SET(next.lobe, 0u);

@@ -35,6 +35,9 @@ typedef struct {
     Emission emission;
     Ray ray;          /* the segment to trace */
     real3 throughput; /* product of BSDF times cosine over pdf */
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    uint solid; /* as in Path */
+#endif
     SplatWeights weights;
 } LightPath;
 
@@ -64,6 +67,9 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     path->ray.time = sampler_pair(&path->sampler, 0u, SAMPLE_TIME).x;
 #endif
     path->throughput = (real3)(REAL(1.0));
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    path->solid = NO_INDEX;
+#endif
     TRACE_CHOICE(scene, TRACE_LIGHT_KIND, emission_kind(scene, params, path->emission.light));
     TRACE_VECTOR(scene, TRACE_LIGHT_RADIANCE, path->emission.power);
     TRACE_NUMBER(scene, TRACE_LIGHT_PDF, path->emission.pdf);
@@ -115,6 +121,9 @@ static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderPar
         return false;
     const real per_pixel = camera.pdf_a / splat_path_count(params);
     real3 radiance = path->emission.power * path->throughput * eval.value * per_pixel;
+    const uint solid = solid_beside(scene, surface, surface_reflects(surface, wi));
+    if (HAS(EFFECT_ATTENUATION) && solid != NO_INDEX)
+        radiance *= solid_passes(scene, solid, vector_length(way));
     if (SPLATS_ARE_WEIGHTED)
         radiance *= splat_weight(params, vertex, wi, camera.pdf_a, &path->weights);
     /* Positions outside the window ask for no shadow ray. */
@@ -177,6 +186,9 @@ static inline bool light_path_meet(const Scene* scene, const RenderParams* param
                                    LightPath* path, LightVertex* vertex, real3* watched)
 {
     light_vertex_set(scene, params, &path->ray, hit, vertex);
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    solid_arrive(scene, path->solid, &vertex->surface, hit->t, &path->throughput);
+#endif
     const real3 wo = -path->ray.direction;
     *watched += vertex->surface.position + vertex->surface.normal_g + vertex->bsdf.wo + vertex->bsdf.frame.z;
     if (vertex->bsdf.lobes == 0u || !light_vertex_is_seen(&vertex->bsdf, wo))
@@ -221,6 +233,9 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     if (SPLATS_ARE_WEIGHTED)
         splat_weights_leave(bsdf, next.wi, next.pdf_w, &path->weights);
     path->ray = surface_ray(&vertex->surface, next.reflects, next.wi);
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    path->solid = solid_beside(scene, &vertex->surface, next.reflects);
+#endif
     return true;
 }
 

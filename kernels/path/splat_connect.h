@@ -138,8 +138,9 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
 {
     if (!bsdf_has_smooth_lobe(bsdf))
         return;
-    const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),
-                                            path->numbers.light, path->numbers.alias);
+    LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), path->numbers.light,
+                                      path->numbers.alias);
+    solid_dim_light(scene, surface, &light);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);
     if (light.pdf_w == REAL(0.0))

@@ -6,6 +6,7 @@
 
 #include "lights/lights.h"
 #include "nan.h"
+#include "solid.h"
 #include "visibility.h"
 
 /* Finds where a ray ends. `segment`: of its path, from 1; `node`: its number in a tree of rays, 0 on a path.

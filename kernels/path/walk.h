@@ -26,6 +26,9 @@ typedef struct {
     real3 connection;        /* and what arrives if nothing is in between */
     real3 watched;           /* sum of directions and normals, for NaNs among them */
     uint state;              /* of the automaton, behind all vertices so far */
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    uint solid; /* that the ray goes through from where it left; NO_INDEX: none is known there */
+#endif
     LayerPath layers;
     GuidePath guided;
     bool is_alive, is_connected;
@@ -42,6 +45,9 @@ static inline void path_begin(Path* path, const Ray* ray)
     path->eta_squared = REAL(1.0);
     path->pdf_w = REAL(0.0);
     path->state = STATE_START;
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    path->solid = NO_INDEX;
+#endif
     layers_begin_path(&path->layers);
     guide_begin(&path->guided);
     path->is_alive = true;
@@ -51,6 +57,17 @@ static inline void path_begin(Path* path, const Ray* ray)
 static inline uint path_accepted(const Path* path)
 {
     return automaton_accepted(path->state);
+}
+
+/* Absorbs what a solid takes on the segment that has met a surface, 0: nothing. */
+static inline void path_absorb(const Scene* scene, const Surface* met, Path* path)
+{
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    if (met != 0)
+        solid_arrive(scene, path->solid, met, path->hit.t, &path->throughput);
+    else
+        solid_escape(scene, path->solid, &path->throughput);
+#endif
 }
 
 /* Adds light of one kind that the path has met to the layers. */
@@ -140,6 +157,9 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     path->ray = surface_ray(surface, next->reflects, next->wi);
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
     path->has_crossed_curved = surface->is_curved && !next->reflects;
+#if CLRT_EFFECTS & EFFECT_ATTENUATION
+    path->solid = solid_beside(scene, surface, next->reflects);
+#endif
 }
 
 #endif

@@ -5,10 +5,13 @@
 #ifndef CLRT_SCATTERING_BSDF_H
 #define CLRT_SCATTERING_BSDF_H
 
+#include "bsdf_coat.h"
 #include "bsdf_dielectric.h"
 #include "bsdf_glossy.h"
 #include "bsdf_matte.h"
 #include "bsdf_mirror.h"
+#include "bsdf_pane.h"
+#include "bsdf_sheen.h"
 #include "geometry/surface.h"
 
 /* True where a set of lobes has one, in builds that know it. */
@@ -70,8 +73,9 @@ static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
     return bsdf_reflects(bsdf, wi_world) == (wi.z > REAL(0.0));
 }
 
-/* Sum of some of the lobes and their share of the mixture's density; wi local, sides already compared. */
-static inline BsdfValue bsdf_eval_lobes(const Bsdf* bsdf, uint lobes, real3 wi)
+/* Sum of some of the lobes, as if nothing covered them, and their share of the mixture's density; wi local,
+   sides already compared. */
+static inline BsdfValue bsdf_eval_uncovered(const Bsdf* bsdf, uint lobes, real3 wi)
 {
     BsdfValue sum = bsdf_value_none();
 #define ADD_VALUE(NAME, name, effect, letters, delta_letters, absent)                                        \
@@ -80,6 +84,32 @@ static inline BsdfValue bsdf_eval_lobes(const Bsdf* bsdf, uint lobes, real3 wi)
     LOBE_TABLE(ADD_VALUE)
 #undef ADD_VALUE
     return sum;
+}
+
+/* The same below a coat and a sheen: each part by its factor. */
+static CLRT_NOINLINE BsdfValue bsdf_eval_covered(const Bsdf* bsdf, uint lobes, real3 wi)
+{
+    const CoverFactors factors = cover_factors(bsdf, wi);
+    BsdfValue sum = bsdf_value_none();
+    for (uint row = 0u; row < LOBE_COUNT; ++row) {
+        const uint lobe = 1u << row;
+        if (!(lobes & lobe))
+            continue;
+        const BsdfValue part = bsdf_eval_uncovered(bsdf, lobe, wi);
+        const real factor = lobe == LOBE_COAT    ? REAL(1.0)
+                            : lobe == LOBE_SHEEN ? factors.coat
+                            : lobe == LOBE_MATTE ? factors.matte
+                                                 : factors.other;
+        sum.value += part.value * factor;
+        sum.pdf_w += part.pdf_w;
+    }
+    return sum;
+}
+
+/* Sum of some of the lobes and their share of the mixture's density; wi local, sides already compared. */
+static inline BsdfValue bsdf_eval_lobes(const Bsdf* bsdf, uint lobes, real3 wi)
+{
+    return bsdf_is_covered(bsdf) ? bsdf_eval_covered(bsdf, lobes, wi) : bsdf_eval_uncovered(bsdf, lobes, wi);
 }
 
 /* What a shading normal that is not the surface's makes of importance (Veach 1997, sec. 5.3): cosines to the
@@ -97,7 +127,15 @@ static inline real bsdf_shading_factor(const Bsdf* bsdf, real3 wi_world, real3 w
    scatters light from below. */
 static inline real3 bsdf_light_normal(const Bsdf* bsdf)
 {
-    return HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) ? (real3)(REAL(0.0)) : bsdf->frame.z;
+    const bool passes = (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) ||
+                        (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE));
+    return passes ? (real3)(REAL(0.0)) : bsdf->frame.z;
+}
+
+/* The matte lobe towards a local direction above the surface, as what lies above lets it be seen. */
+static inline real3 bsdf_eval_matte(const Bsdf* bsdf, real3 wi)
+{
+    return bsdf_is_covered(bsdf) ? bsdf_eval_covered(bsdf, LOBE_MATTE, wi).value : bsdf_matte_eval(bsdf, wi);
 }
 
 /* Sum of all lobes for a world direction. */
@@ -112,6 +150,14 @@ static inline BsdfValue bsdf_eval(const Bsdf* bsdf, real3 wi_world)
     return sum;
 }
 
+/* True if the lobe that holds the light of more than one facet is among these. */
+static inline bool bsdf_multiple_among(const Bsdf* bsdf, uint lobes)
+{
+    if (!bsdf_is_part_glass(bsdf))
+        return (lobes & LOBES_ROUGH) != 0u;
+    return (lobes & (bsdf_energy_has_multiple(bsdf, LOBE_GLOSSY) ? LOBE_GLOSSY : LOBES_GLASS)) != 0u;
+}
+
 /* Sets `choose` to the sizes of what the lobes reflect towards wo, and gives their sum with that of the light
    of more than one facet. */
 static inline real bsdf_sizes(Bsdf* bsdf, real multiple)
@@ -124,6 +170,8 @@ static inline real bsdf_sizes(Bsdf* bsdf, real multiple)
     }
     LOBE_TABLE(SET_SIZE)
 #undef SET_SIZE
+    if (bsdf_is_part_glass(bsdf) && bsdf_energy_has_multiple(bsdf, LOBE_GLOSSY))
+        bsdf->choose[LOBE_ROW_GLOSSY] += multiple;
     if (sum != REAL(0.0))
         return sum;
     /* Where nothing is reflected, the matte lobe stands for nothing as well as the others. */
@@ -142,7 +190,7 @@ static inline void bsdf_choose_lobes(Bsdf* bsdf)
 {
     /* Where a build knows one lobe alone, the compiler sees it. */
     const uint lobes = bsdf->lobes & BSDF_LOBES;
-    const real multiple = (lobes & LOBES_ROUGH) ? bsdf->multiple_size : REAL(0.0);
+    const real multiple = bsdf_multiple_among(bsdf, lobes) ? bsdf->multiple_size : REAL(0.0);
     const bool is_alone = (lobes & (lobes - 1u)) == 0u && multiple == REAL(0.0);
     for (uint row = 0u; row < LOBE_COUNT; ++row)
         bsdf->choose[row] = REAL(0.0);
@@ -172,7 +220,7 @@ static inline void bsdf_choose_among(Bsdf* bsdf, uint lobes)
     LOBE_TABLE(TAKE_SHARE)
 #undef TAKE_SHARE
     bsdf->choose_multiple =
-        (lobes & LOBES_ROUGH) && whole > REAL(0.0) ? bsdf->choose_multiple / whole : REAL(0.0);
+        bsdf_multiple_among(bsdf, lobes) && whole > REAL(0.0) ? bsdf->choose_multiple / whole : REAL(0.0);
     real left = REAL(1.0);
 #define GROW_SHARE(NAME, name, effect, letters, delta_letters, absent)                                       \
     if (BSDF_HAS(bsdf->lobes & lobes, NAME, effect)) {                                                       \
@@ -221,7 +269,8 @@ CLRT_GIVES_STRUCT BsdfSample bsdf_sample(const Bsdf* bsdf, real u_lobe, real2 u)
         const BsdfValue eval = bsdf_eval_lobes(bsdf, bsdf->lobes, wi);
         sample.pdf_w = eval.pdf_w;
         sample.weight = eval.pdf_w == REAL(0.0) ? (real3)(REAL(0.0)) : eval.value / eval.pdf_w;
-    }
+    } else if (bsdf_is_covered(bsdf)) /* a delta lobe */
+        sample.weight *= cover_factors(bsdf, wi).other;
     sample.wi = frame_to_world(&bsdf->frame, wi);
     if (bsdf->flags & TRANSPORT_IMPORTANCE)
         sample.weight *= bsdf_shading_factor(bsdf, sample.wi, wi);

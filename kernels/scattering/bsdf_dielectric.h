@@ -15,9 +15,33 @@ static inline bool bsdf_dielectric_is_delta(const Bsdf* bsdf)
 }
 
 /* Nothing is absorbed: what is left of the light of more than one facet. */
-static inline real bsdf_dielectric_size(const Bsdf* bsdf) { return REAL(1.0) - bsdf->multiple_size; }
+static inline real bsdf_glass_size(const Bsdf* bsdf)
+{
+    return bsdf_is_part_glass(bsdf) ? vector_color_size((real3)(bsdf->glass))
+                                    : REAL(1.0) - bsdf->multiple_size;
+}
 
-static inline real3 bsdf_dielectric_albedo(const Bsdf* bsdf) { return (real3)(REAL(1.0)); }
+static inline real3 bsdf_glass_albedo(const Bsdf* bsdf)
+{
+    return (real3)(bsdf_is_part_glass(bsdf) ? bsdf->glass : REAL(1.0));
+}
+
+static inline real bsdf_dielectric_size(const Bsdf* bsdf) { return bsdf_glass_size(bsdf); }
+
+static inline real3 bsdf_dielectric_albedo(const Bsdf* bsdf) { return bsdf_glass_albedo(bsdf); }
+
+/* Adds one facet's light and that of more, where the lobe is chosen with probability `choose`. */
+static inline void bsdf_glass_add(const Bsdf* bsdf, real3 wi, real choose, BsdfValue single, BsdfValue* sum)
+{
+    single.pdf_w *= choose - bsdf->choose_multiple;
+    if (bsdf->choose_multiple != REAL(0.0) && wi.z != REAL(0.0)) {
+        single.value += bsdf_energy_multiple_glass(bsdf, wi);
+        const real side = wi.z > REAL(0.0) ? bsdf->multiple_reflects : REAL(1.0) - bsdf->multiple_reflects;
+        single.pdf_w = fma(bsdf->choose_multiple * side, bsdf_energy_multiple_pdf_w(), single.pdf_w);
+    }
+    sum->value += single.value;
+    sum->pdf_w += single.pdf_w;
+}
 
 /* The half vector of wo and wi on the normal's side, and the squared length of the sum that it is made from;
    both zero where there is none. */
@@ -51,7 +75,7 @@ static inline BsdfValue bsdf_dielectric_eval_single(const Bsdf* bsdf, real3 wi)
     const real g1 = REAL(1.0) / (REAL(1.0) + lambda_o);
     const real g2 = REAL(1.0) / (REAL(1.0) + lambda_o + lambda_i);
     if (wi.z > REAL(0.0)) {
-        result.value = bsdf->specular * (REAL(0.25) * f * d_over_cos * g2);
+        result.value = bsdf_glass_color(bsdf) * (REAL(0.25) * f * d_over_cos * g2);
         result.pdf_w = REAL(0.25) * f * d_over_cos * g1;
         return result;
     }
@@ -68,25 +92,18 @@ static inline void bsdf_dielectric_add(const Bsdf* bsdf, real3 wi, BsdfValue* su
 {
     if (bsdf_dielectric_is_delta(bsdf))
         return;
-    BsdfValue lobe = bsdf_dielectric_eval_single(bsdf, wi);
-    if (bsdf->choose_multiple != REAL(0.0) && wi.z != REAL(0.0)) {
-        lobe.value += bsdf_energy_multiple(bsdf, wi);
-        const real side = wi.z > REAL(0.0) ? bsdf->multiple_reflects : REAL(1.0) - bsdf->multiple_reflects;
-        lobe.pdf_w = fma(bsdf->choose_multiple * side, bsdf_energy_multiple_pdf_w(),
-                         (bsdf->choose[LOBE_ROW_DIELECTRIC] - bsdf->choose_multiple) * lobe.pdf_w);
-    }
-    sum->value += lobe.value;
-    sum->pdf_w += lobe.pdf_w;
+    const BsdfValue single = bsdf_dielectric_eval_single(bsdf, wi);
+    bsdf_glass_add(bsdf, wi, bsdf->choose[LOBE_ROW_DIELECTRIC], single, sum);
 }
 
 /* Samples light of more than one facet, to both sides. */
-static inline real3 bsdf_dielectric_sample_multiple(const Bsdf* bsdf, bool reflects, real2 u,
-                                                    BsdfSample* sample)
+static inline real3 bsdf_glass_sample_multiple(const Bsdf* bsdf, uint lobe, bool reflects, real2 u,
+                                               BsdfSample* sample)
 {
-    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : LOBE_DIELECTRIC | TRACE_LOBE_REFRACTS);
+    TRACE_SET(sample->lobe, reflects ? lobe : lobe | TRACE_LOBE_REFRACTS);
     real3 wi = bsdf_energy_multiple_sample(u);
     wi.z = reflects ? wi.z : -wi.z;
-    sample->eta = reflects ? REAL(1.0) : bsdf->eta;
+    sample->eta = reflects ? REAL(1.0) : bsdf_crossed_eta(bsdf);
     return wi;
 }
 
@@ -122,10 +139,11 @@ static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, 
     if ((wi.z > REAL(0.0)) != reflects || !(wo.z > MICROFACET_SMALLEST_COS))
         return wi;
     sample->eta = reflects ? REAL(1.0) : bsdf->eta;
-    sample->is_weighted = smooth || (bsdf->lobes == LOBE_DIELECTRIC && bsdf->choose_multiple == REAL(0.0));
+    sample->is_weighted = smooth || (bsdf->lobes == LOBE_DIELECTRIC &&
+                                     bsdf->choose_multiple == REAL(0.0) && !bsdf_is_covered(bsdf));
     if (!sample->is_weighted)
         return wi;
-    sample->weight = reflects ? bsdf->specular : bsdf->transmission * bsdf_cross(bsdf, REAL(1.0));
+    sample->weight = reflects ? bsdf_glass_color(bsdf) : bsdf->transmission * bsdf_cross(bsdf, REAL(1.0));
     if (HAS(EFFECT_PATH_FILTER) && choose != f)
         sample->weight *= reflects ? f : REAL(1.0) - f;
     if (!smooth) {
@@ -139,10 +157,11 @@ static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, 
 
 static inline real3 bsdf_dielectric_sample(const Bsdf* bsdf, BsdfChoice choice, real2 u, BsdfSample* sample)
 {
-    const real multiple = bsdf->choose_multiple;
+    const real multiple = bsdf_dielectric_is_delta(bsdf) ? REAL(0.0) : bsdf->choose_multiple;
     const real share = choice.u - choice.before;
     if (HAS(EFFECT_ROUGH_REFRACTION) && share < multiple)
-        return bsdf_dielectric_sample_multiple(bsdf, share < multiple * bsdf->multiple_reflects, u, sample);
+        return bsdf_glass_sample_multiple(bsdf, LOBE_DIELECTRIC, share < multiple * bsdf->multiple_reflects, u,
+                                          sample);
     const real u_way = (share - multiple) / (bsdf->choose[LOBE_ROW_DIELECTRIC] - multiple);
     return bsdf_dielectric_sample_single(bsdf, u_way, u, sample);
 }

@@ -16,6 +16,7 @@
 #define CLRT_SCATTERING_BSDF_ENERGY_H
 
 #include "albedo.h"
+#include "bsdf_cover.h"
 #include "bsdf_types.h"
 #include "fresnel.h"
 #include "numerics/warp.h"
@@ -23,7 +24,9 @@
 /* The colour of a reflection whose half vector meets the directions at this cosine. */
 static inline real3 bsdf_reflection_color(const Bsdf* bsdf, real cos_h)
 {
-    return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
+    const real3 color =
+        bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick(bsdf->specular, cos_h) : bsdf->specular;
+    return bsdf_is_part_glass(bsdf) ? color * (REAL(1.0) - bsdf->glass) : color;
 }
 
 /* The facets' reflectance in light from everywhere. */
@@ -61,15 +64,45 @@ static inline real3 bsdf_energy_coupling(const Bsdf* bsdf, real3 wi)
     return bsdf->passing * bsdf_energy_passing(bsdf, bsdf_energy_albedo(bsdf, wi));
 }
 
-/* Light that leaves after more than one facet: BSDF times |cos_i|. */
-static inline real3 bsdf_energy_multiple(const Bsdf* bsdf, real3 wi)
+/* True if this rough lobe holds the light of more than one facet: where glass is as rough as the reflection
+   beside it, the glass holds that of both. */
+static inline bool bsdf_energy_has_multiple(const Bsdf* bsdf, uint lobe)
+{
+    if (!bsdf_is_part_glass(bsdf) || lobe != LOBE_GLOSSY)
+        return true;
+    if (bsdf->lobes & LOBE_PANE)
+        return false;
+    return !HAS(EFFECT_ROUGH_REFRACTION) || !(bsdf->lobes & LOBE_DIELECTRIC) || bsdf->eta == REAL(1.0);
+}
+
+/* Of its probability, what goes to that light. */
+static inline real bsdf_energy_multiple_choice(const Bsdf* bsdf, uint lobe)
+{
+    return bsdf_energy_has_multiple(bsdf, lobe) ? bsdf->choose_multiple : REAL(0.0);
+}
+
+/* Light that leaves by way of opaque lobes after more than one facet: BSDF times cos_i, for wi.z > 0. */
+static inline real3 bsdf_energy_multiple_reflection(const Bsdf* bsdf, real3 wi)
+{
+    return bsdf->multiple * (albedo_reflection(&bsdf->rough, wi).loss * wi.z * REAL_INVERSE_PI);
+}
+
+/* By way of the glass, and of the reflection beside it: BSDF times |cos_i|. */
+static inline real3 bsdf_energy_multiple_glass(const Bsdf* bsdf, real3 wi)
 {
     const real cos_i = fabs(wi.z);
-    if (!(bsdf->lobes & LOBE_DIELECTRIC))
-        return bsdf->multiple * (albedo_reflection(&bsdf->rough, wi).loss * cos_i * REAL_INVERSE_PI);
-    const real eta = wi.z > REAL(0.0) ? bsdf->eta : REAL(1.0) / bsdf->eta;
-    const real loss = albedo_dielectric_loss(&bsdf->rough, eta, fmin(cos_i, REAL(1.0)));
-    return (wi.z > REAL(0.0) ? bsdf->multiple : bsdf->multiple_through) * (loss * cos_i * REAL_INVERSE_PI);
+    real loss;
+    if (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE))
+        loss = albedo_reflection(&bsdf->rough, wi).loss;
+    else {
+        const real eta = wi.z > REAL(0.0) ? bsdf->eta : REAL(1.0) / bsdf->eta;
+        loss = albedo_dielectric_loss(&bsdf->rough, eta, fmin(cos_i, REAL(1.0)));
+    }
+    const real3 value =
+        (wi.z > REAL(0.0) ? bsdf->multiple_glass : bsdf->multiple_through) * (loss * cos_i * REAL_INVERSE_PI);
+    return HAS(EFFECT_GLOSSY) && bsdf_is_part_glass(bsdf) && wi.z > REAL(0.0)
+               ? value + bsdf_energy_multiple_reflection(bsdf, wi)
+               : value;
 }
 
 /* Samples it: L(wi) cos_i is flat for rough facets and highest near the horizon for smooth ones, so all
@@ -101,6 +134,10 @@ static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
     const Albedo albedo = bsdf_energy_albedo(bsdf, bsdf->wo);
     bsdf->multiple = color * (albedo.loss / mean.loss);
     bsdf->multiple_size = vector_color_size(color) * albedo.loss;
+    if (bsdf_is_part_glass(bsdf)) {
+        bsdf->multiple *= REAL(1.0) - bsdf->glass;
+        bsdf->multiple_size *= REAL(1.0) - bsdf->glass;
+    }
     if (!is_coupled)
         return;
     bsdf->flags |= BSDF_COUPLED;
@@ -113,6 +150,22 @@ static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
     bsdf->matte_size = vector_color_size(bsdf->matte * albedo_left);
 }
 
+/* Adds the glass's light of more than one facet, `loss`, of which `reflects` stays on wo's side, to that of
+   the reflection beside it. */
+static inline void bsdf_energy_add_glass(Bsdf* bsdf, real loss, real reflects)
+{
+    if (!bsdf_is_part_glass(bsdf)) {
+        bsdf->multiple_size = loss;
+        bsdf->multiple_reflects = reflects;
+        return;
+    }
+    const real size = vector_color_size((real3)(bsdf->glass)) * loss;
+    const real sum = bsdf->multiple_size + size;
+    bsdf->multiple_reflects =
+        sum > REAL(0.0) ? fma(size, reflects, bsdf->multiple_size) / sum : REAL(1.0);
+    bsdf->multiple_size = sum;
+}
+
 /* Of a rough dielectric. The share of what is lost that crosses is 1 - F_avg where both sides lose alike,
    less on the side that loses more: then f / eta^2 is the same in both directions. */
 static inline void bsdf_energy_set_dielectric(Bsdf* bsdf)
@@ -123,24 +176,42 @@ static inline void bsdf_energy_set_dielectric(Bsdf* bsdf)
     const real there = albedo_dielectric_mean_loss(&bsdf->rough, REAL(1.0) / bsdf->eta);
     const real crossing = (REAL(1.0) - fresnel_dielectric_mean(bsdf->eta)) / fmax(here, there);
     const real crosses = crossing * there;
-    bsdf->multiple = bsdf->specular * ((REAL(1.0) - crosses) * loss / here);
+    bsdf->multiple_glass = bsdf_glass_color(bsdf) * ((REAL(1.0) - crosses) * loss / here);
     bsdf->multiple_through = bsdf->transmission * bsdf_cross(bsdf, crossing * loss);
-    bsdf->multiple_size = loss;
-    bsdf->multiple_reflects = REAL(1.0) - crosses;
+    bsdf_energy_add_glass(bsdf, loss, REAL(1.0) - crosses);
+}
+
+/* Of a rough pane: what passes is spread as what is reflected, so both lose alike. */
+static inline void bsdf_energy_set_pane(Bsdf* bsdf)
+{
+    bsdf->rough = albedo_roughness(bsdf->alpha_x, bsdf->alpha_y);
+    const real loss = albedo_reflection(&bsdf->rough, bsdf->wo).loss;
+    const real mean = albedo_reflection_mean(&bsdf->rough).loss;
+    const real reflects = fresnel_dielectric_mean(bsdf->eta);
+    bsdf->multiple_glass = bsdf_glass_color(bsdf) * (reflects * loss / mean);
+    bsdf->multiple_through = bsdf->transmission * ((REAL(1.0) - reflects) * loss / mean);
+    bsdf_energy_add_glass(bsdf, loss, reflects);
 }
 
 /* Sets all of it for wo; the lobes are those of the material, before a path filter takes some away. */
 static inline void bsdf_energy_set(Bsdf* bsdf)
 {
-    bsdf->flags &= ~BSDF_COUPLED;
+    bsdf->flags &= ~(BSDF_COUPLED | BSDF_COVERED);
     bsdf->rough.alpha = REAL(0.0);
-    bsdf->multiple = (real3)(REAL(0.0));
+    bsdf->multiple = bsdf->multiple_glass = bsdf->multiple_through = (real3)(REAL(0.0));
+    bsdf->multiple_reflects = REAL(1.0);
     bsdf->multiple_size = REAL(0.0);
     if (HAS(EFFECT_GLOSSY | EFFECT_MIRROR) && (bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
         bsdf_energy_set_reflection(bsdf);
     if (HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) && bsdf->alpha_x > REAL(0.0) &&
         bsdf->alpha_x == bsdf->alpha_y && bsdf->eta != REAL(1.0))
         bsdf_energy_set_dielectric(bsdf);
+    if (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE) && bsdf->alpha_x > REAL(0.0))
+        bsdf_energy_set_pane(bsdf);
+    if (HAS(EFFECT_COAT | EFFECT_SHEEN) && (bsdf->lobes & (LOBE_COAT | LOBE_SHEEN))) {
+        bsdf->flags |= BSDF_COVERED;
+        cover_set(bsdf);
+    }
 }
 
 #endif

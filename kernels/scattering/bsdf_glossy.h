@@ -40,10 +40,11 @@ static inline BsdfValue bsdf_glossy_eval_single(const Bsdf* bsdf, real3 wi)
 static inline void bsdf_glossy_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
 {
     BsdfValue lobe = bsdf_glossy_eval_single(bsdf, wi);
-    lobe.pdf_w *= bsdf->choose[LOBE_ROW_GLOSSY] - bsdf->choose_multiple;
-    if (wi.z > REAL(0.0)) {
-        lobe.value += bsdf_energy_multiple(bsdf, wi);
-        lobe.pdf_w = fma(bsdf->choose_multiple, bsdf_energy_multiple_pdf_w(), lobe.pdf_w);
+    const real multiple = bsdf_energy_multiple_choice(bsdf, LOBE_GLOSSY);
+    lobe.pdf_w *= bsdf->choose[LOBE_ROW_GLOSSY] - multiple;
+    if (wi.z > REAL(0.0) && bsdf_energy_has_multiple(bsdf, LOBE_GLOSSY)) {
+        lobe.value += bsdf_energy_multiple_reflection(bsdf, wi);
+        lobe.pdf_w = fma(multiple, bsdf_energy_multiple_pdf_w(), lobe.pdf_w);
     }
     sum->value += lobe.value;
     sum->pdf_w += lobe.pdf_w;
@@ -59,7 +60,7 @@ static inline real3 bsdf_glossy_sample_single(const Bsdf* bsdf, real2 u)
 static inline real3 bsdf_glossy_sample(const Bsdf* bsdf, BsdfChoice choice, real2 u, BsdfSample* sample)
 {
     TRACE_SET(sample->lobe, LOBE_GLOSSY);
-    return choice.u < choice.before + bsdf->choose_multiple ? bsdf_energy_multiple_sample(u)
+    return choice.u < choice.before + bsdf_energy_multiple_choice(bsdf, LOBE_GLOSSY) ? bsdf_energy_multiple_sample(u)
                                                             : bsdf_glossy_sample_single(bsdf, u);
 }
 

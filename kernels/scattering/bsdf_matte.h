@@ -43,7 +43,7 @@ static inline real3 bsdf_matte_sample(const Bsdf* bsdf, BsdfChoice choice, real2
 {
     const real3 wi = warp_cosine_hemisphere(u);
     TRACE_SET(sample->lobe, LOBE_MATTE);
-    sample->is_weighted = bsdf->lobes == LOBE_MATTE;
+    sample->is_weighted = bsdf->lobes == LOBE_MATTE && !bsdf_is_covered(bsdf);
     if (!sample->is_weighted)
         return wi;
     sample->pdf_w = bsdf_matte_pdf_w(wi);

@@ -22,7 +22,10 @@ static CLRT_NOINLINE Bsdf bsdf_reversed(const Bsdf* bsdf, real3 wi)
         reversed.normal_g = -bsdf->normal_g;
         reversed.normal_s = -bsdf->normal_s;
         reversed.is_curved = false;
-        reversed.eta = REAL(1.0) / bsdf->eta;
+        if (!(HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE)))
+            reversed.eta = REAL(1.0) / bsdf->eta;
+        if (HAS(EFFECT_COAT | EFFECT_SHEEN) && (bsdf->lobes & LOBE_DIELECTRIC))
+            reversed.flags ^= BSDF_INSIDE;
     }
     bsdf_energy_set(&reversed);
     bsdf_choose_lobes(&reversed);

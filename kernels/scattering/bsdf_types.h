@@ -21,6 +21,20 @@
 /* The matte lobe gets what the reflection above it leaves (bsdf_energy.h). */
 #define BSDF_COUPLED 0x40000u
 
+/* A coat or a sheen lies above the lobes (bsdf_cover.h), and wo is below it, in the solid. */
+#define BSDF_COVERED 0x100000u
+#define BSDF_INSIDE 0x200000u
+
+/* What lies above the lobes of the surface (bsdf_cover.h). */
+typedef struct {
+    real coat;            /* weight */
+    AlbedoRoughness film; /* of the coat */
+    real3 sheen;          /* colour */
+    real sheen_alpha;
+    real coat_left, left;      /* what the coat, and what both leave of light from wo, */
+    real mean_left;            /* and both of light from everywhere */
+} BsdfCover;
+
 typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
     real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
@@ -31,7 +45,8 @@ typedef struct {
     real3 specular;     /* reflection colour, or F0 */
     real3 transmission; /* tint of a crossing */
     real alpha_x, alpha_y;
-    real eta;                /* index on wo's side over index on the other side */
+    real eta;                /* index on wo's side over index on the other side; of a pane, air over glass */
+    real glass;              /* weight of the glass beside the other lobes; where BSDF has none of it unset */
     real exponent;           /* of Phong's highlight; 0: none */
     uint lobes;              /* LOBE_* */
     uint fresnel;            /* FRESNEL_* */
@@ -40,12 +55,14 @@ typedef struct {
     real3 passing;           /* coupling of the matte lobe but for what depends on wi */
     real3 passing_loss;      /* how it grows with what rough facets lose */
     real3 multiple;          /* light of more than one facet but for what depends on wi: reflected */
-    real3 multiple_through;  /* and refracted, with the squared index ratio */
+    real3 multiple_glass;    /* the same by the glass: reflected, */
+    real3 multiple_through;  /* and let through, with the squared index ratio */
     real multiple_reflects;  /* the reflected share of it */
     real matte_size;         /* of the albedo of the matte lobe, */
     real multiple_size;      /* and of that of the light of more than one facet */
     real choose[LOBE_COUNT]; /* probabilities of the lobes, by LOBE_ROW_*; 0 where it has none */
     real choose_multiple;    /* the part of the rough lobe's that goes to the light of more than one facet */
+    BsdfCover cover;         /* where the flag is BSDF_COVERED */
 } Bsdf;
 
 /* All lobes that are no delta functions, for one direction. */
@@ -90,6 +107,31 @@ typedef struct {
 
    Densities of the reverse direction, sampling wo from wi, are those of the surface seen from wi
    (bsdf_reverse.h). */
+
+/* True where other lobes are beside the glass; the matte one is already scaled by its share, and so is the
+   glass's transmission. */
+static inline bool bsdf_is_part_glass(const Bsdf* bsdf)
+{
+    return HAS(EFFECT_PART_GLASS) && (bsdf->flags & MATERIAL_PART_GLASS);
+}
+
+/* Factor of what the glass reflects. */
+static inline real3 bsdf_glass_color(const Bsdf* bsdf)
+{
+    return bsdf_is_part_glass(bsdf) ? (real3)(bsdf->glass) : bsdf->specular;
+}
+
+/* The index ratio that a direction has crossed: none at a pane. */
+static inline real bsdf_crossed_eta(const Bsdf* bsdf)
+{
+    return HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE) ? REAL(1.0) : bsdf->eta;
+}
+
+/* True if what lies above the lobes takes part. */
+static inline bool bsdf_is_covered(const Bsdf* bsdf)
+{
+    return HAS(EFFECT_COAT | EFFECT_SHEEN) && (bsdf->flags & BSDF_COVERED);
+}
 
 /* The squared index ratio, which scales radiance where it crosses a boundary, but not importance (Veach 1997,
    sec. 5.2), times x. This is its one place. */

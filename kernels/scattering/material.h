@@ -120,6 +120,65 @@ static inline real3 material_reflectance(const Scene* scene, uint map, const Sur
     return color;
 }
 
+/* A constant times its map. */
+static inline real material_scaled(const Scene* scene, float constant_part, uint map, const Surface* surface)
+{
+    const real value = (real)constant_part;
+    return HAS(EFFECT_TEXTURES) && map != NO_INDEX ? value * real_unit(texture_scalar(scene, map, surface->uv))
+                                                   : value;
+}
+
+/* Splits off the glass of a material, whose base colour is still `matte`: metal, then glass of weight w in
+   what is no metal, then the rest (Cycles' principled order). The matte base that is left is scaled by its
+   share. Gives the metallic part of the rest. */
+static inline real material_part_glass(const Scene* scene, global const Material* material,
+                                       const Surface* surface, real metallic, Bsdf* bsdf)
+{
+    global const MaterialExtension* extension = scene->extensions + surface->material;
+    const real weight = material_scaled(scene, EXTENSION_TRANSMISSION(*extension),
+                                        extension->map_transmission, surface);
+    const real3 base = bsdf->matte;
+    const bool is_pane = (material->lobes & LOBE_PANE) != 0u;
+    bsdf->glass = (REAL(1.0) - metallic) * weight;
+    bsdf->transmission = bsdf->glass * (is_pane ? base : sqrt(base));
+    return bsdf->glass < REAL(1.0) ? metallic / (REAL(1.0) - bsdf->glass) : REAL(0.0);
+}
+
+/* Reads what lies above the surface. */
+static inline void material_cover(const Scene* scene, global const Material* material, const Surface* surface,
+                                  Bsdf* bsdf)
+{
+    bsdf->cover.coat = REAL(0.0);
+    bsdf->cover.sheen = (real3)(REAL(0.0));
+    global const MaterialExtension* extension = scene->extensions + surface->material;
+    if (HAS(EFFECT_COAT) && (material->lobes & LOBE_COAT)) {
+        bsdf->cover.coat = material_scaled(scene, extension->coat, extension->map_coat, surface);
+        const real root = material_scaled(scene, 1.0f, extension->map_coat_roughness, surface);
+        const real alpha = fmax((real)extension->coat_alpha * root * root, MATERIAL_SMALLEST_ALPHA);
+        bsdf->cover.film = albedo_roughness(alpha, alpha);
+    }
+    if (HAS(EFFECT_SHEEN) && (material->lobes & LOBE_SHEEN)) {
+        bsdf->cover.sheen = vector_from(extension->sheen);
+        if (HAS(EFFECT_TEXTURES) && extension->map_sheen != NO_INDEX)
+            bsdf->cover.sheen *= material_reflectance(scene, extension->map_sheen, surface);
+        const real root = material_scaled(scene, 1.0f, extension->map_sheen_roughness, surface);
+        bsdf->cover.sheen_alpha =
+            fmax((real)EXTENSION_SHEEN_ALPHA(*extension) * root * root, SHEEN_SMALLEST_ALPHA);
+    }
+}
+
+/* The direction along which highlights are stretched. */
+static inline real3 material_tangent(const Scene* scene, global const Material* material,
+                                     const Surface* surface, real3 n)
+{
+    if (!HAS(EFFECT_ROTATION) || !(material->flags & MATERIAL_TURNED))
+        return surface->tangent;
+    global const MaterialExtension* extension = scene->extensions + surface->material;
+    const Frame frame = frame_make_tangent(n, surface->tangent);
+    const real handed = vector_dot(frame.y, surface->bitangent) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
+    return (real)extension->turn_cos * frame.x + (handed * (real)extension->turn_sin) * frame.y;
+}
+
 /* Reads colours and roughness, maps included. */
 static inline void material_parameters(const Scene* scene, global const Material* material,
                                        const Surface* surface, Bsdf* bsdf)
@@ -136,10 +195,14 @@ static inline void material_parameters(const Scene* scene, global const Material
         if (material->map_roughness != NO_INDEX)
             roughness = real_unit(texture_scalar(scene, material->map_roughness, surface->uv));
     }
+    if (HAS(EFFECT_PART_GLASS) && (material->flags & MATERIAL_PART_GLASS))
+        metallic = material_part_glass(scene, material, surface, metallic, bsdf);
     if (material->flags & MATERIAL_METALLIC_ROUGHNESS) {
         bsdf->specular = vector_mix(bsdf->specular, bsdf->matte, metallic);
         bsdf->matte *= REAL(1.0) - metallic;
     }
+    if (HAS(EFFECT_PART_GLASS) && (material->flags & MATERIAL_PART_GLASS))
+        bsdf->matte *= REAL(1.0) - bsdf->glass;
     /* What is smooth stays so, whatever its map: only alpha calls for the effects of rough lobes. */
     if (roughness != REAL(1.0) && material->roughness_sqrt_x > 0.0f) {
         const real x = (real)material->roughness_sqrt_x * roughness;
@@ -178,11 +241,18 @@ CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surf
     bsdf->normal_s = surface->normal_s;
     bsdf->is_curved = surface->is_curved;
     const real index = (real)MATERIAL_INDEX(*material);
-    bsdf->eta = HAS(EFFECT_REFRACTION) && surface->front ? REAL(1.0) / index : index;
+    const bool from_air = (HAS(EFFECT_REFRACTION) && surface->front) ||
+                          (HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE));
+    bsdf->eta = from_air ? REAL(1.0) / index : index;
     material_parameters(scene, material, surface, bsdf);
+    if (HAS(EFFECT_COAT | EFFECT_SHEEN) && (material->lobes & (LOBE_COAT | LOBE_SHEEN))) {
+        material_cover(scene, material, surface, bsdf);
+        bsdf->flags |= !surface->front && (material->lobes & LOBE_DIELECTRIC) ? BSDF_INSIDE : 0u;
+    }
     const real3 n = material_normal(scene, material, surface, wo);
     /* Only stretched highlights need to know where u grows. */
-    bsdf->frame = bsdf->alpha_x != bsdf->alpha_y ? frame_make_tangent(n, surface->tangent) : frame_make(n);
+    bsdf->frame = bsdf->alpha_x != bsdf->alpha_y ? frame_make_tangent(n, material_tangent(scene, material, surface, n))
+                                              : frame_make(n);
     bsdf->wo = frame_to_local(&bsdf->frame, wo);
     bsdf_energy_set(bsdf);
     bsdf_choose_lobes(bsdf);

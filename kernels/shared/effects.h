@@ -23,7 +23,17 @@
 #define EFFECT_LIGHT_TREE 0x8000u      /* lights chosen by what they may send to a vertex */
 #define EFFECT_MOTION_BLUR 0x10000u    /* what moves while the shutter is open; rays have a time */
 #define EFFECT_DEPTH_OF_FIELD 0x20000u /* a lens wider than a point */
-#define EFFECT_ALL 0x3ffffu
+#define EFFECT_PART_GLASS 0x40000u     /* transmission mixed with other lobes by a weight */
+#define EFFECT_ATTENUATION 0x80000u    /* solids that absorb on the way through them */
+#define EFFECT_COAT 0x100000u          /* clear coats */
+#define EFFECT_SHEEN 0x200000u         /* fibres that reflect towards grazing angles */
+#define EFFECT_THIN_WALL 0x20000000u   /* panes without an inside */
+#define EFFECT_ROTATION 0x40000000u    /* highlights stretched askew to the texture coordinates */
+#define EFFECT_ALL (0x3fffffu | EFFECT_THIN_WALL | EFFECT_ROTATION)
+
+/* Effects that read the array of material extensions. */
+#define EFFECTS_EXTENSION                                                                                    \
+    (EFFECT_PART_GLASS | EFFECT_ATTENUATION | EFFECT_COAT | EFFECT_SHEEN | EFFECT_ROTATION)
 
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS

@@ -25,6 +25,7 @@
     ROW(vec2, uvs, uvs)                                                                                      \
     ROW(Triangle, triangles, triangles)                                                                      \
     ROW(Material, materials, materials)                                                                      \
+    ROW(MaterialExtension, extensions, extensions)                                                           \
     ROW(Texture, textures, textures)                                                                         \
     ROW(u32, texel_words, texel_words)                                                                       \
     ROW(Emitter, emitters, emitters)                                                                         \

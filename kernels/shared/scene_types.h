@@ -31,6 +31,9 @@ ASSERT_SIZE(Triangle, 48);
 #define MATERIAL_EMITS_BOTH_SIDES 2u
 #define MATERIAL_WHITTED_MIRROR 4u /* `whitted` sends one mirror ray for the reflection lobe, no highlight */
 #define MATERIAL_CUT_OUT 8u        /* coverage below 1 somewhere */
+#define MATERIAL_PART_GLASS 16u    /* with MATERIAL_METALLIC_ROUGHNESS: part of what is no metal is glass */
+#define MATERIAL_ATTENUATES 32u    /* the solid behind the surface absorbs on the way */
+#define MATERIAL_TURNED 64u        /* the stretched highlight is turned against the texture coordinates */
 
 typedef struct {
     vec4 matte;        /* rgb: Kd in [0,1]; w: MATERIAL_COVERAGE */
@@ -55,6 +58,22 @@ ASSERT_SIZE(Material, 128);
 #define MATERIAL_EXPONENT(material) ((material).specular.w)  /* Phong's Ns; 0: no highlight */
 #define MATERIAL_INDEX(material) ((material).transmission.w) /* of refraction, Ni */
 #define MATERIAL_METALLIC(material) ((material).emission.w)  /* Pm in [0,1] */
+
+/* What few materials have. The array is as long as that of the materials, or empty. */
+typedef struct {
+    vec4 attenuation; /* rgb: absorption per length of the normalised frame; w: EXTENSION_TRANSMISSION */
+    vec4 sheen;       /* rgb: colour in [0,1]; w: EXTENSION_SHEEN_ALPHA */
+    float coat;       /* weight in [0,1] */
+    float coat_alpha; /* GGX roughness, above 0 */
+    float turn_cos, turn_sin; /* of the highlight's x axis against the direction of growing u */
+    u32 map_transmission, map_coat, map_sheen; /* multiply the constants; NO_INDEX: none */
+    u32 map_coat_roughness, map_sheen_roughness; /* alpha = constant (map)^2 */
+    u32 unused0, unused1, unused2;
+} MaterialExtension;
+ASSERT_SIZE(MaterialExtension, 80);
+
+#define EXTENSION_TRANSMISSION(extension) ((extension).attenuation.w) /* weight of the glass, in [0,1] */
+#define EXTENSION_SHEEN_ALPHA(extension) ((extension).sheen.w)        /* of its distribution, above 0 */
 
 /* How texels are stored in the word array. */
 #define TEXEL_SRGB8 0u   /* one word: r, g, b, a bytes from the lowest; sRGB-encoded but for a */

@@ -10,8 +10,9 @@ namespace clrt {
 namespace {
 
 /// What a map can be of; all others are not loaded.
-constexpr u32 MAPPED = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION |
-                       EFFECT_AREA_LIGHT | EFFECT_CUT_OUT | EFFECT_NORMAL_MAP;
+constexpr u32 MAPPED = EFFECT_COAT | EFFECT_SHEEN | EFFECT_THIN_WALL | EFFECT_MATTE | EFFECT_GLOSSY |
+                       EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION | EFFECT_AREA_LIGHT | EFFECT_CUT_OUT |
+                       EFFECT_NORMAL_MAP;
 
 std::string with_hyphens(std::string name) {
     std::replace(name.begin(), name.end(), ' ', '-');
@@ -42,8 +43,16 @@ const std::vector<EffectSpec>& effect_table() {
          "lights are chosen by tables, as by --light-sampler mixture"},
         {EFFECT_MOTION_BLUR, "motion blur", 0, 0, "the picture of the moment when the shutter opens"},
         {EFFECT_DEPTH_OF_FIELD, "depth of field", 0, 0, "a pinhole: all depths are sharp"},
+        {EFFECT_PART_GLASS, "part glass", 0, EFFECT_REFRACTION | EFFECT_THIN_WALL,
+         "materials that are partly glass are as if they were no glass"},
+        {EFFECT_ATTENUATION, "attenuation", EFFECT_REFRACTION, 0, "solids absorb nothing on the way through"},
+        {EFFECT_COAT, "coat", 0, 0, "no material has a clear coat"},
+        {EFFECT_SHEEN, "sheen", 0, 0, "no material has a sheen"},
         {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
          "direct light only: paths of two segments"},
+        {EFFECT_THIN_WALL, "thin walls", 0, 0, "thin walls of glass are black and opaque"},
+        {EFFECT_ROTATION, "rotated highlights", 0, EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL,
+         "stretched highlights lie along the texture coordinates"},
     };
     return table;
 }

@@ -50,7 +50,7 @@ std::string describe_light(const Scene& scene, const Options& options, const std
     return scene.is_studio ? name + " of the studio" : describe_option(options, name);
 }
 
-/// Collects effects in the order of the table; every question is asked of the used materials or of one fact.
+/// Collects effects; every question is asked of the used materials or of one fact.
 class EffectFinder {
 public:
     explicit EffectFinder(const Scene& scene) : scene_(scene), used_(used_materials(scene)) {}
@@ -72,10 +72,9 @@ public:
     }
 
     /// An effect that a map of the first used material with one of these maps calls for.
-    void map(u32 bit, const std::string& absent,
-             const std::function<std::vector<u32>(const Material&)>& maps_of) {
+    void map(u32 bit, const std::string& absent, const std::function<std::vector<u32>(size_t)>& maps_of) {
         for (size_t i = 0; i < used_.size(); ++i)
-            for (const u32 map : used_[i] ? maps_of(scene_.materials[i]) : std::vector<u32>())
+            for (const u32 map : used_[i] ? maps_of(i) : std::vector<u32>())
                 if (map != NO_INDEX)
                     return fact(bit, true,
                                 fmt::format("{}, map \"{}\"{}", describe_material(scene_, i),
@@ -87,13 +86,24 @@ public:
 
     /// An effect that one fact decides.
     void fact(u32 bit, bool present, const std::string& witness, const SourcePlace& place = {}) {
-        list.push_back({bit, effect_table()[list.size()].name, present, witness, place});
-        assert(effect_table()[list.size() - 1].bit == bit);
+        list_.push_back({bit, row_of(bit).name, present, witness, place});
     }
 
-    std::vector<Effect> list;
+    /// All that were asked for, in the order of the table.
+    std::vector<Effect> take() {
+        std::sort(list_.begin(), list_.end(),
+                  [](const Effect& a, const Effect& b) { return &row_of(a.bit) < &row_of(b.bit); });
+        assert(list_.size() == effect_table().size());
+        return std::move(list_);
+    }
 
 private:
+    static const EffectSpec& row_of(u32 bit) {
+        return *std::find_if(effect_table().begin(), effect_table().end(),
+                             [bit](const EffectSpec& row) { return row.bit == bit; });
+    }
+
+    std::vector<Effect> list_;
     const Scene& scene_;
     const std::vector<bool> used_;
 };
@@ -149,8 +159,22 @@ void find_light_effects(const Scene& scene, const Options& options, EffectFinder
     find_environment(scene, options, finder);
 }
 
+/// All maps of a material, NO_INDEX among them.
+std::vector<u32> maps_of(const Scene& scene, size_t i) {
+    const Material& m = scene.materials[i];
+    std::vector<u32> maps = {m.map_matte,     m.map_specular, m.map_emission, m.map_coverage,
+                             m.map_roughness, m.map_metallic, m.map_normal,   m.map_bump};
+    if (scene.extensions.empty())
+        return maps;
+    const MaterialExtension& e = scene.extensions[i];
+    for (const u32 map :
+         {e.map_transmission, e.map_coat, e.map_sheen, e.map_coat_roughness, e.map_sheen_roughness})
+        maps.push_back(map);
+    return maps;
+}
+
 /// --material may be the reason why effects of materials are absent.
-void find_material_effects(const Options& options, EffectFinder& finder) {
+void find_material_effects(const Scene& scene, const Options& options, EffectFinder& finder) {
     const MaterialReplacement* replacement = find_replacement(options.scene.material_override);
     const std::string by = replacement ? fmt::format(", by {} {}", describe_option(options, "--material"),
                                                      name_of(replacement->which))
@@ -158,14 +182,17 @@ void find_material_effects(const Options& options, EffectFinder& finder) {
     for (const LobeSpec& lobe : LOBE_SPECS)
         finder.material(lobe.effect, lobe.absent + by,
                         [&](const Material& m) { return (m.lobes & lobe.bit) != 0; });
+    const auto flagged = [&](u32 effect, u32 flag, const char* absent) {
+        finder.material(effect, absent + by, [flag](const Material& m) { return (m.flags & flag) != 0; });
+    };
+    flagged(EFFECT_PART_GLASS, MATERIAL_PART_GLASS, "no material is partly glass");
+    flagged(EFFECT_ATTENUATION, MATERIAL_ATTENUATES, "no solid absorbs on the way through it");
+    flagged(EFFECT_ROTATION, MATERIAL_TURNED, "no stretched highlight is turned");
     finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough" + by,
                     [](const Material& m) { return (m.lobes & LOBE_DIELECTRIC) && m.alpha_x > 0; });
-    finder.map(EFFECT_TEXTURES, "no material has a map" + by, [](const Material& m) {
-        return std::vector<u32>{m.map_matte,     m.map_specular, m.map_emission, m.map_coverage,
-                                m.map_roughness, m.map_metallic, m.map_normal,   m.map_bump};
-    });
-    finder.map(EFFECT_NORMAL_MAP, "no material has one" + by, [](const Material& m) {
-        return std::vector<u32>{m.map_normal, m.map_bump};
+    finder.map(EFFECT_TEXTURES, "no material has a map" + by, [&](size_t i) { return maps_of(scene, i); });
+    finder.map(EFFECT_NORMAL_MAP, "no material has one" + by, [&](size_t i) {
+        return std::vector<u32>{scene.materials[i].map_normal, scene.materials[i].map_bump};
     });
 }
 
@@ -274,7 +301,7 @@ u32 chosen_effects(const Options& options, u32 needed) {
 Effects find_effects(const Scene& scene, const Options& options) {
     EffectFinder finder(scene);
     find_light_effects(scene, options, finder);
-    find_material_effects(options, finder);
+    find_material_effects(scene, options, finder);
     find_smooth_normals(scene, finder);
     find_cut_outs(finder);
     find_filter(options, finder);
@@ -287,7 +314,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_depth_of_field(scene, options, finder);
     find_interreflection(scene, options, finder);
 
-    effects.list = std::move(finder.list);
+    effects.list = finder.take();
     for (const Effect& effect : effects.list)
         if (effect.present)
             effects.needed |= effect.bit;

@@ -46,14 +46,38 @@ void take_out_lobe(u32 lobe, Scene& scene) {
         material.lobes &= ~lobe;
         if (lobe == LOBE_GLOSSY)
             MATERIAL_EXPONENT(material) = 0;
+        if (!(material.lobes & LOBE_DIELECTRIC))
+            material.flags &= ~MATERIAL_ATTENUATES;
+        if (!(material.lobes & LOBES_GLASS))
+            material.flags &= ~MATERIAL_PART_GLASS;
+        if (!(material.lobes & LOBES_ROUGH))
+            material.flags &= ~MATERIAL_TURNED;
         if (!(material.lobes & (LOBE_GLOSSY | LOBE_MIRROR)))
             material.flags &= ~MATERIAL_WHITTED_MIRROR;
     }
 }
 
+/// The glass beside other lobes goes; where all is glass nothing is partly so.
+void take_out_part_glass(Scene& scene) {
+    for (Material& material : scene.materials)
+        if (material.flags & MATERIAL_PART_GLASS) {
+            material.flags &= ~(MATERIAL_PART_GLASS | MATERIAL_ATTENUATES);
+            material.lobes &= ~LOBES_GLASS;
+        }
+}
+
+void take_out_flag(u32 flag, Scene& scene) {
+    for (Material& material : scene.materials)
+        material.flags &= ~flag;
+}
+
+/// What is partly glass has one roughness: its other reflection is smooth then, too.
 void take_out_rough_refraction(Scene& scene) {
     for (Material& material : scene.materials)
         if (material.lobes & LOBE_DIELECTRIC) {
+            if (material.lobes & LOBE_GLOSSY)
+                material.lobes ^= LOBE_GLOSSY | LOBE_MIRROR;
+            material.flags &= ~MATERIAL_TURNED;
             material.alpha_x = material.alpha_y = 0;
             material.roughness_sqrt_x = material.roughness_sqrt_y = 0;
             material.map_roughness = NO_INDEX;
@@ -72,6 +96,10 @@ void take_out_textures(Scene& scene) {
             *map = NO_INDEX;
         set_cut_out_flag(material);
     }
+    for (MaterialExtension& extension : scene.extensions)
+        for (u32* map : {&extension.map_transmission, &extension.map_coat, &extension.map_sheen,
+                         &extension.map_coat_roughness, &extension.map_sheen_roughness})
+            *map = NO_INDEX;
     for (size_t i = 0; i < scene.emitted.size(); ++i)
         scene.emitted[i] = constant_emission(scene.materials[i]);
 }
@@ -134,6 +162,12 @@ void take_out_lobes(u32 effects, Scene& scene) {
             take_out_lobe(lobe.bit, scene);
     if (effects & EFFECT_ROUGH_REFRACTION)
         take_out_rough_refraction(scene);
+    if (effects & EFFECT_PART_GLASS)
+        take_out_part_glass(scene);
+    if (effects & EFFECT_ATTENUATION)
+        take_out_flag(MATERIAL_ATTENUATES, scene);
+    if (effects & EFFECT_ROTATION)
+        take_out_flag(MATERIAL_TURNED, scene);
 }
 
 } // namespace

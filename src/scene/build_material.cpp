@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 
 namespace clrt {
 namespace {
@@ -44,17 +45,18 @@ public:
             set_reflection();
             break;
         case Reflection::METALLIC:
-            set_matte();
-            set_metallic();
+            set_metallic_or_glass();
             break;
         case Reflection::DIELECTRIC:
-            set_dielectric();
+            set_dielectric(from_.transmission);
             break;
         }
+        set_extension_flags();
         set_emission();
         set_coverage();
         set_shape_maps();
-        if (is_positive(to_dvec3(m_.matte)) && !(m_.lobes & LOBE_DIELECTRIC))
+        const bool is_all_glass = (m_.lobes & LOBES_GLASS) && !(m_.flags & MATERIAL_PART_GLASS);
+        if (is_positive(to_dvec3(m_.matte)) && !is_all_glass)
             m_.lobes |= LOBE_MATTE;
         return m_;
     }
@@ -135,12 +137,54 @@ private:
             m_.fresnel = FRESNEL_SCHLICK;
     }
 
+    u32 glass_lobe() const { return from_.is_thin ? LOBE_PANE : LOBE_DIELECTRIC; }
+
     /// The surface is rough unless the indices are equal and nothing is bent at all.
-    void set_dielectric() {
+    void set_dielectric(const glm::dvec3& tint) {
+        m_.transmission = to_vec4(tint, from_.ior);
         m_.specular = to_vec4(glm::dvec3(1), 0);
-        m_.lobes = LOBE_DIELECTRIC;
+        m_.lobes = glass_lobe();
         if (MATERIAL_INDEX(m_) != 1.0f)
             set_roughness(roughness());
+    }
+
+    /// True where all of the surface is glass of one colour: no other lobe is there, and nothing varies.
+    bool is_plain_glass() const {
+        return from_.transmission_weight.value == 1 && !from_.transmission_weight.map &&
+               from_.metallic.value == 0 && !from_.base.map;
+    }
+
+    /// What is no metal is partly glass, which the kernels mix (scattering/material.h).
+    void set_metallic_or_glass() {
+        if (is_plain_glass()) {
+            const glm::dvec3 base = from_.base.value;
+            set_dielectric(from_.is_thin ? base : glm::sqrt(base));
+            return;
+        }
+        set_matte();
+        set_metallic();
+        if (is_part_glass())
+            m_.lobes |= glass_lobe();
+    }
+
+    bool is_part_glass() const {
+        const bool has_dielectric = from_.metallic.map || from_.metallic.value < 1;
+        return from_.transmission_weight.value > 0 && has_dielectric;
+    }
+
+    /// What scattering/material.h reads from the extension.
+    void set_extension_flags() {
+        const bool is_solid = (m_.lobes & LOBE_DIELECTRIC) != 0;
+        const bool is_dark = !is_positive(from_.emission.value); // lights know nothing of what is behind them
+        if (is_solid && is_dark && from_.attenuation_distance > 0 &&
+            from_.attenuation_colour != glm::dvec3(1))
+            m_.flags |= MATERIAL_ATTENUATES;
+        if (m_.alpha_x != m_.alpha_y && from_.anisotropy_rotation != 0)
+            m_.flags |= MATERIAL_TURNED;
+        if (from_.coat_weight.value > 0)
+            m_.lobes |= LOBE_COAT;
+        if (is_positive(from_.sheen.value))
+            m_.lobes |= LOBE_SHEEN;
     }
 
     /// F0 = mix(F, base, metallic), where F is the part's that is no metal; matte base (1 - metallic) of what
@@ -153,13 +197,13 @@ private:
                                       ? load(from_.dielectric_f0, TextureRole::LEVEL, m_.map_specular)
                                       : from_.dielectric_f0.value;
         const glm::dvec3 base = to_dvec3(m_.matte);
-        glm::dvec3 f0(dielectric);
+        glm::dvec3 f0 = glm::min(dielectric * from_.specular_tint, glm::dvec3(1));
 
         // Where maps make the mix vary the kernels do it; a pure metal's map is the colour of its reflection.
         m_.fresnel = FRESNEL_SCHLICK;
         const bool has_colour_map = m_.map_matte != NO_INDEX || m_.map_specular != NO_INDEX;
-        if (by_map || (has_colour_map && metallic > 0 && metallic < 1)) {
-            m_.flags |= MATERIAL_METALLIC_ROUGHNESS;
+        if (is_part_glass() || by_map || (has_colour_map && metallic > 0 && metallic < 1)) {
+            m_.flags |= MATERIAL_METALLIC_ROUGHNESS | (is_part_glass() ? MATERIAL_PART_GLASS : 0u);
         } else {
             f0 = glm::mix(f0, base, metallic);
             m_.matte = to_vec4(base * (1 - metallic), 1);

@@ -95,7 +95,7 @@ std::vector<vec4> cover(Part part, int level) {
 
 bool is_caster(const Material& material) {
     const bool may_be_smooth = material.alpha_x == 0 || material.map_roughness != NO_INDEX;
-    return (material.lobes & LOBE_MIRROR) || ((material.lobes & LOBE_DIELECTRIC) && may_be_smooth);
+    return (material.lobes & LOBE_MIRROR) || ((material.lobes & LOBES_GLASS) && may_be_smooth);
 }
 
 std::vector<vec4> find_casters(const Scene& scene) {

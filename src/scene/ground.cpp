@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/ground.h"
 
-#include "scene/build_material.h"
+#include "scene/build_extension.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +38,7 @@ void append_material(const glm::dvec3& albedo, Scene& scene) {
     MaterialDescription ground;
     ground.base.value = albedo;
     scene.materials.push_back(build_material(ground, {}, {}));
+    append_extension(build_extension(ground, scene.materials.back(), {}, {}), scene);
     scene.emitted.emplace_back();
     scene.material_names.emplace_back("ground");
     scene.material_places.emplace_back();

@@ -4,7 +4,7 @@
 #include "error.h"
 #include "output/standard_streams.h"
 #include "scene/assemble_geometry.h"
-#include "scene/build_material.h"
+#include "scene/build_extension.h"
 #include "scene/camera_fit.h"
 #include "scene/camera_motion.h"
 #include "scene/cut_vast.h"
@@ -144,6 +144,7 @@ std::vector<double> build_materials(const std::vector<MaterialDescription>& desc
         scene.emitted.push_back(emitted_radiance(material, pictures.store()));
         exitance.push_back(emitted_luminance(material, scene.emitted.back()));
         scene.materials.push_back(material);
+        append_extension(build_extension(description, material, context, load_map), scene);
         scene.material_names.push_back(description.name);
         scene.material_places.push_back(description.place);
         scene.material_rules.push_back(description.rule);

@@ -60,8 +60,25 @@ struct MaterialDescription {
     double anisotropy = 0; ///< in [0,1]; stretches the roughness along the tangent (Burley 2012, section 5.4)
     std::optional<double> phong_exponent; ///< that the roughness was made of, where no map multiplies it
     bool whitted_mirror = false;          ///< `whitted` follows its reflection as a mirror's
-    double ior = DEFAULT_IOR;             ///< of DIELECTRIC, above 0
-    glm::dvec3 transmission{1};           ///< tint of each crossing
+    double anisotropy_rotation = 0;       ///< turns of the stretched highlight, from growing u to growing v
+    glm::dvec3 specular_tint{1};          ///< of METALLIC: factor of dielectric_f0
+    double ior = DEFAULT_IOR;             ///< of DIELECTRIC and transmission_weight, above 0
+    glm::dvec3 transmission{1};           ///< of DIELECTRIC: tint of each crossing
+
+    /// Of METALLIC, in [0,1]: the share of what is no metal that is glass of index `ior`. It is tinted by the
+    /// root of the base at each crossing of a solid, by the base where the wall is thin.
+    Mapped<double> transmission_weight;
+    bool is_thin = false; ///< the surface is a wall of no thickness: what it lets pass goes straight on
+
+    /// What white light has become behind attenuation_distance (scene units; 0: nothing is absorbed) inside
+    /// the solid (Beer and Lambert).
+    glm::dvec3 attenuation_colour{1};
+    double attenuation_distance = 0;
+
+    Mapped<double> coat_weight;     ///< of a clear film of index 1.5 above everything, in [0,1]
+    Mapped<double> coat_roughness;  ///< in [0,1]; GGX alpha is its square
+    Mapped<glm::dvec3> sheen;       ///< colour of fibres above everything but the coat, in [0,1]
+    Mapped<double> sheen_roughness; ///< in [0,1]; alpha of their distribution is its square
 
     Mapped<glm::dvec3> emission;   ///< radiance on the front side
     bool emits_both_sides = false; ///< and on the back

@@ -16,7 +16,8 @@ std::string colour(const vec4& v) {
 
 std::string roughness(const Material& m) {
     return m.alpha_x == m.alpha_y ? fmt::format("alpha {:.4g}", m.alpha_x)
-                                  : fmt::format("alpha {:.4g} x {:.4g}", m.alpha_x, m.alpha_y);
+                                  : fmt::format("alpha {:.4g} x {:.4g}{}", m.alpha_x, m.alpha_y,
+                                                m.flags & MATERIAL_TURNED ? " turned" : "");
 }
 
 std::string reflection(const Material& m, const char* name) {
@@ -27,7 +28,28 @@ std::string reflection(const Material& m, const char* name) {
     return fmt::format("{} {}", name, kind);
 }
 
-std::vector<std::string> parts_of(const Material& m) {
+std::string glass(const Material& m, const MaterialExtension& e) {
+    std::string text =
+        fmt::format("{} Ni {:.4g}", m.lobes & LOBE_PANE ? "thin wall" : "dielectric", MATERIAL_INDEX(m));
+    if (m.flags & MATERIAL_PART_GLASS)
+        text += fmt::format(" weight {:.4g} of what is no metal", EXTENSION_TRANSMISSION(e));
+    else
+        text += " Tf " + colour(m.transmission);
+    if (m.alpha_x > 0)
+        text += " " + roughness(m);
+    if (m.flags & MATERIAL_ATTENUATES)
+        text += fmt::format(" absorbing {}", colour(e.attenuation));
+    return text;
+}
+
+void add_covers(const Material& m, const MaterialExtension& e, std::vector<std::string>& parts) {
+    if (m.lobes & LOBE_COAT)
+        parts.push_back(fmt::format("coat {:.4g} alpha {:.4g}", e.coat, e.coat_alpha));
+    if (m.lobes & LOBE_SHEEN)
+        parts.push_back(fmt::format("sheen {} alpha {:.4g}", colour(e.sheen), EXTENSION_SHEEN_ALPHA(e)));
+}
+
+std::vector<std::string> parts_of(const Material& m, const MaterialExtension& e) {
     std::vector<std::string> parts;
     if (m.lobes & LOBE_MATTE)
         parts.push_back("matte " + colour(m.matte));
@@ -35,9 +57,9 @@ std::vector<std::string> parts_of(const Material& m) {
         parts.push_back(reflection(m, "glossy") + " " + roughness(m));
     if (m.lobes & LOBE_MIRROR)
         parts.push_back(reflection(m, "mirror"));
-    if (m.lobes & LOBE_DIELECTRIC)
-        parts.push_back(fmt::format("dielectric Ni {:.4g} Tf {}{}", MATERIAL_INDEX(m), colour(m.transmission),
-                                    m.alpha_x > 0 ? " " + roughness(m) : ""));
+    if (m.lobes & LOBES_GLASS)
+        parts.push_back(glass(m, e));
+    add_covers(m, e, parts);
     if (!m.lobes)
         parts.push_back("black");
     if (m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0)
@@ -48,11 +70,23 @@ std::vector<std::string> parts_of(const Material& m) {
     return parts;
 }
 
-std::string maps_of(const Material& m, const Scene& scene) {
-    const std::pair<const char*, u32> maps[] = {
-        {"Kd", m.map_matte},     {"Ks", m.map_specular}, {"Ke", m.map_emission},   {"d", m.map_coverage},
-        {"Pr", m.map_roughness}, {"Pm", m.map_metallic}, {"normal", m.map_normal}, {"bump", m.map_bump},
-    };
+/// Maps and what each is of.
+using Maps = std::vector<std::pair<const char*, u32>>;
+
+Maps maps_of(const Material& m) {
+    return {{"Kd", m.map_matte},     {"Ks", m.map_specular}, {"Ke", m.map_emission},   {"d", m.map_coverage},
+            {"Pr", m.map_roughness}, {"Pm", m.map_metallic}, {"normal", m.map_normal}, {"bump", m.map_bump}};
+}
+
+Maps maps_of(const MaterialExtension& e) {
+    return {{"transmission", e.map_transmission},
+            {"Pc", e.map_coat},
+            {"Pcr", e.map_coat_roughness},
+            {"Ps", e.map_sheen},
+            {"sheen roughness", e.map_sheen_roughness}};
+}
+
+std::string named_maps(const Maps& maps, const Scene& scene) {
     std::string text;
     for (const auto& [name, index] : maps)
         if (index != NO_INDEX)
@@ -70,7 +104,13 @@ std::string describe_material(const Scene& scene, size_t index) {
 
 std::string material_summary(const Scene& scene, size_t index) {
     const Material& material = scene.materials[index];
-    return fmt::format("{}{}", fmt::join(parts_of(material), ", "), maps_of(material, scene));
+    const MaterialExtension extension =
+        scene.extensions.empty() ? MaterialExtension{} : scene.extensions[index];
+    std::string text = fmt::format("{}{}", fmt::join(parts_of(material, extension), ", "),
+                                   named_maps(maps_of(material), scene));
+    if (!scene.extensions.empty())
+        text += named_maps(maps_of(extension), scene);
+    return text;
 }
 
 std::string material_table(const Scene& scene) {

@@ -88,7 +88,8 @@ struct Scene {
     std::vector<float> uvs; ///< u, v pairs
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
-    std::vector<EmittedRadiance> emitted; ///< by each material
+    std::vector<MaterialExtension> extensions; ///< one for each material, or none at all
+    std::vector<EmittedRadiance> emitted;      ///< by each material
     std::vector<std::string> material_names;
     std::vector<SourcePlace> material_places;
     std::vector<std::string> material_rules; ///< the row of the MTL table that made each material

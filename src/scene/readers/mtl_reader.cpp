@@ -28,6 +28,7 @@ constexpr ColourKey COLOUR_KEYS[] = {
     {"ks", &MtlMaterial::ks, 1},
     {"ke", &MtlMaterial::ke, UNLIMITED},
     {"tf", &MtlMaterial::tf, 1},
+    {"attenuation", &MtlMaterial::attenuation, 1},
 };
 
 struct NumberKey {
@@ -47,6 +48,8 @@ constexpr NumberKey NUMBER_KEYS[] = {
     {"pcr", &MtlMaterial::pcr, 1},
     {"aniso", &MtlMaterial::aniso, 1},
     {"anisor", &MtlMaterial::anisor, UNLIMITED},
+    {"attenuation_distance", &MtlMaterial::attenuation_distance, UNLIMITED},
+    {"thin_walled", &MtlMaterial::thin_walled, 1},
 };
 
 struct MapKey {

@@ -21,19 +21,23 @@ struct MtlTexture : TextureUse {
 };
 
 /// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their
-/// ranges: Ka Kd Ks Tf d Tr Pr Pm Ps Pcr aniso in [0,1], Ke, Ns, Pc and anisor not below 0, Ni above 0.
+/// ranges: Ka Kd Ks Tf d Tr Pr Pm Ps Pcr aniso attenuation thin_walled in [0,1], Ke,
+/// Ns, Pc, anisor and attenuation_distance not below 0, Ni above 0. The last three keys are our own, named
+/// as in glTF.
 struct MtlMaterial {
     std::string name;
     SourcePlace place;
     MtlWriter writer;                        ///< of the library
     std::map<std::string, size_t> key_lines; ///< where each key was given last; lower case, no other names
-    std::optional<glm::dvec3> ka, kd, ks, ke, tf;
+    std::optional<glm::dvec3> ka, kd, ks, ke, tf, attenuation;
     std::optional<double> ns, ni, d, tr, pr, pm, ps, pc, pcr, aniso, anisor;
+    std::optional<double> attenuation_distance, thin_walled;
     std::optional<int> illum; ///< 0..9
     std::optional<MtlTexture> map_kd, map_ks, map_ke, map_d, map_pr, map_pm, map_ps, map_normal, map_bump;
     std::optional<MtlTexture> map_ns, map_refl; ///< of Ns, and of what is reflected
 
     // What no key says; mtl_repair.h does.
+    std::optional<double> transmission_weight; ///< share of what is no metal that is glass
     std::optional<double> dielectric_f0; ///< reflectance head-on of the part that is no metal; absent: 4 %
     std::optional<MtlTexture> map_dielectric_f0; ///< multiplies it
     std::vector<std::string> repairs;            ///< names of the repairs that changed this material

@@ -19,8 +19,6 @@ constexpr double BLENDER_NS = 1000, BLENDER_PYTHON_NS = 900;
 constexpr double BLENDER_LEVEL = 0.5, BLENDER_IOR = 1.5;
 /// Blender's Pc is this many times the weight of the coat.
 constexpr double BLENDER_COAT = 4;
-/// A surface that is partly glass counts as glass from this share on.
-constexpr double MOSTLY_GLASS = 0.5;
 
 double mean(const glm::dvec3& c) {
     return (c.x + c.y + c.z) / 3;
@@ -156,32 +154,25 @@ void scale_coat(MtlMaterial& m) {
 double transmission_share(const MtlMaterial& m) {
     if (!m.tf || !has_pr_or_pm(m) || is_glass_by_illum(m))
         return 0;
-    return mean(*m.tf) * (1 - m.pm.value_or(m.map_pm ? 1 : 0));
+    return mean(*m.tf) * (1 - (m.map_pm ? 0 : m.pm.value_or(0)));
 }
 
+/// Partly, or of a colour that varies, which the plain dielectric has not.
 bool is_partly_glass(const MtlMaterial& m, const PictureFacts&) {
-    return transmission_share(m) > 0 && transmission_share(m) < 1;
+    const double share = transmission_share(m);
+    return share > 0 && (share < 1 || m.map_kd || m.map_pm);
 }
 
-void make_all_or_nothing(MtlMaterial& m) {
-    if (transmission_share(m) < MOSTLY_GLASS) {
-        m.tf.reset();
-        return;
-    }
-    m.tf = glm::dvec3(1);
-    m.pm = 0;
+void make_partly_glass(MtlMaterial& m) {
+    m.transmission_weight = mean(*m.tf);
+    m.tf.reset();
+    m.illum.reset();
+    m.pr = m.pr.value_or(m.map_pr ? 1 : 0);
+    m.pm = m.pm.value_or(m.map_pm ? 1 : 0);
 }
 
 bool is_glass_by_tf(const MtlMaterial& m, const PictureFacts&) {
     return transmission_share(m) == 1;
-}
-
-bool has_kd_map_on_glass(const MtlMaterial& m, const PictureFacts& maps) {
-    return is_glass_by_tf(m, maps) && m.map_kd;
-}
-
-void drop_kd_map(MtlMaterial& m) {
-    m.map_kd.reset();
 }
 
 /// Each crossing takes the root of Kd: a body, which is crossed twice, has the colour Kd (Cycles).
@@ -249,12 +240,8 @@ constexpr Repair REPAIRS[] = {
     {"clear Tf 0", is_black_glass, make_clear, "tf", "Tf is 0 beside an index of refraction: Tf 1 is taken"},
     {"coat weight", has_scaled_coat, scale_coat, "pc",
      "Pc is four times the weight of the coat, as Blender writes it"},
-    {"all or nothing of Tf", is_partly_glass, make_all_or_nothing, "tf",
-     "Tf beside Pr or Pm is a weight of transmission, and no lobe here is partly glass: the nearer of glass "
-     "and "
-     "none is taken"},
-    {"untinted glass", has_kd_map_on_glass, drop_kd_map, "map_kd",
-     "map_Kd does not tint glass and is ignored"},
+    {"weight by Tf", is_partly_glass, make_partly_glass, "tf",
+     "Tf beside Pr or Pm is a weight of transmission: the surface is partly glass with Ni and Pr"},
     {"glass by Tf", is_glass_by_tf, make_glass, "tf",
      "Tf beside Pr or Pm is a weight of transmission: glass with Ni and Pr, tinted by the root of Kd"},
     {"norm over map_Bump", has_two_normal_maps, drop_bump_map, "map_bump",

@@ -4,6 +4,7 @@
 #include "colour.h"
 #include "scene/build_material.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@ namespace clrt {
 namespace {
 
 constexpr double DEFAULT_NS = 10;
+/// Blender's roughness of a coat and of a sheen that nobody touched.
+constexpr double DEFAULT_PCR = 0.03, SHEEN_ROUGHNESS = 0.5;
 
 /// What a model reflects besides its matte part.
 enum class Model {
@@ -82,7 +85,9 @@ public:
         set_emission();
         set_coverage();
         set_shape_maps();
-        remark_missing_lobes();
+        set_interior();
+        set_covers();
+        remark_missing_keys();
         return to_;
     }
 
@@ -162,6 +167,7 @@ private:
         to_.metallic = mapped(mtl_.pm, mtl_.map_pm, 1.0);
         to_.dielectric_f0 = mapped(std::optional<double>(mtl_.dielectric_f0.value_or(DIELECTRIC_F0)),
                                    mtl_.map_dielectric_f0, DIELECTRIC_F0);
+        to_.transmission_weight.value = mtl_.transmission_weight.value_or(0);
         to_.whitted_mirror = mtl_.pr && *mtl_.pr <= WHITTED_MIRROR_PR;
     }
 
@@ -171,6 +177,7 @@ private:
         const double by_ns = is_mirror_by_ns() ? 0.0 : std::sqrt(alpha_of_phong(ns));
         to_.roughness = mapped(mtl_.pr, mtl_.map_pr, by_ns);
         to_.anisotropy = mtl_.aniso.value_or(0);
+        to_.anisotropy_rotation = mtl_.anisor.value_or(0);
         if (mtl_.pr)
             return;
         to_.roughness.without_map = by_ns;
@@ -224,17 +231,32 @@ private:
         }
     }
 
-    /// What the keys ask for and no lobe does.
-    void remark_missing_lobes() {
+    void set_interior() {
+        to_.is_thin = mtl_.thin_walled.value_or(0) > 0;
+        to_.attenuation_colour = mtl_.attenuation.value_or(glm::dvec3(1));
+        to_.attenuation_distance = mtl_.attenuation ? mtl_.attenuation_distance.value_or(1) : 0;
+    }
+
+    /// Pc is the coat's weight, Pcr its roughness; Ps the sheen of white fibres, for whose roughness there
+    /// is no key.
+    void set_covers() {
+        to_.coat_weight.value = std::min(mtl_.pc.value_or(0), 1.0);
+        to_.coat_roughness.value = mtl_.pcr.value_or(DEFAULT_PCR);
+        if (!mtl_.ps && !mtl_.map_ps)
+            return;
+        to_.sheen =
+            mapped(mtl_.ps ? std::optional<glm::dvec3>(*mtl_.ps) : std::nullopt, mtl_.map_ps, glm::dvec3(0));
+        if (!mtl_.ps)
+            to_.sheen.without_map = glm::dvec3(0);
+        to_.sheen_roughness.value = SHEEN_ROUGHNESS;
+    }
+
+    /// Keys that mean nothing here.
+    void remark_missing_keys() {
         const auto note = [&](const char* name, const char* key, bool is_given) {
             if (is_given)
                 remark(fmt::format("{} has no effect here and is ignored", name), mtl_.place_of(key));
         };
-        note("Pc (coat)", "pc", mtl_.pc.value_or(0) > 0);
-        note("Ps (sheen)", "ps", mtl_.ps.value_or(0) > 0);
-        note("map_Ps (sheen)", "map_ps", mtl_.map_ps.has_value());
-        note("anisor (turn of the highlight)", "anisor",
-             mtl_.aniso.value_or(0) > 0 && mtl_.anisor.value_or(0) > 0);
         note("map_Ns", "map_ns", mtl_.map_ns.has_value());
         note("map_refl", "map_refl", mtl_.map_refl.has_value());
     }

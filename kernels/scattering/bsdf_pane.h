@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// A wall of glass without thickness: it reflects as glass does, and what it does not reflect passes without
+// being bent; where it is rough, spread as what is reflected but on the other side. Light passes one boundary
+// (KHR_materials_transmission), so both sides are alike. Local directions, z is the normal.
+#ifndef CLRT_SCATTERING_BSDF_PANE_H
+#define CLRT_SCATTERING_BSDF_PANE_H
+
+#include "bsdf_dielectric.h"
+
+static inline bool bsdf_pane_is_delta(const Bsdf* bsdf) { return bsdf->alpha_x == REAL(0.0); }
+
+static inline real bsdf_pane_size(const Bsdf* bsdf) { return bsdf_glass_size(bsdf); }
+
+static inline real3 bsdf_pane_albedo(const Bsdf* bsdf) { return bsdf_glass_albedo(bsdf); }
+
+/* One facet: BSDF times |cos_i| and the density of sampling wi. */
+static inline BsdfValue bsdf_pane_eval_single(const Bsdf* bsdf, real3 wi)
+{
+    BsdfValue result = bsdf_value_none();
+    const real3 wo = bsdf->wo;
+    const real3 mirrored = vector_make(wi.x, wi.y, fabs(wi.z));
+    if (!(wo.z > MICROFACET_SMALLEST_COS && mirrored.z > REAL(0.0)))
+        return result;
+    const real3 h = vector_normalize(wo + mirrored);
+    real cos_t;
+    const real f = fresnel_dielectric(clamp(vector_dot(wo, h), REAL(0.0), REAL(1.0)), bsdf->eta, &cos_t);
+    const real lambda_o = microfacet_lambda(wo, bsdf->alpha_x, bsdf->alpha_y);
+    const real lambda_i = microfacet_lambda(mirrored, bsdf->alpha_x, bsdf->alpha_y);
+    const bool reflects = wi.z > REAL(0.0);
+    const real part = reflects ? f : REAL(1.0) - f;
+    const real d_over_4_cos =
+        part * microfacet_d(h, bsdf->alpha_x, bsdf->alpha_y) / (REAL(4.0) * wo.z);
+    result.value = (reflects ? bsdf_glass_color(bsdf) : bsdf->transmission) *
+                   (d_over_4_cos / (REAL(1.0) + lambda_o + lambda_i));
+    result.pdf_w = d_over_4_cos / (REAL(1.0) + lambda_o);
+    return result;
+}
+
+static inline void bsdf_pane_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
+{
+    if (bsdf_pane_is_delta(bsdf))
+        return;
+    bsdf_glass_add(bsdf, wi, bsdf->choose[LOBE_ROW_PANE], bsdf_pane_eval_single(bsdf, wi), sum);
+}
+
+static inline real3 bsdf_pane_sample(const Bsdf* bsdf, BsdfChoice choice, real2 u, BsdfSample* sample)
+{
+    const real3 wo = bsdf->wo;
+    const bool smooth = bsdf_pane_is_delta(bsdf);
+    const real multiple = smooth ? REAL(0.0) : bsdf->choose_multiple;
+    const real share = choice.u - choice.before;
+    if (share < multiple)
+        return bsdf_glass_sample_multiple(bsdf, LOBE_PANE, share < multiple * bsdf->multiple_reflects, u,
+                                          sample);
+    const real3 h = smooth ? vector_make(REAL(0.0), REAL(0.0), REAL(1.0))
+                           : microfacet_sample(wo, bsdf->alpha_x, bsdf->alpha_y, u);
+    const real cos_oh = clamp(vector_dot(wo, h), REAL(0.0), REAL(1.0));
+    real cos_t;
+    const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
+    const real choose = bsdf_dielectric_choose(bsdf, f);
+    const bool reflects = (share - multiple) / (bsdf->choose[LOBE_ROW_PANE] - multiple) < choose;
+    TRACE_SET(sample->lobe, reflects ? LOBE_PANE : LOBE_PANE | TRACE_LOBE_REFRACTS);
+    real3 wi = smooth ? vector_make(-wo.x, -wo.y, wo.z) : REAL(2.0) * cos_oh * h - wo;
+    /* A microfacet may send light below the surface: such paths end. */
+    sample->is_weighted = smooth || !(wi.z > REAL(0.0));
+    if (!(wi.z > REAL(0.0)))
+        return wi;
+    wi.z = reflects ? wi.z : -wi.z;
+    if (!smooth)
+        return wi;
+    sample->weight = (reflects ? bsdf_glass_color(bsdf) : bsdf->transmission) / bsdf->choose[LOBE_ROW_PANE];
+    if (HAS(EFFECT_PATH_FILTER) && choose != f)
+        sample->weight *= reflects ? f : REAL(1.0) - f;
+    return wi;
+}
+
+#endif
