@@ -142,6 +142,58 @@ TEST(GltfMaterials, AlphaIsCoverageOrAThreshold) {
               std::string::npos);
 }
 
+TEST(GltfMaterials, TransmissionIsAThinWallUnlessItHasAVolume) {
+    const std::string glass = R"("KHR_materials_transmission": {"transmissionFactor": 0.75,
+                                  "transmissionTexture": {"index": 0}})";
+    const MaterialDescription thin = described("{\"extensions\": {" + glass + "}}");
+    EXPECT_EQ(thin.transmission_weight.value, 0.75);
+    EXPECT_EQ(thin.transmission_weight.map->channel, 0u);
+    EXPECT_TRUE(thin.is_thin);
+    EXPECT_FALSE(described("{\"extensions\": {" + glass + "}}", {GltfLights::BLENDER, true}).is_thin);
+    const MaterialDescription solid =
+        described("{\"extensions\": {" + glass + R"(, "KHR_materials_volume": {"thicknessFactor": 1,
+                   "attenuationDistance": 2, "attenuationColor": [0.5, 1, 0]}}})");
+    EXPECT_FALSE(solid.is_thin);
+    EXPECT_EQ(solid.attenuation_distance, 2);
+    EXPECT_EQ(solid.attenuation_colour, glm::dvec3(0.5, 1, 0));
+    EXPECT_TRUE(described("{\"extensions\": {" + glass + ", \"KHR_materials_volume\": {}}}").is_thin);
+}
+
+TEST(GltfMaterials, ReflectanceHeadOnIsColouredAndNotAboveOne) {
+    const MaterialDescription m = described(
+        R"({"extensions": {"KHR_materials_ior": {"ior": 3}, "KHR_materials_specular": {"specularFactor": 0.5,
+            "specularColorFactor": [8, 1, 0]}}})");
+    EXPECT_NEAR(m.dielectric_f0.value, 0.5, 1e-15) << "min(0.25 * 8, 1) * 0.5";
+    EXPECT_NEAR(m.specular_tint.y, 0.25, 1e-15);
+    EXPECT_EQ(m.specular_tint.z, 0);
+}
+
+TEST(GltfMaterials, CoatsAndSheensHaveTheirChannels) {
+    const MaterialDescription m = described(
+        R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
+              "clearcoatTexture": {"index": 0}, "clearcoatRoughnessTexture": {"index": 0}},
+            "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3], "sheenRoughnessFactor": 0.75,
+              "sheenColorTexture": {"index": 0}, "sheenRoughnessTexture": {"index": 0}}}})");
+    EXPECT_EQ(m.coat_weight.value, 0.5);
+    EXPECT_EQ(m.coat_weight.map->channel, 0u);
+    EXPECT_EQ(m.coat_roughness.value, 0.25);
+    EXPECT_EQ(m.coat_roughness.map->channel, 1u);
+    EXPECT_EQ(m.sheen.value, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_FALSE(m.sheen.map->channel);
+    EXPECT_EQ(m.sheen_roughness.value, 0.75);
+    EXPECT_EQ(m.sheen_roughness.map->channel, 3u);
+}
+
+TEST(GltfMaterials, AnisotropyKeepsBothRoughnessesOfTheStandard) {
+    const MaterialDescription m = described(
+        R"({"pbrMetallicRoughness": {"roughnessFactor": 0.5},
+            "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5}}})");
+    const double aspect = std::sqrt(1 - 0.9 * m.anisotropy), mean = m.roughness.value * m.roughness.value;
+    EXPECT_NEAR(mean / aspect, 0.25 + 0.75 * 0.25, 1e-14) << "along: mix(a, 1, s^2)";
+    EXPECT_NEAR(mean * aspect, 0.25, 1e-14) << "across";
+    EXPECT_NEAR(m.anisotropy_rotation, 1.5 / 6.283185307179586, 1e-15);
+}
+
 TEST(GltfMaterials, UnlitShinesAndReflectsNothing) {
     const MaterialDescription m = described(R"({"extensions": {"KHR_materials_unlit": {}},
                                                 "pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 0, 1]}})");

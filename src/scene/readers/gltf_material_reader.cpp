@@ -1,49 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/readers/gltf_material_reader.h"
 
+#include "scene/readers/gltf_values.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <fmt/format.h>
 #include <glm/common.hpp>
-#include <glm/exponential.hpp>
 
 namespace clrt {
 
 namespace {
 
-constexpr u32 CHANNEL_GREEN = 1, CHANNEL_BLUE = 2, CHANNEL_ALPHA = 3;
-
 /// A texture's alpha against a threshold: a ramp so steep that it is a step for bytes, and for what lies
 /// between two texels; floats still resolve it.
 constexpr double MASK_SLOPE = 1 << 16;
-
-/// From this weight on transmission makes the whole surface glass.
-constexpr double GLASS_WEIGHT = 0.5;
 
 /// The most that emission is multiplied by: sums of films hold no more.
 constexpr double MOST_EMISSIVE_STRENGTH = 1e12;
 
 /// Up to this roughness `whitted` follows the reflection as a mirror's.
 constexpr double WHITTED_MIRROR_ROUGHNESS = 0.1;
-
-double unit_number(const JsonValue& object, const char* key, double otherwise) {
-    return std::clamp(object.number(key, otherwise), 0.0, 1.0);
-}
-
-glm::dvec3 colour_of(const JsonValue& object, const char* key, double otherwise, double most = 1) {
-    const std::optional<JsonValue> value = object.find(key);
-    if (!value)
-        return glm::dvec3(otherwise);
-    const std::array<double, 3> c = value->numbers<3>();
-    return glm::clamp(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(0), glm::dvec3(most));
-}
-
-/// Reflectance head-on of an index of refraction; the standard's 0 stands for infinity.
-double reflectance_of_index(double ior) {
-    const double root = (ior - 1) / (ior + 1);
-    return ior > 0 ? root * root : 1;
-}
 
 } // namespace
 
@@ -84,6 +60,9 @@ MaterialDescription GltfMaterialReader::read() {
     }
     read_dielectric();
     read_transmission();
+    read_coat();
+    read_sheen();
+    read_anisotropy();
     read_normal_map();
     read_emission();
     read_alpha();
@@ -103,8 +82,8 @@ void GltfMaterialReader::read_base(const JsonValue& model) {
 }
 
 void GltfMaterialReader::read_metallic_roughness(const JsonValue& model) {
-    m_.metallic.value = unit_number(model, "metallicFactor", 1);
-    m_.roughness.value = unit_number(model, "roughnessFactor", 1);
+    m_.metallic.value = gltf_unit_number(model, "metallicFactor", 1);
+    m_.roughness.value = gltf_unit_number(model, "roughnessFactor", 1);
     const std::optional<TextureUse> both = texture(model, "metallicRoughnessTexture");
     if (!both)
         return;
@@ -122,41 +101,11 @@ void GltfMaterialReader::read_specular_glossiness(const JsonValue& model) {
         base_alpha_ = std::clamp(c[3], 0.0, 1.0);
     }
     m_.base.map = texture(model, "diffuseTexture");
-    m_.specular.value = colour_of(model, "specularFactor", 1);
+    m_.specular.value = gltf_colour(model, "specularFactor", 1);
     m_.specular.map = texture(model, "specularGlossinessTexture");
-    m_.roughness.value = 1 - unit_number(model, "glossinessFactor", 1);
+    m_.roughness.value = 1 - gltf_unit_number(model, "glossinessFactor", 1);
     if (m_.specular.map)
         notice("the glossiness in the alpha of specularGlossinessTexture is taken as 1");
-}
-
-/// F0 = min(F0(ior) colour, 1) weight, of what is no metal.
-void GltfMaterialReader::read_dielectric() {
-    if (const auto ior = extension("KHR_materials_ior"))
-        m_.ior = ior->number("ior", DEFAULT_IOR);
-    m_.dielectric_f0.value = reflectance_of_index(m_.ior);
-    m_.ior = m_.ior > 0 ? m_.ior : DEFAULT_IOR;
-    const std::optional<JsonValue> specular = extension("KHR_materials_specular");
-    if (!specular)
-        return;
-    const double weight = unit_number(*specular, "specularFactor", 1);
-    const glm::dvec3 colour = colour_of(*specular, "specularColorFactor", 1, 1 / m_.dielectric_f0.value);
-    m_.dielectric_f0.value =
-        std::min(m_.dielectric_f0.value * (colour.x + colour.y + colour.z) / 3, 1.0) * weight;
-    if (specular->find("specularTexture") || specular->find("specularColorTexture") || colour.x != colour.y ||
-        colour.y != colour.z)
-        notice("KHR_materials_specular is taken as grey, without its textures");
-}
-
-void GltfMaterialReader::read_transmission() {
-    const std::optional<JsonValue> transmission = extension("KHR_materials_transmission");
-    const double weight = transmission ? unit_number(*transmission, "transmissionFactor", 0) : 0;
-    if (weight < GLASS_WEIGHT || m_.metallic.value >= 1)
-        return;
-    m_.rule += ", glass";
-    m_.reflection = Reflection::DIELECTRIC;
-    m_.transmission = glm::sqrt(m_.base.value);
-    if (weight < 1 || m_.base.map || transmission->find("transmissionTexture"))
-        notice("transmission in part or by a texture becomes glass of one tint");
 }
 
 void GltfMaterialReader::read_normal_map() {
@@ -169,7 +118,7 @@ void GltfMaterialReader::read_emission() {
     const auto strength = extension("KHR_materials_emissive_strength");
     const double factor =
         strength ? std::clamp(strength->number("emissiveStrength", 1), 0.0, MOST_EMISSIVE_STRENGTH) : 1;
-    m_.emission.value = colour_of(json_, "emissiveFactor", 0) * factor;
+    m_.emission.value = gltf_colour(json_, "emissiveFactor", 0) * factor;
     m_.emission.map = texture(json_, "emissiveTexture");
     m_.emits_both_sides = json_.boolean("doubleSided", false);
 }

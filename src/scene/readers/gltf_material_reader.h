@@ -27,6 +27,7 @@ public:
 private:
     std::optional<JsonValue> extension(const char* name) const;
     std::optional<TextureUse> texture(const JsonValue& owner, const char* key);
+    std::optional<TextureUse> channel(const JsonValue& owner, const char* key, u32 channel);
     void notice(const std::string& text) const; ///< about this material
 
     void read_base(const JsonValue& model);
@@ -34,6 +35,10 @@ private:
     void read_specular_glossiness(const JsonValue& model);
     void read_dielectric();
     void read_transmission();
+    void read_volume();
+    void read_coat();
+    void read_sheen();
+    void read_anisotropy();
     void read_normal_map();
     void read_emission();
     void read_alpha();
