@@ -114,7 +114,7 @@ static inline void distribution_connect_delta(const Scene* scene, const RenderPa
                                               const TreeVertex* vertex, CameraSample* sample, PixelRays* rays)
 {
     for (uint i = 0u; i < params->light_count; ++i) {
-        const uint count = scene->lights[i].one_minus_cos > 0.0f ? vertex->shadow_rays : 1u;
+        const uint count = delta_light_has_disc(scene->lights + i) ? vertex->shadow_rays : 1u;
         for (uint k = 0u; k < count; ++k) {
             const Sampler branch = sampler_branch(&vertex->sampler, count, k);
             const real2 u = sampler_pair(&branch, sampler_hash(vertex->path->node) + i, SAMPLE_LIGHT);

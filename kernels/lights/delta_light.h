@@ -6,7 +6,32 @@
 #include "light_sample.h"
 #include "numerics/frame.h"
 
-/* The light from one entry of the array at a position; u chooses the direction within a sun's disc. */
+/* True of suns that rays can meet. */
+static inline bool delta_light_has_disc(global const Light* light)
+{
+    return light->kind == LIGHT_SUN && light->one_minus_cos > 0.0f;
+}
+
+/* True if a point light shines within a cone. */
+static inline bool delta_light_is_spot(global const Light* light)
+{
+    return HAS(EFFECT_SPOT) && LIGHT_SHARPNESS(*light) > 0.0f;
+}
+
+/* The part of its intensity that a point light sends along w, unit. Of a spot the square of what is left to
+   the outer cosine, over what is between both; 1 - cos of the angle between unit vectors is |a - b|^2 / 2. */
+static inline real delta_light_falloff(global const Light* light, real3 w)
+{
+    if (!delta_light_is_spot(light))
+        return REAL(1.0);
+    const real3 apart = w - (real3)((real)light->axis_x, (real)light->axis_y, (real)light->axis_z);
+    const real left = (real)light->one_minus_cos - REAL(0.5) * vector_dot(apart, apart);
+    const real share = clamp(left * (real)LIGHT_SHARPNESS(*light), REAL(0.0), REAL(1.0));
+    return share * share;
+}
+
+/* The light from one entry of the array at a position, before a spot's falloff; u chooses the direction
+   within a sun's disc. */
 static CLRT_NOINLINE LightSample delta_light_sample(const Scene* scene, uint index, real3 position, real2 u)
 {
     global const Light* light = scene->lights + index;
@@ -36,6 +61,17 @@ static CLRT_NOINLINE LightSample delta_light_sample(const Scene* scene, uint ind
     return sample;
 }
 
+/* Dims a sample of a spot by its falloff, once its direction is final (light_choose_side); outside of the
+   cone there is no light. */
+static inline void delta_light_dim(const Scene* scene, uint index, LightSample* sample)
+{
+    if (!HAS(EFFECT_SPOT) || scene->lights[index].kind != LIGHT_POINT)
+        return;
+    const real falloff = delta_light_falloff(scene->lights + index, -sample->wi);
+    sample->radiance *= falloff;
+    sample->pdf_w = falloff > REAL(0.0) ? sample->pdf_w : REAL(0.0);
+}
+
 /* Index of the light that a word and an alias word choose. */
 static inline uint delta_light_choose(const Scene* scene, const RenderParams* params, uint word,
                                       uint alias_word)
@@ -48,7 +84,7 @@ static inline uint delta_light_choose(const Scene* scene, const RenderParams* pa
 static inline bool delta_light_covers(const Scene* scene, uint index, real3 wi)
 {
     global const Light* light = scene->lights + index;
-    if (light->kind != LIGHT_SUN || light->one_minus_cos == 0.0f)
+    if (!delta_light_has_disc(light))
         return false;
     /* 1 - cos of the angle between unit vectors is |a - b|^2 / 2. */
     const real3 apart = wi - vector_from(light->vector);

@@ -43,6 +43,7 @@ static inline LightSample each_light_delta(const Scene* scene, const Surface* su
     LightSample sample = delta_light_sample(scene, index, surface_lifted(surface), u);
     sample.kind = scene->lights[index].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
     light_choose_side(scene, surface, &sample);
+    delta_light_dim(scene, index, &sample);
     return sample;
 }
 

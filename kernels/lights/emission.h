@@ -141,24 +141,25 @@ static CLRT_NOINLINE Emission emission_of_sky(const Scene* scene, const RenderPa
     return emission;
 }
 
-/* From a point light: within the cone that meets the scene, or aimed. */
+/* From a point light: within the cone that meets the scene or is its own, or aimed. */
 static inline void emission_of_point(const Scene* scene, const RenderParams* params, uint index, real2 u,
                                      Emission* emission)
 {
     global const Light* light = scene->lights + index;
     const real3 vector = vector_from(light->vector);
-    const real cone = emission_point_cone(params, vector);
-    const Frame frame = frame_make(cone < REAL(2.0) ? vector_normalize(-vector)
-                                                    : (real3)(REAL(0.0), REAL(0.0), REAL(1.0)));
+    const EmissionCone cone = emission_point_cone(params, light);
+    const Frame frame = frame_make(cone.axis);
     const AimOrigin origin = aim_origin(scene, params, vector, (real3)(REAL(0.0)));
     const real3 w = EMISSION_IS_AIMED ? aim_direction(scene, params, &origin, u)
-                                      : frame_to_world(&frame, warp_cone(u, cone));
+                                      : frame_to_world(&frame, warp_cone(u, cone.one_minus_cos));
     emission->pdf = EMISSION_IS_AIMED ? (real)params->emit_light * (real)light->probability *
                                             aim_pdf_w(scene, params, &origin, w)
                                       : emission_delta_pdf(scene, params, index);
     emission->point = vector;
     emission->ray = ray_make(vector, w, REAL(0.0));
     emission->power = vector_from(light->emission) / emission->pdf;
+    if (HAS(EFFECT_SPOT))
+        emission->power *= delta_light_falloff(light, w);
     emission->is_delta = true;
 }
 

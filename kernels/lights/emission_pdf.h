@@ -74,16 +74,29 @@ static inline real emission_sky_pdf(const Scene* scene, const RenderParams* para
     return emission_sky_pdf_w(scene, params, wi) * emission_disc_pdf_a(params);
 }
 
-/* 1 - cos of the cone in which a point light sends its rays: all around from within the sphere, else only to
-   the sphere. */
-static inline real emission_point_cone(const RenderParams* params, real3 position)
+/* The directions in which a point light sends its rays, all alike. */
+typedef struct {
+    real3 axis;         /* unit */
+    real one_minus_cos; /* 2: all around */
+} EmissionCone;
+
+/* All around from within the sphere, else only to the sphere; of a spot its own cone where that is narrower. */
+static inline EmissionCone emission_point_cone(const RenderParams* params, global const Light* light)
 {
+    EmissionCone cone = {(real3)(REAL(0.0), REAL(0.0), REAL(1.0)), REAL(2.0)};
+    const real3 position = vector_from(light->vector);
     const real radius = (real)params->emission_radius;
     const real square = vector_dot(position, position);
-    if (!(square > radius * radius))
-        return REAL(2.0);
-    const real sine_squared = radius * radius / square;
-    return sine_squared / (REAL(1.0) + real_root(REAL(1.0) - sine_squared));
+    if (square > radius * radius) {
+        const real sine_squared = radius * radius / square;
+        cone.axis = vector_normalize(-position);
+        cone.one_minus_cos = sine_squared / (REAL(1.0) + real_root(REAL(1.0) - sine_squared));
+    }
+    if (delta_light_is_spot(light) && (real)light->one_minus_cos < cone.one_minus_cos) {
+        cone.axis = (real3)((real)light->axis_x, (real)light->axis_y, (real)light->axis_z);
+        cone.one_minus_cos = (real)light->one_minus_cos;
+    }
+    return cone;
 }
 
 /* Density per steradian of a sun's direction, the choice of the sun included; 1 over what a delta sun leaves
@@ -95,14 +108,14 @@ static inline real emission_sun_pdf_w(const Scene* scene, const RenderParams* pa
            (disc > REAL(0.0) ? warp_cone_pdf_w(disc) : REAL(1.0));
 }
 
-/* Density of the ray that leaves a point or a sun: of a point towards the scene, of a sun with a disc within
+/* Density of the ray that leaves a point or a sun: of a point within its cone, of a sun with a disc within
    it. */
 static inline real emission_delta_pdf(const Scene* scene, const RenderParams* params, uint index)
 {
     global const Light* light = scene->lights + index;
     if (light->kind == LIGHT_POINT)
         return (real)params->emit_light * (real)light->probability *
-               warp_cone_pdf_w(emission_point_cone(params, vector_from(light->vector)));
+               warp_cone_pdf_w(emission_point_cone(params, light).one_minus_cos);
     return emission_sun_pdf_w(scene, params, index) * emission_disc_pdf_a(params);
 }
 

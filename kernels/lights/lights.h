@@ -41,6 +41,8 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
     }
     sample.light = choice.light;
     light_choose_side(scene, surface, &sample);
+    if (HAS(EFFECT_SPOT) && sample.kind == KIND_POINT)
+        delta_light_dim(scene, choice.light - params->emitter_count, &sample);
     return sample;
 }
 

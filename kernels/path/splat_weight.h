@@ -93,9 +93,8 @@ static CLRT_NOINLINE real splat_light_pdf(const Scene* scene, const RenderParams
     }
     const uint index = emission->light - params->emitter_count;
     const real chosen = light_probability_of_delta(scene, params, view, index);
-    const real disc = (real)scene->lights[index].one_minus_cos;
-    const bool has_disc = scene->lights[index].kind == LIGHT_SUN && disc > REAL(0.0);
-    return has_disc ? chosen * warp_cone_pdf_w(disc) : chosen;
+    global const Light* light = scene->lights + index;
+    return delta_light_has_disc(light) ? chosen * warp_cone_pdf_w((real)light->one_minus_cos) : chosen;
 }
 
 /* A segment behind a path's first has the length t. */

@@ -27,9 +27,10 @@
 #define EFFECT_ATTENUATION 0x80000u    /* solids that absorb on the way through them */
 #define EFFECT_COAT 0x100000u          /* clear coats */
 #define EFFECT_SHEEN 0x200000u         /* fibres that reflect towards grazing angles */
+#define EFFECT_SPOT 0x400000u          /* point lights that shine within a cone */
 #define EFFECT_THIN_WALL 0x20000000u   /* panes without an inside */
 #define EFFECT_ROTATION 0x40000000u    /* highlights stretched askew to the texture coordinates */
-#define EFFECT_ALL (0x3fffffu | EFFECT_THIN_WALL | EFFECT_ROTATION)
+#define EFFECT_ALL (0x7fffffu | EFFECT_THIN_WALL | EFFECT_ROTATION)
 
 /* Effects that read the array of material extensions. */
 #define EFFECTS_EXTENSION                                                                                    \

@@ -120,15 +120,19 @@ ASSERT_SIZE(Emitter, 16);
 /* Lights that are no geometry. */
 typedef struct {
     vec4 vector;   /* LIGHT_POINT: position; LIGHT_SUN: unit direction towards the sun. w: unused, 0 */
-    vec4 emission; /* LIGHT_POINT: radiant intensity, W/sr in the normalised frame; LIGHT_SUN with radius 0:
-                      irradiance at normal incidence; with a radius: radiance of the disc. w: unused, 0 */
+    vec4 emission; /* LIGHT_POINT: radiant intensity, W/sr in the normalised frame, of a spot on its axis;
+                      LIGHT_SUN with radius 0: irradiance at normal incidence; with a radius: radiance of the
+                      disc. w: LIGHT_SHARPNESS */
     u32 kind;           /* LIGHT_* */
     float probability;  /* of choosing this light among the lights of this array */
     u32 alias, threshold; /* as in Emitter */
-    float one_minus_cos; /* LIGHT_SUN: 1 - cos(angular radius); 0: a delta light */
-    u32 unused0, unused1, unused2;
+    float one_minus_cos; /* LIGHT_SUN: 1 - cos(angular radius); 0: a delta light. Spots: 1 - cos(outer angle) */
+    float axis_x, axis_y, axis_z; /* of spots: unit direction in which they shine */
 } Light;
 ASSERT_SIZE(Light, 64);
+
+/* Of spots, which are of LIGHT_POINT: 1 / (cos(inner angle) - cos(outer angle)); 0: it is none. */
+#define LIGHT_SHARPNESS(light) ((light).emission.w)
 
 /* A sphere that holds casters, surfaces that may scatter by delta lobes (lights/emission_aim.h), is a vec4:
    centre, and as w its radius. */

@@ -46,6 +46,24 @@ void apply_point(Options& o, const OptionValue& v) {
     o.light.points.push_back(point);
 }
 
+void apply_spot(Options& o, const OptionValue& v) {
+    const std::string expected =
+        "x,y,z,dx,dy,dz,r,g,b[,outer[,inner]]: a position, a direction other than 0,0,0, an intensity of "
+        "numbers from 0, and angles in degrees, outer from 0 to 180, inner from 0 to outer";
+    const std::vector<double> n = parse_numbers(v, 9, 11, expected);
+    SpotCone cone{{n[3], n[4], n[5]}};
+    if (n.size() > 9)
+        cone.outer_degrees = n[9];
+    if (n.size() > 10)
+        cone.inner_degrees = n[10];
+    const PointOptions spot{{n[0], n[1], n[2]}, {n[6], n[7], n[8]}, cone, "--spot"};
+    const bool angles_fit =
+        cone.inner_degrees >= 0 && cone.inner_degrees <= cone.outer_degrees && cone.outer_degrees <= 180;
+    if (cone.direction == glm::dvec3(0) || !is_colour(spot.intensity) || !angles_fit)
+        reject_value(v, expected);
+    o.light.points.push_back(spot);
+}
+
 void apply_studio(Options& o, const OptionValue& v) {
     if (v.text != "auto" && v.text != "off")
         reject_value(v, "auto or off");
@@ -95,6 +113,10 @@ std::vector<OptionSpec> light_options() {
          "direction to the sun, irradiance, angular diameter in degrees; repeatable", apply_sun, REPEATABLE},
         {group, "", "--point", "X,Y,Z,R,G,B", "point light: position, intensity in W/sr; repeatable",
          apply_point, REPEATABLE},
+        {group, "", "--spot", "X,Y,Z,DX,DY,DZ,R,G,B[,OUTER[,INNER]]",
+         "spot light: position, direction in which it shines, intensity on its axis in W/sr, angles from the "
+         "axis in degrees: none from OUTER on (default 45), all up to INNER (default 0); repeatable",
+         apply_spot, REPEATABLE},
         {group, "", "--two-sided-lights", "", "emissive faces shine on both sides (default: on their front)",
          [](Options& o, const OptionValue&) { o.light.two_sided = true; }},
         {group, "", "--studio", "auto|off",

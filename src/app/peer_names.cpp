@@ -141,6 +141,7 @@ const std::vector<std::pair<const char*, const char*>>& peer_names() {
         {"skybox", "--env FILE"},
         {"world", "--env FILE"},
         {"point-light", "--point X,Y,Z,R,G,B"},
+        {"spot-light", "--spot X,Y,Z,DX,DY,DZ,R,G,B"},
         {"sun-direction", "--sun X,Y,Z,R,G,B"},
         {"override-shading", "--material clay"},
         {"clay", "--material clay"},

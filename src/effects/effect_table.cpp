@@ -24,7 +24,7 @@ std::string with_hyphens(std::string name) {
 const std::vector<EffectSpec>& effect_table() {
     static const std::vector<EffectSpec> table = {
         {EFFECT_AREA_LIGHT, "area lights", 0, 0, "emissive triangles are dark"},
-        {EFFECT_DELTA_LIGHT, "point lights and suns", 0, 0, "--point and --sun are not there"},
+        {EFFECT_DELTA_LIGHT, "point lights and suns", 0, 0, "--point, --spot and --sun are not there"},
         {EFFECT_ENVIRONMENT, "environment", 0, 0, "black outside the scene, background included"},
         {EFFECT_ENVIRONMENT_MAP, "environment map", EFFECT_ENVIRONMENT, 0,
          "a constant sky of the map's mean radiance"},
@@ -48,6 +48,7 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_ATTENUATION, "attenuation", EFFECT_REFRACTION, 0, "solids absorb nothing on the way through"},
         {EFFECT_COAT, "coat", 0, 0, "no material has a clear coat"},
         {EFFECT_SHEEN, "sheen", 0, 0, "no material has a sheen"},
+        {EFFECT_SPOT, "spot lights", EFFECT_DELTA_LIGHT, 0, "--spot shines all around, as --point does"},
         {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
          "direct light only: paths of two segments"},
         {EFFECT_THIN_WALL, "thin walls", 0, 0, "thin walls of glass are black and opaque"},

@@ -4,6 +4,7 @@
 #include "colour.h"
 #include "paths/path_report.h"
 #include "scene/light_leaves.h"
+#include "scene/lights.h"
 #include "scene/lobes.h"
 #include "scene/material_override.h"
 #include "scene/material_table.h"
@@ -109,19 +110,28 @@ private:
 };
 
 void find_delta_lights(const Scene& scene, const Options& options, EffectFinder& finder) {
-    const auto is_point = [](const Light& light) { return light.kind == LIGHT_POINT; };
-    const auto points = std::count_if(scene.lights.begin(), scene.lights.end(), is_point);
-    const auto suns = std::ptrdiff_t(scene.lights.size()) - points;
     std::vector<std::string> parts;
-    if (points > 0)
-        parts.push_back(fmt::format("{} by {}", points, describe_light(scene, options, "--point")));
-    if (suns > 0)
-        parts.push_back(fmt::format("{} by {}", suns, describe_light(scene, options, "--sun")));
+    std::string first = "--point";
+    for (const u32 kind : {LIGHT_POINT, LIGHT_SUN})
+        for (const SourceCount& lights : count_lights(scene, kind)) {
+            if (parts.empty())
+                first = lights.source;
+            parts.push_back(
+                fmt::format("{} by {}", lights.count, describe_light(scene, options, lights.source)));
+        }
     const bool given = !options.light.points.empty() || !options.light.suns.empty();
     if (parts.empty())
-        parts.push_back(given ? "no --point, no --sun with power" : "no --point, no --sun");
+        parts.push_back(given ? "no --point, no --spot, no --sun with power"
+                              : "no --point, no --spot, no --sun");
     finder.fact(EFFECT_DELTA_LIGHT, !scene.lights.empty(), fmt::format("{}", fmt::join(parts, ", ")),
-                place_of(options, points > 0 ? "--point" : "--sun"));
+                place_of(options, first));
+}
+
+void find_spots(const Scene& scene, EffectFinder& finder) {
+    const auto is_spot = [](const Light& light) { return LIGHT_SHARPNESS(light) > 0; };
+    const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), is_spot);
+    finder.fact(EFFECT_SPOT, count > 0,
+                count > 0 ? fmt::format("{} shine within a cone", count) : "no light shines within a cone");
 }
 
 void find_environment(const Scene& scene, const Options& options, EffectFinder& finder) {
@@ -312,6 +322,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_light_tree(scene, options, accepted_kinds(effects.paths), finder);
     find_motion_blur(scene, options, finder);
     find_depth_of_field(scene, options, finder);
+    find_spots(scene, finder);
     find_interreflection(scene, options, finder);
 
     effects.list = finder.take();

@@ -22,6 +22,12 @@ void take_out_area_lights(Scene& scene) {
 }
 
 /// The mean of the map's texels over the sphere, factor included.
+void take_out_cones(Scene& scene) {
+    for (Light& light : scene.lights)
+        if (LIGHT_SHARPNESS(light) > 0)
+            light.axis_x = light.axis_y = light.axis_z = light.one_minus_cos = LIGHT_SHARPNESS(light) = 0;
+}
+
 glm::dvec3 mean_of_map(const Environment& sky) {
     glm::dvec3 sum(0);
     double weights = 0;
@@ -159,7 +165,9 @@ void take_out_lights(u32 effects, Scene& scene) {
 void take_out_lobes(u32 effects, Scene& scene) {
     for (const LobeSpec& lobe : LOBE_SPECS)
         if (effects & lobe.effect)
-            take_out_lobe(lobe.bit, scene);
+            if (effects & EFFECT_SPOT)
+                take_out_cones(scene);
+    take_out_lobe(lobe.bit, scene);
     if (effects & EFFECT_ROUGH_REFRACTION)
         take_out_rough_refraction(scene);
     if (effects & EFFECT_PART_GLASS)

@@ -11,15 +11,27 @@ namespace clrt {
 
 /// The sun: a disc at infinity.
 struct SunOptions {
-    glm::dvec3 towards{0, 1, 0}; ///< direction to the sun, any length but 0
-    glm::dvec3 irradiance{0};    ///< at normal incidence, linear RGB
-    double diameter_degrees = 0; ///< angular diameter; 0 is a delta light
+    glm::dvec3 towards{0, 1, 0};  ///< direction to the sun, any length but 0
+    glm::dvec3 irradiance{0};     ///< at normal incidence, linear RGB
+    double diameter_degrees = 0;  ///< angular diameter; 0 is a delta light
+    const char* source = "--sun"; ///< by what it is there, in messages
 };
 
-/// A point light.
+/// The cone in which a spot light shines: by all of its intensity up to the inner angle from the axis, not at
+/// all from the outer one on, in between by the square of (cos a - cos outer) / (cos inner - cos outer), as
+/// glTF's KHR_lights_punctual has it.
+struct SpotCone {
+    glm::dvec3 direction{0, 0, -1}; ///< in which it shines, any length but 0
+    double outer_degrees = 45;      ///< 0 to 180; 0: no light
+    double inner_degrees = 0;       ///< 0 to the outer angle
+};
+
+/// A point light, or a spot.
 struct PointOptions {
-    glm::dvec3 position{0};  ///< scene units
-    glm::dvec3 intensity{0}; ///< W/sr per channel, lengths in scene units
+    glm::dvec3 position{0};         ///< scene units
+    glm::dvec3 intensity{0};        ///< W/sr per channel, lengths in scene units
+    std::optional<SpotCone> cone{}; ///< absent: it shines all around
+    const char* source = "--point"; ///< by what it is there, in messages
 };
 
 /// What camera rays that hit nothing show, in place of the environment and the discs of suns. It lights

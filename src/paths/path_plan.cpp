@@ -2,6 +2,7 @@
 #include "paths/path_plan.h"
 
 #include "colour.h"
+#include "scene/lights.h"
 #include "scene/lobes.h"
 #include "scene/material_table.h"
 
@@ -59,10 +60,11 @@ PathLetter find_letter(const char* symbol, const Scene& scene, unsigned letter) 
                          [letter](const Material& m) { return (letters_of(m) & LETTER_BIT(letter)) != 0; });
 }
 
-PathLetter find_light(const char* symbol, const Scene& scene, u32 kind, const char* option) {
-    const auto is_kind = [&](const Light& light) { return light.kind == kind; };
-    const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), is_kind);
-    return {symbol, count ? fmt::format("{} by {}", count, option) : "", {}};
+PathLetter find_light(const char* symbol, const Scene& scene, u32 kind) {
+    std::vector<std::string> parts;
+    for (const SourceCount& lights : count_lights(scene, kind))
+        parts.push_back(fmt::format("{} by {}", lights.count, lights.source));
+    return {symbol, fmt::format("{}", fmt::join(parts, ", ")), {}};
 }
 
 PathLetter find_lamp(const Scene& scene) {
@@ -81,8 +83,8 @@ std::vector<PathLetter> find_letters(const Scene& scene) {
         find_letter("R", scene, LETTER_MIRROR),
         find_letter("T", scene, LETTER_REFRACTION),
         find_lamp(scene),
-        find_light("Lp", scene, LIGHT_POINT, "--point"),
-        find_light("Ld", scene, LIGHT_SUN, "--sun"),
+        find_light("Lp", scene, LIGHT_POINT),
+        find_light("Ld", scene, LIGHT_SUN),
         {"Le",
          is_bright     ? "environment above 0"
          : is_backdrop ? "background above 0"

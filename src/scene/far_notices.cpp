@@ -127,7 +127,8 @@ void note_far_options(const Camera& camera, glm::ivec2 size, const std::vector<P
             fmt::format("camera: --at {} is {}: it is out of view", triple(camera.at), where(camera.at)));
     for (const PointOptions& point : points)
         if (glm::distance(point.position, centre) > FAR_LIGHT * radius)
-            notices.add(fmt::format("--point {} is {}", triple(point.position), where(point.position)));
+            notices.add(
+                fmt::format("{} {} is {}", point.source, triple(point.position), where(point.position)));
 }
 
 } // namespace clrt

@@ -124,6 +124,10 @@ LightLeaf light_leaf(const Scene& scene, u32 index, u32 number) {
     leaf.first = number;
     leaf.bounds.low = leaf.bounds.high = glm::vec3(to_dvec3(light.vector));
     leaf.bounds.power = float(luminance(to_dvec3(light.emission)));
+    if (LIGHT_SHARPNESS(light) > 0) { // as a surface would whose normals are the directions of the cone
+        leaf.bounds.axis = glm::vec3(light.axis_x, light.axis_y, light.axis_z);
+        leaf.bounds.cos_spread = 1 - light.one_minus_cos;
+    }
     return leaf;
 }
 

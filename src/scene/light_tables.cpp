@@ -96,7 +96,8 @@ KindShares power_to_casters(const Scene& scene, double sky) {
         powers.lights += light.kind == LIGHT_SUN
                              ? sun_irradiance(light) * PI * square
                              : luminance(to_dvec3(light.emission)) *
-                                   caster_solid_angle(scene.casters, to_dvec3(light.vector), 4 * PI);
+                                   std::min(caster_solid_angle(scene.casters, to_dvec3(light.vector), 4 * PI),
+                                            lit_solid_angle(light));
     return powers;
 }
 

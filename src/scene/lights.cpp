@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 
 namespace clrt {
 namespace {
@@ -22,16 +23,49 @@ void check_colour(const glm::dvec3& colour, const char* option, const char* what
                                      what, colour.x, colour.y, colour.z));
 }
 
+/// A falloff over less than this share of 1 - cos(outer angle) is an edge: it is narrower than the angles
+/// that directions in floats tell apart, and 1 / width stays finite.
+constexpr double SHARPEST_FALLOFF = 0x1p-20;
+
+double one_minus_cos(double degrees) {
+    const double half_sine = std::sin(0.5 * degrees * PI / 180); // without the cancellation of 1 - cos
+    return 2 * half_sine * half_sine;
+}
+
+void set_cone(const SpotCone& cone, const char* source, Light& light) {
+    const double length = glm::length(cone.direction);
+    if (!std::isfinite(length) || length <= 0)
+        throw UsageError(fmt::format("{}: expected a direction that is not 0, found {},{},{}", source,
+                                     cone.direction.x, cone.direction.y, cone.direction.z));
+    if (!(cone.inner_degrees >= 0 && cone.inner_degrees <= cone.outer_degrees && cone.outer_degrees <= 180))
+        throw UsageError(fmt::format("{}: expected an outer angle from 0 to 180 degrees and an inner one "
+                                     "from 0 to it, found {},{}",
+                                     source, cone.outer_degrees, cone.inner_degrees));
+    const glm::dvec3 axis = cone.direction / length;
+    light.axis_x = float(axis.x);
+    light.axis_y = float(axis.y);
+    light.axis_z = float(axis.z);
+    const double outer = one_minus_cos(cone.outer_degrees);
+    light.one_minus_cos = float(outer);
+    if (light.one_minus_cos >= std::numeric_limits<float>::min())
+        LIGHT_SHARPNESS(light) =
+            float(1 / std::max(outer - one_minus_cos(cone.inner_degrees), SHARPEST_FALLOFF * outer));
+    else
+        light.emission = {0, 0, 0, 0}; // nothing is left of the cone
+}
+
 /// Radiant intensity scales with the square of lengths: radiance on the surfaces stays what it was.
 Light point_light(const PointOptions& option, const Normalisation& frame) {
-    check_colour(option.intensity, "--point", "an intensity");
+    check_colour(option.intensity, option.source, "an intensity");
     if (!is_finite(option.position))
-        throw UsageError(fmt::format("--point: expected a position of finite numbers, found {},{},{}",
-                                     option.position.x, option.position.y, option.position.z));
+        throw UsageError(fmt::format("{}: expected a position of finite numbers, found {},{},{}",
+                                     option.source, option.position.x, option.position.y, option.position.z));
     Light light{};
     light.kind = LIGHT_POINT;
     light.vector = to_vec4(to_normalised(frame, option.position));
     light.emission = to_vec4(option.intensity * frame.scale * frame.scale);
+    if (option.cone)
+        set_cone(*option.cone, option.source, light);
     return light;
 }
 
@@ -47,15 +81,14 @@ double share_that_meets_scene(const glm::dvec3& position, double radius) {
 
 /// A disc of angular radius r and radiance L gives, at normal incidence, the irradiance L pi sin^2 r.
 Light sun_light(const SunOptions& option) {
-    check_colour(option.irradiance, "--sun", "an irradiance");
+    check_colour(option.irradiance, option.source, "an irradiance");
     const double length = glm::length(option.towards);
     if (!std::isfinite(length) || length <= 0)
-        throw UsageError(fmt::format("--sun: expected a direction that is not 0, found {},{},{}",
+        throw UsageError(fmt::format("{}: expected a direction that is not 0, found {},{},{}", option.source,
                                      option.towards.x, option.towards.y, option.towards.z));
     if (!(option.diameter_degrees >= 0 && option.diameter_degrees < 180))
-        throw UsageError(
-            fmt::format("--sun: expected an angular diameter from 0 to below 180 degrees, found {}",
-                        option.diameter_degrees));
+        throw UsageError(fmt::format("{}: expected an angular diameter from 0 to below 180 degrees, found {}",
+                                     option.source, option.diameter_degrees));
     Light light{};
     light.kind = LIGHT_SUN;
     light.vector = to_vec4(option.towards / length);
@@ -132,33 +165,57 @@ double sun_irradiance(const Light& sun) {
     return luminance(to_dvec3(sun.emission)) * (disc > 0 ? PI * disc * (2 - disc) : 1);
 }
 
+double lit_solid_angle(const Light& light) {
+    const double sharpness = LIGHT_SHARPNESS(light);
+    if (!(sharpness > 0))
+        return 4 * PI;
+    // 1 up to the inner angle, then the square of a share that falls evenly over 1 - cos: a third of it.
+    return 2 * PI * std::max(double(light.one_minus_cos) - 2 / (3 * sharpness), 0.0);
+}
+
 double light_power(const Light& light, double radius) {
     if (light.kind == LIGHT_SUN)
         return sun_irradiance(light) * PI * radius * radius;
-    return share_that_meets_scene(to_dvec3(light.vector), radius) * 4 * PI *
-           luminance(to_dvec3(light.emission));
+    const double seen = share_that_meets_scene(to_dvec3(light.vector), radius) * 4 * PI;
+    return std::min(seen, lit_solid_angle(light)) * luminance(to_dvec3(light.emission));
 }
 
 Lights build_lights(const LightOptions& options, const Normalisation& frame, double radius,
                     NoticeList& notices) {
     Lights result;
     std::vector<double> powers;
-    const auto add = [&](const Light& light, const char* option) {
+    const auto add = [&](const Light& light, const char* source) {
         const double power = light_power(light, radius);
         if (power > 0) {
             result.lights.push_back(light);
+            result.sources.emplace_back(source);
             powers.push_back(power);
             result.power += power;
         } else {
-            notices.add(fmt::format("{}: a light without power is left out", option));
+            notices.add(fmt::format("{}: a light without power is left out", source));
         }
     };
     for (const PointOptions& option : options.points)
-        add(point_light(option, frame), "--point");
+        add(point_light(option, frame), option.source);
     for (const SunOptions& option : options.suns)
-        add(sun_light(option), "--sun");
+        add(sun_light(option), option.source);
     tabulate(powers, result.lights);
     return result;
+}
+
+std::vector<SourceCount> count_lights(const Scene& scene, u32 kind) {
+    std::vector<SourceCount> counts;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        if (scene.lights[i].kind != kind)
+            continue;
+        const std::string source = i < scene.light_sources.size() ? scene.light_sources[i]
+                                   : kind == LIGHT_SUN            ? SunOptions{}.source
+                                                                  : PointOptions{}.source;
+        if (counts.empty() || counts.back().source != source)
+            counts.push_back({source, 0});
+        ++counts.back().count;
+    }
+    return counts;
 }
 
 } // namespace clrt

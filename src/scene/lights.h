@@ -6,6 +6,7 @@
 #include "scene/notices.h"
 #include "scene/scene.h"
 
+#include <string>
 #include <vector>
 
 namespace clrt {
@@ -45,13 +46,27 @@ double emitter_power(const Scene& scene, const Emitter& emitter);
 /// The irradiance, luminance, of a sun at normal incidence.
 double sun_irradiance(const Light& sun);
 
+/// The solid angle that a point light would light as brightly as on its axis: all of it, or that of a spot's
+/// falloff.
+double lit_solid_angle(const Light& light);
+
 /// Luminance of a point light or sun that meets a bounding sphere of this radius.
 double light_power(const Light& light, double radius);
 
 struct Lights {
     std::vector<Light> lights;
-    double power = 0; ///< luminance that meets the scene; normalised frame
+    std::vector<std::string> sources; ///< by what each is there
+    double power = 0;                 ///< luminance that meets the scene; normalised frame
 };
+
+/// How many lights are there by the same option, or file.
+struct SourceCount {
+    std::string source;
+    size_t count = 0;
+};
+
+/// Those of a kind (LIGHT_*), in the scene's order.
+std::vector<SourceCount> count_lights(const Scene& scene, u32 kind);
 
 /// Point lights and suns of the options in the normalised frame, `radius` its bounding sphere. A light
 /// without power is left out with a notice. Throws UsageError for values that are no light: not finite,

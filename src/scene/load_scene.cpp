@@ -118,12 +118,6 @@ void take_pictures(TextureStore& store, Scene& scene) {
     scene.texel_words = store.take_words();
 }
 
-/// Adds the file's lights to those of the options.
-void take_lights(const SceneDescription& description, LightOptions& light) {
-    light.points.insert(light.points.end(), description.points.begin(), description.points.end());
-    light.suns.insert(light.suns.end(), description.suns.begin(), description.suns.end());
-}
-
 void note_remarks(const std::vector<Remark>& remarks, NoticeList& notices) {
     for (const Remark& remark : remarks)
         notices.add(remark.text, remark.place);
@@ -154,11 +148,14 @@ std::vector<double> build_materials(const std::vector<MaterialDescription>& desc
 }
 
 /// Emitters first, which the studio asks for; the ground last, which no fit may see.
-void load_camera_and_lights(const SceneRequest& request, const std::vector<double>& exitance,
-                            const Bounds& bounds, Scene& scene, NoticeList& notices) {
+void load_camera_and_lights(const SceneRequest& request, const SceneDescription& description,
+                            const std::vector<double>& exitance, const Bounds& bounds, Scene& scene,
+                            NoticeList& notices) {
     Emitters emitters = build_emitters(scene.positions, scene.triangles, exitance);
     scene.emitters = std::move(emitters.emitters);
     LightOptions light = request.light;
+    light.points.insert(light.points.end(), description.points.begin(), description.points.end());
+    light.suns.insert(light.suns.end(), description.suns.begin(), description.suns.end());
     const bool has_light = !scene.emitters.empty() || !light.points.empty() || !light.suns.empty();
     scene.is_studio = light.studio && !has_light && !light.environment && light.environment_file.empty();
     scene.camera = fit_camera(request.camera, request.size, scene, bounds, notices);
@@ -170,6 +167,7 @@ void load_camera_and_lights(const SceneRequest& request, const std::vector<doubl
     scene.radius = bounds.radius() * scene.normalisation.scale;
     Lights lights = build_lights(light, scene.normalisation, scene.radius, notices);
     scene.lights = std::move(lights.lights);
+    scene.light_sources = std::move(lights.sources);
     scene.emitted_power = emitters.power + lights.power;
     scene.environment = load_environment(light, has_light, notices);
     if (light.background)
@@ -225,7 +223,6 @@ Scene load_all(SceneRequest request, Progress& progress) {
 
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
-    take_lights(description, request.light);
     scene.picture_size = take_file_camera(description.cameras, bounds, request, notices);
     if (!request.camera.up && !description.is_y_up)
         request.camera =
@@ -245,7 +242,7 @@ Scene load_all(SceneRequest request, Progress& progress) {
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
                                      path, cut.vast, cut.vast + cut.added));
     store_vertex_colours(scene, path);
-    load_camera_and_lights(request, exitance, bounds, scene, notices);
+    load_camera_and_lights(request, description, exitance, bounds, scene, notices);
     finish_moves(request.scene.end_path, scene);
     scene.notices = notices.lines();
     return scene;

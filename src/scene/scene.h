@@ -102,6 +102,7 @@ struct Scene {
     std::vector<SourcePlace> texture_places; ///< the map_* statement of each
     std::vector<Emitter> emitters;
     std::vector<Light> lights;
+    std::vector<std::string> light_sources; ///< by what each of the lights is there, in messages
     std::vector<vec4> casters; ///< spheres at which emission is aimed (scene/casters.h); empty: it is not
     LightTree light_tree;
     Environment environment;

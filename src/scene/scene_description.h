@@ -24,11 +24,11 @@ struct SceneDescription {
     Mesh mesh;
     std::vector<Remark> colour_remarks; ///< about Mesh::colours, not said where another surface takes theirs
     std::vector<MaterialDescription> materials; ///< those that triangles use
-    std::string z_up_reason; ///< "it ...": why its up is z; empty where the file does not tell
-    bool is_y_up = false;    ///< the format says that its up is y
-    std::vector<FileCamera> cameras;
-    std::vector<PointOptions> points; ///< lights of the file, world units
+    std::vector<PointOptions> points;           ///< lights that are no geometry, in the units of the options
     std::vector<SunOptions> suns;
+    std::vector<FileCamera> cameras;
+    std::string z_up_reason;      ///< "it ...": why its up is z; empty where the file does not tell
+    bool is_y_up = false;         ///< the format says that its up is y
     std::vector<NamedFile> files; ///< opened beside the scene's own
     size_t dropped_faces = 0;     ///< with a non-finite vertex or fewer than three corners
 };

@@ -79,6 +79,7 @@ const std::map<std::string, std::string>& samples() {
         {"--env-rotate", "-90"},
         {"--sun", "1,2,3,4,5,6,0.5"},
         {"--point", "-1,2,3,4,5,6"},
+        {"--spot", "1,2,3,0,-1,0,4,5,6,30,10"},
         {"--two-sided-lights", ""},
         {"--studio", "auto"},
         {"--ground", "none"},
@@ -280,6 +281,18 @@ TEST(CommandLine, StudioOptionsArrive) {
     EXPECT_TRUE(has_transparent_background(parse({"--background", "transparent"}).light));
     EXPECT_FALSE(
         has_transparent_background(parse({"--background", "transparent", "--background", "1,1,1"}).light));
+}
+
+TEST(CommandLine, SpotsArrive) {
+    const Options o = parse({"--spot", "1,2,3,0,-1,0,4,5,6", "--spot=1,2,3,0,-1,0,4,5,6,60,20"});
+    ASSERT_EQ(o.light.points.size(), 2u);
+    EXPECT_EQ(o.light.points[0].position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(o.light.points[0].intensity, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(o.light.points[0].cone->direction, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(o.light.points[0].cone->outer_degrees, 45);
+    EXPECT_EQ(o.light.points[0].cone->inner_degrees, 0);
+    EXPECT_EQ(o.light.points[1].cone->outer_degrees, 60);
+    EXPECT_EQ(o.light.points[1].cone->inner_degrees, 20);
 }
 
 TEST(CommandLine, LightOptionsArrive) {

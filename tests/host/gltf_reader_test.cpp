@@ -290,6 +290,25 @@ TEST(GltfLights, AreInBlendersUnitsUnlessRaw) {
               std::string::npos);
 }
 
+TEST(GltfLights, SpotsShineAlongTheirNodesMinusZ) {
+    GltfBuilder file = one_triangle();
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(
+        R"([{"type": "spot", "intensity": 6.83, "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}}])");
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    file.json["nodes"].push_back(
+        Json::parse(R"({"rotation": [-1,0,0,1], "extensions": {"KHR_lights_punctual": {"light": 0}}})"));
+    const ReadGltf read(file.glb());
+    ASSERT_TRUE(read.scene.points.at(0).cone);
+    expect_near(read.scene.points[0].cone->direction, {0, -1, 0});
+    EXPECT_NEAR(read.scene.points[0].cone->outer_degrees, 28.64788975654116, 1e-12);
+    EXPECT_NEAR(read.scene.points[0].cone->inner_degrees, 14.32394487827058, 1e-12);
+    EXPECT_NEAR(read.scene.points[0].intensity.x, 0.01, 1e-15);
+    file.json["extensions"]["KHR_lights_punctual"]["lights"][0]["spot"]["innerConeAngle"] = 0.6;
+    EXPECT_NE(
+        gltf_error(file.glb()).find("spot: expected angles with 0 <= innerConeAngle <= outerConeAngle <= pi"),
+        std::string::npos);
+}
+
 /// What is the same picture: geometry, materials, lights.
 TEST(GltfScene, IsTheSameAsItsObj) {
     const TemporaryFolder folder;

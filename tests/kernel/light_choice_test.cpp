@@ -195,7 +195,10 @@ TEST(LightChoice, LightsAreChosenWithTheirProbability) {
 }
 
 TEST(LightChoice, EveryLightThatShinesOnAPointCanBeChosen) {
-    const Lamps lamps = all_lights(300, 5);
+    Lamps lamps = all_lights(300, 5);
+    for (const double degrees : {5.0, 60.0, 89.0, 130.0, 179.0})
+        lamps.spot({0.3, -0.2, 0.4}, {0.6, 0, 0.8}, degrees);
+    lamps.scene.light_tree = build_light_tree(lamps.scene, KINDS_ALL);
     const Scene& scene = lamps.scene;
     const Views views(60, 9);
     Random random(10);
@@ -222,7 +225,10 @@ TEST(LightChoice, EveryLightThatShinesOnAPointCanBeChosen) {
         for (u32 k = 0; k < scene.lights.size(); ++k) {
             const Light& light = scene.lights[k];
             const dvec3 way = to_dvec3(light.vector) - (light.kind == LIGHT_POINT ? p : dvec3(0));
-            if (open || glm::dot(way, n) > 0)
+            const dvec3 axis(light.axis_x, light.axis_y, light.axis_z);
+            const bool is_lit = LIGHT_SHARPNESS(light) == 0 ||
+                                1 + glm::dot(glm::normalize(way), axis) < double(light.one_minus_cos);
+            if (is_lit && (open || glm::dot(way, n) > 0))
                 ASSERT_GT(widths[scene.emitters.size() + k], 0u) << "view " << i << ", light " << k;
         }
         ASSERT_GT(widths.back(), 0u) << "the sky";

@@ -64,8 +64,8 @@ const Layout EMITTER = {
 const Layout LIGHT = {
     "Light",
     sizeof(Light),
-    {M(vector), M(emission), M(kind), M(probability), M(alias), M(threshold), M(one_minus_cos), M(unused0),
-     M(unused1), M(unused2)}};
+    {M(vector), M(emission), M(kind), M(probability), M(alias), M(threshold), M(one_minus_cos), M(axis_x),
+     M(axis_y), M(axis_z)}};
 #undef M
 #define M(name) MEMBER(EnvironmentTexel, name)
 const Layout ENVIRONMENT_TEXEL = {

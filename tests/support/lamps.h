@@ -47,6 +47,15 @@ struct Lamps {
         light.emission = to_vec4(intensity);
         scene.lights.push_back(light);
     }
+    /// An even cone.
+    void spot(const glm::dvec3& position, const glm::dvec3& direction, double degrees) {
+        point(position, glm::dvec3(1));
+        Light& light = scene.lights.back();
+        light.axis_x = float(direction.x), light.axis_y = float(direction.y),
+        light.axis_z = float(direction.z);
+        light.one_minus_cos = float(1 - std::cos(degrees * 3.14159265358979323846 / 180));
+        LIGHT_SHARPNESS(light) = 1e6f;
+    }
     void sun(const glm::dvec3& towards, const glm::dvec3& emission, double radius) {
         Light light{};
         light.kind = LIGHT_SUN;

@@ -127,6 +127,23 @@ const std::vector<Lighting>& lightings() {
              room.options.light.points.push_back({{9, 18, 20}, {4000, 3000, 2000}});
          },
          true},
+        {"spot",
+         [](Room& room) {
+             room.options.light.points.push_back(
+                 {{0.5, 1.8, 1}, {8, 10, 12}, SpotCone{{-0.4, -1, -0.6}, 40, 15}});
+         },
+         true},
+        {"far spot",
+         [](Room& room) {
+             room.options.light.points.push_back(
+                 {{9, 18, 20}, {4000, 3000, 2000}, SpotCone{{-9, -17.5, -20}, 3, 3}});
+         },
+         true},
+        {"wide spot",
+         [](Room& room) {
+             room.options.light.points.push_back({{0.5, 1.8, 1}, {4, 5, 6}, SpotCone{{-1, -0.5, 0}, 150, 0}});
+         },
+         true},
         {"sun",
          [](Room& room) {
              room.options.light.suns.push_back({{-1, 2, 1.5}, {3, 2, 1}, 0});
@@ -151,6 +168,7 @@ const std::vector<Lighting>& lightings() {
          [](Room& room) {
              room.add_lamp();
              room.options.light.points.push_back({{0.5, 1.8, 1}, {1, 1, 2}});
+             room.options.light.points.push_back({{-1, 1.8, 1}, {2, 1, 1}, SpotCone{{0.5, -1, -1}, 50, 20}});
              room.options.light.suns.push_back({{-1, 2, 1.5}, {1, 0.5, 0.5}, 10});
              room.options.light.environment = glm::dvec3(0.3, 0.4, 0.5);
          },

@@ -18,7 +18,8 @@ bool is_permitted(u32 effects) {
 
 namespace {
 
-/// The set with what it cannot be without; matte where any lobe would do, lamps where any light.
+/// The set with what it cannot be without; matte where any lobe would do, gloss where any reflection, lamps
+/// where any light.
 u32 completed(u32 effects) {
     effects = with_implied(effects);
     if ((effects & EFFECT_LIGHT_TREE) && !is_permitted(effects))
@@ -200,6 +201,8 @@ void SceneOfEffects::add_lights() {
         options.light.environment.reset();
         options.light.environment_file = folder.file("sky.exr");
     }
+    if (has(EFFECT_SPOT))
+        options.light.points.push_back({{1, 2, 1}, {5, 4, 2}, SpotCone{{-1, -1.5, -1}, 30, 10}, "--spot"});
 }
 
 } // namespace clrt

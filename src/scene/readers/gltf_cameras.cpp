@@ -13,6 +13,9 @@ namespace clrt {
 
 namespace {
 
+/// What the messages of lights call them.
+constexpr const char* LIGHT_SOURCE = "KHR_lights_punctual";
+
 /// A node's axis in the world, of length 1. Throws where a scale of 0 leaves none.
 glm::dvec3 axis_of(const GltfNode& node, const glm::dvec3& axis) {
     const glm::dvec3 turned(node.world * glm::dvec4(axis, 0));
@@ -68,6 +71,17 @@ std::optional<JsonValue> light_of(const JsonDocument& json, const GltfNode& node
     return lights[index.whole()];
 }
 
+/// A spot's cone, whose light is that of a point light within the inner angle.
+SpotCone cone_of(const JsonValue& light, const GltfNode& node) {
+    const JsonValue spot = light.at("spot");
+    const double outer = spot.number("outerConeAngle", glm::radians(45.)),
+                 inner = spot.number("innerConeAngle", 0);
+    if (!(inner >= 0 && inner <= outer && outer <= glm::radians(180.)))
+        spot.fail("angles with 0 <= innerConeAngle <= outerConeAngle <= pi",
+                  fmt::format("{} and {}", inner, outer));
+    return {axis_of(node, {0, 0, -1}), glm::degrees(outer), glm::degrees(inner)};
+}
+
 glm::dvec3 light_colour(const JsonValue& light, GltfLights units) {
     std::array<double, 3> colour = {1, 1, 1};
     if (const std::optional<JsonValue> given = light.find("color"))
@@ -102,23 +116,21 @@ void add_gltf_camera(const JsonDocument& json, const GltfNode& node, SceneDescri
     scene.cameras.push_back(result);
 }
 
-void add_gltf_light(const JsonDocument& json, const GltfNode& node, GltfLights units, SceneDescription& scene,
-                    NoticeList& notices) {
+void add_gltf_light(const JsonDocument& json, const GltfNode& node, GltfLights units,
+                    SceneDescription& scene) {
     const std::optional<JsonValue> light = light_of(json, node);
     if (!light)
         return;
     const glm::dvec3 colour = light_colour(*light, units);
     const JsonValue type = light->at("type");
     if (type.text() == "directional")
-        scene.suns.push_back({axis_of(node, {0, 0, 1}), colour, 0});
+        scene.suns.push_back({axis_of(node, {0, 0, 1}), colour, 0, LIGHT_SOURCE});
     else if (type.text() == "point")
-        scene.points.push_back({place_of(node), colour});
-    else if (type.text() == "spot") {
-        notices.add("spot lights shine as point lights", light->place());
-        scene.points.push_back({place_of(node), colour});
-    } else {
+        scene.points.push_back({place_of(node), colour, std::nullopt, LIGHT_SOURCE});
+    else if (type.text() == "spot")
+        scene.points.push_back({place_of(node), colour, cone_of(*light, node), LIGHT_SOURCE});
+    else
         type.fail("directional, point or spot");
-    }
 }
 
 } // namespace clrt

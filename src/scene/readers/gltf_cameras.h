@@ -3,7 +3,6 @@
 #pragma once
 
 #include "options/scene_options.h"
-#include "scene/notices.h"
 #include "scene/readers/gltf_nodes.h"
 #include "scene/scene_description.h"
 
@@ -17,7 +16,7 @@ constexpr double LUMENS_A_WATT = 683;
 void add_gltf_camera(const JsonDocument& json, const GltfNode& node, SceneDescription& scene);
 
 /// Adds the light of a node (KHR_lights_punctual), if it has one.
-void add_gltf_light(const JsonDocument& json, const GltfNode& node, GltfLights units, SceneDescription& scene,
-                    NoticeList& notices);
+void add_gltf_light(const JsonDocument& json, const GltfNode& node, GltfLights units,
+                    SceneDescription& scene);
 
 } // namespace clrt

@@ -38,7 +38,7 @@ SceneDescription read_gltf_scene(SceneFile source, const ReadContext& context) {
     const std::vector<GltfNode> nodes = read_gltf_nodes(file.json());
     for (const GltfNode& node : nodes) {
         add_gltf_camera(file.json(), node, scene);
-        add_gltf_light(file.json(), node, context.gltf.lights, scene, context.notices);
+        add_gltf_light(file.json(), node, context.gltf.lights, scene);
     }
     note_light_units(scene, context.gltf.lights, file.name(), context.notices);
     if (!file.json().elements("animations").empty())
