@@ -35,8 +35,8 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clrt)
 set(CPACK_PACKAGE_VENDOR "clrt developers")
 set(CPACK_PACKAGE_CONTACT "clrt developers <clrt@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "renders Wavefront OBJ scenes on any OpenCL device")
-set(CPACK_PACKAGE_DESCRIPTION "clrt turns a Wavefront OBJ into a physically based picture by running OpenCL kernels \
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "renders Wavefront OBJ and glTF scenes on any OpenCL device")
+set(CPACK_PACKAGE_DESCRIPTION "clrt turns a Wavefront OBJ or a glTF file into a physically based picture by running OpenCL kernels \
 on the CPU (PoCL) or a GPU: ray casting, Whitted ray tracing and path tracing.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

@@ -31,9 +31,10 @@ namespace clrt {
 namespace {
 
 /// Prints what would be rendered and why: materials as they are, paths as they would be rendered.
-int run_explain(const Options& options) {
+int run_explain(Options options) {
     Progress progress(options.run.progress, options.run.verbosity < 0);
     const Scene scene = load_scene(options, progress);
+    options.film.size = scene.picture_size.value_or(options.film.size);
     progress.finish();
     fmt::print("{}", explain(scene, plan_scene(scene, options)->effects, options));
     return EXIT_DONE;
@@ -46,7 +47,7 @@ void write_statistics(const Options& options, const std::string& json) {
 }
 
 /// Prints what every effect costs and gives.
-int run_ledger(const Options& options) {
+int run_ledger(Options options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
     const Scene scene = load_for_run(options, progress);
@@ -58,7 +59,7 @@ int run_ledger(const Options& options) {
 }
 
 /// Prints the path of one sample.
-int run_replay(const Options& options) {
+int run_replay(Options options) {
     const Device device = open_chosen_device(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
     Scene scene = load_for_run(options, progress);

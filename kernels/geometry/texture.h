@@ -30,29 +30,47 @@ static inline int texture_floor(float x)
     return whole - ((float)whole > x ? 1 : 0);
 }
 
+/* Where in the picture, from 0 to 1, a coordinate reads; one that is not finite reads the corner texel. */
+static inline float texture_inside(float t, uint wrap)
+{
+    if (!real_is_finite((real)t))
+        return 0.0f;
+    if (wrap == WRAP_REPEAT)
+        return t - floor(t);
+    if (wrap == WRAP_MIRROR) {
+        const float pair = t - 2.0f * floor(0.5f * t);
+        return pair > 1.0f ? 2.0f - pair : pair;
+    }
+    return fmin(fmax(t, 0.0f), 1.0f);
+}
+
 /* Wraps a texel coordinate that is at most one picture off. */
-static inline uint texture_wrap(int i, uint size, bool clamp_to_edge)
+static inline uint texture_wrap(int i, uint size, uint wrap)
 {
     const int n = (int)size;
-    if (clamp_to_edge)
+    if (wrap != WRAP_REPEAT) /* beside a mirrored picture lies its own edge */
         return (uint)clamp(i, 0, n - 1);
     return (uint)(i < 0 ? i + n : (i >= n ? i - n : i));
+}
+
+/* True where the lookup is beside a picture that has black around it. */
+static inline bool texture_is_outside(float t, uint wrap)
+{
+    return wrap == WRAP_BLACK && !(t >= 0.0f && t <= 1.0f);
 }
 
 /* (r, g, b, a) at uv, where (0, 0) is the lower left corner of the picture; base + gain * value. */
 static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, float2 uv)
 {
     global const Texture* texture = scene->textures + index;
-    float u = fma(uv.x, texture->scale_u, texture->offset_u);
-    float v = fma(uv.y, texture->scale_v, texture->offset_v);
-    const bool clamped = texture->clamp != 0u;
-    if (clamped && !(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f))
+    const uint wrap_u = texture->wrap_u;
+    const uint wrap_v = texture->wrap_v;
+    const float at_u = fma(uv.x, texture->scale_u, fma(uv.y, texture->shear_u, texture->offset_u));
+    const float at_v = fma(uv.y, texture->scale_v, fma(uv.x, texture->shear_v, texture->offset_v));
+    if (texture_is_outside(at_u, wrap_u) || texture_is_outside(at_v, wrap_v))
         return (float4)(0.0f);
-    if (!clamped) {
-        /* A coordinate that is not finite reads the corner texel. */
-        u = real_is_finite((real)u) ? u - floor(u) : 0.0f;
-        v = real_is_finite((real)v) ? v - floor(v) : 0.0f;
-    }
+    const float u = texture_inside(at_u, wrap_u);
+    const float v = texture_inside(at_v, wrap_v);
     /* Texel centres lie at half-integers; rows go down while v goes up. */
     const float x = u * (float)texture->width - 0.5f;
     const float y = (1.0f - v) * (float)texture->height - 0.5f;
@@ -60,10 +78,10 @@ static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, float
     const int top = texture_floor(y);
     const float fx = x - (float)left;
     const float fy = y - (float)top;
-    const uint x0 = texture_wrap(left, texture->width, clamped);
-    const uint y0 = texture_wrap(top, texture->height, clamped);
-    const uint x1 = texture_wrap(left + 1, texture->width, clamped);
-    const uint y1 = texture_wrap(top + 1, texture->height, clamped);
+    const uint x0 = texture_wrap(left, texture->width, wrap_u);
+    const uint y0 = texture_wrap(top, texture->height, wrap_v);
+    const uint x1 = texture_wrap(left + 1, texture->width, wrap_u);
+    const uint y1 = texture_wrap(top + 1, texture->height, wrap_v);
     const float4 a = texture_texel(scene, texture, x0, y0);
     const float4 b = texture_texel(scene, texture, x1, y0);
     const float4 c = texture_texel(scene, texture, x0, y1);

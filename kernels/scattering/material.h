@@ -105,14 +105,19 @@ static inline real3 material_normal(const Scene* scene, global const Material* m
     return n;
 }
 
-/* A map's reflectance at the surface point: of a picture, or of the triangle's vertices. Pictures with values
-   above 1, and -mm, could make a surface reflect more than it gets; a NaN stays one. */
+/* A map's reflectance at the surface point: of a picture, of the triangle's vertices, or of both, multiplied.
+   Pictures with values above 1, and -mm, could make a surface reflect more than it gets; a NaN stays one. */
 static inline real3 material_reflectance(const Scene* scene, uint map, const Surface* surface)
 {
-    if (scene->textures[map].format == TEXEL_VERTEX)
-        return surface_vertex_color(scene, surface, scene->textures[map].first_word);
-    const real3 color = texture_color(scene, map, surface->uv);
-    return color > (real3)(REAL(1.0)) ? (real3)(REAL(1.0)) : color;
+    global const Texture* texture = scene->textures + map;
+    real3 color = (real3)(REAL(1.0));
+    if (texture->format != TEXEL_VERTEX) {
+        color = texture_color(scene, map, surface->uv);
+        color = color > (real3)(REAL(1.0)) ? (real3)(REAL(1.0)) : color;
+    }
+    if (texture->vertex_word != 0u)
+        color *= surface_vertex_color(scene, surface, texture->vertex_word);
+    return color;
 }
 
 /* A constant times its map. */

@@ -80,20 +80,30 @@ ASSERT_SIZE(MaterialExtension, 80);
 #define TEXEL_SRGB8 0u   /* one word: r, g, b, a bytes from the lowest; sRGB-encoded but for a */
 #define TEXEL_LINEAR8 1u /* the same, all four linear */
 #define TEXEL_FLOAT 2u   /* four words: r, g, b, a as floats */
-#define TEXEL_VERTEX 3u  /* no picture: three words a vertex (index as in positions): r, g, b as floats */
+#define TEXEL_VERTEX 3u  /* no picture, but the colours of vertices alone */
+
+/* What is beside the picture, along each axis. */
+#define WRAP_REPEAT 0u
+#define WRAP_BLACK 1u  /* zero */
+#define WRAP_EDGE 2u   /* its texels at the edge */
+#define WRAP_MIRROR 3u /* the picture reversed, and so on */
 
 /* One use of an image: rows from top to bottom; uv = (0,0) is the lower left corner.
-   The lookup is at u' = scale_u u + offset_u, v' = scale_v v + offset_v; value' = base + gain value (-mm). */
+   The lookup is at u' = scale_u u + shear_u v + offset_u, v' = shear_v u + scale_v v + offset_v;
+   value' = base + gain value (-mm). */
 typedef struct {
     u32 first_word; /* into the texel words */
     u32 width, height;
-    u32 format;  /* TEXEL_* */
+    u32 format; /* TEXEL_* */
     float scale_u, scale_v, offset_u, offset_v;
+    float shear_u, shear_v;
     float base, gain;
-    u32 clamp;   /* 0: repeat; 1: black (zero) outside [0,1] (-clamp on) */
-    u32 channel; /* for scalar maps: 0..3 = r, g, b, a; 4 = luminance (-imfchan) */
+    u32 wrap_u, wrap_v; /* WRAP_* */
+    u32 channel;     /* for scalar maps: 0..3 = r, g, b, a; 4 = luminance (-imfchan) */
+    u32 vertex_word; /* first texel word of the colours of vertices that multiply a reflectance: three words a
+                        vertex (index as in positions), r, g, b as floats; 0: none */
 } Texture;
-ASSERT_SIZE(Texture, 48);
+ASSERT_SIZE(Texture, 64);
 
 /* An emissive triangle. Choosing: i = floor(u n); keep i where the second random word is below `threshold`,
    else take `alias` (Walker 1977, Vose 1991). */

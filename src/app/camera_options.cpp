@@ -56,6 +56,14 @@ glm::dvec2 parse_shutter(const OptionValue& v) {
 /// Where the picture is taken from and how it is projected.
 std::vector<OptionSpec> view_options(const char* group) {
     return {
+        {group, "", "--camera", "NAME|N",
+         "which of the file's cameras takes the picture, by its name or its number from 1; it gives the "
+         "picture's aspect too where --size is absent (default: the first; none with --eye, --at or --view)",
+         [](Options& o, const OptionValue& v) {
+             if (v.text.empty())
+                 reject_value(v, "the name or the number of a camera");
+             o.camera.file_camera = v.text;
+         }},
         {group, "", "--eye", "X,Y,Z", "position, scene units (default: fitted to the scene)",
          [](Options& o, const OptionValue& v) { o.camera.eye = parse_vector(v, "a position x,y,z"); }},
         {group, "", "--at", "X,Y,Z", "point to look at, scene units (default: fitted to the scene)",

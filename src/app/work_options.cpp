@@ -184,6 +184,14 @@ std::vector<OptionSpec> work_options() {
          "repair "
          "is said) or plain (word by word) (default auto)",
          [](Options& o, const OptionValue& v) { o.scene.mtl = parse_choice<MtlReading>(v); }},
+        {group, "", "--gltf-lights", "UNITS",
+         "lights of glTF files: blender (candela and lux over 683, as Blender writes them; emission as it "
+         "is) or raw (watts as they are) (default blender)",
+         [](Options& o, const OptionValue& v) { o.scene.gltf.lights = parse_choice<GltfLights>(v); }},
+        {group, "", "--gltf-solid-glass", "",
+         "transmission without a volume in glTF files refracts, as in Blender (default: a thin wall, as "
+         "the standard says)",
+         [](Options& o, const OptionValue&) { o.scene.gltf.solid_glass = true; }},
         {group, "", "--material", "NAME",
          "what everything is made of: none (as the libraries say) or clay (matte grey, to show shape and "
          "light "

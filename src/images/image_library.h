@@ -66,8 +66,9 @@ public:
     /// SceneError.
     virtual std::unique_ptr<ImageEncoder> encode(const std::string& path, const std::string& format,
                                                  const ImageLayout& layout, OutputFile& file) const = 0;
-    /// Reads a file's first picture. Throws SceneError.
-    virtual StoredImage read(const std::string& path) const = 0;
+    /// Reads a file's first picture; `bytes`: the file itself, which `path` only names, or null. Throws
+    /// SceneError.
+    virtual StoredImage read(const std::string& path, const std::string* bytes) const = 0;
 
 protected:
     ~ImageLibrary() = default;
@@ -80,6 +81,6 @@ const ImageLibrary& image_library();
 /// The only function that the loaded file exports, of this type and name. The number changes with this
 /// header.
 using ImageLibraryEntry = const ImageLibrary*();
-constexpr const char* IMAGE_LIBRARY_ENTRY = "clrt_image_library_1";
+constexpr const char* IMAGE_LIBRARY_ENTRY = "clrt_image_library_2";
 
 } // namespace clrt

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 namespace clrt {
 
@@ -54,7 +57,18 @@ std::vector<T> read_values(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
     return values;
 }
 
-void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const std::string& path) {
+/// The name that makes OpenImageIO choose the decoder of a picture in memory.
+std::string name_by_format(const std::string& bytes, const std::string& path) {
+    const std::pair<std::string, const char*> formats[] = {
+        {"\x89PNG", "picture.png"}, {"\xff\xd8\xff", "picture.jpg"}, {"RIFF", "picture.webp"}};
+    for (const auto& [start, name] : formats)
+        if (bytes.compare(0, start.size(), start) == 0)
+            return name;
+    throw SceneError(path, 0, "expected a PNG, JPEG or WebP picture, found other bytes");
+}
+
+void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const std::string& path,
+                const std::string* memory) {
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
         throw SceneError(path, 0, "the picture has no pixels");
     const std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
@@ -64,7 +78,7 @@ void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, cons
                          "the picture is too large: " + size + " pixels, expected fewer than 2^32 values");
     // An interlaced PNG is unpacked as a whole before its first row is there.
     std::error_code error;
-    const std::uint64_t bytes = std::filesystem::file_size(path, error);
+    const std::uint64_t bytes = memory ? memory->size() : std::filesystem::file_size(path, error);
     if (!error && std::strcmp(input.format_name(), "png") == 0 && pixels / MOST_PNG_PIXELS_A_BYTE > bytes)
         throw SceneError(path, 0,
                          "the picture is cut off: " + size + " pixels are not in " + std::to_string(bytes) +
@@ -73,15 +87,21 @@ void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, cons
 
 } // namespace
 
-StoredImage read_by_oiio(const std::string& path) {
+StoredImage read_by_oiio(const std::string& path, const std::string* bytes) {
     // Without this OpenImageIO multiplies the colours of PNG and others by alpha.
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;
-    const auto input = OIIO::ImageInput::open(path, &config);
+    std::optional<OIIO::Filesystem::IOMemReader> memory;
+    OIIO::Filesystem::IOProxy* proxy = nullptr;
+    if (bytes) {
+        proxy = &memory.emplace(bytes->data(), bytes->size());
+        config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    }
+    const auto input = OIIO::ImageInput::open(bytes ? name_by_format(*bytes, path) : path, &config, proxy);
     if (!input)
         throw SceneError(path, 0, "the picture cannot be opened: " + one_line(OIIO::geterror()));
     const OIIO::ImageSpec spec = input->spec();
-    check_size(*input, spec, path);
+    check_size(*input, spec, path, bytes);
 
     StoredImage image;
     image.width = spec.width;

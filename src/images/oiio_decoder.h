@@ -5,7 +5,8 @@
 
 namespace clrt {
 
-/// Reads a file's first picture by OpenImageIO. Throws SceneError.
-StoredImage read_by_oiio(const std::string& path);
+/// Reads a file's first picture by OpenImageIO; `bytes`: the file itself, a PNG, JPEG or WebP, or null.
+/// Throws SceneError.
+StoredImage read_by_oiio(const std::string& path, const std::string* bytes);
 
 } // namespace clrt

@@ -13,7 +13,9 @@ public:
                                          const ImageLayout& layout, OutputFile& file) const override {
         return std::make_unique<OiioEncoder>(path, format, layout, file);
     }
-    StoredImage read(const std::string& path) const override { return read_by_oiio(path); }
+    StoredImage read(const std::string& path, const std::string* bytes) const override {
+        return read_by_oiio(path, bytes);
+    }
 };
 
 } // namespace
@@ -21,7 +23,7 @@ public:
 } // namespace clrt
 
 /// Named by IMAGE_LIBRARY_ENTRY.
-extern "C" __attribute__((visibility("default"))) const clrt::ImageLibrary* clrt_image_library_1() {
+extern "C" __attribute__((visibility("default"))) const clrt::ImageLibrary* clrt_image_library_2() {
     static const clrt::OiioLibrary library;
     return &library;
 }

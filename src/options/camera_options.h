@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 
 namespace clrt {
 
@@ -34,6 +35,7 @@ constexpr bool is_panorama(Projection projection) {
 
 /// Camera parts as given; absent ones are fitted to the scene, each on its own.
 struct CameraOptions {
+    std::string file_camera; ///< name or number, from 1, of a camera of the file; empty: the first, if any
     std::optional<glm::dvec3> eye, at, up;          ///< scene units
     std::optional<View> view;                       ///< direction of a fitted eye; none: three quarters
     std::optional<double> fov_degrees;              ///< vertical angle of view
@@ -41,11 +43,11 @@ struct CameraOptions {
     Projection projection = PROJECTION_PERSPECTIVE;
     std::optional<glm::dvec2> shift; ///< of the picture's middle from the axis: to the right over its width,
                                      ///< up over its height
-    std::optional<double> aperture;        ///< diameter of the lens, scene units; 0: a pinhole
-    std::optional<double> fstop;           ///< focal length over diameter
-    std::optional<double> focus;           ///< depth of the plane in focus, scene units; may be infinite
-    std::optional<glm::dvec3> focus_point; ///< a point of it instead
-    int blades = 0;                        ///< corners of the lens; 0: round
+    std::optional<double> aperture;  ///< diameter of the lens, scene units; 0: a pinhole
+    std::optional<double> fstop;     ///< focal length over diameter
+    std::optional<double> focus;     ///< depth of the plane in focus, scene units; may be infinite
+    std::optional<glm::dvec3> focus_point;             ///< a point of it instead
+    int blades = 0;                                    ///< corners of the lens; 0: round
     std::optional<glm::dvec3> end_eye, end_at, end_up; ///< at time 1; absent: as at time 0
     std::optional<glm::dvec2> shutter;                 ///< times between which it is open, 0 <= x <= y <= 1
     std::optional<double> ortho_height; ///< orthographic: of what the picture shows, scene units

@@ -21,11 +21,27 @@ template <>
 inline constexpr Named<MaterialOverride> NAMES<MaterialOverride>[] = {{MaterialOverride::NONE, "none"},
                                                                       {MaterialOverride::CLAY, "clay"}};
 
+/// What the numbers of lights in a glTF file mean.
+enum class GltfLights {
+    BLENDER, ///< as Blender writes and reads them: candela and lux, divided by 683 lm/W
+    RAW      ///< radiometric as they are
+};
+
+template <>
+inline constexpr Named<GltfLights> NAMES<GltfLights>[] = {{GltfLights::BLENDER, "blender"},
+                                                          {GltfLights::RAW, "raw"}};
+
+struct GltfReading {
+    GltfLights lights = GltfLights::BLENDER;
+    bool solid_glass = false; ///< transmission without volume refracts, where the standard has a thin wall
+};
+
 struct SceneOptions {
     std::string path;                  ///< a file; "-": the standard input
     std::string end_path;              ///< the same scene at time 1; empty: nothing moves
     MtlReading mtl = MtlReading::AUTO; ///< auto: as the writers of libraries mean them
     MaterialOverride material_override = MaterialOverride::NONE;
+    GltfReading gltf{};
 };
 
 } // namespace clrt

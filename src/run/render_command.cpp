@@ -142,7 +142,7 @@ void announce(const PlannedScene& planned) {
 
 } // namespace
 
-int run_render(const Options& options) {
+int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     check_checkpoint(options);
     const Device device = open_chosen_device(options);

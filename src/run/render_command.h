@@ -9,6 +9,6 @@ namespace clrt {
 
 /// Renders what the options ask for, writes all results and prints the report. Returns the exit code. Throws
 /// UsageError, SceneError and DeviceError.
-int run_render(const Options& options);
+int run_render(Options options);
 
 } // namespace clrt

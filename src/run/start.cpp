@@ -30,8 +30,9 @@ Device open_chosen_device(const Options& options) {
     return open_device(info);
 }
 
-Scene load_for_run(const Options& options, Progress& progress) {
+Scene load_for_run(Options& options, Progress& progress) {
     Scene scene = load_scene(options, progress);
+    options.film.size = scene.picture_size.value_or(options.film.size);
     progress.finish();
     check_run_files(options, scene);
     return scene;

@@ -13,8 +13,8 @@ namespace clrt {
 /// DeviceError.
 Device open_chosen_device(const Options& options);
 
-/// The scene of a run, whose results are known not to replace what it was loaded from. Throws SceneError and
-/// UsageError.
-Scene load_for_run(const Options& options, Progress& progress);
+/// The scene of a run, whose results are known not to replace what it was loaded from; the options take over
+/// the picture's size where the scene gives it. Throws SceneError and UsageError.
+Scene load_for_run(Options& options, Progress& progress);
 
 } // namespace clrt

@@ -234,7 +234,7 @@ private:
     void set_emission() {
         const glm::dvec3 radiance = load(from_.emission, TextureRole::COLOUR, m_.map_emission);
         m_.emission = to_vec4(radiance, double(MATERIAL_METALLIC(m_)));
-        if (context_.two_sided && is_positive(radiance))
+        if ((context_.two_sided || from_.emits_both_sides) && is_positive(radiance))
             m_.flags |= MATERIAL_EMITS_BOTH_SIDES;
     }
 

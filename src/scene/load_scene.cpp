@@ -13,6 +13,7 @@
 #include "scene/emission.h"
 #include "scene/environment.h"
 #include "scene/far_notices.h"
+#include "scene/file_camera.h"
 #include "scene/ground.h"
 #include "scene/lights.h"
 #include "scene/material_override.h"
@@ -58,12 +59,14 @@ public:
     }
 
     PictureFacts facts() {
-        return {[this](const TextureUse& use, TextureRole role) {
-                    return timed([&] { return store_.is_readable(use, role, notices_); });
-                },
-                [this](const TextureUse& use) {
-                    return timed([&] { return store_.is_normal_map(use, notices_); });
-                }};
+        return {
+            [this](const TextureUse& use, TextureRole role) {
+                return timed([&] { return store_.is_readable(use, role, notices_); });
+            },
+            [this](const TextureUse& use) {
+                return timed([&] { return store_.is_normal_map(use, notices_); });
+            },
+            [this](const TextureUse& use) { return timed([&] { return store_.has_alpha(use, notices_); }); }};
     }
 
 private:
@@ -89,7 +92,8 @@ SceneDescription read_scene(const SceneOptions& options, Progress& progress, Pic
     statistics.obj_bytes = file.bytes.size();
     const PictureFacts facts = pictures.facts();
     const SceneReader& reader = find_reader(file);
-    SceneDescription description = reader.read(std::move(file), {progress, notices, facts, options.mtl});
+    SceneDescription description =
+        reader.read(std::move(file), {progress, notices, facts, options.mtl, options.gltf});
     statistics.obj_seconds = watch.seconds() - statistics.texture_seconds;
     statistics.dropped_faces = description.dropped_faces;
     return description;
@@ -209,8 +213,10 @@ void add_end_frame(const SceneRequest& request, Progress& progress, Mesh& mesh, 
     const SceneReader& reader = find_reader(file);
     NoticeList unused; // what is wrong with materials is said of the first file
     const PictureFacts facts = {[](const TextureUse&, TextureRole) { return true; },
+                                [](const TextureUse&) { return false; },
                                 [](const TextureUse&) { return false; }};
-    SceneDescription end = reader.read(std::move(file), {progress, unused, facts, request.scene.mtl});
+    SceneDescription end =
+        reader.read(std::move(file), {progress, unused, facts, request.scene.mtl, request.scene.gltf});
     add_motion({input_name(request.scene.path), request.scene.end_path}, shutter_times(request.camera), mesh,
                std::move(end.mesh), notices);
     files.push_back({"the scene at time 1", request.scene.end_path});
@@ -233,7 +239,8 @@ Scene load_all(SceneRequest request, Progress& progress) {
 
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_of_triangles(mesh);
-    if (!request.camera.up)
+    scene.picture_size = take_file_camera(description.cameras, bounds, request, notices);
+    if (!request.camera.up && !description.is_y_up)
         request.camera =
             with_up(request.camera, find_up(mesh, bounds, description.z_up_reason), path, notices);
     scene.normalisation = fit_normalisation(bounds);

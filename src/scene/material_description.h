@@ -87,8 +87,9 @@ struct MaterialDescription {
     Mapped<glm::dvec3> sheen;       ///< colour of fibres above everything but the coat, in [0,1]
     Mapped<double> sheen_roughness; ///< in [0,1]; alpha of their distribution is its square
 
-    Mapped<glm::dvec3> emission; ///< radiance on the front side
-    Mapped<double> coverage{1};  ///< in [0,1]; below 1 the surface is cut out
+    Mapped<glm::dvec3> emission;   ///< radiance on the front side
+    bool emits_both_sides = false; ///< and on the back
+    Mapped<double> coverage{1};    ///< in [0,1]; below 1 the surface is cut out
     std::optional<TextureUse> normal_map, bump_map;
     double normal_strength = 1; ///< factor of the x and y of a normal map
     double bump_height = 1;     ///< of a full-range bump map, scene units

@@ -45,8 +45,8 @@ std::vector<vec4> to_linear(const std::vector<float>& rgba, bool decode) {
 
 } // namespace
 
-Image read_image(const std::string& path, ImageEncoding encoding) {
-    const StoredImage stored = image_library().read(path);
+Image read_image(const std::string& path, ImageEncoding encoding, const std::string* bytes) {
+    const StoredImage stored = image_library().read(path, bytes);
     Image image;
     image.width = stored.width;
     image.height = stored.height;

@@ -30,8 +30,9 @@ struct Image {
     std::vector<vec4> floats;                ///< linear
 };
 
-/// Reads a file's first picture. Throws SceneError (file: reason) if that is not possible.
-Image read_image(const std::string& path, ImageEncoding encoding);
+/// Reads a file's first picture; `bytes`: the file itself, which `path` only names then. Throws SceneError
+/// (file: reason) if that is not possible.
+Image read_image(const std::string& path, ImageEncoding encoding, const std::string* bytes = nullptr);
 
 /// The same as linear floats whatever the file holds. Throws SceneError.
 FloatImage read_float_image(const std::string& path, ImageEncoding encoding);

@@ -110,6 +110,7 @@ struct Scene {
         background;         ///< radiance that camera rays see outside the scene, not sky and suns
     bool is_studio = false; ///< lit by the studio, because nothing else gives light
     Camera camera;
+    std::optional<glm::ivec2> picture_size; ///< where no option gives it and the file's camera has an aspect
     Normalisation normalisation;
     SourcePlace first_smooth;         ///< the face that the first triangle with corner normals is from
     double radius = 1;                ///< of the bounding sphere of the file's geometry, normalised frame

@@ -7,10 +7,18 @@
 #include "scene/material_description.h"
 #include "scene/mesh.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace clrt {
+
+/// A camera of the file, world units; `at` is some point ahead.
+struct FileCamera {
+    std::string name; ///< "" where it has none
+    Camera camera;
+    std::optional<double> aspect{}; ///< width over height of its picture; absent: any
+};
 
 struct SceneDescription {
     Mesh mesh;
@@ -18,7 +26,9 @@ struct SceneDescription {
     std::vector<MaterialDescription> materials; ///< those that triangles use
     std::vector<PointOptions> points;           ///< lights that are no geometry, in the units of the options
     std::vector<SunOptions> suns;
+    std::vector<FileCamera> cameras;
     std::string z_up_reason;      ///< "it ...": why its up is z; empty where the file does not tell
+    bool is_y_up = false;         ///< the format says that its up is y
     std::vector<NamedFile> files; ///< opened beside the scene's own
     size_t dropped_faces = 0;     ///< with a non-finite vertex or fewer than three corners
 };

@@ -15,6 +15,7 @@ bool is_exr(const std::string& path) {
 
 SceneRequest::SceneRequest(const Options& options)
     : scene(options.scene), camera(options.camera), light(options.light), size(options.film.size),
+      is_size_given(options.run.given.count("--size") != 0 || options.film.crop.has_value()),
       writes_layers(std::any_of(options.output.files.begin(), options.output.files.end(), is_exr)) {}
 
 } // namespace clrt

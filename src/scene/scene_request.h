@@ -13,6 +13,7 @@ struct SceneRequest {
     CameraOptions camera;
     LightOptions light;
     glm::ivec2 size;    ///< of the picture, pixels: for the angle of view and what is framed
+    bool is_size_given; ///< by an option, or pixels are
     bool writes_layers; ///< an EXR is asked for
 
     /// The part of all options that loading takes; not explicit, so that load_scene() takes them as they are.

@@ -59,6 +59,7 @@ u32 TextureStore::add(const TextureUse& use, TextureRole role, NoticeList& notic
         texture.width = texture.height = 1;
         texture.format = TEXEL_VERTEX;
         texture.gain = 1;
+        texture.vertex_word = VERTEX_WORD_TO_COME;
         return add_record(texture, use);
     }
     const StoredImage* image = find_or_read(use, role, notices);
@@ -73,9 +74,13 @@ u32 TextureStore::add(const TextureUse& use, TextureRole role, NoticeList& notic
     texture.scale_v = float(use.scale.y);
     texture.offset_u = float(use.offset.x);
     texture.offset_v = float(use.offset.y);
+    texture.shear_u = float(use.shear.x);
+    texture.shear_v = float(use.shear.y);
     texture.base = float(use.base);
     texture.gain = float(use.gain);
-    texture.clamp = use.clamp ? 1 : 0;
+    texture.wrap_u = u32(use.wrap_u);
+    texture.wrap_v = u32(use.wrap_v);
+    texture.vertex_word = use.times_vertex ? VERTEX_WORD_TO_COME : 0;
     texture.channel = role == TextureRole::COVERAGE && image->has_alpha ? CHANNEL_ALPHA
                       : image->is_grey                                  ? 0
                                                                         : CHANNEL_LUMINANCE;
@@ -86,7 +91,7 @@ u32 TextureStore::add(const TextureUse& use, TextureRole role, NoticeList& notic
 
 TextureStore::StoredImage* TextureStore::find_or_read(const TextureUse& use, TextureRole role,
                                                       NoticeList& notices) {
-    const auto path = find_file(use.file, use.place.file);
+    const auto path = use.bytes ? use.place.file + ": " + use.file : find_file(use.file, use.place.file);
     if (!path) {
         notices.add(fmt::format("no file {} found, the map is ignored", clrt::quoted(use.file)), use.place);
         return nullptr;
@@ -94,17 +99,18 @@ TextureStore::StoredImage* TextureStore::find_or_read(const TextureUse& use, Tex
     // Alpha is linear in both encodings: a mask shares the texels of the colours beside it.
     const auto as_colour = images_.find({*path, ImageEncoding::COLOUR});
     if (role == TextureRole::COVERAGE && as_colour != images_.end() && as_colour->second.has_alpha &&
-        !use.channel)
+        use.channel.value_or(CHANNEL_ALPHA) == CHANNEL_ALPHA)
         return &as_colour->second;
 
     const ImageEncoding encoding = encoding_of(role);
     const auto known = images_.find({*path, encoding});
     if (known != images_.end())
         return &known->second;
-    files_.insert(*path);
+    if (!use.bytes)
+        files_.insert(*path);
     Image image;
     try {
-        image = read_image(*path, encoding);
+        image = read_image(use.bytes ? use.file : *path, encoding, use.bytes.get());
     } catch (const SceneError& error) {
         notices.add(fmt::format("{}; the map is ignored", error.what()), use.place);
         return nullptr;
@@ -133,6 +139,21 @@ bool TextureStore::is_normal_map(const TextureUse& use, NoticeList& notices) {
     if (!image->is_normal_map)
         image->is_normal_map = has_unit_vectors(*image);
     return *image->is_normal_map;
+}
+
+bool TextureStore::has_alpha(const TextureUse& use, NoticeList& notices) {
+    const StoredImage* image = try_to_read(use, TextureRole::COLOUR, notices);
+    if (!image || !image->has_alpha)
+        return false;
+    Texture texture{};
+    texture.first_word = image->first_word;
+    texture.width = image->width;
+    texture.format = image->format;
+    for (u32 y = 0; y < image->height; ++y)
+        for (u32 x = 0; x < image->width; ++x)
+            if (texel(texture, x, y).w < 1)
+                return true;
+    return false;
 }
 
 bool TextureStore::has_unit_vectors(const StoredImage& image) const {

@@ -19,6 +19,9 @@ namespace clrt {
 /// The first words hold the sRGB curve: word i is the linear value of byte i as the bits of a float.
 constexpr u32 SRGB_TABLE_WORDS = 256;
 
+/// Texture::vertex_word of a texture that waits for store_vertex_colours().
+constexpr u32 VERTEX_WORD_TO_COME = NO_INDEX;
+
 class TextureStore {
 public:
     TextureStore();
@@ -34,6 +37,9 @@ public:
     /// Whether the picture of a map is a normal map by its texels: in colour, nearly all of them unit vectors
     /// coded as (n + 1) / 2, and on the whole near +z. False where it cannot be read; add() says why.
     bool is_normal_map(const TextureUse& use, NoticeList& notices);
+
+    /// Whether some texel of a picture of colours is not opaque. False where it cannot be read.
+    bool has_alpha(const TextureUse& use, NoticeList& notices);
 
     /// Mean of the texture's values over its picture: linear, with base and gain, negative values as 0.
     glm::dvec3 mean(u32 texture) const;

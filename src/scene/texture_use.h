@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -21,21 +22,33 @@ enum class TextureRole {
     SCALAR    ///< the only channel, else luminance
 };
 
-/// The lookup of uv is at scale uv + offset, its value base + gain times the texel.
+/// What is beside a picture along one axis; as WRAP_* of the kernels.
+enum class TextureWrap : u32 {
+    REPEAT = WRAP_REPEAT,
+    BLACK = WRAP_BLACK,
+    EDGE = WRAP_EDGE,
+    MIRROR = WRAP_MIRROR
+};
+
+/// The lookup of uv is at scale uv + shear vu + offset, its value base + gain times the texel.
 struct TextureUse {
     std::string file;  ///< as written; relative to the file in `place` (find_file.h)
     SourcePlace place; ///< of the statement that names it
-    glm::dvec2 scale{1}, offset{0};
+    glm::dvec2 scale{1}, offset{0}, shear{0};
     double base = 0, gain = 1;
-    bool clamp = false;         ///< black outside [0,1] in place of repetition
+    TextureWrap wrap_u = TextureWrap::REPEAT, wrap_v = TextureWrap::REPEAT;
     std::optional<u32> channel; ///< of a scalar: 0..3 = r, g, b, a; 4 = luminance; absent: by role and file
-    bool by_vertex = false;     ///< no file but Mesh::colours
+    bool by_vertex = false;     ///< no picture but Mesh::colours
+    bool times_vertex = false;  ///< Mesh::colours multiply the picture, where it is of a reflectance
+    /// The picture's file itself, where it lies within another file; `file` only names it then.
+    std::shared_ptr<const std::string> bytes = nullptr;
 };
 
 /// What readers may ask about pictures; false for one that cannot be read, which is said when it is used.
 struct PictureFacts {
     std::function<bool(const TextureUse&, TextureRole)> is_readable;
     std::function<bool(const TextureUse&)> is_normal_map; ///< its texels are unit vectors
+    std::function<bool(const TextureUse&)> has_alpha{};   ///< some texel of a COLOUR is not opaque
 };
 
 } // namespace clrt

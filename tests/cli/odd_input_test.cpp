@@ -80,11 +80,14 @@ TEST_F(OddInput, LineEndsMarksAndIndicesAreAsWritersMakeThem) {
 }
 
 TEST_F(OddInput, FilesOfOtherFormatsAreErrorsThatSayWhatToDo) {
-    expect_error("glTF", "{\"asset\":{\"version\":\"2.0\"}}",
-                 {"odd.obj: expected a Wavefront OBJ or an STL file, found a glTF file", "export"});
-    expect_error("GLB", std::string("glTF\2\0\0\0\x10\0\0\0", 12),
-                 {"a binary glTF file (GLB)", "assimp export"});
-    expect_error("PLY", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n", {"a PLY file"});
+    expect_error("a Blender file", "BLENDER-v300",
+                 {"odd.obj: expected a Wavefront OBJ, an STL file", "found a Blender file", "assimp export"});
+    expect_error("an empty glTF", "{\"asset\":{\"version\":\"2.0\"}}",
+                 {"odd.obj: the file's scene has no triangles"});
+    expect_error("a GLB that ends early", std::string("glTF\2\0\0\0\x10\0\0\0", 12),
+                 {"odd.obj: byte 8: expected a length up to that of the file, 12, found 16"});
+    expect_error("a PLY of points", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n",
+                 {"no faces to render"});
     expect_error("MTL", "newmtl red\nKd 1 0 0\n", {"a material library (MTL): give the OBJ that names it"});
     expect_error("a picture", "\x89PNG\r\n\x1a\n", {"a PNG picture"});
 }

@@ -19,12 +19,7 @@ std::string name_of(std::string_view bytes) {
 } // namespace
 
 TEST(ForeignFormat, FormatsAreKnownByTheirFirstBytes) {
-    EXPECT_EQ(name_of("glTF\2\0\0\0"sv), "a binary glTF file (GLB)");
-    EXPECT_EQ(name_of("  {\n \"scene\": 0, \"asset\": {\"version\": \"2.0\"}}"), "a glTF file");
-    EXPECT_EQ(name_of("\xef\xbb\xbf{\"asset\":1}"), "a glTF file");
     EXPECT_EQ(name_of("{}"), "a JSON file");
-    EXPECT_EQ(name_of("ply\nformat ascii 1.0\n"), "a PLY file");
-    EXPECT_EQ(name_of("ply\r\nformat binary_little_endian 1.0\r\n"), "a PLY file");
     EXPECT_EQ(name_of("Kaydara FBX Binary  \0"sv), "an FBX file");
     EXPECT_EQ(name_of("; FBX 7.3.0 project file\n"), "an FBX file");
     EXPECT_EQ(name_of("BLENDER-v300"), "a Blender file");

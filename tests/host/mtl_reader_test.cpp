@@ -236,7 +236,7 @@ TEST(MtlTexture, ReadsOptionsAndNamesWithSpaces) {
     EXPECT_EQ(t.base, 0.1);
     EXPECT_EQ(t.gain, 0.8);
     EXPECT_EQ(t.bump_multiplier, 3);
-    EXPECT_TRUE(t.clamp);
+    EXPECT_TRUE(t.wrap_u == TextureWrap::BLACK && t.wrap_v == TextureWrap::BLACK);
     EXPECT_EQ(t.channel, 1u);
 }
 
@@ -247,7 +247,7 @@ TEST(MtlTexture, DefaultsChangeNothing) {
     EXPECT_EQ(t.base, 0);
     EXPECT_EQ(t.gain, 1);
     EXPECT_EQ(t.bump_multiplier, 1);
-    EXPECT_FALSE(t.clamp || t.channel);
+    EXPECT_TRUE(t.wrap_u == TextureWrap::REPEAT && !t.channel);
 }
 
 TEST(MtlTexture, VectorsMayHaveOneToThreeNumbers) {

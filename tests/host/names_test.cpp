@@ -45,6 +45,7 @@ TEST(Names, EveryValueHasOneThatItsOptionTakes) {
     expect_counted_names("--light-sampler", LightSampler::TREE);
     expect_counted_names("--precision", Precision::FAST);
     expect_counted_names("--mtl", MtlReading::PLAIN);
+    expect_counted_names("--gltf-lights", GltfLights::RAW);
     expect_counted_names("--material", MaterialOverride::CLAY);
     expect_counted_names("--filter", Filter::GAUSSIAN);
     expect_counted_names("--tonemap", Tonemap::AGX);

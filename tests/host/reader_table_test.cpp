@@ -52,13 +52,17 @@ TEST(ReaderTable, BytesSayMoreThanTheExtension) {
     for (const char* name : {"a.obj", "a.stl", "stdin"})
         EXPECT_EQ(name_of_reader({name, stl}), "an STL file") << name;
     EXPECT_EQ(name_of_reader({"a.STL", "v 0 0 0\n"}), "an STL file") << "where they say nothing";
-    EXPECT_EQ(reader_names(), "a Wavefront OBJ or an STL file");
+    for (const char* name : {"a.obj", "a.glb", "stdin"}) {
+        EXPECT_EQ(name_of_reader({name, std::string("glTF\2\0\0\0", 8)}), "a glTF file") << name;
+        EXPECT_EQ(name_of_reader({name, "\xef\xbb\xbf {\"asset\": {\"version\": \"2.0\"}}"}), "a glTF file")
+            << name;
+    }
+    EXPECT_EQ(reader_names(), "a Wavefront OBJ, an STL file, a PLY file or a glTF file");
 }
 
 TEST(ReaderTable, OtherFormatsAreNamed) {
-    EXPECT_EQ(error_of({"scene.obj", std::string("glTF\2\0\0\0", 8)})
-                  .find("scene.obj: expected " + reader_names() +
-                        ", found a binary glTF file (GLB): export it as OBJ"),
+    EXPECT_EQ(error_of({"scene.obj", "BLENDER-v300"})
+                  .find("scene.obj: expected " + reader_names() + ", found a Blender file: export it as"),
               0u);
 }
 

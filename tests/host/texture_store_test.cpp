@@ -104,7 +104,9 @@ TEST_F(TextureStoreTest, AFileIsStoredOnceForEachEncoding) {
     scaled.offset = {0.5, 0.25};
     scaled.base = 0.1;
     scaled.gain = 0.8;
-    scaled.clamp = true;
+    scaled.shear = {-1, 4};
+    scaled.wrap_u = TextureWrap::BLACK;
+    scaled.wrap_v = TextureWrap::MIRROR;
     const u32 plain = add("a.png", TextureRole::COLOUR), other = add("a.png", TextureRole::COLOUR, scaled);
     EXPECT_NE(plain, other);
     EXPECT_EQ(texture(plain).first_word, texture(other).first_word);
@@ -118,8 +120,11 @@ TEST_F(TextureStoreTest, AFileIsStoredOnceForEachEncoding) {
     EXPECT_EQ(t.offset_v, 0.25f);
     EXPECT_EQ(t.base, 0.1f);
     EXPECT_EQ(t.gain, 0.8f);
-    EXPECT_EQ(t.clamp, 1u);
-    EXPECT_EQ(texture(plain).clamp, 0u);
+    EXPECT_EQ(t.shear_u, -1);
+    EXPECT_EQ(t.shear_v, 4);
+    EXPECT_EQ(t.wrap_u, WRAP_BLACK);
+    EXPECT_EQ(t.wrap_v, WRAP_MIRROR);
+    EXPECT_EQ(texture(plain).wrap_u, WRAP_REPEAT);
     EXPECT_EQ(texture(plain).gain, 1);
 }
 

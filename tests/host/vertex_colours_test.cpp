@@ -29,7 +29,7 @@ glm::vec3 stored(const Scene& scene, u32 vertex) {
     glm::vec3 colour(-1);
     for (const Texture& texture : scene.textures)
         if (texture.format == TEXEL_VERTEX)
-            std::memcpy(&colour, &scene.texel_words.at(texture.first_word + 3 * vertex), sizeof colour);
+            std::memcpy(&colour, &scene.texel_words.at(texture.vertex_word + 3 * vertex), sizeof colour);
     return colour;
 }
 

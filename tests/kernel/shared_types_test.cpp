@@ -52,7 +52,7 @@ const Layout TEXTURE = {
     "Texture",
     sizeof(Texture),
     {M(first_word), M(width), M(height), M(format), M(scale_u), M(scale_v), M(offset_u), M(offset_v),
-     M(base), M(gain), M(clamp), M(channel)}};
+     M(shear_u), M(shear_v), M(base), M(gain), M(wrap_u), M(wrap_v), M(channel), M(vertex_word)}};
 #undef M
 #define M(name) MEMBER(Emitter, name)
 const Layout EMITTER = {

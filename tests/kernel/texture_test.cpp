@@ -91,23 +91,26 @@ Picture random_picture(u32 width, u32 height, u32 format) {
 /// The bilinear lookup in double. Texel (0, 0) is top left, uv (0, 0) the lower left corner.
 Texel reference_lookup(const Picture& picture, const vec4& uv) {
     const Texture& t = picture.scene.textures[0];
-    const double u = double(uv.x) * t.scale_u + t.offset_u, v = double(uv.y) * t.scale_v + t.offset_v;
-    const bool clamp = t.clamp != 0;
-    if (clamp && (u < 0 || u > 1 || v < 0 || v > 1))
+    const double u = double(uv.x) * t.scale_u + double(uv.y) * t.shear_u + t.offset_u,
+                 v = double(uv.x) * t.shear_v + double(uv.y) * t.scale_v + t.offset_v;
+    const auto is_outside = [](double at, u32 wrap) { return wrap == WRAP_BLACK && (at < 0 || at > 1); };
+    if (is_outside(u, t.wrap_u) || is_outside(v, t.wrap_v))
         return {0, 0, 0, 0};
-    const double x = (u - (clamp ? 0 : std::floor(u))) * t.width - 0.5;
-    const double y = (1 - (v - (clamp ? 0 : std::floor(v)))) * t.height - 0.5;
-    const auto place = [&](double at, u32 size) {
-        const int n = int(size), i = int(at);
-        return clamp ? std::clamp(i, 0, n - 1) : (i % n + n) % n;
+    // The plane is tiled with the picture, each wrap in its own way; texels are counted through all tiles.
+    const double x = u * t.width - 0.5, y = (1 - v) * t.height - 0.5;
+    const auto place = [&](double at, u32 size, u32 wrap) {
+        const int n = int(size), i = int(at), in_pair = (i % (2 * n) + 2 * n) % (2 * n);
+        return wrap == WRAP_REPEAT   ? in_pair % n
+               : wrap == WRAP_MIRROR ? std::min(in_pair, 2 * n - 1 - in_pair)
+                                     : std::clamp(i, 0, n - 1);
     };
     Texel sum{};
     for (int dy = 0; dy < 2; ++dy)
         for (int dx = 0; dx < 2; ++dx) {
             const double fx = x - std::floor(x), fy = y - std::floor(y);
             const double weight = (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy);
-            const Texel texel =
-                picture.texel(place(std::floor(x) + dx, t.width), place(std::floor(y) + dy, t.height));
+            const Texel texel = picture.texel(place(std::floor(x) + dx, t.width, t.wrap_u),
+                                              place(std::floor(y) + dy, t.height, t.wrap_v));
             for (size_t k = 0; k < 4; ++k)
                 sum[k] += weight * texel[k];
         }
@@ -214,7 +217,7 @@ TEST(Texture, LookupsAreBilinearAndWrapAround) {
 TEST(Texture, ClampedLookupsRepeatTheEdgeInsideAndAreBlackOutside) {
     for (const u32 format : {TEXEL_SRGB8, TEXEL_FLOAT}) {
         Picture picture = random_picture(6, 4, format);
-        picture.use().clamp = 1;
+        picture.use().wrap_u = picture.use().wrap_v = WRAP_BLACK;
         expect_reference(picture, random_uvs(5000, 0, 1), 1);
         expect_reference(picture, {{0, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 0, 0}, {0.01f, 0.99f, 0, 0}}, 1);
         picture.use().base = 0.5f; // outside there is no picture that could be shifted
@@ -229,6 +232,40 @@ TEST(Texture, ClampedLookupsRepeatTheEdgeInsideAndAreBlackOutside) {
     }
 }
 
+TEST(Texture, EachAxisWrapsInItsOwnWay) {
+    for (const u32 wrap_u : {WRAP_REPEAT, WRAP_EDGE, WRAP_MIRROR})
+        for (const u32 wrap_v : {WRAP_REPEAT, WRAP_EDGE, WRAP_MIRROR})
+            for (const auto& [width, height] : {std::pair{7u, 5u}, std::pair{1u, 1u}, std::pair{2u, 9u}}) {
+                Picture picture = random_picture(width, height, TEXEL_LINEAR8);
+                picture.use().wrap_u = wrap_u;
+                picture.use().wrap_v = wrap_v;
+                expect_reference(picture, random_uvs(5000, -5, 5), 5);
+                expect_reference(picture, {{0, 0, 0, 0}, {1, 1, 0, 0}, {-1, 2, 0, 0}, {3, -3, 0, 0}}, 3);
+            }
+}
+
+TEST(Texture, ALookupThatIsNotFiniteReadsATexelOfThePicture) {
+    const float odd[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                         -3e38f};
+    for (const u32 wrap : {WRAP_REPEAT, WRAP_EDGE, WRAP_MIRROR}) {
+        Picture picture = random_picture(4, 4, TEXEL_LINEAR8);
+        picture.use().wrap_u = picture.use().wrap_v = wrap;
+        for (const float u : odd)
+            for (const vec4& got : picture.lookup({{u, 0.5f, 0, 0}, {0.5f, u, 0, 0}}).first)
+                EXPECT_TRUE(got.x >= 0 && got.x <= 1) << wrap << " " << u;
+    }
+}
+
+TEST(Texture, ATransformMayTurnThePicture) {
+    Picture picture = random_picture(5, 7, TEXEL_LINEAR8);
+    picture.use().scale_u = 0.8f;
+    picture.use().scale_v = 1.6f;
+    picture.use().shear_u = -1.2f;
+    picture.use().shear_v = 0.6f;
+    picture.use().offset_u = 0.3f;
+    expect_reference(picture, random_uvs(5000, -2, 2), 6);
+}
+
 TEST(Texture, ScaleAndOffsetMoveTheLookupAndBaseAndGainTheValue) {
     Picture picture = random_picture(5, 7, TEXEL_LINEAR8);
     picture.use().scale_u = 2.5f;
@@ -238,7 +275,7 @@ TEST(Texture, ScaleAndOffsetMoveTheLookupAndBaseAndGainTheValue) {
     picture.use().base = 0.25f;
     picture.use().gain = 0.5f;
     expect_reference(picture, random_uvs(5000, -2, 2), 6);
-    picture.use().clamp = 1;
+    picture.use().wrap_u = picture.use().wrap_v = WRAP_BLACK;
     picture.use().scale_v = 1;
     picture.use().offset_v = 0;
     expect_reference(picture, {{0.1f, 0.5f, 0, 0}, {0.2f, 0.1f, 0, 0}, {-0.1f, 0.9f, 0, 0}}, 1);

@@ -13,10 +13,11 @@ using namespace std::string_view_literals;
 /// How much of a file is looked at for words that tell texts apart.
 constexpr size_t HEAD_BYTES = 4096;
 
-constexpr const char* EXPORT = "export it as OBJ with its MTL from the program it comes from, or convert it "
-                               "(`assimp export FILE scene.obj`, from Debian's assimp-utils)";
+constexpr const char* EXPORT = "export it as glTF or OBJ from the program it comes from, or convert it "
+                               "(`assimp export FILE scene.glb`, from Debian's assimp-utils)";
 constexpr const char* UNPACK = "unpack it and give the OBJ inside";
-constexpr const char* PICTURE = "give the OBJ; its MTL names pictures (map_Kd), --env takes one for the sky";
+constexpr const char* PICTURE =
+    "give the OBJ or glTF; an MTL names pictures (map_Kd), --env takes one for the sky";
 
 struct Format {
     std::string_view start; ///< the file's first bytes
@@ -27,11 +28,7 @@ struct Format {
 
 /// Signatures as the formats' specifications give them; the first that fits counts.
 constexpr Format FORMATS[] = {
-    {"glTF"sv, ""sv, "a binary glTF file (GLB)", EXPORT},
-    {"{"sv, "\"asset\""sv, "a glTF file", EXPORT},
     {"{"sv, ""sv, "a JSON file", EXPORT},
-    {"ply\n"sv, ""sv, "a PLY file", EXPORT},
-    {"ply\r"sv, ""sv, "a PLY file", EXPORT},
     {"Kaydara FBX Binary"sv, ""sv, "an FBX file", EXPORT},
     {"; FBX"sv, ""sv, "an FBX file", EXPORT},
     {"BLENDER"sv, ""sv, "a Blender file", EXPORT},

@@ -124,7 +124,7 @@ private:
             ((name == "-clamp" || name == "-cc" || name.substr(0, 6) == "-blend") && !on && word != "off"))
             fail(option, name == "-imfchan" ? "one of r g b m l z" : "on or off", word);
         if (name == "-clamp")
-            texture_.clamp = on;
+            texture_.wrap_u = texture_.wrap_v = on ? TextureWrap::BLACK : TextureWrap::REPEAT;
         else if (name == "-imfchan")
             set_channel(option, word);
         else if (name.substr(0, 6) == "-blend" ? !on : name == "-cc" ? on : true)

@@ -3,7 +3,11 @@
 
 #include "error.h"
 #include "scene/readers/foreign_format.h"
+#include "scene/readers/gltf_file.h"
+#include "scene/readers/gltf_reader.h"
 #include "scene/readers/obj_scene.h"
+#include "scene/readers/ply_header.h"
+#include "scene/readers/ply_reader.h"
 #include "scene/readers/stl_reader.h"
 
 #include <algorithm>
@@ -26,6 +30,8 @@ std::string extension_of(const std::string& name) {
 
 const std::vector<SceneReader>& scene_readers() {
     static const std::vector<SceneReader> readers = {
+        {"a glTF file", ".glb", is_gltf, read_gltf_scene},
+        {"a PLY file", ".ply", is_ply, read_ply_scene},
         {"an STL file", ".stl", is_stl, read_stl_scene},
         {"a Wavefront OBJ", ".obj", nullptr, read_obj_scene},
     };

@@ -20,6 +20,7 @@ struct ReadContext {
     NoticeList& notices; ///< for every fallback that is taken
     const PictureFacts& pictures;
     MtlReading mtl;
+    GltfReading gltf{};
 };
 
 struct SceneReader {

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/readers/gltf_flatten.h"
+
+#include "scene/vectors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace clrt {
+
+namespace {
+
+/// Between two updates of the progress line.
+constexpr size_t INSTANCES_A_STEP = 256;
+
+/// A use of a mesh.
+struct Instance {
+    const std::vector<GltfPrimitive>* primitives;
+    glm::dmat4 world;
+    u32 object;
+};
+
+/// The places of EXT_mesh_gpu_instancing: one transform each, between the node and its mesh.
+std::vector<glm::dmat4> gpu_instances(const JsonValue& extension, GltfBuffers& buffers) {
+    const JsonValue attributes = extension.at("attributes");
+    const auto read = [&](const char* name, GltfElement element) {
+        const std::optional<JsonValue> index = attributes.find(name);
+        return index ? read_gltf_numbers(buffers, *index, element) : GltfNumbers();
+    };
+    const GltfNumbers translation = read("TRANSLATION", GltfElement::VEC3),
+                      rotation = read("ROTATION", GltfElement::VEC4),
+                      scale = read("SCALE", GltfElement::VEC3);
+    const size_t count = std::max({translation.count(), rotation.count(), scale.count()});
+    for (const GltfNumbers* numbers : {&translation, &rotation, &scale})
+        if (numbers->count() != 0 && numbers->count() != count)
+            attributes.fail(fmt::format("{} elements each", count), fmt::format("{}", numbers->count()));
+    std::vector<glm::dmat4> transforms;
+    for (size_t i = 0; i < count; ++i)
+        transforms.push_back(
+            gltf_transform(translation.count() ? glm::dvec3(translation.vec3(i)) : glm::dvec3(0),
+                           rotation.count() ? glm::dvec4(rotation.vec4(i)) : glm::dvec4(0, 0, 0, 1),
+                           scale.count() ? glm::dvec3(scale.vec3(i)) : glm::dvec3(1)));
+    return transforms;
+}
+
+/// What flattened instances take.
+struct Size {
+    size_t vertices = 0, triangles = 0, bytes = 0;
+};
+
+size_t vertex_bytes(const GltfPrimitive& primitive, bool has_colours) {
+    return sizeof(glm::dvec3) + (primitive.normals.empty() ? 0 : sizeof(glm::vec3)) +
+           (primitive.uvs.empty() ? 0 : sizeof(glm::vec2)) + (has_colours ? sizeof(glm::vec3) : 0);
+}
+
+/// Counts until there is too much, in time that the limit bounds.
+Size measure(const std::vector<Instance>& instances, bool has_colours) {
+    Size size;
+    for (const Instance& instance : instances)
+        for (const GltfPrimitive& primitive : *instance.primitives) {
+            size.vertices += primitive.positions.size();
+            size.triangles += primitive.corners.size() / 3;
+            size.bytes += primitive.positions.size() * vertex_bytes(primitive, has_colours) +
+                          primitive.corners.size() / 3 * sizeof(MeshTriangle);
+        }
+    return size;
+}
+
+bool has_colours(const std::vector<Instance>& instances) {
+    return std::any_of(instances.begin(), instances.end(), [](const Instance& instance) {
+        return std::any_of(instance.primitives->begin(), instance.primitives->end(),
+                           [](const GltfPrimitive& primitive) { return !primitive.colours.empty(); });
+    });
+}
+
+/// Adds copies of primitives to a mesh.
+class Flattener {
+public:
+    Flattener(Mesh& mesh, bool has_colours) : mesh_(mesh), has_colours_(has_colours) {}
+
+    void add(const GltfPrimitive& primitive, const Instance& instance) {
+        const u32 first_position = u32(mesh_.positions.size()), first_normal = u32(mesh_.normals.size()),
+                  first_uv = u32(mesh_.uvs.size());
+        for (const glm::vec3& p : primitive.positions)
+            mesh_.positions.emplace_back(instance.world * glm::dvec4(glm::dvec3(p), 1));
+        add_normals(primitive, normal_transform(instance.world));
+        mesh_.uvs.insert(mesh_.uvs.end(), primitive.uvs.begin(), primitive.uvs.end());
+        if (has_colours_)
+            add_colours(primitive);
+        const bool mirrored = is_mirrored(instance.world);
+        for (size_t i = 0; i < primitive.corners.size(); i += 3) {
+            u32 corner[3] = {primitive.corners[i], primitive.corners[i + 1], primitive.corners[i + 2]};
+            if (mirrored)
+                std::swap(corner[1], corner[2]);
+            MeshTriangle triangle{};
+            triangle.material = primitive.material;
+            triangle.object = instance.object;
+            for (size_t k = 0; k < 3; ++k) {
+                triangle.v[k] = first_position + corner[k];
+                triangle.n[k] = primitive.normals.empty() ? NO_INDEX : first_normal + corner[k];
+                triangle.t[k] = primitive.uvs.empty() ? NO_INDEX : first_uv + corner[k];
+            }
+            add_finite(triangle);
+        }
+    }
+
+    size_t dropped() const { return dropped_; }
+
+private:
+    void add_normals(const GltfPrimitive& primitive, const glm::dmat3& turn) {
+        for (const glm::vec3& n : primitive.normals) {
+            const glm::dvec3 turned = turn * glm::dvec3(n);
+            const double size = largest_magnitude(turned);
+            mesh_.normals.emplace_back(size > 0 ? turned / size
+                                                : turned); // floats hold it whatever the scale
+        }
+    }
+
+    void add_colours(const GltfPrimitive& primitive) {
+        mesh_.colours.insert(mesh_.colours.end(), primitive.colours.begin(), primitive.colours.end());
+        mesh_.colours.resize(mesh_.positions.size(), glm::vec3(1));
+    }
+
+    void add_finite(const MeshTriangle& triangle) {
+        const bool finite =
+            std::all_of(triangle.v, triangle.v + 3, [&](u32 v) { return is_finite(mesh_.positions[v]); });
+        dropped_ += !finite;
+        if (finite)
+            mesh_.triangles.push_back(triangle);
+    }
+
+    static double largest_magnitude(const glm::dvec3& v) {
+        return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+    }
+
+    Mesh& mesh_;
+    bool has_colours_;
+    size_t dropped_ = 0;
+};
+
+/// The uses of meshes on all nodes, which become objects.
+std::vector<Instance> find_instances(const std::vector<GltfNode>& nodes, GltfBuffers& buffers,
+                                     GltfMeshes& meshes, const ReadContext& context, Mesh& mesh) {
+    std::vector<Instance> instances;
+    for (const GltfNode& node : nodes) {
+        const std::optional<JsonValue> index = node.json.find("mesh");
+        if (!index)
+            continue;
+        if (node.json.find("skin"))
+            context.notices.add("skins are ignored: meshes are shown as they were bound", node.json.place());
+        const std::vector<GltfPrimitive>& primitives = meshes.find(*index);
+        const u32 object = u32(mesh.object_names.size());
+        const JsonValue shape = buffers.file().json().element("meshes", *index);
+        mesh.object_names.push_back(node.name.empty() ? shape.text("name") : node.name);
+        const std::optional<JsonValue> extensions = node.json.find("extensions");
+        const auto places = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
+        if (!places)
+            instances.push_back({&primitives, node.world, object});
+        else
+            for (const glm::dmat4& place : gpu_instances(*places, buffers))
+                instances.push_back({&primitives, node.world * place, object});
+    }
+    return instances;
+}
+
+void check_size(const Size& size, size_t instances, const GltfFile& file) {
+    if (size.vertices >= NO_INDEX || size.bytes > MOST_FLATTENED_BYTES)
+        file.json().root().fail(
+            fmt::format("meshes that take at most {} GiB and {} vertices with a copy for each instance",
+                        MOST_FLATTENED_BYTES >> 30, NO_INDEX - 1),
+            fmt::format("{} instances of {} triangles and {} vertices, {:.1f} GiB", instances, size.triangles,
+                        size.vertices, double(size.bytes) / double(size_t(1) << 30)));
+}
+
+} // namespace
+
+void flatten_gltf(const std::vector<GltfNode>& nodes, GltfBuffers& buffers, GltfMeshes& meshes,
+                  const ReadContext& context, SceneDescription& scene) {
+    const std::vector<Instance> instances = find_instances(nodes, buffers, meshes, context, scene.mesh);
+    const bool coloured = has_colours(instances);
+    const Size size = measure(instances, coloured);
+    check_size(size, instances.size(), buffers.file());
+    std::set<const void*> shapes;
+    for (const Instance& instance : instances)
+        shapes.insert(instance.primitives);
+    if (instances.size() > shapes.size())
+        context.notices.add(fmt::format("{} instances of {} meshes, a copy for each: {} triangles, {:.1f} MB",
+                                        instances.size(), shapes.size(), size.triangles,
+                                        double(size.bytes) / 1e6),
+                            {buffers.file().name(), 0});
+    scene.mesh.positions.reserve(size.vertices);
+    scene.mesh.triangles.reserve(size.triangles);
+    Flattener flattener(scene.mesh, coloured);
+    for (size_t i = 0; i < instances.size(); ++i) {
+        for (const GltfPrimitive& primitive : *instances[i].primitives)
+            flattener.add(primitive, instances[i]);
+        if (i % INSTANCES_A_STEP == 0)
+            context.progress.update({"load", double(i) / double(instances.size())});
+    }
+    scene.dropped_faces = flattener.dropped();
+}
+
+} // namespace clrt

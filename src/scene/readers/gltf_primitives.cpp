@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/readers/gltf_primitives.h"
+
+#include "scene/readers/gltf_attributes.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace clrt {
+
+namespace {
+
+enum PrimitiveMode : size_t { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6, MODE_COUNT = 7 };
+
+/// Corners of the triangles of a list, a strip or a fan; those that join the parts of a strip are no
+/// triangles.
+std::vector<u32> triangle_corners(const std::vector<u32>& order, size_t mode) {
+    std::vector<u32> corners;
+    const size_t triangles =
+        mode == MODE_TRIANGLES ? order.size() / 3 : std::max<size_t>(order.size(), 2) - 2;
+    corners.reserve(3 * triangles);
+    for (size_t i = 0; i < triangles; ++i) {
+        size_t a = 3 * i, b = a + 1, c = a + 2;
+        if (mode == MODE_STRIP)
+            a = i, b = i + 1 + i % 2, c = i + 2 - i % 2;
+        else if (mode == MODE_FAN)
+            a = i + 1, b = i + 2, c = 0;
+        const u32 triangle[] = {order[a], order[b], order[c]};
+        const bool joins =
+            triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
+        if (mode == MODE_TRIANGLES || !joins)
+            corners.insert(corners.end(), triangle, triangle + 3);
+    }
+    return corners;
+}
+
+std::vector<glm::vec3> vectors_of(const std::optional<GltfNumbers>& numbers) {
+    std::vector<glm::vec3> vectors;
+    for (size_t i = 0; numbers && i < numbers->count(); ++i)
+        vectors.push_back(numbers->vec3(i));
+    return vectors;
+}
+
+/// v grows from the upper left in the file.
+std::vector<glm::vec2> coordinates_of(const std::optional<GltfNumbers>& numbers) {
+    std::vector<glm::vec2> coordinates;
+    for (size_t i = 0; numbers && i < numbers->count(); ++i)
+        coordinates.emplace_back(numbers->at(i, 0), 1 - numbers->at(i, 1));
+    return coordinates;
+}
+
+template <typename T>
+void check_length(const JsonValue& primitive, const char* name, const std::vector<T>& values,
+                  size_t vertices) {
+    if (!values.empty() && values.size() != vertices)
+        primitive.at("attributes")
+            .at(name)
+            .fail(fmt::format("{} elements as in POSITION", vertices), fmt::format("{}", values.size()));
+}
+
+void clamp_colours(std::vector<glm::vec3>& colours) {
+    for (glm::vec3& colour : colours)
+        for (int c = 0; c < 3; ++c)
+            colour[c] = colour[c] > 0 ? std::min(colour[c], 1.f) : 0.f;
+}
+
+} // namespace
+
+void GltfMeshes::notice(const std::string& text, const JsonValue& json) {
+    notices_.add(text, json.place());
+}
+
+const std::vector<GltfPrimitive>& GltfMeshes::find(const JsonValue& index) {
+    const JsonValue mesh = buffers_.file().json().element("meshes", index);
+    const auto [known, is_new] = meshes_.try_emplace(mesh.path());
+    if (is_new)
+        known->second = read_mesh(mesh);
+    return known->second;
+}
+
+std::vector<GltfPrimitive> GltfMeshes::read_mesh(const JsonValue& mesh) {
+    std::vector<GltfPrimitive> primitives;
+    for (const JsonValue& json : mesh.at("primitives").elements())
+        if (std::optional<GltfPrimitive> primitive = read_primitive(json))
+            primitives.push_back(std::move(*primitive));
+    return primitives;
+}
+
+std::optional<GltfPrimitive> GltfMeshes::read_primitive(const JsonValue& json) {
+    const size_t mode = json.whole("mode", MODE_TRIANGLES);
+    if (mode >= MODE_COUNT)
+        json.at("mode").fail("a mode from 0 to 6");
+    if (mode < MODE_TRIANGLES) {
+        notice("points and lines are ignored", json);
+        return std::nullopt;
+    }
+    GltfAttributes attributes(buffers_, json);
+    if (!attributes.has("POSITION")) {
+        notice("primitives without POSITION are ignored", json);
+        return std::nullopt;
+    }
+    if (json.find("targets"))
+        notice("morph targets are ignored: the basic shape is shown", json);
+    GltfPrimitive primitive;
+    const GltfSurface surface = materials_.find(json, attributes.has("COLOR_0"));
+    const std::string uv_name = fmt::format("TEXCOORD_{}", surface.uv_set);
+    primitive.material = surface.material;
+    primitive.positions = vectors_of(attributes.find("POSITION", GltfElement::VEC3));
+    const size_t vertices = primitive.positions.size();
+    primitive.normals = vectors_of(attributes.find("NORMAL", GltfElement::VEC3));
+    check_length(json, "NORMAL", primitive.normals, vertices);
+    primitive.uvs = coordinates_of(attributes.find(uv_name.c_str(), GltfElement::VEC2));
+    check_length(json, uv_name.c_str(), primitive.uvs, vertices);
+    if (surface.has_textures && primitive.uvs.empty())
+        notice(fmt::format("textures without {} read the corner of their picture", uv_name), json);
+    primitive.colours = vectors_of(attributes.find("COLOR_0", GltfElement::COLOUR));
+    check_length(json, "COLOR_0", primitive.colours, vertices);
+    clamp_colours(primitive.colours);
+    primitive.corners =
+        triangle_corners(attributes.order(vertices), attributes.is_draco() ? MODE_TRIANGLES : mode);
+    return primitive;
+}
+
+} // namespace clrt

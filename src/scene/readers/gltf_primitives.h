@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The primitives of glTF meshes -> triangles with their attributes, in the mesh's own frame.
+#pragma once
+
+#include "scene/readers/gltf_accessors.h"
+#include "scene/readers/gltf_materials.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace clrt {
+
+/// Attributes are empty where absent, else one a position.
+struct GltfPrimitive {
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec2> uvs; ///< from the lower left
+    std::vector<glm::vec3> colours;
+    std::vector<u32> corners; ///< three a triangle, below the number of positions
+    u32 material = 0;
+};
+
+/// Reads meshes, each once.
+class GltfMeshes {
+public:
+    GltfMeshes(GltfBuffers& buffers, GltfMaterials& materials, NoticeList& notices)
+        : buffers_(buffers), materials_(materials), notices_(notices) {}
+
+    /// The primitives of a mesh that have triangles. Throws SceneError: JSON path, expected, found.
+    const std::vector<GltfPrimitive>& find(const JsonValue& index);
+
+private:
+    std::vector<GltfPrimitive> read_mesh(const JsonValue& mesh);
+    std::optional<GltfPrimitive> read_primitive(const JsonValue& json);
+    void notice(const std::string& text, const JsonValue& json);
+
+    GltfBuffers& buffers_;
+    GltfMaterials& materials_;
+    NoticeList& notices_;
+    std::map<std::string, std::vector<GltfPrimitive>> meshes_; // by path
+};
+
+} // namespace clrt
