@@ -47,6 +47,14 @@ const Layout MATERIAL = {
      M(flags), M(map_matte), M(map_specular), M(map_emission), M(map_coverage), M(map_roughness),
      M(map_metallic), M(map_normal), M(map_bump), M(bump_scale), M(roughness_sqrt_x), M(roughness_sqrt_y)}};
 #undef M
+#define M(name) MEMBER(MaterialExtension, name)
+const Layout MATERIAL_EXTENSION = {
+    "MaterialExtension",
+    sizeof(MaterialExtension),
+    {M(attenuation), M(sheen), M(coat), M(coat_alpha), M(turn_cos), M(turn_sin), M(map_transmission),
+     M(map_coat), M(map_sheen), M(map_coat_roughness), M(map_sheen_roughness), M(unused0), M(unused1),
+     M(unused2)}};
+#undef M
 #define M(name) MEMBER(Texture, name)
 const Layout TEXTURE = {
     "Texture",
@@ -141,9 +149,10 @@ const Layout ARRAY_PLACES = {
 // clang-format on
 
 const std::vector<Layout> LAYOUTS = {
-    TRIANGLE,           MATERIAL,     TEXTURE,     EMITTER,       LIGHT,
-    ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE, CAMERA_PARAMS, RENDER_PARAMS,
-    ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL,  CHAIN,         CHAIN_LAUNCH};
+    TRIANGLE,      MATERIAL,           MATERIAL_EXTENSION, TEXTURE,     EMITTER,
+    LIGHT,         ENVIRONMENT_TEXEL,  LIGHT_NODE,         LIGHT_PLACE, CAMERA_PARAMS,
+    RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES,       GUIDE_CELL,  CHAIN,
+    CHAIN_LAUNCH};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.

@@ -14,6 +14,9 @@ namespace {
 
 const Integrator TREES_AND_PATH[] = {Integrator::WHITTED, Integrator::DISTRIBUTION, Integrator::PATH};
 
+const Integrator ALL_THAT_REFRACT[] = {Integrator::WHITTED, Integrator::DISTRIBUTION, Integrator::PATH,
+                                       Integrator::PATH_LIGHT, Integrator::BDPT};
+
 /// A slab of glass between z = -0.5 and 0.5, and a lamp at z = -2 that shines towards +z from x = `edge` on.
 class Slab : public TestScene {
 public:
@@ -48,6 +51,52 @@ TEST(Glass, ASlabHeadOnReflectsWhatItDoesNotTransmit) {
         scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 1, 1e-6)) << name_of(integrator);
     }
+}
+
+TEST(Glass, ASolidAbsorbsByItsThickness) {
+    // Of an index so near to 1 that nothing else happens; 1 itself is repaired: the square of what is left
+    // behind half a unit.
+    Slab scene("Ni 1.00001\nillum 7\nattenuation 0.6 0.6 0.6\nattenuation_distance 0.5");
+    scene.look_at_point({0, 0, 5}, {0, 0, -2});
+    for (const Integrator integrator : ALL_THAT_REFRACT) {
+        scene.options.transport.integrator = integrator;
+        // 5e-4: rays start off the wall.
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.36, 1e-5, 5e-4)) << name_of(integrator);
+    }
+}
+
+TEST(Glass, RoughSolidsAbsorbTheSameToPathsFromBothEnds) {
+    TestScene scene;
+    scene.build.material("honey",
+                         "Ni 1.3\nillum 7\nPr 0.6\nattenuation 0.3 0.3 0.3\nattenuation_distance 0.5");
+    scene.build.material("floor", "Kd 0.6 0.6 0.6").material("lamp", "Kd 0 0 0\nKe 6 6 6");
+    scene.build.use("honey").box({-0.5, 0.2, -0.5}, {0.5, 0.8, 0.5});
+    scene.build.use("floor").floor(3).use("lamp").polygon({{-1, 3, -1}, {1, 3, -1}, {1, 3, 1}, {-1, 3, 1}});
+    scene.look({0, 1.5, 3}, {0, 0.3, 0}, 40);
+    scene.options.sampling.spp = 512;
+    const Estimate path = film_estimate(scene.render().film);
+    for (const Integrator integrator : {Integrator::BDPT, Integrator::PATH_LIGHT, Integrator::LIGHT}) {
+        scene.options.transport.integrator = integrator;
+        const Estimate other = film_estimate(scene.render().film);
+        EXPECT_NEAR(other.mean, path.mean, 5 * std::hypot(other.error, path.error)) << name_of(integrator);
+    }
+}
+
+TEST(Glass, AThinWallLetsLightPassStraightAndOnce) {
+    TestScene scene;
+    scene.build.material("pane", "Ni 1.5\nillum 7\nTf 0.9 0.9 0.9\nthin_walled 1");
+    scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1");
+    scene.build.use("pane").polygon({{-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0}});
+    scene.build.use("lamp").polygon({{-50, -50, -2}, {50, -50, -2}, {50, 50, -2}, {-50, 50, -2}});
+    scene.options.sampling.spp = 256;
+    scene.options.transport.min_contribution = 0;
+    scene.look_at_point({0, 0, 5}, {0, 0, -2});
+    for (const Integrator integrator : {Integrator::WHITTED, Integrator::DISTRIBUTION}) {
+        scene.options.transport.integrator = integrator;
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.9 * 0.96, 1e-4)) << name_of(integrator);
+    }
+    scene.options.transport.integrator = Integrator::PATH;
+    EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.9 * 0.96, 1e-2));
 }
 
 TEST(Glass, TheShallowestTreesSeeTheFirstTermsOfTheSeries) {

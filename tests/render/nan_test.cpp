@@ -64,8 +64,8 @@ std::vector<Place> path_places() {
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
         {"path/connect.h",
-         "const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),\n"
-         "                                            path->numbers.light, path->numbers.alias);",
+         "LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), "
+         "path->numbers.light,\n                                      path->numbers.alias);",
          light_values(), Reached::IF_LIT},
     };
 }
@@ -73,18 +73,17 @@ std::vector<Place> path_places() {
 /// Those of the integrators that light locally; `file` has the rest of the vertex, from the statement `first`
 /// on.
 std::vector<Place> direct_places(const char* file, const char* first) {
-    return {
-        {"integrators/direct.h",
-         "const LightSample light =\n            emitter_sample(scene, params, from, words.x, alias_word, "
-         "sampler_unit(words.y));",
-         light_values(), Reached::IF_LIT},
-        {file, first, surface_values()},
-        {file,
-         "const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);",
-         {{"bsdf.wo.z"},
-          {"bsdf.frame.z.y", {"matte", "glossy"}},
-          {"bsdf.matte.x", {"matte", "glossy"}},
-          {"bsdf.specular.y", {"glossy"}}}}};
+    return {{"integrators/direct.h",
+             "LightSample light =\n            emitter_sample(scene, params, from, words.x, alias_word, "
+             "sampler_unit(words.y));",
+             light_values(), Reached::IF_LIT},
+            {file, first, surface_values()},
+            {file,
+             "const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);",
+             {{"bsdf.wo.z"},
+              {"bsdf.frame.z.y", {"matte", "glossy"}},
+              {"bsdf.matte.x", {"matte", "glossy"}},
+              {"bsdf.specular.y", {"glossy"}}}}};
 }
 
 std::vector<Place> light_places() {
@@ -135,7 +134,7 @@ std::vector<Place> distribution_places() {
           {"bsdf.specular.y", {"glossy"}},
           {"bsdf.alpha_x", {"glossy", "rough glass"}}}},
         {lights,
-         "const LightSample light =\n            each_light_emitter(scene, params, vertex->surface, normal, "
+         "LightSample light =\n            each_light_emitter(scene, params, vertex->surface, normal, "
          "words, alias_word);",
          light_values(), Reached::IF_LIT},
         {"integrators/distribution_ray.h",
