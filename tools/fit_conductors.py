@@ -5,8 +5,8 @@ linear sRGB.
 
 A folder holds NAME.csv for each metal: "wl,n" with rows of wavelength in micrometres and n, then "wl,k" likewise, as
 refractiveindex.info gives them (M. Polyanskiy, CC0 1.0). The colour that a metal reflects at an angle is the integral of its
-exact spectral reflectance under a black body of 6504 K, the correlated temperature of sRGB's white, divided by that of a perfect
-mirror; the observer is the fit of Wyman, Sloan and Shirley to CIE 1931 (JCGT 2013, multi-lobe). No index gives what lies
+exact spectral reflectance under a black body of 6504 K, the correlated temperature of sRGB's white, divided by that of a
+perfect mirror; the observer is the fit of Wyman, Sloan and Shirley to CIE 1931 (JCGT 2013, multi-lobe). No index gives what lies
 outside of the gamut: colours are kept within [0, LARGEST]. Of all indices eta + i k that reflect the channel's colour head-on
 the one is taken whose reflectance comes nearest to the channel over a hemisphere of equal radiance.
 
