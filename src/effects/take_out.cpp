@@ -153,6 +153,8 @@ void take_out_lights(u32 effects, Scene& scene) {
         take_out_area_lights(scene);
     if (effects & EFFECT_DELTA_LIGHT)
         scene.lights.clear();
+    if (effects & EFFECT_SPOT)
+        take_out_cones(scene);
     if (effects & EFFECT_ENVIRONMENT) {
         set_sky(scene.environment, glm::dvec3(0));
         if (scene.background)
@@ -165,9 +167,7 @@ void take_out_lights(u32 effects, Scene& scene) {
 void take_out_lobes(u32 effects, Scene& scene) {
     for (const LobeSpec& lobe : LOBE_SPECS)
         if (effects & lobe.effect)
-            if (effects & EFFECT_SPOT)
-                take_out_cones(scene);
-    take_out_lobe(lobe.bit, scene);
+            take_out_lobe(lobe.bit, scene);
     if (effects & EFFECT_ROUGH_REFRACTION)
         take_out_rough_refraction(scene);
     if (effects & EFFECT_PART_GLASS)
