@@ -67,7 +67,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const bool continues = path_filter(scene, params, sampler, segment, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
-    Guide guide = guide_at(scene, params, surface.position, &bsdf);
+    Guide guide = guide_at(scene, guide_cell_of(&path->guided), &bsdf);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
     path_connect(scene, params, &surface, &bsdf, &step, path);
     if (next.is_valid && continues)
@@ -115,6 +115,13 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
         environment_prefetch_texel(scene, params, paths[k].numbers.light, paths[k].numbers.alias);
         CLRT_PREFETCH((ulong)scene->triangles + sizeof(Triangle) * paths[k].hit.triangle);
     }
+
+#if PATH_GUIDE
+    for (uint i = 0; i < alive->count; ++i) {
+        Path* path = &paths[alive->at[i]];
+        guide_approach(scene, params, &path->ray, &path->hit, path->numbers.direction, &path->guided);
+    }
+#endif
 
     /* Handle them. */
     PathList next, connected;

@@ -41,14 +41,38 @@ static inline Guide guide_none(void)
     return none;
 }
 
-/* The guide of a vertex. */
-static inline Guide guide_at(const Scene* scene, const RenderParams* params, real3 position, const Bsdf* bsdf)
+#if PATH_GUIDE
+/* The cell of the point that a ray has hit, on the side of its triangle. NO_INDEX: it has missed. A cell is
+   far away in memory, and much is to do before it is asked: it is on the way from now on, with what sampling
+   by the cell with these numbers would read. */
+static inline uint guide_find_cell(const Scene* scene, const RenderParams* params, const Ray* ray,
+                                   const Hit* hit, real2 direction_numbers)
+{
+    if (hit->triangle == NO_INDEX)
+        return NO_INDEX;
+    real3 p0, p1, p2;
+    surface_corners(scene, scene->triangles + hit->triangle, &p0, &p1, &p2);
+    const real3 normal = surface_cross(p1 - p0, p2 - p0);
+    const bool is_front = vector_dot(normal, ray->direction) <= REAL(0.0);
+    const real3 position = fma((real3)(hit->t), ray->direction, ray->origin);
+    const uint number =
+        cell_at(scene->guide.links, (real)params->scene_extent, position, is_front ? normal : -normal);
+    global const GuideCell* cell = scene->guide.cells + number;
+    const uint subtree = 1u + (uint)(direction_numbers.x * (real)GUIDE_SUBTREE_LEAVES);
+    CLRT_PREFETCH(cell);
+    CLRT_PREFETCH(cell->splits + subtree * GUIDE_SUBTREE_LEAVES / 2u);
+    return number;
+}
+#endif
+
+/* The guide of a vertex in a cell. */
+static inline Guide guide_at(const Scene* scene, uint cell, const Bsdf* bsdf)
 {
     Guide guide = guide_none();
 #if PATH_GUIDE
     if (!guide_suits(bsdf))
         return guide;
-    guide.cell = cell_at(scene->guide.links, (real)params->scene_extent, position, bsdf->frame.z);
+    guide.cell = cell;
     guide.share = (real)scene->guide.cells[guide.cell].share;
     guide.radiance = (real)scene->guide.cells[guide.cell].radiance;
 #endif

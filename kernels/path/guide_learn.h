@@ -24,6 +24,7 @@ typedef struct {
 typedef struct {
     GuideVertex vertices[GUIDE_VERTICES];
     uint count;
+    uint cell; /* of what the path has hit; NO_INDEX: nothing */
     bool teaches;
     bool is_open;  /* the last one's radiance is to be set */
     real expected; /* contribution of the path behind its first vertex that knew; 0: none did */
@@ -88,6 +89,24 @@ static inline void guide_note(const Guide* guide, const BsdfSample* next, real3 
     vertex->weight = REAL(1.0) / guide_size(throughput);
     vertex->radiance = REAL_FAR; /* a path that ends here finds nothing behind */
     path->is_open = true;
+#endif
+}
+
+/* Finds the cell of what the path has hit (guide_find_cell). */
+static inline void guide_approach(const Scene* scene, const RenderParams* params, const Ray* ray,
+                                  const Hit* hit, real2 direction_numbers, GuidePath* path)
+{
+#if PATH_GUIDE
+    path->cell = guide_find_cell(scene, params, ray, hit, direction_numbers);
+#endif
+}
+
+static inline uint guide_cell_of(const GuidePath* path)
+{
+#if PATH_GUIDE
+    return path->cell;
+#else
+    return NO_INDEX;
 #endif
 }
 

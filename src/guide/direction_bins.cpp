@@ -2,6 +2,9 @@
 #include "guide/direction_bins.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace clrt {
@@ -13,9 +16,12 @@ struct Piece {
     std::array<std::uint32_t, 2> low, high;
     double mass = 0, count = 0;
 
-    double area() const { return double(high[0] - low[0]) * double(high[1] - low[1]); }
+    double extent(size_t axis) const { return double(high[axis] - low[axis]); }
 };
 using Pieces = std::vector<Piece>;
+
+/// Halves may differ from the half by this part: bins say what is alike, no more.
+constexpr double EVEN_ENOUGH = 0.01;
 
 const Piece WHOLE_SQUARE = {{0, 0}, {GUIDE_SIDE, GUIDE_SIDE}};
 
@@ -46,83 +52,132 @@ void for_each_bin(const DirectionSplits& splits, size_t level, size_t i, const P
     for_each_bin(splits, level + 1, 2 * i + 1, high, action);
 }
 
-double mass_below(const Pieces& pieces, size_t axis, std::uint32_t at) {
-    double mass = 0;
-    for (const Piece& piece : pieces) {
-        const double part = double(at) - double(piece.low[axis]);
-        if (part > 0)
-            mass += piece.mass * std::min(part / double(piece.high[axis] - piece.low[axis]), 1.0);
+/// How the mass of pieces lies along an axis. Sums are taken in lanes, as vectors want them.
+class Marginal {
+public:
+    /// Takes the pieces from number `first` on, and one record more, evenly spread over the box. Returns the
+    /// mass.
+    double take(const Pieces& pieces, size_t first, size_t axis, const Piece& box) {
+        const size_t count = pieces.size() - first;
+        const size_t size = (count / LANES + 1) * LANES;
+        low_.assign(size, 0);
+        per_unit_.assign(size, 1);
+        mass_.assign(size, 0);
+        double mass = 0, records = 0;
+        for (size_t i = 0; i < count; ++i) {
+            const Piece& piece = pieces[first + i];
+            low_[i] = piece.low[axis];
+            per_unit_[i] = 1 / piece.extent(axis);
+            mass_[i] = piece.mass;
+            mass += piece.mass;
+            records += piece.count;
+        }
+        low_[count] = box.low[axis];
+        per_unit_[count] = 1 / box.extent(axis);
+        mass_[count] = mass > 0 ? mass / records : 1;
+        return mass + mass_[count];
     }
-    return mass;
-}
 
-/// Where half of the mass lies below, with room for the nodes that are still to divide either side.
-std::uint32_t median(const Pieces& pieces, size_t axis, const Piece& box, size_t level) {
-    const std::uint32_t room = 1u << ((GUIDE_LEVELS - 1 - level) / 2);
-    std::uint32_t low = box.low[axis] + room, high = box.high[axis] - room;
-    double all = 0;
-    for (const Piece& piece : pieces)
-        all += piece.mass;
-    double below_low = mass_below(pieces, axis, low), below_high = mass_below(pieces, axis, high);
-    if (below_low >= 0.5 * all)
-        return low;
-    // Alternate between where a line through both ends meets the half, and the middle.
-    for (bool is_secant = true; high - low > 1; is_secant = !is_secant) {
-        const double part = is_secant ? (0.5 * all - below_low) / (below_high - below_low) : 0.5;
-        const std::uint32_t at =
-            std::clamp(low + std::uint32_t(part * double(high - low)), low + 1, high - 1);
-        const double below = mass_below(pieces, axis, at);
-        (below < 0.5 * all ? low : high) = at;
-        (below < 0.5 * all ? below_low : below_high) = below;
+    /// The mass below a place.
+    double below(std::uint32_t at) const {
+        const double place = at;
+        std::array<double, LANES> sums{};
+        for (size_t i = 0; i < mass_.size(); i += LANES)
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const double part = (place - low_[i + lane]) * per_unit_[i + lane];
+                sums[lane] += mass_[i + lane] * std::min(std::max(part, 0.0), 1.0);
+            }
+        return sum(sums);
     }
-    return high;
-}
 
-/// The part of a piece within [low, high] of an axis goes to `parts`.
-void add_part(const Piece& piece, size_t axis, std::uint32_t low, std::uint32_t high, Pieces& parts) {
-    Piece part = piece;
-    part.low[axis] = std::max(part.low[axis], low);
-    part.high[axis] = std::min(part.high[axis], high);
-    if (part.low[axis] >= part.high[axis])
-        return;
-    const double share = part.area() / piece.area();
-    part.mass *= share;
-    part.count *= share;
-    parts.push_back(part);
-}
+private:
+    static constexpr size_t LANES = 8;
 
-/// Divides a rectangle, the `i`th of its level, into bins of equal mass.
-void split_evenly(Pieces pieces, size_t level, size_t i, const Piece& box, DirectionSplits& splits) {
-    if (level == GUIDE_LEVELS)
-        return;
-    double mass = 0, count = 0;
-    for (const Piece& piece : pieces) {
-        mass += piece.mass;
-        count += piece.count;
+    static double sum(const std::array<double, LANES>& sums) {
+        return std::accumulate(sums.begin(), sums.end(), 0.0);
     }
-    pieces.push_back({box.low, box.high, mass > 0 ? mass / count : 1, 0});
-    const size_t axis = level % 2;
-    const std::uint32_t at = median(pieces, axis, box, level);
-    pieces.pop_back();
-    splits[node_number(level, i)] = std::uint16_t(at);
-    Pieces low, high;
-    low.reserve(pieces.size());
-    high.reserve(pieces.size());
-    for (const Piece& piece : pieces) {
-        add_part(piece, axis, box.low[axis], at, low);
-        add_part(piece, axis, at, box.high[axis], high);
+
+    std::vector<double> low_, per_unit_, mass_;
+};
+
+/// Divides rectangles into bins of equal mass.
+class EvenSplits {
+public:
+    /// The splits of what `pieces` cover the square with.
+    EvenSplits(Pieces pieces, DirectionSplits& splits) : pieces_(std::move(pieces)), splits_(splits) {
+        divide(0, 0, 0, WHOLE_SQUARE);
     }
-    Piece below = box, above = box;
-    below.high[axis] = above.low[axis] = at;
-    split_evenly(std::move(low), level + 1, 2 * i, below, splits);
-    split_evenly(std::move(high), level + 1, 2 * i + 1, above, splits);
-}
+
+private:
+    /// Divides the `i`th rectangle of a level, whose pieces are those from number `first` on.
+    void divide(size_t first, size_t level, size_t i, const Piece& box) {
+        if (level == GUIDE_LEVELS)
+            return;
+        const std::uint32_t at = median(first, level, box);
+        splits_[node_number(level, i)] = std::uint16_t(at);
+        Piece below = box, above = box;
+        below.high[level % 2] = above.low[level % 2] = at;
+        divide_part(first, level, 2 * i, below);
+        divide_part(first, level, 2 * i + 1, above);
+    }
+
+    /// Divides one half of a rectangle of `level`, whose pieces are those from number `first` on.
+    void divide_part(size_t first, size_t level, size_t i, const Piece& box) {
+        const size_t end = pieces_.size();
+        for (size_t k = first; k < end; ++k)
+            add_part(Piece(pieces_[k]), level % 2, box);
+        divide(end, level + 1, i, box);
+        pieces_.resize(end);
+    }
+
+    /// Adds the part of a piece that an axis of a rectangle leaves.
+    void add_part(const Piece piece, size_t axis, const Piece& box) {
+        if (piece.high[axis] <= box.low[axis] || piece.low[axis] >= box.high[axis])
+            return;
+        pieces_.push_back(piece);
+        if (piece.low[axis] >= box.low[axis] && piece.high[axis] <= box.high[axis])
+            return;
+        Piece& part = pieces_.back();
+        part.low[axis] = std::max(part.low[axis], box.low[axis]);
+        part.high[axis] = std::min(part.high[axis], box.high[axis]);
+        const double share = part.extent(axis) / piece.extent(axis);
+        part.mass *= share;
+        part.count *= share;
+    }
+
+    /// Where about half of the mass lies below, with room for the nodes that are still to divide either side.
+    std::uint32_t median(size_t first, size_t level, const Piece& box) {
+        const size_t axis = level % 2;
+        const std::uint32_t room = 1u << ((GUIDE_LEVELS - 1 - level) / 2);
+        std::uint32_t low = box.low[axis] + room, high = box.high[axis] - room;
+        const double half = 0.5 * marginal_.take(pieces_, first, axis, box);
+        double below_low = marginal_.below(low), below_high = marginal_.below(high);
+        if (below_low >= half)
+            return low;
+        // Alternate between where a line through both ends meets the half, and the middle.
+        for (bool is_secant = true; high - low > 1; is_secant = !is_secant) {
+            const double part = is_secant ? (half - below_low) / (below_high - below_low) : 0.5;
+            const std::uint32_t at =
+                std::clamp(low + std::uint32_t(part * double(high - low)), low + 1, high - 1);
+            const double below = marginal_.below(at);
+            if (std::abs(below - half) <= EVEN_ENOUGH * half)
+                return at;
+            (below < half ? low : high) = at;
+            (below < half ? below_low : below_high) = below;
+        }
+        return high;
+    }
+
+    Pieces pieces_; // of the whole square, then of the rectangles on the way to the one that is divided
+    DirectionSplits& splits_;
+    Marginal marginal_;
+};
 
 } // namespace
 
 DirectionSplits even_splits() {
     DirectionSplits splits{};
-    split_evenly({}, 0, 0, WHOLE_SQUARE, splits);
+    EvenSplits({}, splits);
     return splits;
 }
 
@@ -144,7 +199,7 @@ DirectionSplits learn_splits(const DirectionSplits& old, const DirectionWeight& 
         pieces.push_back(piece);
     });
     DirectionSplits splits{};
-    split_evenly(std::move(pieces), 0, 0, WHOLE_SQUARE, splits);
+    EvenSplits(std::move(pieces), splits);
     return splits;
 }
 
