@@ -11,7 +11,7 @@ import re
 import subprocess
 import sys
 
-SUMMARIES = {"clrt": "render a Wavefront OBJ on any OpenCL device",
+SUMMARIES = {"clrt": "render OBJ and glTF scenes on any OpenCL device",
              "clrt-merge": "merge film files of clrt into one picture",
              "clrt-bench": "compare clrt's ray traversal with Embree's",
              "clrt-stability": "run clrt's catalogue of numerically hard cases",

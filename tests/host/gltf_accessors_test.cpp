@@ -100,6 +100,11 @@ TEST(GltfAccessors, BrokenOnesAreErrorsThatSayWhere) {
          "apart, "
          "from byte 0"},
         {[](B& f) { f.json["accessors"][0]["byteOffset"] = 4; }, "accessors[0]: expected elements within"},
+        {[](B& f) {
+             f.json["accessors"][0]["count"] = 1;
+             f.json["accessors"][0]["byteOffset"] = 28;
+         },
+         "1 elements of 12 bytes, 12 apart, from byte 28"},
         {[](B& f) { f.json["accessors"][0]["byteOffset"] = 9007199254740992; }, "expected elements within"},
         {[](B& f) { f.json["accessors"][0]["count"] = 9007199254740992; }, "expected elements within"},
         {[](B& f) { f.json["accessors"][0]["count"] = -3; },

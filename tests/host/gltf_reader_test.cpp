@@ -4,9 +4,11 @@
 
 #include "gltf_support.h"
 #include "scene/load_scene.h"
+#include "scene/readers/gltf_extensions.h"
 #include "scene/readers/gltf_file.h"
 #include "scene_support.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
@@ -192,6 +194,16 @@ TEST(GltfPrimitives, WhatIsNoTriangleIsLeftOut) {
     EXPECT_TRUE(read.notes("primitives without POSITION are ignored"));
     EXPECT_TRUE(read.mesh().normals.empty()) << "no NORMAL is flat";
     EXPECT_EQ(read.mesh().triangles[0].n[0], NO_INDEX);
+}
+
+TEST(GltfExtensions, ThoseThatAreReadAreInOrderAndKnown) {
+    const std::vector<std::string>& names = gltf_extensions();
+    EXPECT_TRUE(std::is_sorted(names.begin(), names.end())) << "they are looked up by bisection";
+    GltfBuilder file = one_triangle();
+    for (const std::string& name : names)
+        file.json["extensionsRequired"].push_back(name);
+    file.json["extensionsUsed"] = Json::array({"KHR_materials_clearcoat", "KHR_materials_volume"});
+    EXPECT_FALSE(ReadGltf(file.glb()).notes("extensions that are ignored"));
 }
 
 TEST(GltfExtensions, RequiredOnesMustBeKnownAndUsedOnesAreOneNotice) {

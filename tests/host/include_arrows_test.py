@@ -14,6 +14,7 @@ HOST = (
     ("src/options", "what a user asks for, as plain structs"),
     ("src/console", "log, progress line, terminal, signals"),
     ("src/images", "OpenImageIO, loaded when it is needed"),
+    ("src/codecs", "Draco and meshoptimizer, loaded when they are needed"),
     ("src/output", "pictures and other files"),
     ("src/bvh", "trees over triangles"),
     ("src/device", "OpenCL: devices, programs, buffers"),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The extensions of glTF materials.
+#include "colour.h"
 #include "scene/readers/gltf_material_reader.h"
 #include "scene/readers/gltf_values.h"
-#include "scene/vectors.h"
 
 #include <cmath>
 #include <glm/common.hpp>

@@ -53,7 +53,7 @@ void resolve_face(const ObjMesh& mesh, ObjPiece& piece, const ObjFace& face) {
     }
 }
 
-bool is_finite(const ObjMesh& mesh, const ObjChunk& chunk, const ObjFace& face) {
+bool has_finite_corners(const ObjMesh& mesh, const ObjChunk& chunk, const ObjFace& face) {
     return std::all_of(chunk.corners.begin() + std::ptrdiff_t(face.first_corner),
                        chunk.corners.begin() + std::ptrdiff_t(face.end_corner), [&](const ObjCorner& corner) {
                            const glm::dvec3& p = mesh.positions[size_t(corner.v)];
@@ -67,7 +67,7 @@ void resolve_piece(const ObjMesh& mesh, ObjPiece& piece, bool check_finite) {
         resolve_face(mesh, piece, face);
         if (!piece.chunk.error.empty())
             return;
-        if (check_finite && !is_finite(mesh, piece.chunk, face)) {
+        if (check_finite && !has_finite_corners(mesh, piece.chunk, face)) {
             piece.chunk.tallies[NON_FINITE_FACES].add(face.line);
             face.end_corner = face.first_corner;
         } else

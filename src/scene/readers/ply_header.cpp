@@ -22,12 +22,11 @@ constexpr std::pair<std::string_view, PlyType> TYPES[] = {
     {"float", PlyType::FLOAT32},  {"float32", PlyType::FLOAT32}, {"double", PlyType::FLOAT64},
     {"float64", PlyType::FLOAT64}};
 
-constexpr std::pair<std::string_view, PlyFormat> PLY_FORMATS[] = {
-    {"ascii", PlyFormat::ASCII},
-    {"binary_little_endian", PlyFormat::LITTLE},
-    {"binary_big_endian", PlyFormat::BIG}};
+constexpr std::pair<std::string_view, PlyFormat> PLY_FORMATS[] = {{"ascii", PlyFormat::ASCII},
+                                                                  {"binary_little_endian", PlyFormat::LITTLE},
+                                                                  {"binary_big_endian", PlyFormat::BIG}};
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> ply_words(std::string_view line) {
     std::vector<std::string_view> words;
     while (!(line = trim(line)).empty()) {
         const size_t end = std::min(line.find_first_of(" \t"), line.size());
@@ -44,7 +43,7 @@ public:
 
     PlyHeader read() {
         while (true) {
-            const std::vector<std::string_view> words = words_of(next_line());
+            const std::vector<std::string_view> words = ply_words(next_line());
             if (words.empty() || words[0] == "comment" || words[0] == "obj_info" || words[0] == "ply")
                 continue;
             if (words[0] == "end_header")
