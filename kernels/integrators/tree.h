@@ -45,7 +45,7 @@ static inline SmoothRays tree_smooth_rays(const Surface* surface, const Bsdf* bs
     if (dielectric && (bsdf->lobes & LOBE_MIRROR)) /* both reflections go the same way */
         rays.reflected_color += bsdf_reflection_color(bsdf, cos_o);
     if (bsdf_is_covered(bsdf))
-        rays.reflected_color *= bsdf->cover.left;
+        rays.reflected_color *= bsdf_cover(bsdf)->left;
     rays.refracts = false;
     if (f >= REAL(1.0)) /* a mirror, or total reflection */
         return rays;

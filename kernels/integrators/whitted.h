@@ -59,7 +59,7 @@ static inline uint whitted_spawn_children(const Scene* scene, const RenderParams
         const bool is_below = dielectric || (bsdf->lobes & LOBE_MIRROR) ||
                               (bsdf->flags & MATERIAL_WHITTED_MIRROR);
         rays.reflected_color = (is_below ? rays.reflected_color : (real3)(REAL(0.0))) +
-                               (real3)(REAL(1.0) - bsdf->cover.coat_left);
+                               (real3)(REAL(1.0) - bsdf_cover(bsdf)->coat_left);
     }
     if (rays.reflects)
         top = whitted_push(

@@ -127,9 +127,11 @@ static inline real bsdf_shading_factor(const Bsdf* bsdf, real3 wi_world, real3 w
    scatters light from below. */
 static inline real3 bsdf_light_normal(const Bsdf* bsdf)
 {
-    const bool passes = (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) ||
-                        (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE));
-    return passes ? (real3)(REAL(0.0)) : bsdf->frame.z;
+    if (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC))
+        return (real3)(REAL(0.0));
+    if (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE))
+        return (real3)(REAL(0.0));
+    return bsdf->frame.z;
 }
 
 /* The matte lobe towards a local direction above the surface, as what lies above lets it be seen. */

@@ -18,10 +18,16 @@
 /* What is left below a cover is at least this in a quotient. */
 #define COVER_SMALLEST_LEFT REAL(1e-3)
 
+/* The roughness of the coat's film. */
+static inline AlbedoRoughness cover_film(const Bsdf* bsdf)
+{
+    return albedo_roughness(bsdf_cover(bsdf)->coat_alpha, bsdf_cover(bsdf)->coat_alpha);
+}
+
 /* Albedo of the coat's film towards a local direction, and its mean. */
 static inline real cover_coat_albedo(const Bsdf* bsdf, Albedo albedo)
 {
-    return bsdf->cover.coat *
+    return bsdf_cover(bsdf)->coat *
            fma(COVER_COAT_F0, REAL(1.0) - albedo.loss, (REAL(1.0) - COVER_COAT_F0) * albedo.schlick);
 }
 
@@ -47,20 +53,21 @@ static inline real cover_sheen_albedo(real alpha, real cos_w)
 
 static inline bool cover_has_coat(const Bsdf* bsdf)
 {
-    return HAS(EFFECT_COAT) && bsdf->cover.coat > REAL(0.0);
+    return HAS(EFFECT_COAT) && bsdf_cover(bsdf)->coat > REAL(0.0);
 }
 
 static inline bool cover_has_sheen(const Bsdf* bsdf)
 {
-    return HAS(EFFECT_SHEEN) && vector_max_component(bsdf->cover.sheen) > REAL(0.0);
+    return HAS(EFFECT_SHEEN) && vector_max_component(bsdf_cover(bsdf)->sheen) > REAL(0.0);
 }
 
 /* What the coat leaves of light from a local direction. */
 static inline real cover_coat_left(const Bsdf* bsdf, real3 w)
 {
-    return cover_has_coat(bsdf)
-               ? REAL(1.0) - cover_coat_albedo(bsdf, albedo_reflection(&bsdf->cover.film, w))
-               : REAL(1.0);
+    if (!cover_has_coat(bsdf))
+        return REAL(1.0);
+    const AlbedoRoughness film = cover_film(bsdf);
+    return REAL(1.0) - cover_coat_albedo(bsdf, albedo_reflection(&film, w));
 }
 
 /* What both leave, of what the coat leaves. */
@@ -68,8 +75,9 @@ static inline real cover_left(const Bsdf* bsdf, real3 w, real coat_left)
 {
     if (!cover_has_sheen(bsdf))
         return coat_left;
-    return coat_left * (REAL(1.0) - vector_max_component(bsdf->cover.sheen) *
-                                        cover_sheen_albedo(bsdf->cover.sheen_alpha, fmin(fabs(w.z), REAL(1.0))));
+    const BsdfCover* cover = bsdf_cover(bsdf);
+    const real albedo = cover_sheen_albedo(cover->sheen_alpha, fmin(fabs(w.z), REAL(1.0)));
+    return coat_left * (REAL(1.0) - vector_max_component(cover->sheen) * albedo);
 }
 
 /* The variance of (1 - cos)^5 over a hemisphere of equal radiance, 1 / 66 - 1 / 21^2. */
@@ -81,15 +89,18 @@ static inline real cover_left(const Bsdf* bsdf, real3 w, real coat_left)
    made. */
 static inline real cover_mean_left(const Bsdf* bsdf)
 {
-    const real below = (bsdf->flags & BSDF_COUPLED) ? REAL(1.0) / (REAL(1.0) - FRESNEL_SCHLICK_MEAN) : REAL(0.0);
-    real coat_left = REAL(1.0), coat_schlick = REAL(0.0), sheen_left = REAL(1.0), sheen_varies = REAL(0.0);
+    const real below =
+        (bsdf->flags & BSDF_COUPLED) ? REAL(1.0) / (REAL(1.0) - FRESNEL_SCHLICK_MEAN) : REAL(0.0);
+    real coat_left = REAL(1.0), coat_schlick = REAL(0.0);
+    real sheen_left = REAL(1.0), sheen_varies = REAL(0.0);
     if (cover_has_coat(bsdf)) {
-        coat_left -= cover_coat_albedo(bsdf, albedo_reflection_mean(&bsdf->cover.film));
-        coat_schlick = bsdf->cover.coat * (REAL(1.0) - COVER_COAT_F0);
+        const AlbedoRoughness film = cover_film(bsdf);
+        coat_left -= cover_coat_albedo(bsdf, albedo_reflection_mean(&film));
+        coat_schlick = bsdf_cover(bsdf)->coat * (REAL(1.0) - COVER_COAT_F0);
     }
     if (cover_has_sheen(bsdf)) {
-        const AlbedoPlace y = cover_sheen_place(bsdf->cover.sheen_alpha);
-        const real color = vector_max_component(bsdf->cover.sheen);
+        const AlbedoPlace y = cover_sheen_place(bsdf_cover(bsdf)->sheen_alpha);
+        const real color = vector_max_component(bsdf_cover(bsdf)->sheen);
         sheen_left -= color * albedo_mean_line(SHEEN_ALBEDO_MEAN, y.node, y);
         sheen_varies = color * albedo_mean_line(SHEEN_SCHLICK_COVARIANCE, y.node, y);
     }
@@ -100,9 +111,9 @@ static inline real cover_mean_left(const Bsdf* bsdf)
 /* Sets what depends on wo. */
 static inline void cover_set(Bsdf* bsdf)
 {
-    bsdf->cover.coat_left = cover_coat_left(bsdf, bsdf->wo);
-    bsdf->cover.left = cover_left(bsdf, bsdf->wo, bsdf->cover.coat_left);
-    bsdf->cover.mean_left = cover_mean_left(bsdf);
+    bsdf_cover(bsdf)->coat_left = cover_coat_left(bsdf, bsdf->wo);
+    bsdf_cover(bsdf)->left = cover_left(bsdf, bsdf->wo, bsdf_cover(bsdf)->coat_left);
+    bsdf_cover(bsdf)->mean_left = cover_mean_left(bsdf);
 }
 
 /* Factors of what is below the cover, for light from wi. */
@@ -121,12 +132,12 @@ static inline CoverFactors cover_factors(const Bsdf* bsdf, real3 wi)
         return factors;
     const real coat_left = cover_coat_left(bsdf, wi);
     const real left = cover_left(bsdf, wi, coat_left);
-    factors.coat = fmin(bsdf->cover.coat_left, coat_left);
-    factors.matte = bsdf->cover.left * left / bsdf->cover.mean_left;
-    factors.other = fmin(bsdf->cover.left, left);
+    factors.coat = fmin(bsdf_cover(bsdf)->coat_left, coat_left);
+    factors.matte = bsdf_cover(bsdf)->left * left / bsdf_cover(bsdf)->mean_left;
+    factors.other = fmin(bsdf_cover(bsdf)->left, left);
     /* What crosses into a solid or out of it meets the cover once, outside. */
     if (wi.z < REAL(0.0) && (bsdf->lobes & LOBE_DIELECTRIC))
-        factors.other = is_inside ? left : bsdf->cover.left;
+        factors.other = is_inside ? left : bsdf_cover(bsdf)->left;
     return factors;
 }
 
@@ -136,7 +147,7 @@ static inline real cover_size(const Bsdf* bsdf, real albedo)
 {
     if (bsdf->flags & BSDF_INSIDE)
         return REAL(0.0);
-    return vector_color_size((real3)(albedo)) / fmax(bsdf->cover.left, COVER_SMALLEST_LEFT);
+    return vector_color_size((real3)(albedo)) / fmax(bsdf_cover(bsdf)->left, COVER_SMALLEST_LEFT);
 }
 
 #endif

@@ -109,8 +109,8 @@ static inline real3 bsdf_energy_multiple_glass(const Bsdf* bsdf, real3 wi)
         const real eta = wi.z > REAL(0.0) ? bsdf->eta : REAL(1.0) / bsdf->eta;
         loss = albedo_dielectric_loss(&bsdf->rough, eta, fmin(cos_i, REAL(1.0)));
     }
-    const real3 value =
-        (wi.z > REAL(0.0) ? bsdf->multiple_glass : bsdf->multiple_through) * (loss * cos_i * REAL_INVERSE_PI);
+    const real3 factor = wi.z > REAL(0.0) ? bsdf->multiple_glass : bsdf->multiple_through;
+    const real3 value = factor * (loss * cos_i * REAL_INVERSE_PI);
     return HAS(EFFECT_GLOSSY) && bsdf_is_part_glass(bsdf) && wi.z > REAL(0.0)
                ? value + bsdf_energy_multiple_reflection(bsdf, wi)
                : value;

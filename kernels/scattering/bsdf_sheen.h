@@ -13,13 +13,13 @@ static inline bool bsdf_sheen_is_delta(const Bsdf* bsdf) { return false; }
 
 static inline real bsdf_sheen_size(const Bsdf* bsdf)
 {
-    return cover_size(bsdf, bsdf->cover.coat_left - bsdf->cover.left);
+    return cover_size(bsdf, bsdf_cover(bsdf)->coat_left - bsdf_cover(bsdf)->left);
 }
 
 /* Head-on. */
 static inline real3 bsdf_sheen_albedo(const Bsdf* bsdf)
 {
-    return bsdf->cover.sheen * cover_sheen_albedo(bsdf->cover.sheen_alpha, REAL(1.0));
+    return bsdf_cover(bsdf)->sheen * cover_sheen_albedo(bsdf_cover(bsdf)->sheen_alpha, REAL(1.0));
 }
 
 /* a / (1 + b x^c) + d x + e with the numbers of alpha 0 and alpha 1 (table 1) mixed by t. */
@@ -53,10 +53,10 @@ static inline void bsdf_sheen_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
     const real3 wo = bsdf->wo;
     if (!(wo.z > REAL(0.0) && wi.z > REAL(0.0)) || (bsdf->flags & BSDF_INSIDE))
         return;
-    const real alpha = bsdf->cover.sheen_alpha;
+    const real alpha = bsdf_cover(bsdf)->sheen_alpha;
     const real visible = REAL(1.0) + sheen_lambda(wo.z, alpha) + sheen_lambda(wi.z, alpha);
     sum->value +=
-        bsdf->cover.sheen * (sheen_d(vector_normalize(wo + wi), alpha) / (REAL(4.0) * wo.z * visible));
+        bsdf_cover(bsdf)->sheen * (sheen_d(vector_normalize(wo + wi), alpha) / (REAL(4.0) * wo.z * visible));
     sum->pdf_w = fma(bsdf->choose[LOBE_ROW_SHEEN], warp_hemisphere_pdf_w(), sum->pdf_w);
 }
 

@@ -27,12 +27,12 @@
 
 /* What lies above the lobes of the surface (bsdf_cover.h). */
 typedef struct {
-    real coat;            /* weight */
-    AlbedoRoughness film; /* of the coat */
     real3 sheen;          /* colour */
     real sheen_alpha;
-    real coat_left, left;      /* what the coat, and what both leave of light from wo, */
-    real mean_left;            /* and both of light from everywhere */
+    real coat;            /* weight */
+    real coat_alpha;
+    real coat_left, left; /* what the coat, and what both leave of light from wo, */
+    real mean_left;       /* and both of light from everywhere */
 } BsdfCover;
 
 typedef struct {
@@ -40,7 +40,6 @@ typedef struct {
     real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
     real3 normal_g;     /* world: geometric normal, on wo's side */
     real3 normal_s;     /* world: interpolated normal, no map; used where the surface is curved */
-    bool is_curved;     /* the surface bulges over its plane: directions below the plane may be reflected */
     real3 matte;        /* reflectance */
     real3 specular;     /* reflection colour, or F0 */
     real3 transmission; /* tint of a crossing */
@@ -48,6 +47,7 @@ typedef struct {
     real eta;                /* index on wo's side over index on the other side; of a pane, air over glass */
     real glass;              /* weight of the glass beside the other lobes; where BSDF has none of it unset */
     real exponent;           /* of Phong's highlight; 0: none */
+    bool is_curved;          /* the surface bulges over its plane: directions below it may be reflected */
     uint lobes;              /* LOBE_* */
     uint fresnel;            /* FRESNEL_* */
     uint flags;              /* MATERIAL_*, BSDF_*, TRANSPORT_* */
@@ -62,8 +62,20 @@ typedef struct {
     real multiple_size;      /* and of that of the light of more than one facet */
     real choose[LOBE_COUNT]; /* probabilities of the lobes, by LOBE_ROW_*; 0 where it has none */
     real choose_multiple;    /* the part of the rough lobe's that goes to the light of more than one facet */
+#if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
     BsdfCover cover;         /* where the flag is BSDF_COVERED */
+#endif
 } Bsdf;
+
+/* What lies above the lobes; nowhere where no material has such a thing, and nothing asks. */
+static inline BsdfCover* bsdf_cover(const Bsdf* bsdf)
+{
+#if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
+    return (BsdfCover*)&bsdf->cover;
+#else
+    return 0;
+#endif
+}
 
 /* All lobes that are no delta functions, for one direction. */
 typedef struct {

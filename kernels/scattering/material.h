@@ -140,7 +140,7 @@ static inline real material_part_glass(const Scene* scene, global const Material
     const real3 base = bsdf->matte;
     const bool is_pane = (material->lobes & LOBE_PANE) != 0u;
     bsdf->glass = (REAL(1.0) - metallic) * weight;
-    bsdf->transmission = bsdf->glass * (is_pane ? base : sqrt(base));
+    bsdf->transmission = bsdf->glass * (is_pane ? base : real_sqrt(base));
     return bsdf->glass < REAL(1.0) ? metallic / (REAL(1.0) - bsdf->glass) : REAL(0.0);
 }
 
@@ -148,21 +148,21 @@ static inline real material_part_glass(const Scene* scene, global const Material
 static inline void material_cover(const Scene* scene, global const Material* material, const Surface* surface,
                                   Bsdf* bsdf)
 {
-    bsdf->cover.coat = REAL(0.0);
-    bsdf->cover.sheen = (real3)(REAL(0.0));
+    bsdf_cover(bsdf)->coat = REAL(0.0);
+    bsdf_cover(bsdf)->sheen = (real3)(REAL(0.0));
     global const MaterialExtension* extension = scene->extensions + surface->material;
     if (HAS(EFFECT_COAT) && (material->lobes & LOBE_COAT)) {
-        bsdf->cover.coat = material_scaled(scene, extension->coat, extension->map_coat, surface);
+        bsdf_cover(bsdf)->coat = material_scaled(scene, extension->coat, extension->map_coat, surface);
         const real root = material_scaled(scene, 1.0f, extension->map_coat_roughness, surface);
-        const real alpha = fmax((real)extension->coat_alpha * root * root, MATERIAL_SMALLEST_ALPHA);
-        bsdf->cover.film = albedo_roughness(alpha, alpha);
+        bsdf_cover(bsdf)->coat_alpha =
+            fmax((real)extension->coat_alpha * root * root, MATERIAL_SMALLEST_ALPHA);
     }
     if (HAS(EFFECT_SHEEN) && (material->lobes & LOBE_SHEEN)) {
-        bsdf->cover.sheen = vector_from(extension->sheen);
+        bsdf_cover(bsdf)->sheen = vector_from(extension->sheen);
         if (HAS(EFFECT_TEXTURES) && extension->map_sheen != NO_INDEX)
-            bsdf->cover.sheen *= material_reflectance(scene, extension->map_sheen, surface);
+            bsdf_cover(bsdf)->sheen *= material_reflectance(scene, extension->map_sheen, surface);
         const real root = material_scaled(scene, 1.0f, extension->map_sheen_roughness, surface);
-        bsdf->cover.sheen_alpha =
+        bsdf_cover(bsdf)->sheen_alpha =
             fmax((real)EXTENSION_SHEEN_ALPHA(*extension) * root * root, SHEEN_SMALLEST_ALPHA);
     }
 }
@@ -241,8 +241,8 @@ CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surf
     bsdf->normal_s = surface->normal_s;
     bsdf->is_curved = surface->is_curved;
     const real index = (real)MATERIAL_INDEX(*material);
-    const bool from_air = (HAS(EFFECT_REFRACTION) && surface->front) ||
-                          (HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE));
+    const bool is_pane = HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE);
+    const bool from_air = is_pane || (HAS(EFFECT_REFRACTION) && surface->front);
     bsdf->eta = from_air ? REAL(1.0) / index : index;
     material_parameters(scene, material, surface, bsdf);
     if (HAS(EFFECT_COAT | EFFECT_SHEEN) && (material->lobes & (LOBE_COAT | LOBE_SHEEN))) {

@@ -105,7 +105,7 @@ TEST(Integrators, HelpSaysWhatEachSimulatesAndTakes) {
         const std::string depth = std::to_string(row.depth.usual);
         EXPECT_TRUE(holds(page, is_default ? "(default " + depth : row.name + (always + depth))) << row.name;
     }
-    EXPECT_TRUE(holds(page, "or auto (path or path+light, as a small pilot"));
+    EXPECT_TRUE(holds(page, "or auto (path, path+light or bdpt, as small pilot"));
     EXPECT_TRUE(holds(page, "(default path)"));
     EXPECT_TRUE(holds(page, "--roulette-depth N light, path, path+light, bdpt: first segment"));
     EXPECT_TRUE(holds(page, "--min-contribution X whitted, distribution: smallest weight worth a ray"));

@@ -156,18 +156,21 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
         few.push_back("-D" + define);
     for (const std::string& define : branch_defines(largest))
         many.push_back("-D" + define);
+    const std::string gpu_layout = fmt::format("-DBVH_LAYOUT={}", int(BvhLayout::BVH2));
+    std::vector<std::string> few_on_gpu = few;
+    few_on_gpu.push_back(gpu_layout);
     const auto paired = [&](int depth) {
         TransportOptions transport;
         transport.integrator = Integrator::BDPT;
         transport.max_depth = depth;
-        return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0),
-                              fmt::format("-DBVH_LAYOUT={}", int(BvhLayout::BVH2))}); // that of GPUs
+        return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0), gpu_layout});
     };
     EXPECT_LT(paired(USUAL_BDPT_DEPTH), 8 << 10);
     EXPECT_LT(paired(LARGEST_BDPT_DEPTH), 12 << 10);
     EXPECT_LT(bytes("path", {}), 8 << 10);
     EXPECT_LT(bytes("whitted", {}), 12 << 10);
-    EXPECT_LT(bytes("distribution", few), 8 << 10);
+    EXPECT_LT(bytes("distribution", few_on_gpu), 5 << 10);
+    EXPECT_LT(bytes("distribution", few), 9 << 10);
     EXPECT_LT(bytes("distribution", many), 24 << 10);
     EXPECT_LT(bytes("mlt", {"-DFILM_SPLATS=1"}), 12 << 10);
 }

@@ -121,8 +121,8 @@ std::vector<Fault> planted_faults() {
                ", SAMPLE_DIRECTION).y) next." + what;
     };
     const std::string light =
-        "const LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf),\n"
-        "                                            path->numbers.light, path->numbers.alias);";
+        "LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), "
+        "path->numbers.light,\n                                      path->numbers.alias);";
     const char* const walk = "path/walk.h";
     return {
         {"NaN weight at bounce 2", walk, sampled, spoil_sample("2u", "weight.y = as_float(0x7fc00000u);"),
@@ -138,7 +138,7 @@ std::vector<Fault> planted_faults() {
              ".word_key) sample->radiance.x = REAL(1e30);\n",
          COUNT_OVERFLOW, 0, 0},
         {"NaN density of the light at bounce 2", "path/connect.h", light,
-         "const Sampler planted = " + planted + ";\n    " + light.substr(6) +
+         "const Sampler planted = " + planted + ";\n    " + light +
              "\n    if (path->numbers.alias == sampler_partner_words(&planted, 2u, SAMPLE_DIRECTION).y) "
              "light.pdf_w = "
              "as_float(0x7fc00000u);",

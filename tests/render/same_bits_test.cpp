@@ -67,9 +67,31 @@ void make_maps(TestScene& scene) {
     scene.look({0, 1.2, 3}, {0, 0.5, 0}, 40);
 }
 
+/// Balls of what lies above others or lets light into it, under a lamp and a thin wall of glass.
+void make_covers(TestScene& scene) {
+    const std::pair<const char*, const char*> balls[] = {
+        {"lacquer", "Kd 0.6 0.1 0.1\nPm 0\nPr 0.4\nPc 0.9\nPcr 0.2"},
+        {"velvet", "Kd 0.2 0.1 0.4\nPm 0\nPr 0.9\nPs 0.8"},
+        {"honey", "Ni 1.4\nillum 7\nattenuation 0.9 0.6 0.2\nattenuation_distance 0.3"},
+        {"stained", "Kd 0.3 0.7 0.4\nPm 0\nPr 0.3\nNi 1.5\nTf 0.6"},
+        {"brushed", "Kd 0.8 0.7 0.6\nPm 1\nPr 0.4\naniso 0.7\nanisor 0.2"}};
+    double x = -1.2;
+    for (const auto& [name, keys] : balls) {
+        scene.build.material(name, keys).use(name).icosphere({x, 0.3, 0}, 0.25, 1);
+        x += 0.6;
+    }
+    scene.build.material("white", "Kd 0.7 0.7 0.7").use("white").floor(3);
+    scene.build.material("pane", "Ni 1.5\nillum 7\nthin_walled 1").use("pane").textured_quad(
+        {{-1, 0.2, 0.6}, {1, 0.2, 0.6}, {1, 1, 0.5}, {-1, 1, 0.5}});
+    scene.build.use("brushed").textured_quad({{-1, 0, -1}, {1, 0, -1}, {1, 1, -1.2}, {-1, 1, -1.2}});
+    scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5").use("lamp").polygon(
+        {{-0.4, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.4, 2, 0.4}});
+    scene.look({0, 1.2, 3}, {0, 0.4, 0}, 45);
+}
+
 using Maker = void (*)(TestScene&);
 const std::pair<const char*, Maker> SCENES[] = {
-    {"room", make_room}, {"optics", make_optics}, {"maps", make_maps}};
+    {"room", make_room}, {"optics", make_optics}, {"maps", make_maps}, {"covers", make_covers}};
 
 /// A scene with few samples, enough for every kind of path to occur.
 struct SmallScene : TestScene {
