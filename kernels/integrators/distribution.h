@@ -97,8 +97,9 @@ static inline TreeVertex distribution_vertex_make(const RenderParams* params, co
     const bool is_rough_pane =
         HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE) && !bsdf_pane_is_delta(bsdf);
     vertex.rough = bsdf_lobes_of(bsdf, LETTER_BIT(LETTER_GLOSSY));
-    vertex.rough_rays = distribution_count(
-        is_rough_glass || is_rough_pane ? DISTRIBUTION_TRANSLUCENT_RAYS : DISTRIBUTION_GLOSS_RAYS, path->share);
+    const uint asked =
+        is_rough_glass || is_rough_pane ? DISTRIBUTION_TRANSLUCENT_RAYS : DISTRIBUTION_GLOSS_RAYS;
+    vertex.rough_rays = distribution_count(asked, path->share);
     vertex.shadow_rays = distribution_count(DISTRIBUTION_SHADOW_RAYS, path->share);
     /* The density of a direction is that of the rough lobes' rays alone. */
     if (vertex.rough != 0u)

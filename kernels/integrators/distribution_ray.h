@@ -96,8 +96,8 @@ static inline bool distribution_continues(const TreeVertex* vertex, uint letter)
 static inline uint distribution_count(uint asked, uint share) { return max(asked / share, 1u); }
 
 /* A ray that leaves the vertex on one of its ways; all but what rough lobes set besides. */
-static inline TreeRay distribution_child(const Scene* scene, const TreeVertex* vertex, bool reflects, real3 wi, real3 weight,
-                                         uint way, uint letter)
+static inline TreeRay distribution_child(const Scene* scene, const TreeVertex* vertex, bool reflects,
+                                         real3 wi, real3 weight, uint way, uint letter)
 {
     TreeRay child = *vertex->path;
     child.ray = surface_ray(vertex->surface, reflects, wi);
@@ -181,8 +181,8 @@ static inline uint distribution_spawn_one(const Scene* scene, const RenderParams
     TRACE_CHOICE(scene, TRACE_CONTINUES, next.is_valid ? 1u : 0u);
     if (nan_carry(scene, nan_of_vector(next.wi), radiance) || !next.is_valid)
         return top;
-    TreeRay child = distribution_child(scene, vertex, next.reflects, next.wi, next.weight / (real)count, WAY_ROUGH,
-                                       LETTER_GLOSSY);
+    TreeRay child = distribution_child(scene, vertex, next.reflects, next.wi, next.weight / (real)count,
+                                       WAY_ROUGH, LETTER_GLOSSY);
     child.view = lights_view(vertex->surface, bsdf_light_normal(vertex->bsdf));
     child.pdf_w = next.pdf_w * ((real)count / (real)vertex->shadow_rays);
     child.index = path->index * count + which;

@@ -20,8 +20,8 @@ typedef struct {
 } WhittedRay;
 
 /* The reflected (which = 0) or refracted (1) child of a ray: same tree, one segment on. */
-static inline WhittedRay whitted_child(const Scene* scene, const WhittedRay* parent, const Surface* surface, real3 wi,
-                                       real3 weight, uint which)
+static inline WhittedRay whitted_child(const Scene* scene, const WhittedRay* parent, const Surface* surface,
+                                       real3 wi, real3 weight, uint which)
 {
     WhittedRay child;
     child.ray = surface_ray(surface, which == 0u, wi);
@@ -44,31 +44,31 @@ static inline uint whitted_push(const RenderParams* params, WhittedRay child, Wh
 }
 
 /* Spawns the reflected and the refracted ray; gives the new stack size. */
-static inline uint whitted_spawn_children(const Scene* scene, const RenderParams* params, const WhittedRay* parent,
-                                          const Surface* surface, const Bsdf* bsdf, real3 wo_world,
-                                          WhittedRay* stack, uint top)
+static inline uint whitted_spawn_children(const Scene* scene, const RenderParams* params,
+                                          const WhittedRay* parent, const Surface* surface, const Bsdf* bsdf,
+                                          real3 wo_world, WhittedRay* stack, uint top)
 {
-    const bool dielectric = (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC)) ||
-                            (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE));
-    const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (HAS(EFFECT_COAT) && (bsdf->lobes & LOBE_COAT)) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
-    if (!dielectric && !mirror)
+    const bool is_pane = HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE);
+    const bool dielectric = is_pane || (HAS(EFFECT_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC));
+    const bool mirror = (bsdf->lobes & LOBE_MIRROR) || (bsdf->flags & MATERIAL_WHITTED_MIRROR);
+    if (!dielectric && !mirror && !(bsdf->lobes & LOBE_COAT))
         return top;
     SmoothRays rays = tree_smooth_rays(surface, bsdf, wo_world, dielectric);
     if (HAS(EFFECT_COAT) && (bsdf->lobes & LOBE_COAT) && !(bsdf->flags & BSDF_INSIDE)) {
         /* The coat is a mirror too; where nothing below is one, it is the only one. */
-        const bool is_below = dielectric || (bsdf->lobes & LOBE_MIRROR) ||
-                              (bsdf->flags & MATERIAL_WHITTED_MIRROR);
-        rays.reflected_color = (is_below ? rays.reflected_color : (real3)(REAL(0.0))) +
+        rays.reflected_color = (dielectric || mirror ? rays.reflected_color : (real3)(REAL(0.0))) +
                                (real3)(REAL(1.0) - bsdf_cover(bsdf)->coat_left);
     }
-    if (rays.reflects)
-        top = whitted_push(
-            params, whitted_child(scene, parent, surface, rays.reflected, parent->weight * rays.reflected_color, 0u),
-            stack, top);
-    if (rays.refracts)
-        top = whitted_push(
-            params, whitted_child(scene, parent, surface, rays.refracted, parent->weight * rays.refracted_color, 1u),
-            stack, top);
+    if (rays.reflects) {
+        const real3 weight = parent->weight * rays.reflected_color;
+        top = whitted_push(params, whitted_child(scene, parent, surface, rays.reflected, weight, 0u), stack,
+                           top);
+    }
+    if (rays.refracts) {
+        const real3 weight = parent->weight * rays.refracted_color;
+        top = whitted_push(params, whitted_child(scene, parent, surface, rays.refracted, weight, 1u), stack,
+                           top);
+    }
     return top;
 }
 

@@ -50,7 +50,11 @@ static inline void splat_eye_leaves(const Surface* surface, const Bsdf* bsdf, re
    lobe. */
 static inline bool splat_competes(real pdf_w, const SplatWeights* weights)
 {
-    return weights->closed > REAL(0.0) && !(EMISSION_IS_AIMED && pdf_w > REAL(0.0));
+#if EMISSION_IS_AIMED
+    if (pdf_w > REAL(0.0))
+        return false;
+#endif
+    return weights->closed > REAL(0.0);
 }
 
 /* The weight of a hit: `light_pdf_w` is the density of next-event estimation, `emission_pdf` that of the ray

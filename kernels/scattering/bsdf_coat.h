@@ -14,7 +14,10 @@ static inline real bsdf_coat_size(const Bsdf* bsdf)
     return cover_size(bsdf, REAL(1.0) - bsdf_cover(bsdf)->coat_left);
 }
 
-static inline real3 bsdf_coat_albedo(const Bsdf* bsdf) { return (real3)(bsdf_cover(bsdf)->coat * COVER_COAT_F0); }
+static inline real3 bsdf_coat_albedo(const Bsdf* bsdf)
+{
+    return (real3)(bsdf_cover(bsdf)->coat * COVER_COAT_F0);
+}
 
 static inline void bsdf_coat_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
 {

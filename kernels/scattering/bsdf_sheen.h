@@ -25,8 +25,10 @@ static inline real3 bsdf_sheen_albedo(const Bsdf* bsdf)
 /* a / (1 + b x^c) + d x + e with the numbers of alpha 0 and alpha 1 (table 1) mixed by t. */
 static inline real sheen_exponent(real x, real t)
 {
-    const real a = albedo_mix(REAL(21.5473), REAL(25.3245), t), b = albedo_mix(REAL(3.82987), REAL(3.32435), t);
-    const real c = albedo_mix(REAL(0.19823), REAL(0.16801), t), d = albedo_mix(REAL(-1.97760), REAL(-1.27393), t);
+    const real a = albedo_mix(REAL(21.5473), REAL(25.3245), t);
+    const real b = albedo_mix(REAL(3.82987), REAL(3.32435), t);
+    const real c = albedo_mix(REAL(0.19823), REAL(0.16801), t);
+    const real d = albedo_mix(REAL(-1.97760), REAL(-1.27393), t);
     const real e = albedo_mix(REAL(-4.32054), REAL(-4.85967), t);
     return a / fma(b, real_pow(x, c), REAL(1.0)) + fma(d, x, e);
 }

@@ -251,8 +251,9 @@ CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surf
     }
     const real3 n = material_normal(scene, material, surface, wo);
     /* Only stretched highlights need to know where u grows. */
-    bsdf->frame = bsdf->alpha_x != bsdf->alpha_y ? frame_make_tangent(n, material_tangent(scene, material, surface, n))
-                                              : frame_make(n);
+    bsdf->frame = bsdf->alpha_x != bsdf->alpha_y
+                      ? frame_make_tangent(n, material_tangent(scene, material, surface, n))
+                      : frame_make(n);
     bsdf->wo = frame_to_local(&bsdf->frame, wo);
     bsdf_energy_set(bsdf);
     bsdf_choose_lobes(bsdf);

@@ -29,7 +29,7 @@ struct CausticRoom : TestScene {
             {{-0.3, 2, -0.3}, {0.3, 2, -0.3}, {0.3, 2, 0.3}, {-0.3, 2, 0.3}});
         look({0, 1.6, 4}, {0, 0.7, 0}, 50);
         options.film.size = {32, 32};
-        options.sampling.spp = 512;
+        options.sampling.spp = 1024;
         options.sampling.replicates = 8;
         options.transport.integrator = Integrator::MLT;
         options.transport.max_depth = 6;
