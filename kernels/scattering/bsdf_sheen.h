@@ -9,6 +9,10 @@
 #include "numerics/real_functions.h"
 #include "numerics/warp.h"
 
+/* The fit of Lambda ends at the horizon, where the true one grows with 1 / cos: what is seen more aslant is as
+   dark as here. */
+#define SHEEN_SMALLEST_COS REAL(1e-3)
+
 static inline bool bsdf_sheen_is_delta(const Bsdf* bsdf) { return false; }
 
 static inline real bsdf_sheen_size(const Bsdf* bsdf)
@@ -56,9 +60,10 @@ static inline void bsdf_sheen_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
     if (!(wo.z > REAL(0.0) && wi.z > REAL(0.0)) || (bsdf->flags & BSDF_INSIDE))
         return;
     const real alpha = bsdf_cover(bsdf)->sheen_alpha;
-    const real visible = REAL(1.0) + sheen_lambda(wo.z, alpha) + sheen_lambda(wi.z, alpha);
-    sum->value +=
-        bsdf_cover(bsdf)->sheen * (sheen_d(vector_normalize(wo + wi), alpha) / (REAL(4.0) * wo.z * visible));
+    const real cos_o = fmax(wo.z, SHEEN_SMALLEST_COS), cos_i = fmax(wi.z, SHEEN_SMALLEST_COS);
+    const real visible = REAL(1.0) + sheen_lambda(cos_o, alpha) + sheen_lambda(cos_i, alpha);
+    const real d_over_4_cos = sheen_d(vector_normalize(wo + wi), alpha) / (REAL(4.0) * cos_o);
+    sum->value += bsdf_cover(bsdf)->sheen * (d_over_4_cos / visible * (wi.z / cos_i));
     sum->pdf_w = fma(bsdf->choose[LOBE_ROW_SHEEN], warp_hemisphere_pdf_w(), sum->pdf_w);
 }
 

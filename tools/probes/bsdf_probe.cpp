@@ -36,7 +36,7 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     bsdf.glass = (real)parts.x;
     bsdf.flags |= parts.x > 0.0f ? MATERIAL_PART_GLASS : 0u;
     bsdf.cover.coat = (lobes & LOBE_COAT) ? (real)parts.y : REAL(0.0);
-    bsdf.cover.film = albedo_roughness((real)parts.z, (real)parts.z);
+    bsdf.cover.coat_alpha = (real)parts.z;
     bsdf.cover.sheen = (lobes & LOBE_SHEEN) ? vector_from(sheen) : (real3)(REAL(0.0));
     bsdf.cover.sheen_alpha = (real)parts.w;
     bsdf_energy_set(&bsdf);

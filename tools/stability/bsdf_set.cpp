@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/bsdf_set.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace clrt {
@@ -15,24 +16,33 @@ std::string vector_text(const glm::dvec3& v) {
     return fmt::format("vector_make({}, {}, {})", real_text(v.x), real_text(v.y), real_text(v.z));
 }
 
+std::string flags_text(const LobeSet& set) {
+    return std::string(set.glass > 0 ? "MATERIAL_PART_GLASS" : "0u") +
+           (set.is_inside ? " | BSDF_INSIDE" : "");
+}
+
 /// A function that makes the BSDF of a set's number.
 std::string sets_text() {
     std::string cases;
     const std::vector<LobeSet> sets = all_lobe_sets();
     for (size_t i = 0; i < sets.size(); ++i) {
         const LobeSet& s = sets[i];
-        cases +=
-            fmt::format("    case {}: bsdf.matte = {}; bsdf.specular = {}; bsdf.transmission = {};\n"
-                        "        bsdf.alpha_x = {}; bsdf.alpha_y = {}; bsdf.eta = {}; bsdf.lobes = {}u; "
-                        "bsdf.fresnel = {}u; break;\n",
-                        i, vector_text(s.matte), vector_text(s.specular), vector_text(s.transmission),
-                        real_text(s.alpha_x), real_text(s.alpha_y), real_text(s.eta), s.lobes, s.fresnel);
+        cases += fmt::format("    case {}: bsdf.matte = {}; bsdf.specular = {}; bsdf.transmission = {};\n"
+                             "        bsdf.alpha_x = {}; bsdf.alpha_y = {}; bsdf.eta = {}; bsdf.lobes = {}u; "
+                             "bsdf.fresnel = {}u;\n"
+                             "        bsdf.glass = {}; bsdf.flags = {}; bsdf.cover.coat = {}; "
+                             "bsdf.cover.coat_alpha = {};\n"
+                             "        bsdf.cover.sheen = {}; bsdf.cover.sheen_alpha = {}; break;\n",
+                             i, vector_text(s.matte), vector_text(s.specular), vector_text(s.transmission),
+                             real_text(s.alpha_x), real_text(s.alpha_y), real_text(s.eta), s.lobes, s.fresnel,
+                             real_text(s.glass), flags_text(s), real_text(s.coat), real_text(s.coat_alpha),
+                             vector_text(s.sheen), real_text(s.sheen_alpha));
     }
     return "static CLRT_NOINLINE Bsdf set_bsdf(real set, real alpha, real3 wo)\n{\n"
            "    Bsdf bsdf;\n"
            "    bsdf.normal_g = vector_make(REAL(0.0), REAL(0.0), REAL(1.0));\n"
            "    bsdf.frame = frame_make(bsdf.normal_g);\n"
-           "    bsdf.wo = wo; bsdf.is_curved = false; bsdf.exponent = REAL(0.0); bsdf.flags = 0u;\n"
+           "    bsdf.wo = wo; bsdf.is_curved = false; bsdf.exponent = REAL(0.0);\n"
            "    switch ((uint)set) {\n    default:\n" +
            cases +
            "    }\n"
@@ -80,6 +90,13 @@ ProbeSet& bsdf_probes(const ProbeDevice& device) {
     return device.once<ProbeSet>("lobe sets", [&] {
         return ProbeSet(device, {"scattering/bsdf.h"}, {EVAL, SAMPLE}, sets_text());
     });
+}
+
+std::vector<LobeSet> textbook_sets() {
+    std::vector<LobeSet> sets = all_lobe_sets();
+    const auto has_none = [](const LobeSet& set) { return !set.has_textbook; };
+    sets.erase(std::find_if(sets.begin(), sets.end(), has_none), sets.end());
+    return sets;
 }
 
 bool is_smooth(const LobeSet& set) {

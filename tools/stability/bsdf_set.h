@@ -39,6 +39,9 @@ enum BsdfSampled {
 /// "eval" and "sample" over BsdfInputs, in a frame that rounds nothing. One a device.
 ProbeSet& bsdf_probes(const ProbeDevice& device);
 
+/// The first of all_lobe_sets(), for which cases know what to expect: those with a textbook's formula.
+std::vector<LobeSet> textbook_sets();
+
 /// True for sets that light sampling can meet.
 bool is_smooth(const LobeSet& set);
 

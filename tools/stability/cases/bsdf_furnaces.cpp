@@ -80,7 +80,7 @@ void bsdf_furnace(CaseRun& run) {
     Figure& lossless = run.figure("|weight - colour| of matte, mirror, smooth glass", 8 * FLOAT_U);
     Figure& albedo = run.figure("|mean weight - albedo| of rough reflection", 5e-3);
     Figure& others = run.figure("the same of stretched lobes and rough glass", 2e-2);
-    const std::vector<LobeSet> sets = all_lobe_sets();
+    const std::vector<LobeSet> sets = textbook_sets();
     const size_t count = run.count(1u << 16, 1u << 20, 1u << 22);
     for (size_t set = 0; set < sets.size(); ++set)
         for (const double cosine : {0.3, 0.6, 1.0}) {

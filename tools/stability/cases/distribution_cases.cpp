@@ -19,7 +19,7 @@ using glm::dvec3;
 
 /// Index of a set by its name.
 size_t set_index(const std::string& name) {
-    const std::vector<LobeSet> sets = all_lobe_sets();
+    const std::vector<LobeSet> sets = textbook_sets();
     for (size_t i = 0; i < sets.size(); ++i)
         if (sets[i].name == name)
             return i;
@@ -48,7 +48,7 @@ struct Reciprocal {
         there.add(set, 0, x, y);
         back.add(other, 0, y * flip, x * flip);
         scale.push_back(way_back);
-        is_conditioned.push_back(is_well_conditioned(all_lobe_sets()[set], x, y));
+        is_conditioned.push_back(is_well_conditioned(textbook_sets()[set], x, y));
     }
 };
 
@@ -57,7 +57,7 @@ void reciprocity(CaseRun& run) {
     Figure& transmission = run.figure("relative difference, transmission over eta^2", 1e-5);
     Reciprocal pairs;
     Random random(1);
-    const std::vector<LobeSet> sets = all_lobe_sets();
+    const std::vector<LobeSet> sets = textbook_sets();
     const size_t count = run.count(2e4, 2e5, 5e5);
     const size_t outside = set_index("rough glass from outside"),
                  inside = set_index("rough glass from inside");
@@ -89,7 +89,7 @@ void reciprocity(CaseRun& run) {
 /// Sets that have a density, and directions to the eye.
 template <class Visit>
 void for_each_density(const Visit& visit) {
-    const std::vector<LobeSet> sets = all_lobe_sets();
+    const std::vector<LobeSet> sets = textbook_sets();
     for (size_t set = 0; set < sets.size(); ++set)
         if (is_smooth(sets[set]) && !(sets[set].lobes & LOBE_MIRROR))
             for (const dvec3& wo : {direction_at(1, 0), direction_at(0.7, 0.9), direction_at(0.3, 3.6),
@@ -138,7 +138,7 @@ void chi_squared(CaseRun& run) {
         std::vector<double> expected = cells.integrals(densities(run, set, wo, nodes));
         const Sampled samples = sampled(run, set, wo, count, u32(set + 2));
         const std::vector<double> counts = cells.histogram(samples.found);
-        const auto describe = [&] { return fmt::format("{}, cos {}", all_lobe_sets()[set].name, wo.z); };
+        const auto describe = [&] { return fmt::format("{}, cos {}", textbook_sets()[set].name, wo.z); };
         for (size_t i = 0; i < expected.size(); ++i) {
             expected[i] *= double(samples.tried);
             stray[Build::SINGLE].count(counts[i] > 0 && expected[i] == 0, describe);
@@ -165,10 +165,10 @@ void pdf_mass(CaseRun& run) {
         for (size_t i = 0; i < inputs.size(); ++i)
             failed += got[SAMPLED_ETA][i] == 0;
         const double whole = total(cells.integrals(densities(run, set, wo, nodes)));
-        const bool is_narrow = (all_lobe_sets()[set].lobes & LOBE_DIELECTRIC) || wo.z < 0.1;
+        const bool is_narrow = (textbook_sets()[set].lobes & LOBE_DIELECTRIC) || wo.z < 0.1;
         (is_narrow ? narrow : mass)[Build::SINGLE].see(
             std::abs(whole + failed / double(inputs.size()) - 1),
-            [&] { return fmt::format("{}, cos {}", all_lobe_sets()[set].name, wo.z); });
+            [&] { return fmt::format("{}, cos {}", textbook_sets()[set].name, wo.z); });
     });
 }
 

@@ -73,8 +73,9 @@ void grazing_bsdfs(CaseRun& run) {
                 largest = std::max(largest, samples[c][i]);
             }
             bad[build].count(is_wrong, [&] { return "sample: " + sample.describe(i); });
-            excess[build].see(largest / weight_bound(sets[size_t(sample.columns[0][i])]),
-                              [&] { return sample.describe(i); });
+            const LobeSet& set = sets[size_t(sample.columns[0][i])];
+            if (set.has_textbook)
+                excess[build].see(largest / weight_bound(set), [&] { return sample.describe(i); });
         }
     }
 }

@@ -109,7 +109,7 @@ const ProbedExpression WEIGHT = {
 
 /// Index of a set of one glossy lobe of colour 0.9 without Fresnel.
 size_t glossy_set() {
-    const std::vector<LobeSet> sets = all_lobe_sets();
+    const std::vector<LobeSet> sets = textbook_sets();
     for (size_t i = 0; i < sets.size(); ++i)
         if (sets[i].name == "glossy")
             return i;
@@ -210,13 +210,13 @@ void corner_numbers(CaseRun& run) {
     Figure& bad = run.figure("samples without density or not finite", 0);
     BsdfInputs inputs;
     const double corners[] = {0, FLOAT_U, 0.5, 1 - FLOAT_U};
-    for (size_t set = 0; set < all_lobe_sets().size(); ++set)
+    for (size_t set = 0; set < textbook_sets().size(); ++set)
         for (const double cosine : {1.0, 0.5, 1e-2, 1e-6, 1e-12, 0.0})
             for (const double lobe : corners)
                 for (const double x : corners)
                     for (const double y : corners)
                         inputs.add(set, 0, direction_at(cosine, 0.3), {lobe, x, y});
-    const std::vector<LobeSet> sets = all_lobe_sets();
+    const std::vector<LobeSet> sets = textbook_sets();
     for (const Build build : run.builds()) {
         if (build == Build::NAIVE)
             continue;
@@ -238,7 +238,7 @@ void sample_is_eval(CaseRun& run) {
     Figure& value = run.figure("relative difference of weight times density to value", 1e-5);
     BsdfInputs inputs;
     Random random(3);
-    const std::vector<LobeSet> sets = all_lobe_sets();
+    const std::vector<LobeSet> sets = textbook_sets();
     const size_t count = run.count(2e4, 2e5, 1e6);
     for (size_t set = 0; set < sets.size(); ++set)
         if (is_smooth(sets[set]) && !(sets[set].lobes & LOBE_MIRROR))
