@@ -44,7 +44,8 @@ static inline Guide guide_none(void)
 #if PATH_GUIDE
 /* The cell of the point that a ray has hit, on the side of its triangle. NO_INDEX: it has missed. A cell is
    far away in memory, and much is to do before it is asked: it is on the way from now on, with what sampling
-   by the cell with these numbers would read. */
+   by the cell with these numbers would read. Of a triangle that moves the side is that of the shutter's
+   opening: any rule will do that ray and hit decide. */
 static inline uint guide_find_cell(const Scene* scene, const RenderParams* params, const Ray* ray,
                                    const Hit* hit, real2 direction_numbers)
 {

@@ -118,21 +118,41 @@ static inline real bsdf_dielectric_choose(const Bsdf* bsdf, real f)
     return (bsdf->flags & BSDF_NO_REFLECTION) ? REAL(0.0) : f;
 }
 
-/* One facet: reflects with probability F, else refracts, by the number u_way in (0, 1). */
+/* A sampled facet, and the way that light goes there. */
+typedef struct {
+    real3 normal;
+    real cos_o, cos_t; /* to wo, and to the refracted ray */
+    real forced;       /* what its weight is multiplied by: F or 1 - F where the other way is closed, else 1 */
+    bool reflects;
+} GlassFacet;
+
+/* Samples a facet of a lobe of glass, which reflects with probability F, by the number u_way in (0, 1). */
+static inline GlassFacet bsdf_glass_facet(const Bsdf* bsdf, uint lobe, real u_way, real2 u,
+                                          BsdfSample* sample)
+{
+    GlassFacet facet;
+    facet.normal = bsdf->alpha_x == REAL(0.0)
+                       ? vector_make(REAL(0.0), REAL(0.0), REAL(1.0))
+                       : microfacet_sample(bsdf->wo, bsdf->alpha_x, bsdf->alpha_y, u);
+    facet.cos_o = clamp(vector_dot(bsdf->wo, facet.normal), REAL(0.0), REAL(1.0));
+    const real f = fresnel_dielectric(facet.cos_o, bsdf->eta, &facet.cos_t);
+    const real choose = bsdf_dielectric_choose(bsdf, f);
+    facet.reflects = u_way < choose;
+    facet.forced = REAL(1.0);
+    if (HAS(EFFECT_PATH_FILTER) && choose != f)
+        facet.forced = facet.reflects ? f : REAL(1.0) - f;
+    TRACE_SET(sample->lobe, facet.reflects ? lobe : lobe | TRACE_LOBE_REFRACTS);
+    return facet;
+}
+
 static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, real2 u, BsdfSample* sample)
 {
     const real3 wo = bsdf->wo;
     const bool smooth = bsdf_dielectric_is_delta(bsdf);
-    const real3 h = smooth ? vector_make(REAL(0.0), REAL(0.0), REAL(1.0))
-                           : microfacet_sample(wo, bsdf->alpha_x, bsdf->alpha_y, u);
-    const real cos_oh = clamp(vector_dot(wo, h), REAL(0.0), REAL(1.0));
-    real cos_t;
-    const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
-    const real choose = bsdf_dielectric_choose(bsdf, f);
-    const bool reflects = u_way < choose;
-    TRACE_SET(sample->lobe, reflects ? LOBE_DIELECTRIC : LOBE_DIELECTRIC | TRACE_LOBE_REFRACTS);
-    const real3 wi =
-        reflects ? REAL(2.0) * cos_oh * h - wo : fresnel_refract(wo, h, cos_oh, cos_t, bsdf->eta);
+    const GlassFacet facet = bsdf_glass_facet(bsdf, LOBE_DIELECTRIC, u_way, u, sample);
+    const bool reflects = facet.reflects;
+    const real3 wi = reflects ? REAL(2.0) * facet.cos_o * facet.normal - wo
+                              : fresnel_refract(wo, facet.normal, facet.cos_o, facet.cos_t, bsdf->eta);
     /* A microfacet may send light through the macroscopic surface the wrong way, and the horizon sees none:
        such paths end. */
     sample->is_weighted = true;
@@ -144,8 +164,7 @@ static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, 
     if (!sample->is_weighted)
         return wi;
     sample->weight = reflects ? bsdf_glass_color(bsdf) : bsdf->transmission * bsdf_cross(bsdf, REAL(1.0));
-    if (HAS(EFFECT_PATH_FILTER) && choose != f)
-        sample->weight *= reflects ? f : REAL(1.0) - f;
+    sample->weight *= facet.forced;
     if (!smooth) {
         sample->weight *= microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) /
                           microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);

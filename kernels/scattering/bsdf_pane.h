@@ -45,32 +45,25 @@ static inline void bsdf_pane_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
 
 static inline real3 bsdf_pane_sample(const Bsdf* bsdf, BsdfChoice choice, real2 u, BsdfSample* sample)
 {
-    const real3 wo = bsdf->wo;
     const bool smooth = bsdf_pane_is_delta(bsdf);
     const real multiple = smooth ? REAL(0.0) : bsdf->choose_multiple;
     const real share = choice.u - choice.before;
     if (share < multiple)
         return bsdf_glass_sample_multiple(bsdf, LOBE_PANE, share < multiple * bsdf->multiple_reflects, u,
                                           sample);
-    const real3 h = smooth ? vector_make(REAL(0.0), REAL(0.0), REAL(1.0))
-                           : microfacet_sample(wo, bsdf->alpha_x, bsdf->alpha_y, u);
-    const real cos_oh = clamp(vector_dot(wo, h), REAL(0.0), REAL(1.0));
-    real cos_t;
-    const real f = fresnel_dielectric(cos_oh, bsdf->eta, &cos_t);
-    const real choose = bsdf_dielectric_choose(bsdf, f);
-    const bool reflects = (share - multiple) / (bsdf->choose[LOBE_ROW_PANE] - multiple) < choose;
-    TRACE_SET(sample->lobe, reflects ? LOBE_PANE : LOBE_PANE | TRACE_LOBE_REFRACTS);
-    real3 wi = smooth ? vector_make(-wo.x, -wo.y, wo.z) : REAL(2.0) * cos_oh * h - wo;
+    const real u_way = (share - multiple) / (bsdf->choose[LOBE_ROW_PANE] - multiple);
+    const GlassFacet facet = bsdf_glass_facet(bsdf, LOBE_PANE, u_way, u, sample);
+    const real3 wo = bsdf->wo;
+    real3 wi = smooth ? vector_make(-wo.x, -wo.y, wo.z) : REAL(2.0) * facet.cos_o * facet.normal - wo;
     /* A microfacet may send light below the surface: such paths end. */
     sample->is_weighted = smooth || !(wi.z > REAL(0.0));
     if (!(wi.z > REAL(0.0)))
         return wi;
-    wi.z = reflects ? wi.z : -wi.z;
+    wi.z = facet.reflects ? wi.z : -wi.z;
     if (!smooth)
         return wi;
-    sample->weight = (reflects ? bsdf_glass_color(bsdf) : bsdf->transmission) / bsdf->choose[LOBE_ROW_PANE];
-    if (HAS(EFFECT_PATH_FILTER) && choose != f)
-        sample->weight *= reflects ? f : REAL(1.0) - f;
+    const real3 color = facet.reflects ? bsdf_glass_color(bsdf) : bsdf->transmission;
+    sample->weight = color / bsdf->choose[LOBE_ROW_PANE] * facet.forced;
     return wi;
 }
 
