@@ -71,7 +71,9 @@ class Reading(Scenes):
                 ("mtl", "Kd 0.7 0.6 0.5", "Kd 1 1", "mtl:2", "expected 3 numbers, found '1 1'"),
                 ("mtl", "Kd 0.7 0.6 0.5", "Kd 1 1 1\nd 0.5", "mtl:1", "expected an opaque material, found d 0.5"),
                 ("mtl", "Ke 3 2 1", "", "scene.obj", "expected a light"),
-                ("options", "--spp 64", "--sun 0,1,0,1,1,1", "clrt:4", "found --sun"),
+                ("options", "--spp 64", "--sun 0,1,0,1,1,1,0.53", "clrt", "--sun: expected 6 numbers, found '0 1 0 1 1 1 0.53'"),
+                ("options", "--spp 64", "--sun 0,1,0,1,1,1\n--sun 0,1,0,1,1,1", "clrt:5", "expected one --sun, found another"),
+                ("options", "--spp 64", "--point 0,1,0,1,1,1", "clrt:4", "found --point"),
                 ("options", "--fov 33", "--filter gaussian", "clrt:3", "found --filter"),
                 ("options", "--eye 1,2,3", "", "clrt", "expected --eye, found none"),
                 ("options", "--spp 64", "--env sky.hdr", "clrt", "expected 3 numbers, found 'sky.hdr'"),
@@ -112,6 +114,9 @@ class ForMitsuba(Scenes):
         self.assertEqual((sensor["film"]["width"], sensor["film"]["height"], sensor["film"]["rfilter"]["type"]), (32, 24, "box"))
         self.assertNotIn("sky", words)
         self.assertEqual(self.words(options=OPTIONS + "--env 1,2,3\n")["sky"]["radiance"]["value"], [1, 2, 3])
+        self.assertNotIn("sun", words)
+        sun = self.words(options=OPTIONS + "--sun 1,2,-3,4,5,6\n")["sun"]
+        self.assertEqual((sun["direction"], sun["irradiance"]["value"]), ([-1, -2, 3], [4, 5, 6]))
         self.assertEqual(self.words()["integrator"]["max_depth"], mitsuba_scene.ENDLESS)
 
     def test_lights_shine_and_flat_faces_stay_flat(self):

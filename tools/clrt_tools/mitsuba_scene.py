@@ -20,6 +20,9 @@ def scene_dictionary(scene, width, height, sampler, folder, look_at):
                         "sampler": {"type": sampler}}}
     if sum(scene.sky):
         words["sky"] = {"type": "constant", "radiance": _rgb(scene.sky)}
+    if scene.sun:
+        towards, irradiance = scene.sun
+        words["sun"] = {"type": "directional", "direction": [-part for part in towards], "irradiance": _rgb(irradiance)}
     for index, ((name, smooth), triangles) in enumerate(scene.triangles.items()):
         path = os.path.join(folder, f"mesh_{index}.obj")
         write_mesh(path, triangles, smooth)

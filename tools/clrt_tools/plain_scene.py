@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads scenes that any renderer shows alike: OBJ and MTL with matte, mirror, glass and emissive materials, and an options file
-with camera and constant sky. Whatever else a file says is refused, for a scene that is only nearly the same proves nothing."""
+with camera, constant sky and a sun that is a point. Whatever else a file says is refused, for a scene that is only nearly the same
+proves nothing."""
 import dataclasses
 import math
 import os
@@ -8,7 +9,7 @@ import os
 # Options of clrt that do not change what is simulated.
 HARMLESS = {"--spp", "--exposure", "--tonemap", "--size", "--seed", "--replicates"}
 CAMERA = {"--eye", "--at", "--up", "--fov", "--focal-length", "--film-width"}
-LIGHT_AND_DEPTH = {"--env", "--env-scale", "--max-depth", "--roulette-depth"}
+LIGHT_AND_DEPTH = {"--env", "--env-scale", "--sun", "--max-depth", "--roulette-depth"}
 MATERIAL_KEYS = {"Ka", "Kd", "Ks", "Ke", "Tf", "Ni", "Ns", "d", "illum"}
 # A polygon may be bent by this part of its size before two ways to cut it into triangles count as two shapes.
 FLAT = 1e-4
@@ -46,6 +47,12 @@ class PlainScene:
         scale, = self.numbers("--env-scale", (1.0,))
         return tuple(scale * value for value in self.numbers("--env", BLACK))
 
+    @property
+    def sun(self):
+        """(direction towards it, irradiance across it) or None."""
+        numbers = self.numbers("--sun")
+        return numbers and (numbers[:3], numbers[3:])
+
     def field_of_view(self, width, height):
         """Of the height of the film, degrees."""
         if "--focal-length" not in self.options:
@@ -63,8 +70,8 @@ def read_plain_scene(path):
     for names in libraries:
         materials.update(_read_materials(os.path.join(os.path.dirname(path), " ".join(names))))
     scene = PlainScene(materials, _read_triangles(path, lines, materials), options)
-    if not any(sum(materials[name].emission) for name, _ in scene.triangles) and not sum(scene.sky):
-        raise NotPlain(f"{path}: expected a light, an emissive material or a constant --env, found none")
+    if not any(sum(materials[name].emission) for name, _ in scene.triangles) and not sum(scene.sky) and not scene.sun:
+        raise NotPlain(f"{path}: expected a light, an emissive material, --sun or a constant --env, found none")
     return scene
 
 
@@ -91,13 +98,16 @@ def _read_options(path):
     for where, words in _lines(path):
         option = words[0]
         if option not in HARMLESS | CAMERA | LIGHT_AND_DEPTH:
-            raise NotPlain(f"{where}: expected options of the camera, a constant --env or --max-depth, found {option}")
+            raise NotPlain(f"{where}: expected options of the camera, a constant --env, --sun or --max-depth, found {option}")
+        if option == "--sun" and option in options:
+            raise NotPlain(f"{where}: expected one --sun, found another")
         options[option] = " ".join(words[1:])
     for option in ("--eye", "--at"):
         if option not in options:
             raise NotPlain(f"{path}: expected {option}, found none: a camera that is fitted to the scene is clrt's own")
-    if "--env" in options:
-        _numbers(options["--env"].split(","), f"{path}: option --env", 3)
+    for option, count in (("--env", 3), ("--sun", 6)):  # a seventh number of --sun, its diameter, is refused
+        if option in options:
+            _numbers(options[option].split(","), f"{path}: option {option}", count)
     return options
 
 
