@@ -43,7 +43,9 @@ std::vector<OptionSpec> picture_options() {
         "layers of EXR files, such as albedo,N or none: " + layer_names(" ") +
         ", and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: all but "
         "alpha, denoisingAlbedo and denoisingNormal, which are means over misses too, and the mattes "
-        "cryptoObject and cryptoMaterial; badSamples where there are any)";
+        "cryptoObject and cryptoMaterial; badSamples where there are any; what is seen first by a pixel's "
+        "first "
+        "16 samples, where layers that are named have all)";
     const char* const group = "Picture";
     return {
         {group, "r", "--size", "WxH", "width and height in pixels (default 800x600)",

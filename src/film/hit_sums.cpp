@@ -6,8 +6,21 @@
 
 namespace clrt {
 
+std::uint64_t wanted_hit_samples(const HitSums& hits, const Film& film) {
+    return std::min(film_samples(film), hits.most_samples);
+}
+
+TileSamples wanted_hit_tiles(const HitSums& hits, const Film& film) {
+    TileSamples wanted = film.tile_samples;
+    for (std::vector<u32>& half : wanted)
+        for (u32& samples : half)
+            samples = u32(std::min<std::uint64_t>(samples, hits.most_samples / 2));
+    return wanted;
+}
+
 bool has_all_samples(const HitSums& hits, const Film& film) {
-    return is_adaptive(film) ? hits.tile_samples == film.tile_samples : hits.samples == film_samples(film);
+    return is_adaptive(film) ? hits.tile_samples == wanted_hit_tiles(hits, film)
+                             : hits.samples == wanted_hit_samples(hits, film);
 }
 
 PixelHits pixel_hits(const HitSums& hits, const Film& film, size_t pixel) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 namespace clrt {
@@ -21,6 +22,8 @@ struct HitSums {
     std::array<std::vector<std::int64_t>, 2> values; ///< AOV_SUMS a pixel
     std::array<std::vector<u32>, 2> words;           ///< AOV_WORDS a pixel
     MatteSlots mattes;
+    /// Samples of a pixel that are enough; of an adaptive film half of them in each half.
+    std::uint64_t most_samples = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t samples = 0; ///< a pixel, of a film that is not adaptive
     TileSamples tile_samples;  ///< of an adaptive film
     bool empty() const { return values[0].empty(); }
@@ -32,7 +35,13 @@ struct HitSums {
     }
 };
 
-/// Whether they have all samples of the film.
+/// How many samples of an equally sampled film they are to have.
+std::uint64_t wanted_hit_samples(const HitSums& hits, const Film& film);
+
+/// How many samples of each tile of an adaptive film they are to have.
+TileSamples wanted_hit_tiles(const HitSums& hits, const Film& film);
+
+/// Whether they have all samples of the film that they are to have.
 bool has_all_samples(const HitSums& hits, const Film& film);
 
 /// What the samples of a pixel see first, on average over those that hit something.

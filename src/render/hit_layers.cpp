@@ -94,10 +94,10 @@ void HitLayers::advance(const Film& film, const std::function<void(double)>& rep
 
 /// Goes through the film's ranges in order, from the sample where the sums end.
 void HitLayers::advance_equally(const Film& film, const std::function<void(double)>& report) {
-    const std::uint64_t all = film_samples(film);
+    const std::uint64_t all = wanted_hit_samples(sums_, film);
     std::uint64_t before = 0; // samples of the ranges before
     for (const SampleRange& range : film.ranges) {
-        const std::uint64_t length = range.end - range.first;
+        const std::uint64_t length = std::min<std::uint64_t>(range.end - range.first, all - before);
         while (sums_.samples < before + length) {
             const u32 fitting = launch_size_.samples(params_.tile_count);
             if (stop_signal() && sums_.samples > 0 && all - sums_.samples > fitting)
@@ -114,9 +114,10 @@ void HitLayers::advance_equally(const Film& film, const std::function<void(doubl
 
 /// Takes the tiles of both halves to where the film's are.
 void HitLayers::advance_tiles(const Film& film, const std::function<void(double)>& report) {
+    const TileSamples wanted = wanted_hit_tiles(sums_, film);
     for (size_t half = 0; half < 2; ++half) {
         std::vector<u32>& from = sums_.tile_samples[half];
-        const std::vector<u32>& to = film.tile_samples[half];
+        const std::vector<u32>& to = wanted[half];
         from.resize(to.size());
         const double all = lag_of(from, to).mean;
         for (Lag lag = lag_of(from, to); lag.most > 0; lag = lag_of(from, to)) {

@@ -24,9 +24,9 @@ public:
     HitLayers(const Device& device, const Program& program, const RenderParams& params, bool is_adaptive,
               const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums, bool has_mattes = false);
 
-    /// Adds the samples that the film has and the sums lack, in launches of LAUNCH_SECONDS; `report` is told
-    /// after each which share of all samples is there. After a signal it leaves out what takes more than one
-    /// launch.
+    /// Adds the samples that the film has and the sums are to have and lack, in launches of LAUNCH_SECONDS;
+    /// `report` is told after each which share of all samples is there. After a signal it leaves out what
+    /// takes more than one launch.
     void advance(const Film& film, const std::function<void(double)>& report);
 
 private:

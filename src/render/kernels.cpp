@@ -9,10 +9,14 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <limits>
 
 namespace clrt {
 
 namespace {
+
+/// Samples of a pixel that layers of hits are means over where nobody has asked for them.
+constexpr std::uint64_t UNASKED_HIT_SAMPLES = 16;
 
 /// The program of the layers of hits, and what tells the programs of a replay, of guided paths and of a pilot
 /// from the picture's.
@@ -59,6 +63,13 @@ ProgramRequest launched_request(const Device& device, const KernelFiles& files, 
     return request;
 }
 
+/// Whether pictures say which share of their samples hit something.
+bool wants_alpha(const Options& options) {
+    const auto& outputs = options.output.files;
+    return has_transparent_background(options.light) &&
+           std::any_of(outputs.begin(), outputs.end(), can_hold_alpha);
+}
+
 /// What the program of the picture is built with besides.
 std::vector<std::string> picture_defines(const Device& device, const Options& options,
                                          const PathPlan& paths) {
@@ -99,15 +110,19 @@ BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& devic
 }
 
 bool wants_layers(const Options& options) {
-    const auto& outputs = options.output.files;
-    if (has_transparent_background(options.light) &&
-        std::any_of(outputs.begin(), outputs.end(), can_hold_alpha))
+    if (wants_alpha(options))
         return true;
+    const auto& outputs = options.output.files;
     const bool has_exr = std::any_of(outputs.begin(), outputs.end(), is_layered_output);
     if (!has_exr || !options.output.aovs)
         return has_exr;
     return std::any_of(options.output.aovs->begin(), options.output.aovs->end(),
                        [](const std::string& name) { return find_layer(name)->source != LayerSource::FILM; });
+}
+
+std::uint64_t most_hit_samples(const Options& options) {
+    return wants_alpha(options) || options.output.aovs ? std::numeric_limits<std::uint64_t>::max()
+                                                       : UNASKED_HIT_SAMPLES;
 }
 
 bool wants_mattes(const Options& options) {

@@ -25,6 +25,12 @@ BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& devic
 /// True if some output file can hold auxiliary layers and the options want one.
 bool wants_layers(const Options& options);
 
+/// How many of a pixel's samples the layers of the primary hits are means over, at most. Those that are there
+/// unasked are means over 16: enough for the edges of what is seen first, where rays for all samples would
+/// take a fifth of a render's time. Alpha is that of the picture and has all samples; so has what --aov
+/// names.
+std::uint64_t most_hit_samples(const Options& options);
+
 /// True if they have mattes besides (output/cryptomatte.h).
 bool wants_mattes(const Options& options);
 

@@ -85,6 +85,7 @@ void Passes::begin_hits() {
     if (!prepared_.programs->layers)
         return;
     try {
+        result_.hits.most_samples = most_hit_samples(options_);
         hit_layers_.emplace(prepared_.device, *prepared_.programs->layers, params_,
                             options_.sampling.adaptive.has_value(), prepared_.buffers, film_buffers_,
                             result_.hits, wants_mattes(options_));

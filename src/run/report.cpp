@@ -272,6 +272,8 @@ Metadata report_metadata(const Report& report) {
         metadata.emplace_back("P.origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z));
     metadata.emplace_back("exposure_ev", fmt::format("{:g}", report.exposure_ev));
     add_facts(report, metadata);
+    if (const HitSums& hits = render.hits; !hits.empty() && hits.most_samples < film_samples(render.film))
+        metadata.emplace_back("hits.spp", std::to_string(hits.most_samples));
     if (is_adaptive(render.film)) {
         const TileSpread spread = tile_spread(render.film);
         metadata.emplace_back("adaptive", fmt::format("{} to {} spp", spread.fewest, spread.most));

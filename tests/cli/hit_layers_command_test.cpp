@@ -102,6 +102,26 @@ TEST_F(HitLayersCommand, GuidesOfDenoisersAreAsSoftAsThePicture) {
     EXPECT_GT(edges, 20);
 }
 
+TEST_F(HitLayersCommand, UnaskedLayersAreMeansOverSixteenSamples) {
+    const auto depths = [&](const std::string& name, std::vector<std::string> further) {
+        for (const char* word :
+             {"scene.obj", "-i", "raycast", "-r", "24x20", "--eye", "0,0,4", "--at", "0,0,0", "-o"})
+            further.emplace_back(word);
+        further.push_back(name);
+        EXPECT_EQ(clrt(further).exit_code, 0);
+        const ReadPicture picture(folder.file(name));
+        std::vector<float> values;
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 24; ++x)
+                if (const float depth = picture.at(x, y, "Z"); std::isfinite(depth))
+                    values.push_back(depth);
+        return values;
+    };
+    const std::vector<float> unasked = depths("a.exr", {"-s", "64"});
+    EXPECT_EQ(unasked, depths("b.exr", {"-s", "16"}));
+    EXPECT_NE(unasked, depths("c.exr", {"-s", "64", "--aov", "Z"}));
+}
+
 TEST_F(HitLayersCommand, AdaptiveTilesHaveTheSamplesOfThePicture) {
     render("a.exr", {"-i", "raycast", "-s", "96", "--adaptive", "--checkpoint", "a.film"});
     expect_alpha_is_the_picture("a.exr");

@@ -7,8 +7,10 @@
 #include "probes/kernel_probe.h"
 #include "support/render_scene.h"
 
+#include <algorithm>
 #include <csignal>
 #include <gtest/gtest.h>
+#include <limits>
 #include <optional>
 
 namespace clrt {
@@ -19,6 +21,8 @@ namespace {
 /// picture itself is not rendered.
 class HitLayersTest : public testing::Test {
 protected:
+    static constexpr std::uint64_t EVERY = std::numeric_limits<std::uint64_t>::max();
+
     HitLayersTest() {
         test_.texture("leaf.exr", 2, 1, 4, {1, 1, 1, 0.25f, 1, 1, 1, 0.75f});
         test_.build.material("white", "Kd 0.7 0.3 0.1").material("leaf", "Kd 0.2 0.4 0.1\nmap_d leaf.exr");
@@ -38,8 +42,9 @@ protected:
     }
 
     /// Goes through films of these ranges, one after the other.
-    HitSums sums(const std::vector<std::vector<SampleRange>>& films) {
+    HitSums sums(const std::vector<std::vector<SampleRange>>& films, std::uint64_t most_samples = EVERY) {
         HitSums sums;
+        sums.most_samples = most_samples;
         FilmBuffers film_buffers(test_device(), params_, 0);
         HitLayers layers(test_device(), *prepared_->programs->layers, params_, false, prepared_->buffers,
                          film_buffers, sums, true);
@@ -50,8 +55,9 @@ protected:
         return sums;
     }
     /// The same with tiles of these samples, those of the second half one more.
-    HitSums tile_sums(const std::vector<u32>& samples) {
+    HitSums tile_sums(const std::vector<u32>& samples, std::uint64_t most_samples = EVERY) {
         HitSums sums;
+        sums.most_samples = most_samples;
         FilmBuffers film_buffers(test_device(), params_, 0);
         HitLayers layers(test_device(), *prepared_->programs->layers, params_, true, prepared_->buffers,
                          film_buffers, sums, true);
@@ -95,6 +101,18 @@ TEST_F(HitLayersTest, GrowWithTheFilmToTheSameBits) {
     const HitSums tiles = tile_sums({50});
     EXPECT_TRUE(same(tile_sums({2, 4, 18, 50}), tiles));
     EXPECT_FALSE(same(tile_sums({51}), tiles));
+}
+
+TEST_F(HitLayersTest, EndWithTheSamplesThatAreEnough) {
+    EXPECT_TRUE(
+        same(sums({{{5, 9}}, {{5, 15}, {60, 70}}, {{5, 15}, {60, 99}}}, 16), sums({{{5, 15}, {60, 66}}})));
+    EXPECT_TRUE(has_all_samples(sums({{{5, 45}}}, 16), film_));
+    const Film many_samples = film_;
+    EXPECT_FALSE(has_all_samples(sums({{{5, 9}}}, 16), many_samples));
+    const HitSums tiles = tile_sums({2, 5, 50}, 16);
+    EXPECT_TRUE(has_all_samples(tiles, film_));
+    for (const std::vector<u32>& half : tiles.tile_samples)
+        EXPECT_TRUE(std::all_of(half.begin(), half.end(), [](u32 samples) { return samples == 8; }));
 }
 
 TEST_F(HitLayersTest, BothHalvesTogetherAreTheReplicatesOfAFilm) {
