@@ -16,7 +16,7 @@ constexpr size_t THREADS = 8;
 /// A client that says nothing for so long is left, seconds. The end of a run may wait for it.
 constexpr time_t LONGEST_SILENCE = 1;
 /// A client that takes nothing for so long is left, seconds.
-constexpr time_t LONGEST_WRITE = 10;
+constexpr time_t LONGEST_WRITE = 3;
 
 std::vector<std::string> header_values(const httplib::Request& request, const char* name) {
     std::vector<std::string> values;

@@ -27,12 +27,24 @@ void append_whole(std::string& bytes, std::uint32_t value, int count) {
         bytes += char(value >> (8 * i) & 0xff);
 }
 
+/// Every so many pixels and rows of a picture are shown.
+size_t page_step(const Snapshot& snapshot, size_t most_pixels) {
+    size_t step = 1;
+    const auto across = [&](int side) { return (size_t(side) + step - 1) / step; };
+    while (across(snapshot.width) * across(snapshot.height) > most_pixels)
+        ++step;
+    return step;
+}
+
 /// A BMP of 24 bits a pixel: BITMAPFILEHEADER, BITMAPINFOHEADER, rows from the top (negative height) in steps
 /// of four bytes, blue first.
-std::string encode_bmp(int width, int height, const std::function<Colour(size_t pixel)>& colour_of) {
+std::string encode_bmp(const Snapshot& snapshot, size_t step,
+                       const std::function<Colour(size_t pixel)>& colour_of) {
     constexpr std::uint32_t HEADERS = 54, INFO_HEADER = 40, BITS = 24;
-    const size_t row_bytes = (size_t(width) * 3 + 3) / 4 * 4;
-    const auto total = std::uint32_t(HEADERS + row_bytes * size_t(height));
+    const size_t width = (size_t(snapshot.width) + step - 1) / step;
+    const size_t height = (size_t(snapshot.height) + step - 1) / step;
+    const size_t row_bytes = (width * 3 + 3) / 4 * 4;
+    const auto total = std::uint32_t(HEADERS + row_bytes * height);
     std::string bytes = "BM";
     bytes.reserve(total);
     append_whole(bytes, total, 4);
@@ -40,13 +52,13 @@ std::string encode_bmp(int width, int height, const std::function<Colour(size_t 
     append_whole(bytes, HEADERS, 4);
     append_whole(bytes, INFO_HEADER, 4);
     append_whole(bytes, std::uint32_t(width), 4);
-    append_whole(bytes, std::uint32_t(-height), 4);
+    append_whole(bytes, ~std::uint32_t(height) + 1, 4);
     append_whole(bytes, 1, 2);
     append_whole(bytes, BITS, 2);
     bytes.resize(HEADERS, '\0'); // no compression, sizes follow, no palette
-    for (size_t y = 0; y < size_t(height); ++y) {
-        for (size_t x = 0; x < size_t(width); ++x) {
-            const Colour colour = colour_of(y * size_t(width) + x);
+    for (size_t y = 0; y < height; ++y) {
+        for (size_t x = 0; x < width; ++x) {
+            const Colour colour = colour_of(y * step * size_t(snapshot.width) + x * step);
             bytes += char(colour[2]);
             bytes += char(colour[1]);
             bytes += char(colour[0]);
@@ -70,9 +82,9 @@ Colour error_colour(double place) {
 
 } // namespace
 
-std::string page_picture(const Snapshot& snapshot, double exposure_ev, Tonemap tonemap) {
+std::string page_picture(const Snapshot& snapshot, double exposure_ev, Tonemap tonemap, size_t most_pixels) {
     const double factor = std::exp2(exposure_ev);
-    return encode_bmp(snapshot.width, snapshot.height, [&](size_t pixel) {
+    return encode_bmp(snapshot, page_step(snapshot, most_pixels), [&](size_t pixel) {
         const float* rgb = &snapshot.rgb[3 * pixel];
         return display_colour({rgb[0], rgb[1], rgb[2]}, factor, tonemap);
     });
@@ -88,10 +100,10 @@ std::optional<ErrorScale> error_scale(const Snapshot& snapshot) {
     return scale;
 }
 
-std::string page_error_map(const Snapshot& snapshot) {
+std::string page_error_map(const Snapshot& snapshot, size_t most_pixels) {
     const std::optional<ErrorScale> scale = error_scale(snapshot);
     const double span = scale ? std::log(scale->high / scale->low) : 1;
-    return encode_bmp(snapshot.width, snapshot.height, [&](size_t pixel) {
+    return encode_bmp(snapshot, page_step(snapshot, most_pixels), [&](size_t pixel) {
         const double error = scale ? double(snapshot.errors[pixel]) : 0;
         return error > 0 ? error_colour(std::log(error / scale->low) / span) : Colour{};
     });

@@ -11,8 +11,13 @@
 
 namespace clrt {
 
+/// Pixels that a page gets at most. Of larger pictures it gets every second, third, ... pixel of every
+/// second, third, ... row, which is more than a screen has.
+constexpr size_t MOST_PAGE_PIXELS = size_t(1) << 24;
+
 /// The picture as its PNG would show it, without alpha.
-std::string page_picture(const Snapshot& snapshot, double exposure_ev, Tonemap tonemap);
+std::string page_picture(const Snapshot& snapshot, double exposure_ev, Tonemap tonemap,
+                         size_t most_pixels = MOST_PAGE_PIXELS);
 
 /// How errors become colours: evenly on a logarithmic scale.
 struct ErrorScale {
@@ -24,6 +29,6 @@ struct ErrorScale {
 std::optional<ErrorScale> error_scale(const Snapshot& snapshot);
 
 /// The error map; black where there is none.
-std::string page_error_map(const Snapshot& snapshot);
+std::string page_error_map(const Snapshot& snapshot, size_t most_pixels = MOST_PAGE_PIXELS);
 
 } // namespace clrt

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
+#include <new>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -96,12 +97,18 @@ void Viewers::show(const Render& render) {
     pace_.end();
 }
 
-void Viewers::show_snapshot(const Render& render, const Options& options) {
+/// Where the memory does not hold a snapshot, what was shown stays.
+void Viewers::show_snapshot(const Render& render, const Options& options) try {
     const SnapshotPointer snapshot = make_snapshot(render, options);
     if (tev_ && tev_->is_free())
         tev_->show(snapshot, picture_title(options));
     if (page_)
         page_->board().set_snapshot(snapshot, chosen_exposure_ev(options.output, snapshot->rgb));
+} catch (const std::bad_alloc&) {
+    if (!std::exchange(lacks_memory_, true)) {
+        progress_.finish();
+        spdlog::warn("not enough memory to show the picture so far; the render goes on");
+    }
 }
 
 bool Viewers::wants_saving() {

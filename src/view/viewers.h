@@ -49,6 +49,7 @@ private:
     std::unique_ptr<TevViewer> tev_;
     std::unique_ptr<Page> page_;
     ShowPace pace_;
+    bool lacks_memory_ = false;             ///< which was said
     std::optional<PreparedScene> prepared_; ///< that is rendered, a copy: its parts are shared
     std::unique_ptr<PixelReplayer> replayer_;
 };

@@ -172,6 +172,25 @@ TEST_F(PageAnswer, ThePictureIsThatOfThePng) {
         EXPECT_EQ(ask("picture.bmp", {{"exposure", odd}, {"tonemap", "odd"}}).body, bmp) << odd;
 }
 
+TEST(PagePicture, LargeOnesAreThinnedOut) {
+    Snapshot snapshot;
+    snapshot.width = 7;
+    snapshot.height = 5;
+    for (int i = 0; i < 3 * 7 * 5; ++i)
+        snapshot.rgb.push_back(float(i / 3) / 64);
+    const std::string bmp = page_picture(snapshot, 0, Tonemap::NONE, 12);
+    ASSERT_EQ(bmp.size(), 54u + 3 * 12) << "4 x 3";
+    EXPECT_EQ(bmp[18], 4);
+    EXPECT_EQ(bmp[22], char(-3));
+    for (size_t y = 0; y < 3; ++y)
+        for (size_t x = 0; x < 4; ++x) {
+            const double shown = double(2 * y * 7 + 2 * x) / 64;
+            EXPECT_EQ(std::uint8_t(bmp[54 + 12 * y + 3 * x]),
+                      display_colour({shown, shown, shown}, 1, Tonemap::NONE)[0]);
+        }
+    EXPECT_EQ(page_error_map(snapshot, 12).size(), bmp.size());
+}
+
 TEST_F(PageAnswer, TheErrorMapGoesFromATenthToTenTimesTheError) {
     board.set_snapshot(three_pixels(), 0);
     const nlohmann::json scale = state()["picture"]["scale"];
