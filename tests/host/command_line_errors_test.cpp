@@ -74,16 +74,6 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
     const std::vector<std::pair<std::string, std::string>> bad = {
         {"--integrator", "pth"},
         {"--spp", "0"},
-        {"--serve", "-1"},
-        {"--serve", "65536"},
-        {"--serve", ",stay"},
-        {"--serve", "0,leave"},
-        {"--display-server", "localhost"},
-        {"--display-server", ":14158"},
-        {"--display-server", "localhost:0"},
-        {"--display-server", "localhost:tev"},
-        {"--display-server", "::1:14158"},
-        {"--display-server", "http://localhost:14158"},
         {"--spp", "4.5"},
         {"--spp", "4294967296"},
         {"--spp", "-1"},
@@ -294,13 +284,6 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"--guide", "on", "--adaptive"},
            "options --guide on and --adaptive: expected one of them, found both; its halves");
     expect({"--guide", "on", "--replicates", "2"}, "options --guide on and --replicates: expected one of");
-    for (const std::string other : {"--explain", "--ledger", "--pixel=1,2"}) {
-        const std::string found = other.substr(0, other.find('='));
-        expect({"--serve", "0", other},
-               "options --serve and " + found + ": expected one of them, found both");
-        expect({"--display-server", "localhost:14158", other},
-               "options --display-server and " + found + ": expected one of them, found both");
-    }
     expect({"--eye", "1,2,3", "--at", "1,2,3"}, "expected two different points");
     EXPECT_EQ(parse({"--first-sample", "4294967231"}).sampling.first_sample, 4294967231u);
     EXPECT_EQ(parse({"-i", "whitted", "--max-depth", "64"}).transport.max_depth, 64);

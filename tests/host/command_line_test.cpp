@@ -169,20 +169,6 @@ TEST(CommandLine, DepthDefaultsDependOnTheIntegrator) {
     EXPECT_EQ(effective_max_depth(parse({"--max-depth", "3"}).transport), 3);
 }
 
-TEST(CommandLine, ViewersArrive) {
-    EXPECT_FALSE(is_viewed(parse({}).view));
-    const ViewOptions page = parse({"--serve", "8080"}).view;
-    EXPECT_EQ(page.serve_port, 8080);
-    EXPECT_FALSE(page.serve_stays);
-    EXPECT_TRUE(parse({"--serve", "0,stay"}).view.serve_stays);
-    const ViewOptions tev = parse({"--display-server", "[::1]:14158"}).view;
-    EXPECT_EQ(tev.display_server->host, "::1");
-    EXPECT_EQ(tev.display_server->port, 14158);
-    const Options both = parse({"--serve", "1", "--display-server", "box:2", "--spp", "8"});
-    EXPECT_EQ(both.run.resumable_command, (std::vector<std::string>{"clrt", "--spp=8", "--", "scene.obj"}))
-        << "who sees a run is of that run alone";
-}
-
 TEST(CommandLine, WorkOptionsArrive) {
     const Options o = parse({"-d",
                              "pocl",
