@@ -76,9 +76,11 @@ bool is_budget(const std::string& name) {
     return name == "--spp" || name == "--time" || name == "--error";
 }
 
-/// Whether an option is about one run alone: how it talks, what it may replace and where it started.
+/// Whether an option is about one run alone: how it talks, who sees it, what it may replace and where it
+/// started.
 bool is_of_one_run(const std::string& name) {
-    constexpr const char* NAMES[] = {"--resume", "--force", "--quiet", "--verbose", "--progress"};
+    constexpr const char* NAMES[] = {"--resume",   "--force", "--quiet",         "--verbose",
+                                     "--progress", "--serve", "--display-server"};
     return std::find(std::begin(NAMES), std::end(NAMES), name) != std::end(NAMES);
 }
 

@@ -224,6 +224,20 @@ void check_replay(const Options& options) {
                             ", found " + std::to_string(options.run.sample));
 }
 
+/// What is seen is a render.
+void check_view(const Options& options) {
+    if (!is_viewed(options.view))
+        return;
+    const std::string view = options.view.serve_port ? "--serve" : "--display-server";
+    const std::pair<const char*, bool> others[] = {{"--pixel", options.run.pixel.has_value()},
+                                                   {"--ledger", options.run.ledger != LedgerOf::NOTHING},
+                                                   {"--explain", options.run.explain != Explain::NO}};
+    for (const auto& [name, is_given] : others)
+        if (is_given)
+            reject(options, "options " + view + " and " + name +
+                                ": expected one of them, found both; there is no picture to be seen");
+}
+
 /// Not every integrator can tell paths apart.
 void check_paths(const Options& options) {
     const IntegratorRow& integrator = integrator_row(options.transport.integrator);
@@ -266,6 +280,7 @@ void check_combinations(const Options& options) {
     check_frames(options);
     check_written_files(files_to_write(options), files_to_read(options));
     check_save_every(options);
+    check_view(options);
     check_paths(options);
     check_replay(options);
     check_depth(options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of the group "Runs".
 #include "app/option_rows.h"
+#include "app/view_option.h"
 #include "output/standard_streams.h"
 
 #include <cctype>
@@ -50,6 +51,9 @@ std::vector<OptionSpec> run_options() {
         {group, "", "--save-every", "DURATION",
          "write the pictures so far so often (default: at the end only)",
          [](Options& o, const OptionValue& v) { o.output.save_every_seconds = parse_duration(v); }},
+        {group, "", "--serve", "PORT[,stay]", SERVE_HELP, apply_serve, Repeat::NO, COMMAND_LINE_ONLY},
+        {group, "", "--display-server", "HOST:PORT", DISPLAY_SERVER_HELP, apply_display_server, Repeat::NO,
+         COMMAND_LINE_ONLY},
         {group, "", "--kernels", "DIR", "take the kernels from here (default: those inside clrt)",
          [](Options& o, const OptionValue& v) { o.device.kernels_folder = parse_path(v); }},
         {group, "", "--dump-kernels", "DIR", "write here exactly what is compiled",

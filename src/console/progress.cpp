@@ -60,10 +60,8 @@ std::vector<std::string> line_parts(const ProgressState& state, double seconds) 
     if (state.spp > 0)
         parts.push_back(fmt::format("{} spp", state.spp));
     parts.push_back(duration_text(seconds));
-    // Another limit than the error comes first, or there is no other.
-    const double to_go = seconds * (1 / state.fraction - 1);
-    if (state.fraction > 0 && state.fraction < 1 && !(state.target && to_go >= state.target->low))
-        parts.push_back("ETA " + duration_text(to_go));
+    if (const std::optional<double> to_go = seconds_to_go(state, seconds))
+        parts.push_back("ETA " + duration_text(*to_go));
     if (state.error >= 0)
         parts.push_back(error_text(state));
     if (state.rays_per_second >= 0)
@@ -72,6 +70,14 @@ std::vector<std::string> line_parts(const ProgressState& state, double seconds) 
 }
 
 } // namespace
+
+std::optional<double> seconds_to_go(const ProgressState& state, double seconds) {
+    if (!(state.fraction > 0 && state.fraction < 1))
+        return std::nullopt;
+    const double to_go = seconds * (1 / state.fraction - 1);
+    // Another limit than the error comes first, or there is no other.
+    return state.target && to_go >= state.target->low ? std::nullopt : std::optional(to_go);
+}
 
 std::string progress_line(const ProgressState& state, double seconds, size_t columns) {
     std::string line = fmt::format("{:<7} ", state.phase);
@@ -93,7 +99,7 @@ Progress::~Progress() {
 }
 
 void Progress::update(const ProgressState& state) {
-    if (!enabled_)
+    if (!enabled_ && !watcher_)
         return;
     const Clock::time_point now = now_();
     if (state.phase != last_.phase) {
@@ -103,8 +109,10 @@ void Progress::update(const ProgressState& state) {
     const bool first = last_.phase.empty();
     last_ = state;
     shown_ = false;
+    if (watcher_)
+        watcher_(state, seconds_between(phase_start_, now));
     const double interval = terminal_ ? TERMINAL_INTERVAL : PLAIN_INTERVAL;
-    if ((first && terminal_) || seconds_between(last_print_, now) >= interval)
+    if (enabled_ && ((first && terminal_) || seconds_between(last_print_, now) >= interval))
         print(now);
 }
 
@@ -112,7 +120,7 @@ void Progress::finish() {
     if (last_.phase.empty())
         return;
     const Clock::time_point now = now_();
-    const bool worth_a_line = seconds_between(phase_start_, now) > WORTH_A_LINE;
+    const bool worth_a_line = enabled_ && seconds_between(phase_start_, now) > WORTH_A_LINE;
     if (worth_a_line && !shown_)
         print(now);
     if (open_)

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace clrt {
 
@@ -38,6 +39,13 @@ struct ProgressState {
 std::string progress_line(const ProgressState& state, double seconds,
                           size_t columns = std::numeric_limits<size_t>::max());
 
+/// Seconds that a state's phase will still take after `seconds`, by the fraction that is done; none where
+/// nobody knows, or where the error that is asked for comes first.
+std::optional<double> seconds_to_go(const ProgressState& state, double seconds);
+
+/// Is told of every state, with the seconds of its phase so far.
+using ProgressWatcher = std::function<void(const ProgressState&, double seconds)>;
+
 /// Not for several threads at once. Log lines come between two lines only: call finish() before logging.
 class Progress {
 public:
@@ -50,6 +58,9 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Has another watcher told from now on, whether the line is shown or not; an empty one ends that.
+    void watch(ProgressWatcher watcher) { watcher_ = std::move(watcher); }
+
     /// Shows a state; cheap enough to call often, prints at most a few times a second. Adds seconds and ETA.
     void update(const ProgressState& state);
     /// Ends the phase and its line, so that other output starts on a fresh one: the line of a phase that took
@@ -60,6 +71,7 @@ private:
     void print(Clock::time_point now);
 
     std::function<Clock::time_point()> now_;
+    ProgressWatcher watcher_;
     bool terminal_ = false, enabled_ = false;
     bool shown_ = false; ///< the last state has been printed
     bool open_ = false;  ///< the cursor is on a line of ours, on a terminal

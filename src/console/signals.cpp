@@ -2,6 +2,7 @@
 // Ctrl-C and SIGTERM: the handler only sets a flag, and ends the process when it is set already.
 #include "console/signals.h"
 
+#include <atomic>
 #include <csignal>
 #include <unistd.h>
 
@@ -9,13 +10,14 @@ namespace clrt {
 
 namespace {
 
-/// A handler can reach nothing but a global.
-volatile std::sig_atomic_t received_signal = 0;
+/// A handler can reach nothing but a global, and threads read it.
+std::atomic<int> received_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a handler must not wait for a lock");
 
 extern "C" void on_stop_signal(int number) {
-    if (received_signal != 0)
+    int none = 0;
+    if (!received_signal.compare_exchange_strong(none, number))
         _exit(128 + number);
-    received_signal = number;
 }
 
 } // namespace
@@ -39,6 +41,11 @@ void report_broken_pipes() {
 
 int stop_signal() {
     return received_signal;
+}
+
+void request_stop() {
+    int none = 0;
+    received_signal.compare_exchange_strong(none, SIGINT);
 }
 
 } // namespace clrt

@@ -15,4 +15,7 @@ void report_broken_pipes();
 /// 0, or the number of the signal that came.
 int stop_signal();
 
+/// Asks to stop and save as a first SIGINT does; nothing where a signal has come already. Any thread may.
+void request_stop();
+
 } // namespace clrt

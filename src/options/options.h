@@ -15,6 +15,7 @@
 #include "options/sampling_options.h"
 #include "options/scene_options.h"
 #include "options/transport_options.h"
+#include "options/view_options.h"
 
 namespace clrt {
 
@@ -29,6 +30,7 @@ struct Options {
     FilmOptions film;
     FilmFileOptions film_file;
     OutputOptions output;
+    ViewOptions view;
     DeviceOptions device;
     BvhOptions bvh;
 };

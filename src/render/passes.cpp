@@ -34,15 +34,10 @@ constexpr double LARGEST_SLOWDOWN = 4;
 Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progress& progress,
                const RenderHooks& hooks, Render& result)
     : prepared_(prepared), options_(prepared.planned->options), params_(params), progress_(progress),
-      hooks_(hooks), result_(result),
-      film_buffers_(prepared.device, params, prepared.planned->effects.paths.layers.size()),
+      result_(result), film_buffers_(prepared.device, params, prepared.planned->effects.paths.layers.size()),
       launcher_(prepared.device, prepared.programs->picture, integrator_kernel(options_.transport.integrator),
                 params, prepared.buffers),
-      rules_(options_.sampling, film_limit(result.film, options_)),
-      picture_reminder_(options_.output.save_every_seconds),
-      film_reminder_(options_.film_file.checkpoint_path.empty()
-                         ? std::nullopt
-                         : std::optional(options_.film_file.checkpoint_seconds)),
+      rules_(options_.sampling, film_limit(result.film, options_)), beside_(options_, hooks),
       launch_size_(prepared.device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
     take_host_memory();
@@ -198,6 +193,7 @@ bool Passes::run_tiles(double samples, double done, Launch&& launch) {
         launch_size_.took(end - tile, samples, seconds);
         tile = end;
         show(done + samples * tile / params_.tile_count);
+        start_ += beside_.between_launches(); // its time is not the render's
         if (tile < params_.tile_count)
             interrupted_ = interruption(seconds_between(begun, now) * (params_.tile_count - tile) / tile);
         if (interrupted_)
@@ -413,19 +409,6 @@ void Passes::read_back() {
     result_.seconds = earlier_seconds_ + result_.run_seconds;
 }
 
-/// Saves film and picture so far when it is time to.
-void Passes::save_when_due() {
-    if (film_reminder_.due() && hooks_.save_film) {
-        read_back();
-        hooks_.save_film(result_);
-    }
-    if (picture_reminder_.due() && hooks_.save_picture) {
-        read_back();
-        result_.error = film_error(result_.film, ErrorPixels::SCENE, options_.sampling.measure());
-        hooks_.save_picture(result_);
-    }
-}
-
 StopRule Passes::run_until_stopped() {
     for (;;) {
         const RenderState state = measured_state();
@@ -442,7 +425,7 @@ StopRule Passes::run_until_stopped() {
         if (!run_launches(samples))
             return *interrupted_;
         advance_hits();
-        save_when_due();
+        beside_.at_pass(result_, [&] { read_back(); });
     }
 }
 
@@ -458,6 +441,7 @@ void Passes::finish() {
 }
 
 void Passes::run() {
+    beside_.begin(prepared_);
     start_ = Clock::now();
     if (samples_ > 0) {
         advance_hits("layers");             // of the film that the render goes on from

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "film/film_buffers.h"
+#include "render/beside.h"
 #include "render/guiding.h"
 #include "render/hit_layers.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
 #include "render/measurements.h"
 #include "render/metropolis.h"
-#include "render/reminder.h"
 #include "render/render.h"
 
 #include <chrono>
@@ -59,7 +59,6 @@ private:
     void begin_hits();
     void advance_hits(const char* phase = nullptr);
     void give_up_hits(const DeviceError& error);
-    void save_when_due();
     double seconds() const;
     double samples_of_run(double samples) const;
 
@@ -67,7 +66,6 @@ private:
     const Options& options_;
     const RenderParams params_;
     Progress& progress_;
-    const RenderHooks& hooks_;
     Render& result_;
     FilmBuffers film_buffers_;
     Launcher launcher_;
@@ -76,7 +74,7 @@ private:
     std::optional<HitLayers> hit_layers_;
     StopRules rules_;
     Measurements measurements_;
-    Reminder picture_reminder_, film_reminder_;
+    Beside beside_;
     Clock::time_point start_;
     RenderCounts earlier_counts_;
     double earlier_seconds_ = 0;

@@ -47,11 +47,30 @@ struct Render : RenderProgress {
     int stop_signal = 0;                   ///< the signal that ended it early, or 0
 };
 
-/// What happens beside a render.
+/// Sees a render from within: called by its thread, which waits, so whoever sees it is to be quick.
+class RenderObserver {
+public:
+    virtual ~RenderObserver() = default;
+    /// The render begins.
+    virtual void begin(const PreparedScene& prepared) = 0;
+    /// Between two launches; the seconds that this takes are not the render's.
+    virtual void between_launches() = 0;
+    /// At a whole pass: whether the picture so far is to be shown now.
+    virtual bool wants_picture() = 0;
+    /// Shows the picture so far, with its error.
+    virtual void show(const Render& render) = 0;
+    /// At a whole pass: whether picture and film are to be saved now, although it is not yet time to.
+    virtual bool wants_saving() = 0;
+    /// They were, with so many samples a pixel; or this failed.
+    virtual void saved(bool done, std::uint64_t samples) = 0;
+};
+
+/// What happens beside a render. Saving is told to return whether all was saved.
 struct RenderHooks {
     const RenderProgress* resume = nullptr;          ///< goes on from here
-    std::function<void(const Render&)> save_picture; ///< every --save-every seconds, at a whole pass
-    std::function<void(const Render&)> save_film;    ///< every --checkpoint seconds, at a whole pass
+    std::function<bool(const Render&)> save_picture; ///< every --save-every seconds, at a whole pass
+    std::function<bool(const Render&)> save_film;    ///< every --checkpoint seconds, at a whole pass
+    RenderObserver* observer = nullptr;              ///< none: nobody
 };
 
 /// Renders until samples, time, error or a signal end it (stop_rules.h); always ends at a whole pass (one

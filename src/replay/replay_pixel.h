@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// --pixel x,y --sample n: the record of one sample as text.
+// Samples of single pixels: their records as text.
 #pragma once
 
-#include "render/prepared_scene.h"
+#include "replay/replay.h"
 
+#include <optional>
 #include <string>
 
 namespace clrt {
@@ -13,9 +14,27 @@ struct PixelReplay {
     std::string text, json;
 };
 
-/// Replays the sample that the options name, as they would render it, in single precision (in relaxed maths
-/// where these are asked for) and, where the device has fp64, in double. The scene may be prepared without
-/// programs. Throws DeviceError and KernelBuildError.
+/// Whether a sample is replayed in double precision as well.
+enum class ReplayTwin { NO, WHERE_FP64 };
+
+/// Replays samples of one picture as they were rendered, in single precision (in relaxed maths where these
+/// are asked for).
+class PixelReplayer {
+public:
+    /// Compiles. The scene may be prepared without programs. Throws DeviceError and KernelBuildError.
+    PixelReplayer(const PreparedScene& prepared, ReplayTwin twin);
+
+    /// Throws DeviceError.
+    PixelReplay replay(const SampleAddress& address);
+
+private:
+    PreparedScene prepared_;
+    Replay first_;
+    std::optional<Replay> twin_;
+};
+
+/// --pixel x,y --sample n: the sample that the options name, in double as well where the device has fp64.
+/// Throws DeviceError and KernelBuildError.
 PixelReplay replay_pixel(const PreparedScene& prepared);
 
 } // namespace clrt

@@ -81,7 +81,7 @@ std::string header(const ReplayReport& report) {
                     name_of(options.transport.integrator), options.sampling.seed, report.device.name);
     if (options.device.precision == Precision::FAST)
         text += "relaxed maths: this program's last bits may differ from the picture's\n";
-    if (!report.twin)
+    if (!report.twin && !report.device.fp64)
         text += "the device has no fp64: single precision alone\n";
     return text + line("", name_of(report.first.precision),
                        report.twin ? name_of(report.twin->precision) : "", "difference");

@@ -12,11 +12,14 @@
 #include "run/start.h"
 #include "run/turntable.h"
 #include "seconds.h"
+#include "view/viewers.h"
 
 #include <chrono>
+#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <spdlog/spdlog.h>
+#include <string>
 #include <utility>
 
 namespace clrt {
@@ -84,19 +87,22 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
 }
 
 /// One picture with its files and its report; prepares the scene for the first.
-int render_picture(const Job& job, Progress& progress, std::optional<Simulation>& done) {
+int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::optional<Simulation>& done) {
     const Options& options = job.planned->options;
     const Saving saving(job.planned->scene, job.planned->effects.paths, options, job.device.info, progress);
+    RenderHooks hooks = saving.hooks;
+    hooks.observer = viewers.observer();
     if (!done)
-        done.emplace(simulate(job.device, job.planned, progress, saving.hooks, job.tree));
+        done.emplace(simulate(job.device, job.planned, progress, hooks, job.tree));
     else
-        simulate_again(progress, saving.hooks, *done);
+        simulate_again(progress, hooks, *done);
     progress.finish();
     const Render& render = done->render;
     if (render.stop_signal && film_samples(render.film) == 0) {
         spdlog::warn("stopped by a signal before the first pass was complete: there is no picture");
         return 128 + render.stop_signal;
     }
+    viewers.show_finished(render, options);
     FinalFiles files;
     if (saving.needs_film(render))
         files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
@@ -114,18 +120,27 @@ int render_picture(const Job& job, Progress& progress, std::optional<Simulation>
 }
 
 /// The pictures of --frames. The scene is loaded and prepared once.
-int render_turn(const Job& job, Progress& progress) {
+int render_turn(const Job& job, Progress& progress, Viewers& viewers, std::optional<Simulation>& done) {
     const Camera camera = job.planned->scene.camera;
     CameraOptions& options = job.planned->options.camera;
-    std::optional<Simulation> done;
     int exit_code = EXIT_DONE;
     for (options.frame = 1; options.frame <= *options.frames; ++options.frame) {
         job.planned->scene.camera = turned_camera(camera, options.frame, *options.frames);
-        exit_code = graver_exit(exit_code, render_picture(job, progress, done));
+        exit_code = graver_exit(exit_code, render_picture(job, progress, viewers, done));
         if (done->render.stop_signal)
             break;
     }
     return exit_code;
+}
+
+/// How a run ended, for those who see it.
+std::string end_text(const Render& render) {
+    const std::uint64_t samples = film_samples(render.film);
+    if (samples == 0)
+        return "stopped before the first pass was complete: there is no picture";
+    return render.stop_signal
+               ? fmt::format("stopped after {} samples a pixel; what there is is saved", samples)
+               : fmt::format("done: {}", render.stop_text);
 }
 
 /// Says what the user should know before it is rendered.
@@ -145,17 +160,19 @@ void announce(const PlannedScene& planned) {
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     check_checkpoint(options);
-    const Device device = open_chosen_device(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
+    Viewers viewers(options, progress);
+    const Device device = open_chosen_device(options);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
     Job job{start, device, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
     job.choice = choose_integrator(device, job.planned, job.tree, progress);
     announce(*job.planned);
-    if (options.camera.frames)
-        return render_turn(job, progress);
     std::optional<Simulation> done;
-    return render_picture(job, progress, done);
+    const int exit_code = options.camera.frames ? render_turn(job, progress, viewers, done)
+                                                : render_picture(job, progress, viewers, done);
+    viewers.end(end_text(done->render));
+    return exit_code;
 }
 
 } // namespace clrt

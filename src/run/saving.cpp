@@ -26,10 +26,11 @@ void write_pictures(const Picture& picture, const Options& options, const Film& 
             write_picture(picture, output_name(name, options, film), exposure_ev, options.output.tonemap);
 }
 
-/// Saves while the render goes on, whatever happens to the file.
-void save_on_the_way(Progress& progress, const std::function<void()>& save) {
+/// Saves while the render goes on, whatever happens to the file; returns whether it is there.
+bool save_on_the_way(Progress& progress, const std::function<void()>& save) {
     try {
         save();
+        return true;
     } catch (const SceneError& error) {
         progress.finish();
         spdlog::warn("{}; the render goes on", error.what());
@@ -37,6 +38,7 @@ void save_on_the_way(Progress& progress, const std::function<void()>& save) {
         progress.finish();
         spdlog::warn("not enough memory to save on the way; the render goes on");
     }
+    return false;
 }
 
 /// The picture with its layers, or without where they do not fit the memory.
@@ -121,10 +123,12 @@ Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options
         resume();
     hooks.resume = resumed ? &*resumed : nullptr;
     hooks.save_picture = [&](const Render& render) {
-        save_on_the_way(progress,
-                        [&] { write_pictures(make_picture(render, scene, options), options, render.film); });
+        return save_on_the_way(
+            progress, [&] { write_pictures(make_picture(render, scene, options), options, render.film); });
     };
-    hooks.save_film = [&](const Render& render) { save_on_the_way(progress, [&] { write_film(render); }); };
+    hooks.save_film = [&](const Render& render) {
+        return save_on_the_way(progress, [&] { write_film(render); });
+    };
 }
 
 /// Takes up the film of --resume. Whatever it is to replace must be part of it.

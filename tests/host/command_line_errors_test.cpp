@@ -278,8 +278,9 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"--guide", "on", "--first-sample", "8"},
            "options --guide on and --first-sample: expected one of them, found both; guided samples need");
     for (const std::string name : {"whitted", "path+light", "bdpt", "mlt"})
-        expect({"--guide", "on", "-i", name}, "options --guide on and --integrator " + name +
-                                                  ": expected one of them, found both; its paths are not guided");
+        expect({"--guide", "on", "-i", name},
+               "options --guide on and --integrator " + name +
+                   ": expected one of them, found both; its paths are not guided");
     expect({"--guide", "on", "--adaptive"},
            "options --guide on and --adaptive: expected one of them, found both; its halves");
     expect({"--guide", "on", "--replicates", "2"}, "options --guide on and --replicates: expected one of");

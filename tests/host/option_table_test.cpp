@@ -94,6 +94,8 @@ const std::map<std::string, std::string>& samples() {
         {"--resume", "a.film"},
         {"--force", ""},
         {"--save-every", "1m"},
+        {"--serve", "0,stay"},
+        {"--display-server", "localhost:14158"},
         {"--kernels", "kernels"},
         {"--dump-kernels", "dump"},
         {"--cache", "on"},

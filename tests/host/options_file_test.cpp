@@ -137,7 +137,8 @@ TEST_F(OptionsFile, MistakesCarryFileAndLine) {
     expect_refused("spp 4\n", 1, "expected a long option with its dashes");
     expect_refused("--output a.gif\n", 1, "option --output: expected a file name that ends in .png");
     expect_refused("--quiet\n--spp 4\n--verbose\n", 3, "options --quiet and --verbose");
-    for (const char* option : {"--help", "--version", "--list-devices", "--no-sidecar"})
+    for (const char* option :
+         {"--help", "--version", "--list-devices", "--no-sidecar", "--serve", "--display-server"})
         expect_refused(std::string("--spp 4\n") + option + "\n", 2,
                        std::string("option ") + option + " makes sense on the command line only");
 }

@@ -173,6 +173,37 @@ TEST(Progress, CanBeSwitchedOff) {
     }
 }
 
+TEST(Progress, WhoeverWatchesIsToldOfEveryStateShownOrNot) {
+    for (const Toggle show : {Toggle::ON, Toggle::OFF}) {
+        TestClock clock;
+        Progress progress(show, false, clock.reader());
+        std::vector<std::pair<std::string, double>> told;
+        progress.watch(
+            [&](const ProgressState& state, double seconds) { told.emplace_back(state.phase, seconds); });
+        testing::internal::CaptureStderr();
+        progress.update(at("load", -1));
+        clock.pass(milliseconds(2000));
+        progress.update(at("load", -1));
+        progress.update(at("render", 0));
+        progress.watch({});
+        progress.update(at("render", 1));
+        progress.finish();
+        const std::string printed = testing::internal::GetCapturedStderr();
+        EXPECT_EQ(told,
+                  (std::vector<std::pair<std::string, double>>{{"load", 0}, {"load", 2}, {"render", 0}}));
+        EXPECT_EQ(printed.empty(), show == Toggle::OFF) << printed;
+    }
+}
+
+TEST(Progress, TheTimeToGoIsThatOfTheNearestLimit) {
+    ProgressState state = at("render", 0.25);
+    EXPECT_EQ(seconds_to_go(state, 10), 30);
+    state.target = ProgressTarget{0.02, 20, 15, 40};
+    EXPECT_FALSE(seconds_to_go(state, 10)) << "the error comes first";
+    EXPECT_FALSE(seconds_to_go(at("load", -1), 10));
+    EXPECT_FALSE(seconds_to_go(at("render", 1), 10));
+}
+
 TEST(Progress, OnATerminalOneLineIsRewritten) {
     TestClock clock;
     Terminal terminal(80);

@@ -9,6 +9,17 @@ namespace clrt {
 
 namespace {
 
+/// Whether a request counts as the first signal, and another as none.
+[[noreturn]] void request_then_raise() {
+    catch_stop_signals();
+    request_stop();
+    request_stop();
+    if (stop_signal() != SIGINT)
+        _exit(1);
+    std::raise(SIGTERM);
+    _exit(2);
+}
+
 /// Catches two signals; the process must end at the second one.
 [[noreturn]] void raise_both(int first, int second) {
     catch_stop_signals();
@@ -26,6 +37,11 @@ TEST(Signals, SecondSignalEndsTheProcess) {
     EXPECT_EXIT(raise_both(SIGINT, SIGINT), testing::ExitedWithCode(130), "");
     EXPECT_EXIT(raise_both(SIGINT, SIGTERM), testing::ExitedWithCode(143), "");
     EXPECT_EXIT(raise_both(SIGTERM, SIGINT), testing::ExitedWithCode(130), "");
+}
+
+TEST(Signals, ARequestIsAFirstSignal) {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    EXPECT_EXIT(request_then_raise(), testing::ExitedWithCode(143), "");
 }
 
 TEST(Signals, NoneHasComeAtFirst) {
