@@ -5,6 +5,7 @@
 
 #include "options/bvh_options.h"
 #include "options/camera_options.h"
+#include "options/denoise_options.h"
 #include "options/device_options.h"
 #include "options/effect_options.h"
 #include "options/film_file_options.h"
@@ -29,6 +30,7 @@ struct Options {
     FilmOptions film;
     FilmFileOptions film_file;
     OutputOptions output;
+    DenoiseOptions denoise;
     DeviceOptions device;
     BvhOptions bvh;
 };

@@ -22,11 +22,6 @@ const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay", GUIDED_
 /// For programs that do not simulate several samples of a pixel side by side (kernels/integrators/pixel.h).
 const std::string ONE_SAMPLE_AT_ONCE = "SAMPLES_AT_ONCE=1";
 
-KernelFiles kernel_files(const Options& options) {
-    return options.device.kernels_folder.empty() ? embedded_kernel_files()
-                                                 : read_kernel_files(options.device.kernels_folder);
-}
-
 void append(std::vector<std::string>& defines, const std::vector<std::string>& more) {
     defines.insert(defines.end(), more.begin(), more.end());
 }
@@ -100,6 +95,8 @@ BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& devic
 
 bool wants_layers(const Options& options) {
     const auto& outputs = options.output.files;
+    if (options.denoise.denoiser)
+        return true;
     if (has_transparent_background(options.light) &&
         std::any_of(outputs.begin(), outputs.end(), can_hold_alpha))
         return true;
@@ -122,7 +119,7 @@ bool wants_mattes(const Options& options) {
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
                                      BvhLayout layout, const PathPlan& paths) {
     const auto start = std::chrono::steady_clock::now();
-    const KernelFiles files = kernel_files(options);
+    const KernelFiles files = kernel_files(options.device.kernels_folder);
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
         return build_program(device,
                              launched_request(device, files, name, options, effects, layout, defines));
@@ -141,8 +138,8 @@ Program build_guided_program(const Device& device, const Options& options, u32 e
     std::vector<std::string> defines = picture_defines(device, options, paths);
     append(defines, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
     ProgramRequest request =
-        launched_request(device, kernel_files(options), integrator_stem(options.transport.integrator),
-                         options, effects, layout, defines);
+        launched_request(device, kernel_files(options.device.kernels_folder),
+                         integrator_stem(options.transport.integrator), options, effects, layout, defines);
     request.name += GUIDED_ENDING;
     return build_program(device, request);
 }
@@ -152,16 +149,17 @@ Program build_pilot_program(const Device& device, const Options& options, u32 ef
     std::vector<std::string> defines = picture_defines(device, options, paths);
     defines.emplace_back("FILM_MOMENTS=1");
     ProgramRequest request =
-        launched_request(device, kernel_files(options), integrator_stem(options.transport.integrator),
-                         options, effects, layout, defines);
+        launched_request(device, kernel_files(options.device.kernels_folder),
+                         integrator_stem(options.transport.integrator), options, effects, layout, defines);
     request.name += PILOT_ENDING;
     return build_program(device, request);
 }
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
-    ProgramRequest request = make_request(
-        kernel_files(options), integrator_stem(options.transport.integrator), options, effects, layout);
+    ProgramRequest request =
+        make_request(kernel_files(options.device.kernels_folder),
+                     integrator_stem(options.transport.integrator), options, effects, layout);
     request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     request.name += REPLAY_ENDING;
     request.precision = precision;
