@@ -10,7 +10,9 @@ namespace clrt {
 namespace {
 
 /// Pixels around each one whose squared errors decide for it, and among which choices blend.
-constexpr int DECIDING_RADIUS = 8, BLENDING_RADIUS = 2;
+constexpr int DECIDING_RADIUS = 24, BLENDING_RADIUS = 2;
+/// The same of DenoisedHalf::expected: as few as tell the rim of a lamp from what is beside it.
+constexpr int EXPECTING_RADIUS = 3;
 
 /// An estimate of the squared error of (d1 + d2) / 2, summed over channels. With quarters c1 and c2 of equal
 /// variance v, |d1 - c2|^2 - v is that of d1, where v is unbiased as |c1 - c2|^2 / 2, and the error of a mean
@@ -33,34 +35,35 @@ Pixels squared_errors(const std::array<Pixels, 2>& d, const std::array<Pixels, 2
 
 DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<Candidate>& candidates) {
     const size_t pixels = half.mean.size() / 3, count = candidates.size() + 1;
-    DenoisedHalf result;
-    Pixels shares(count * pixels, 0.0f); // of every candidate in each pixel
-    std::vector<Pixels> errors;
-    errors.push_back(squared_errors(half.quarter, half.quarter));
+    std::vector<Pixels> errors = {squared_errors(half.quarter, half.quarter)}, deciding;
     for (const Candidate& candidate : candidates)
         errors.push_back(squared_errors(candidate.quarter, half.quarter));
-    for (Pixels& of_candidate : errors)
-        of_candidate = smooth_binomial(of_candidate, half.width, half.height, 1, DECIDING_RADIUS);
+    for (const Pixels& of_candidate : errors)
+        deciding.push_back(smooth_binomial(of_candidate, half.width, half.height, 1, DECIDING_RADIUS));
 
     // Take the least error at every pixel.
-    result.expected = errors[0];
+    Pixels shares(count * pixels, 0.0f); // of every candidate in each pixel
     for (size_t pixel = 0; pixel < pixels; ++pixel) {
         size_t best = 0;
         for (size_t i = 1; i < count; ++i)
-            if (errors[i][pixel] < result.expected[pixel]) {
+            if (deciding[i][pixel] < deciding[best][pixel])
                 best = i;
-                result.expected[pixel] = errors[i][pixel];
-            }
         shares[count * pixel + best] = 1;
     }
 
     // Blend between the pixels.
     shares = smooth_binomial(shares, half.width, half.height, int(count), BLENDING_RADIUS);
+    DenoisedHalf result;
     result.radiance.resize(half.mean.size());
-    result.noisy.resize(pixels);
+    for (Pixels* values : {&result.expected, &result.noisy})
+        values->resize(pixels);
     tbb::parallel_for(size_t(0), pixels, [&](size_t pixel) {
         const float* share = &shares[count * pixel];
         result.noisy[pixel] = share[0];
+        double expected = 0;
+        for (size_t k = 0; k < count; ++k)
+            expected += double(share[k]) * double(errors[k][pixel]);
+        result.expected[pixel] = float(expected);
         for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
             double sum = double(share[0]) * double(half.mean[i]);
             for (size_t k = 1; k < count; ++k)
@@ -68,6 +71,7 @@ DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<Candid
             result.radiance[i] = float(sum);
         }
     });
+    result.expected = smooth_binomial(result.expected, half.width, half.height, 1, EXPECTING_RADIUS);
     return result;
 }
 

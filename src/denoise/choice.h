@@ -16,16 +16,14 @@ struct Candidate {
 /// A denoised half.
 struct DenoisedHalf {
     Pixels radiance; ///< r, g, b
-    /// What the half itself expects of its squared error, smoothed, summed over channels. Biased: it is the
-    /// least of several estimates.
+    /// What the half itself expects of its squared error, summed over channels and smoothed over a few
+    /// pixels. Biased: it is the least of several estimates.
     Pixels expected;
     Pixels noisy; ///< share of the noisy pixel in each
 };
 
 /// Takes of the candidates and the half itself, which is the first one, what has the least squared error
-/// around each pixel. By what each quarter tells of the other one's results, the mean of both of a
-/// candidate's has the squared error (d1 - c1).(d1 - c2)/2 + ... (choice.cpp), on average over the noise of
-/// independent quarters c1 and c2.
+/// around each pixel, by what each quarter tells of the other one's result.
 DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<Candidate>& candidates);
 
 } // namespace clrt

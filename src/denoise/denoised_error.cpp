@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "denoise/denoised_error.h"
 
+#include "denoise/smooth.h"
 #include "film/error_spread.h"
 #include "film/film_error.h"
 
@@ -15,12 +16,14 @@ namespace {
 
 /// Standard errors on either side of an interval of 95 %.
 constexpr double STANDARD_ERRORS = 1.96;
+/// Pixels around each one by which it is told whether it is among the worst.
+constexpr int RANKING_RADIUS = 3;
 
 /// Squared errors of the pixels over which the error is stated, summed over channels, weighted.
 struct SquaredErrors {
     std::vector<size_t> pixels; ///< in order
     std::vector<double> raw, denoised;
-    std::vector<double> expected; ///< what the halves themselves expect: larger is worse
+    std::vector<double> expected; ///< by which the worst are told: larger is worse
 };
 
 /// The mean of (f - x_k)(f - x_l) over pairs k != l of `count` values.
@@ -46,9 +49,25 @@ std::array<double, 2> squared_errors(const ReplicateMeans& replicates, size_t i,
     return {squares / double(count * (count - 1)), 0.5 * (of_a + of_b) - 0.25 * difference * difference};
 }
 
+/// What the halves expect of their errors, and how far they differ, smoothed over a few pixels: where
+/// features are as noisy as colours, as at the rim of a lamp, a half by itself does not see the noise.
+Pixels expected_errors(const Film& film, const std::array<DenoisedHalf, 2>& halves) {
+    Pixels differences(film_plane(film) / 3, 0.0f);
+    for (size_t i = 0; i < film_plane(film); ++i) {
+        const float difference = halves[0].radiance[i] - halves[1].radiance[i];
+        differences[i / 3] += 0.25f * difference * difference;
+    }
+    Pixels expected = smooth_binomial(differences, film.width, film.height, 1, RANKING_RADIUS);
+    for (const DenoisedHalf& half : halves)
+        for (size_t pixel = 0; pixel < expected.size(); ++pixel)
+            expected[pixel] += 0.5f * half.expected[pixel];
+    return expected;
+}
+
 SquaredErrors measure_pixels(const Film& film, const std::array<DenoisedHalf, 2>& halves,
                              const PixelChoice& choice, const ErrorWeights& weights) {
     const ReplicateMeans replicates(film);
+    const Pixels expected = expected_errors(film, halves);
     SquaredErrors errors;
     for (size_t pixel = 0; pixel < film_plane(film) / 3; ++pixel)
         if (choice.has(pixel))
@@ -68,8 +87,7 @@ SquaredErrors measure_pixels(const Film& film, const std::array<DenoisedHalf, 2>
         }
         errors.raw[n] = raw;
         errors.denoised[n] = denoised;
-        errors.expected[n] = weight * (double(halves[0].expected[errors.pixels[n]]) +
-                                       double(halves[1].expected[errors.pixels[n]]));
+        errors.expected[n] = weight * double(expected[errors.pixels[n]]);
     });
     return errors;
 }
@@ -93,19 +111,23 @@ DenoisedError errors_over(const SquaredErrors& errors, const std::vector<size_t>
             relative_root(sum - reach, values, mean), relative_root(sum + reach, values, mean)};
 }
 
-/// All places but those of the worst pixels. Which these are is told by each half of itself, smoothed over
-/// many pixels, so that the noise that judges a pixel hardly decides whether it is left out.
-std::vector<size_t> without_worst(const SquaredErrors& errors) {
-    std::vector<size_t> places(errors.pixels.size());
+/// The places of the worst pixels and of all others, each in order. Which these are is told by their
+/// surroundings, so that the noise that judges a pixel hardly decides whether it is left out.
+struct Parted {
+    std::vector<size_t> worst, others;
+};
+
+Parted part_worst(const SquaredErrors& errors) {
+    const size_t count = errors.pixels.size(), worst = size_t(std::ceil(WORST_SHARE * double(count)));
+    std::vector<size_t> places(count);
     std::iota(places.begin(), places.end(), size_t(0));
-    const size_t kept = places.size() - size_t(std::ceil(WORST_SHARE * double(places.size())));
-    std::nth_element(places.begin(), places.begin() + std::ptrdiff_t(kept), places.end(),
-                     [&](size_t a, size_t b) {
-                         return std::pair(errors.expected[a], a) < std::pair(errors.expected[b], b);
-                     });
-    places.resize(kept);
-    std::sort(places.begin(), places.end()); // a fixed order of summation
-    return places;
+    const auto middle = places.begin() + std::ptrdiff_t(worst);
+    std::nth_element(places.begin(), middle, places.end(), [&](size_t a, size_t b) {
+        return errors.expected[a] > errors.expected[b] || (errors.expected[a] == errors.expected[b] && a < b);
+    });
+    std::sort(places.begin(), middle); // a fixed order of summation
+    std::sort(middle, places.end());
+    return {{places.begin(), middle}, {middle, places.end()}};
 }
 
 Pixels tile_errors(const Film& film, const SquaredErrors& errors, double mean) {
@@ -139,9 +161,14 @@ std::optional<DenoisedErrors> denoised_errors(const Film& film, const std::array
     const double mean = squared->mean_radiance;
     std::vector<size_t> all(errors.pixels.size());
     std::iota(all.begin(), all.end(), size_t(0));
-    const std::vector<size_t> kept = without_worst(errors);
-    return DenoisedErrors{errors_over(errors, all, mean), errors_over(errors, kept, mean),
-                          all.size() - kept.size(), tile_errors(film, errors, mean)};
+    const Parted parted = part_worst(errors);
+    DenoisedErrors result{errors_over(errors, all, mean),
+                          errors_over(errors, parted.others, mean),
+                          {},
+                          tile_errors(film, errors, mean)};
+    for (const size_t place : parted.worst)
+        result.worst.push_back(errors.pixels[place]);
+    return result;
 }
 
 } // namespace clrt

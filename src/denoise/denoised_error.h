@@ -34,7 +34,7 @@ struct DenoisedError {
 struct DenoisedErrors {
     DenoisedError all;           ///< over the pixels that show the scene (ErrorPixels::SCENE)
     DenoisedError without_worst; ///< without those whose error is expected to be the largest
-    size_t worst_pixels = 0;     ///< how many
+    std::vector<size_t> worst;   ///< these: pixels of the picture, in order
     Pixels tiles; ///< in each pixel the error of its tile of ERROR_TILE_SIZE, over the same mean radiance
 };
 

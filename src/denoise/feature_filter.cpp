@@ -15,7 +15,7 @@ namespace clrt {
 namespace {
 
 /// Standard deviations within which colours are alike, of the candidates, squared.
-constexpr std::array NOISES = {0.5f, 4.0f};
+constexpr std::array NOISES = {0.5f, 8.0f};
 /// Colours are compared after smoothing by this radius.
 constexpr int GUIDE_RADIUS = 2;
 /// A launch has this many work-items or fewer, so that no watchdog fires.

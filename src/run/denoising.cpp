@@ -17,12 +17,18 @@ namespace clrt {
 
 namespace {
 
-/// "from 21.0 % to 6.0 % (5.4 to 6.7)", or what can be said where the noise hides the error.
+/// What denoising does to an error, as far as its interval tells.
 std::string change_text(const DenoisedError& error) {
+    const std::string raw = percent_text(error.raw), high = percent_text(error.high);
+    if (error.high >= error.raw)
+        return fmt::format("the error of {} is {} at most after denoising: these samples cannot tell whether "
+                           "it is lower",
+                           raw, high);
     if (!(error.low > 0))
-        return fmt::format("from {} to {} at most", percent_text(error.raw), percent_text(error.high));
-    return fmt::format("from {} to {} (with 95 % confidence {} to {})", percent_text(error.raw),
-                       percent_text(error.denoised), percent_text(error.low), percent_text(error.high));
+        return fmt::format("denoising lowers the error from {} to {} at most, with 95 % confidence", raw,
+                           high);
+    return fmt::format("denoising lowers the error from {} to {}; with 95 % confidence {} to {}", raw,
+                       percent_text(error.denoised), percent_text(error.low), high);
 }
 
 nlohmann::ordered_json error_json(const DenoisedError& error) {
@@ -70,21 +76,21 @@ void denoise_render(const Device& device, const Options& options, Progress& prog
     progress.finish();
 }
 
-std::string format_denoised(const Render& render) {
+std::string format_denoised(const Render& render, bool is_untrusted) {
     if (!render.denoised)
         return "";
     const Denoised& denoised = *render.denoised;
     if (!denoised.errors)
         return fmt::format("denoised by {}; its error is not known\n", denoised.method);
     const DenoisedErrors& errors = *denoised.errors;
-    std::string text =
-        fmt::format("denoised {}: denoising lowers the error {}\n", denoised.method, change_text(errors.all));
-    text += fmt::format("         without the {} worst pixels ({:g} %) {}\n", errors.worst_pixels,
-                        100 * WORST_SHARE, change_text(errors.without_worst));
-    if (denoised.noisy_share > 0)
-        text +=
-            fmt::format("         {} of it is left as noisy as it was, where denoising does harm; {:.1f} s\n",
-                        percent_text(denoised.noisy_share), denoised.seconds);
+    std::string text = fmt::format("denoised {}\n", change_text(errors.all));
+    if (is_untrusted)
+        text += "         as far as can be told: a few bright samples decide it\n";
+    text += fmt::format("         without the worst {:g} % of the pixels: {}\n", 100 * WORST_SHARE,
+                        change_text(errors.without_worst));
+    text += fmt::format(
+        "         by {} in {:.1f} s; {} of the picture is left as it was, where smoothing does harm\n",
+        denoised.method, denoised.seconds, percent_text(denoised.noisy_share));
     return text;
 }
 
@@ -99,7 +105,7 @@ nlohmann::ordered_json denoised_json(const Render& render) {
     if (denoised.errors) {
         json["error"] = error_json(denoised.errors->all);
         json["without_worst"] = error_json(denoised.errors->without_worst);
-        json["without_worst"]["pixels"] = denoised.errors->worst_pixels;
+        json["without_worst"]["pixels"] = denoised.errors->worst.size();
     }
     json["noisy_share"] = denoised.noisy_share;
     json["seconds"] = denoised.seconds;

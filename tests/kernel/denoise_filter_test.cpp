@@ -67,7 +67,7 @@ TEST(DenoiseFilter, LinearColoursPassUnchanged) {
     };
     shine(half, 0, colour);
     for (const Candidate& candidate : filter().candidates(half))
-        EXPECT_LT(error_of(candidate.half, colour), 0.01);
+        EXPECT_LT(error_of(candidate.half, colour), 0.03) << "colours are 1 to 6";
 }
 
 TEST(DenoiseFilter, NoiseOfAWallIsAveraged) {
@@ -81,9 +81,10 @@ TEST(DenoiseFilter, NoiseOfAWallIsAveraged) {
 }
 
 TEST(DenoiseFilter, FeaturesKeepEdges) {
-    // Left and right of an edge, surfaces differ in one feature each.
-    const auto colour = [](int x, int, int) { return x < 20 ? 4.0 : 1.0; };
-    HalfPicture of_albedo = wall(), of_normal = wall(), of_depth = wall(), of_sky = wall();
+    // Left and right of a faint edge, surfaces differ in one feature each, or in none.
+    const auto colour = [](int x, int, int) { return x < 20 ? 1.4 : 1.0; };
+    HalfPicture of_nothing = wall(), of_albedo = wall(), of_normal = wall(), of_depth = wall(),
+                of_sky = wall();
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
         if (i % WIDTH < 20)
             continue;
@@ -92,14 +93,16 @@ TEST(DenoiseFilter, FeaturesKeepEdges) {
         of_normal.normal[3 * i + 2] = 0;
         of_depth.position[3 * i + 2] = -1;
         of_sky.share[i] = 0;
-        for (size_t c = 0; c < 3; ++c)
-            of_sky.albedo[3 * i + c] = of_sky.normal[3 * i + c] = 0;
     }
-    for (HalfPicture* half : {&of_albedo, &of_normal, &of_depth, &of_sky}) {
-        shine(*half, 0.3, colour);
-        for (const Candidate& candidate : filter().candidates(*half))
-            EXPECT_LT(error_of(candidate.half, colour), 0.08) << (half - &of_albedo);
-    }
+    const auto error = [&](HalfPicture& half) {
+        shine(half, 0.3, colour);
+        return error_of(filter().candidates(half).back().half, colour);
+    };
+    const double blurred = error(of_nothing);
+    EXPECT_LT(error(of_albedo), 0.7 * blurred);
+    EXPECT_LT(error(of_normal), 0.7 * blurred);
+    EXPECT_LT(error(of_depth), 0.7 * blurred);
+    EXPECT_LT(error(of_sky), 0.7 * blurred);
 }
 
 TEST(DenoiseFilter, ColoursKeepTheEdgesOfShadows) {

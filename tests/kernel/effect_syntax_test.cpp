@@ -14,7 +14,8 @@ namespace clrt {
 namespace {
 
 std::string all_entry_points() {
-    return entry_points({"path", "distribution", "whitted", "raycast"}) + "#include \"integrators/aov.cl\"\n";
+    return entry_points({"path", "distribution", "whitted", "raycast"}) +
+           "#include \"integrators/aov.cl\"\n" + "#include \"denoise/filter.cl\"\n";
 }
 
 /// What clang says about the kernels built with a mask; empty if nothing.
