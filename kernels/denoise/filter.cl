@@ -47,6 +47,7 @@ CLRT_KERNEL void denoise_apply(const uint width, const uint height, const float 
             sum += row.weight * colour;
             weights += row.weight;
         }
-    const real3 colour = sum / weights;
+    /* Beside what is bright, a model can go below 0. */
+    const real3 colour = fmax(sum / weights, (real3)(REAL(0.0)));
     colours[q] = (float4)((float)colour.x, (float)colour.y, (float)colour.z, 0.0f);
 }

@@ -38,8 +38,8 @@ typedef struct {
 #define DENOISE_FARTHEST REAL(9.0)
 /* Windows are left after this many pixels' steps off the plane. */
 #define DENOISE_LARGEST_PLANE REAL(2.0)
-/* Added to the diagonal of the normal equations, times the sum of weights and times the diagonal: what differs
-   by less than a hundredth tells nothing. */
+/* Added to the diagonal of the normal equations, times the sum of weights and times the diagonal: what
+   differs by less than a hundredth tells nothing. */
 #define DENOISE_RIDGE REAL(1e-4)
 #define DENOISE_RELATIVE_RIDGE REAL(1e-3)
 /* The weight of a pixel's own colour beside those of the models around it. */
@@ -51,14 +51,16 @@ static inline real denoise_square_sum(real3 v)
     return squares.x + squares.y + squares.z;
 }
 
-/* How unlike two pixels' colours are, in units of their noise. */
+/* How unlike two pixels' colours are, in units of their noise: of the lesser one's, so that what is bright and
+   noisy does not spread to what is neither. */
 static inline real denoise_colour_distance(const DenoiseInput* input, uint p, uint q)
 {
     const float4 a = input->guide[p];
     const float4 b = input->guide[q];
     const real3 x = convert_real3(a.xyz);
     const real3 y = convert_real3(b.xyz);
-    const real noise = a.w + b.w + DENOISE_ALIKE * (denoise_square_sum(x) + denoise_square_sum(y));
+    const real noise =
+        REAL(2.0) * fmin((real)a.w, (real)b.w) + DENOISE_ALIKE * (denoise_square_sum(x) + denoise_square_sum(y));
     const real excess = denoise_square_sum(x - y) - noise;
     return excess > REAL(0.0) ? excess / (input->noise * noise) : REAL(0.0);
 }

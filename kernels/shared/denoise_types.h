@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the inputs and models of the denoising filter lie (kernels/denoise/regression.h, src/denoise/filter.cpp).
+// How the inputs and models of the denoising filter lie: src/denoise/feature_filter.cpp writes them,
+// kernels/denoise/regression.h reads them.
 #ifndef CLRT_SHARED_DENOISE_TYPES_H
 #define CLRT_SHARED_DENOISE_TYPES_H
 
@@ -13,8 +14,8 @@
 #define DENOISE_COLOURS 10 /* r, g, b of the first and of the second quarter */
 #define DENOISE_ROW 16
 
-/* Unknowns of a model: the colour at its pixel, then how it changes with place, albedo and normal, and with the
-   distance from the plane of the pixel's surface. */
+/* Unknowns of a model: the colour at its pixel, then how it changes with place, albedo and normal, and with
+   the distance from the plane of the pixel's surface. */
 #define DENOISE_UNKNOWNS 10
 #define DENOISE_MODEL 30   /* floats of a model: the unknowns of red, of green, of blue */
 

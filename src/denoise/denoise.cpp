@@ -58,7 +58,7 @@ Denoised denoise(const Device& device, const Film& film, const HitSums& hits, co
         }
     } else {
         result.method = name_of(Denoiser::FILTER);
-        FeatureFilter filter(device, request.kernels_folder, request.cache);
+        FeatureFilter filter(device, request);
         halves = denoise_halves(film, hits, [&](const HalfPicture& half) { return filter.candidates(half); });
     }
     result.radiance.resize(film_plane(film));

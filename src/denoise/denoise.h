@@ -26,8 +26,12 @@ struct DenoiseRequest {
     DenoiseOptions options; ///< with a denoiser
     ErrorMeasure measure = ErrorMeasure::MSE;
     std::string kernels_folder; ///< replaces the embedded kernels
+    std::string dump_folder;    ///< gets what is compiled, where it is not ""
     ProgramCache cache;
 };
+
+/// The program of the filter, for messages and dumped files.
+inline constexpr const char* DENOISE_PROGRAM = "denoise";
 
 /// Denoises a film without an obstacle (denoise_obstacle). Throws DeviceError and KernelBuildError.
 Denoised denoise(const Device& device, const Film& film, const HitSums& hits, const DenoiseRequest& request);

@@ -86,12 +86,13 @@ std::vector<vec4> make_guide(const HalfPicture& half, size_t quarter) {
     return guide;
 }
 
-ProgramRequest filter_request(const std::string& kernels_folder, const ProgramCache& cache) {
-    ProgramRequest request;
-    request.name = "denoise";
-    request.source = expand_kernel_source(kernel_files(kernels_folder), "denoise/filter.cl");
-    request.cache = cache;
-    return request;
+ProgramRequest filter_program(const DenoiseRequest& request) {
+    ProgramRequest program;
+    program.name = DENOISE_PROGRAM;
+    program.source = expand_kernel_source(kernel_files(request.kernels_folder), "denoise/filter.cl");
+    program.dump_folder = request.dump_folder;
+    program.cache = request.cache;
+    return program;
 }
 
 size_t over_stride(int pixels) {
@@ -100,9 +101,8 @@ size_t over_stride(int pixels) {
 
 } // namespace
 
-FeatureFilter::FeatureFilter(const Device& device, const std::string& kernels_folder,
-                             const ProgramCache& cache)
-    : device_(device), program_(build_program(device, filter_request(kernels_folder, cache))),
+FeatureFilter::FeatureFilter(const Device& device, const DenoiseRequest& request)
+    : device_(device), program_(build_program(device, filter_program(request))),
       fit_(program_, "denoise_fit"), apply_(program_, "denoise_apply") {}
 
 /// Launches whole lines of work-items.

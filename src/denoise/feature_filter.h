@@ -3,18 +3,18 @@
 // every device that keeps the rules.
 #pragma once
 
-#include "denoise/choice.h"
+#include "denoise/denoise.h"
 #include "device/program.h"
 
-#include <string>
+#include <vector>
 
 namespace clrt {
 
 /// The compiled filter. Refers to the device.
 class FeatureFilter {
 public:
-    /// Compiles it. `kernels_folder`: "" for the embedded kernels. Throws KernelBuildError.
-    FeatureFilter(const Device& device, const std::string& kernels_folder, const ProgramCache& cache);
+    /// Compiles it; of the request, what concerns programs counts. Throws KernelBuildError.
+    FeatureFilter(const Device& device, const DenoiseRequest& request);
 
     /// A half's candidates, one for each notion of how much like each other colours must be. Throws
     /// DeviceError.

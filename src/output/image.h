@@ -74,11 +74,10 @@ void prepare_output(const std::string& path);
 const std::vector<float>* picture_coverage(const Picture& picture);
 
 /// Writes the picture. 8-bit formats get exposure, tone map and the sRGB curve and only the displayed
-/// layer; .hdr, .pfm
-/// and float TIFF get linear layer 0; .exr gets every layer as float and the metadata. Those that hold alpha
-/// get the coverage of a transparent picture. The file appears whole or not at all: temporary name in the
-/// same folder, flush, rename; on the standard output likewise, all at once. Throws SceneError with the
-/// reason (no such folder, disk full, ...).
+/// layer; .hdr, .pfm and float TIFF get linear layer 0; .exr gets every layer as float and the metadata.
+/// Those that hold alpha get the coverage of a transparent picture. The file appears whole or not at all:
+/// temporary name in the same folder, flush, rename; on the standard output likewise, all at once. Throws
+/// SceneError with the reason (no such folder, disk full, ...).
 void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap);
 
 /// Writes text under a temporary name and renames it, or to the standard output. Throws SceneError.

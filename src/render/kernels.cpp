@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/kernels.h"
 
+#include "denoise/denoise.h"
 #include "device/kernel_source.h"
 #include "film/film_buffers.h"
 #include "output/image.h"
@@ -173,8 +174,9 @@ std::vector<std::string> dumped_files(const Options& options) {
     if (options.device.dump_folder.empty())
         return paths;
     const std::string integrator = integrator_stem(options.transport.integrator);
-    for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING,
-                                    integrator + GUIDED_ENDING, integrator + PILOT_ENDING}) {
+    for (const std::string& name :
+         {integrator, HIT_LAYERS_PROGRAM, std::string(DENOISE_PROGRAM), integrator + REPLAY_ENDING,
+          integrator + GUIDED_ENDING, integrator + PILOT_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});
     }

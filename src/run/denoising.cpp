@@ -67,6 +67,7 @@ void denoise_render(const Device& device, const Options& options, Progress& prog
                                   {options.denoise,
                                    options.sampling.measure(),
                                    options.device.kernels_folder,
+                                   options.device.dump_folder,
                                    {options.device.cache, options.device.cache_folder}});
     } catch (const DeviceError& error) {
         give_up(error.what());

@@ -15,7 +15,11 @@ namespace {
 constexpr int WIDTH = 45, HEIGHT = 34; ///< not multiples of the models' stride
 
 FeatureFilter& filter() {
-    static FeatureFilter instance(test_device(), test_device().kernels_folder(), {});
+    static FeatureFilter instance = [] {
+        DenoiseRequest request;
+        request.kernels_folder = test_device().kernels_folder();
+        return FeatureFilter(test_device(), request);
+    }();
     return instance;
 }
 

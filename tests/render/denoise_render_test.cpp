@@ -46,6 +46,7 @@ protected:
                        {{Denoiser::FILTER, "", PngFrom::RAW},
                         scene_.options.sampling.measure(),
                         test_device().kernels_folder(),
+                        "",
                         {}});
     }
 
