@@ -51,16 +51,16 @@ static inline real denoise_square_sum(real3 v)
     return squares.x + squares.y + squares.z;
 }
 
-/* How unlike two pixels' colours are, in units of their noise: of the lesser one's, so that what is bright and
-   noisy does not spread to what is neither. */
+/* How unlike two pixels' colours are, in units of their noise: of the lesser one's, so that what is bright
+   and noisy does not spread to what is neither. */
 static inline real denoise_colour_distance(const DenoiseInput* input, uint p, uint q)
 {
     const float4 a = input->guide[p];
     const float4 b = input->guide[q];
     const real3 x = convert_real3(a.xyz);
     const real3 y = convert_real3(b.xyz);
-    const real noise =
-        REAL(2.0) * fmin((real)a.w, (real)b.w) + DENOISE_ALIKE * (denoise_square_sum(x) + denoise_square_sum(y));
+    const real squares = denoise_square_sum(x) + denoise_square_sum(y);
+    const real noise = fma(DENOISE_ALIKE, squares, REAL(2.0) * fmin((real)a.w, (real)b.w));
     const real excess = denoise_square_sum(x - y) - noise;
     return excess > REAL(0.0) ? excess / (input->noise * noise) : REAL(0.0);
 }

@@ -14,8 +14,7 @@ namespace clrt {
 namespace {
 
 std::string all_entry_points() {
-    return entry_points({"path", "distribution", "whitted", "raycast"}) +
-           "#include \"integrators/aov.cl\"\n" + "#include \"denoise/filter.cl\"\n";
+    return entry_points({"path", "distribution", "whitted", "raycast"}) + "#include \"integrators/aov.cl\"\n";
 }
 
 /// What clang says about the kernels built with a mask; empty if nothing.
@@ -71,6 +70,16 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
         const std::string recording = folder.write("replay.cl", "#define CLRT_TRACE 1\n" + defines +
                                                                     "#include \"integrators/path.cl\"\n");
         EXPECT_EQ(complaints(recording, "CL1.2", EFFECT_ALL), "") << int64;
+    }
+}
+
+TEST(EffectSyntax, TheDenoisingFilterCompilesToo) {
+    const ScratchFolder folder;
+    for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
+        const std::string file =
+            folder.write("filter.cl", precision + std::string("#include \"denoise/filter.cl\"\n"));
+        for (const char* standard : {"CL1.2", "CL3.0"})
+            EXPECT_EQ(complaints(file, standard, EFFECT_ALL), "") << standard << precision;
     }
 }
 
