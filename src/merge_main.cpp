@@ -53,6 +53,8 @@ std::string help_text() {
 Merges film files of one scene, rendered by `clrt --checkpoint` with the same options and disjoint
 ranges of samples (--first-sample), in any order: the picture has the bits of a single run.
 
+It knows no scene, and so cannot denoise; `clrt --resume sum.film --denoise -o a.exr hall.obj` can.
+
 Example:
   clrt -s 32 --checkpoint a.film hall.obj
   clrt -s 32 --first-sample 32 --checkpoint b.film hall.obj

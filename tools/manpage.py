@@ -59,6 +59,11 @@ REPORT = [
                 "never was."),
     ("cut", "Paths that ended because --max-depth forbids longer ones, and how much light that takes away at most."),
     ("not seen", "Light that the integrator cannot find in this scene, in path notation (--paths), and why."),
+    ("denoised", "With --denoise: what denoising makes of the error, smear included, with 95 % confidence, over all pixels and "
+                 "without those that are expected to be the worst. The replicates are two halves; each is denoised by itself "
+                 "and judged by the other, so that nothing is judged by the noise that it was made of. 'At most' is said where "
+                 "the noise of these samples is larger than the error. What is left as it was are the pixels in which "
+                 "smoothing would do more harm than good. The line error stays that of the picture as it was rendered."),
     ("price", "What half the error takes: the number of samples, seconds of rendering more, and the error that is reached "
               "there, as a rule within 15 %. Samples are counted where they are even: the replicates times a power of two, "
               "or 3/2 of that. In between a picture can be worse than with fewer samples, since Sobol points fill the unit "

@@ -28,6 +28,9 @@ constexpr int FEWEST_ADAPTIVE_REPLICATES = 4;
 /// Samples a pixel are counted in 32 bits.
 constexpr std::uint64_t SAMPLE_LIMIT = std::uint64_t(1) << 32;
 
+/// Two in each half: one half judges what is made of the other.
+constexpr int FEWEST_REPLICATES_TO_DENOISE = 4;
+
 /// The names of options in a message, each once, in their order.
 std::vector<std::string> options_named(const std::string& message) {
     std::vector<std::string> names;
@@ -126,6 +129,27 @@ void check_adaptive(const Options& options) {
     if (options.run.ledger != LedgerOf::NOTHING)
         reject(options, "option --adaptive: expected no --ledger, found both; the ledger compares pictures "
                         "of equal samples");
+}
+
+/// Halves of the replicates judge each other.
+void check_denoise(const Options& options) {
+    if (!options.denoise.denoiser) {
+        if (options.denoise.png_from == PngFrom::DENOISED)
+            reject(options, "option --png-from denoised: expected together with --denoise, found alone");
+        return;
+    }
+    const int replicates = options.sampling.replicates;
+    if (replicates < FEWEST_REPLICATES_TO_DENOISE || replicates % 2 != 0)
+        reject(options, "option --denoise: expected an even number of --replicates from " +
+                            std::to_string(FEWEST_REPLICATES_TO_DENOISE) + ", found " +
+                            std::to_string(replicates));
+    if (options.sampling.spp && *options.sampling.spp < std::uint32_t(replicates))
+        reject(options, "option --denoise: expected --spp " + std::to_string(replicates) +
+                            " or more with --replicates " + std::to_string(replicates) + ", found " +
+                            std::to_string(*options.sampling.spp));
+    if (options.run.ledger != LedgerOf::NOTHING)
+        reject(options, "options --denoise and --ledger: expected one of them, found both; the ledger "
+                        "writes no picture");
 }
 
 /// A step of a chain follows from all those before it.
@@ -274,6 +298,7 @@ void check_combinations(const Options& options) {
     check_samples(options);
     check_error_target(options);
     check_adaptive(options);
+    check_denoise(options);
     check_chains(options);
     check_guide(options);
     check_names(options);

@@ -71,6 +71,22 @@ std::vector<OptionSpec> picture_options() {
         {group, "", "--exposure", "auto|EV", EXPOSURE_HELP, apply_exposure},
         {group, "", "--tonemap", "NAME", TONEMAP_HELP, apply_tonemap},
         {group, "", "--aov", "LIST", aov_help.c_str(), apply_aov, REPEATABLE},
+        {group, "", "--denoise", "[=NAME]",
+         "add a denoised picture to EXR files (layers denoised and error.denoised) and its error, which the "
+         "halves of the --replicates tell of each other, to the report: filter (regression along what is "
+         "seen first, the same bits everywhere), oidn (Open Image Denoise, loaded from --oidn) or auto (oidn "
+         "where it is found, else filter) (alone: auto; default: none)",
+         [](Options& o, const OptionValue& v) {
+             o.denoise.denoiser = v.text.empty() ? Denoiser::AUTO : parse_choice<Denoiser>(v);
+         }},
+        {group, "", "--oidn", "FILE",
+         "the library of Open Image Denoise 2, such as libOpenImageDenoise.so.2 of PyPI's pyoidn (default: "
+         "variable CLRT_OIDN, else where libraries are)",
+         [](Options& o, const OptionValue& v) { o.denoise.oidn_path = parse_path(v); }},
+        {group, "", "--png-from", "raw|denoised",
+         "what PNG and other 8-bit pictures show; other files hold the picture as it is rendered (default "
+         "raw)",
+         [](Options& o, const OptionValue& v) { o.denoise.png_from = parse_choice<PngFrom>(v); }},
         {group, "", "--exr-names", "clrt|blender",
          "names of the layers of EXR files: ours, or those of Blender's passes (Combined, Depth, Normal, "
          "Position, Albedo), which it loads; alpha is 1 where the background is seen, unless "

@@ -114,6 +114,10 @@ KernelFiles read_kernel_files(const std::string& folder) {
     return files;
 }
 
+KernelFiles kernel_files(const std::string& folder) {
+    return folder.empty() ? embedded_kernel_files() : read_kernel_files(folder);
+}
+
 std::string expand_kernel_source(const KernelFiles& files, const std::string& entry) {
     if (!files.count(entry))
         throw SceneError(entry, 0, "there is no kernel file of this name in the kernels folder.");

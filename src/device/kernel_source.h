@@ -17,6 +17,9 @@ const KernelFiles& embedded_kernel_files();
 /// Reads all *.h and *.cl below `folder`. Throws SceneError when there is none.
 KernelFiles read_kernel_files(const std::string& folder);
 
+/// Those of a folder, or the embedded ones where it is "".
+KernelFiles kernel_files(const std::string& folder);
+
 /// The text of `entry` (such as "integrators/path.cl") with every #include "..." replaced once by the file's
 /// text (include guards are honoured by expanding a file only once), #line directives in between so that
 /// compiler messages name the right file and line. Includes are relative to the including file or to

@@ -165,6 +165,12 @@ std::uint64_t film_replicate_samples(const Film& film, int replicate) {
     return samples;
 }
 
+std::uint64_t samples_of_half_below(std::uint64_t end, int replicates, size_t half) {
+    const std::uint64_t count = std::uint64_t(replicates), of_half = count / 2, rest = end % count;
+    const std::uint64_t begin = half * of_half;
+    return end / count * of_half + (rest > begin ? std::min(rest - begin, of_half) : 0);
+}
+
 bool film_has_replicate(const Film& film, int replicate) {
     return is_adaptive(film) || film_replicate_samples(film, replicate) > 0;
 }

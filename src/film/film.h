@@ -92,6 +92,10 @@ std::uint64_t film_all_samples(const Film& film);
 /// For films that are not adaptive.
 std::uint64_t film_replicate_samples(const Film& film, int replicate);
 
+/// Samples of a pixel below number `end` that fall into a half of `replicates`: the first or the last of
+/// them.
+std::uint64_t samples_of_half_below(std::uint64_t end, int replicates, size_t half);
+
 /// Whether any sample fell into the replicate; the sums of one without are all 0.
 bool film_has_replicate(const Film& film, int replicate);
 

@@ -23,25 +23,43 @@ bool has_all_samples(const HitSums& hits, const Film& film) {
                              : hits.samples == wanted_hit_samples(hits, film);
 }
 
-PixelHits pixel_hits(const HitSums& hits, const Film& film, size_t pixel) {
-    const double weight = 1.0 / double(hits.halves());
-    PixelHits result;
-    for (size_t half = 0; half < hits.halves(); ++half) {
-        const double samples = hits.half_samples(film, half, pixel);
-        const u32* words = &hits.words[half][AOV_WORDS * pixel];
-        if (words[AOV_HITS] == 0)
-            continue;
-        if (result.share == 0)
-            std::copy_n(words, AOV_WORDS, result.first.begin());
-        result.share += weight * (words[AOV_HITS] / samples);
-        for (size_t i = 0; i < AOV_SUMS; ++i)
-            result.means[i] += weight * (double(hits.values[half][AOV_SUMS * pixel + i]) / samples);
-    }
+namespace {
+
+/// Adds the means over all samples of a half, hits or not.
+void add_half(const HitSums& hits, const Film& film, size_t half, size_t pixel, double weight,
+              PixelHits& result) {
+    const double samples = hits.half_samples(film, half, pixel);
+    const u32* words = &hits.words[half][AOV_WORDS * pixel];
+    if (words[AOV_HITS] == 0)
+        return;
     if (result.share == 0)
-        return result;
-    for (double& mean : result.means)
-        mean = std::ldexp(mean / result.share, -AOV_BITS);
+        std::copy_n(words, AOV_WORDS, result.first.begin());
+    result.share += weight * (words[AOV_HITS] / samples);
+    for (size_t i = 0; i < AOV_SUMS; ++i)
+        result.means[i] += weight * (double(hits.values[half][AOV_SUMS * pixel + i]) / samples);
+}
+
+/// From means over all samples to those over hits.
+PixelHits over_hits(PixelHits result) {
+    if (result.share != 0)
+        for (double& mean : result.means)
+            mean = std::ldexp(mean / result.share, -AOV_BITS);
     return result;
+}
+
+} // namespace
+
+PixelHits pixel_hits(const HitSums& hits, const Film& film, size_t pixel) {
+    PixelHits result;
+    for (size_t half = 0; half < hits.halves(); ++half)
+        add_half(hits, film, half, pixel, hits.half_weight(half), result);
+    return over_hits(result);
+}
+
+PixelHits pixel_hits_of_half(const HitSums& hits, const Film& film, size_t half, size_t pixel) {
+    PixelHits result;
+    add_half(hits, film, half, pixel, 1, result);
+    return over_hits(result);
 }
 
 } // namespace clrt

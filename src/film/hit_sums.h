@@ -15,8 +15,9 @@
 
 namespace clrt {
 
-/// Sums over the primary hits of a window, of each half of the replicates where tiles have samples of their
-/// own, else in the first place only. Fixed point (kernels/shared/aov_types.h): launches of any size give the
+/// Sums over the primary hits of a window: of each half of the replicates, the first of which are one half,
+/// where tiles have samples of their own or the picture is denoised, else in the first place only. Fixed
+/// point (kernels/shared/aov_types.h): launches of any size give the
 /// same bits.
 struct HitSums {
     std::array<std::vector<std::int64_t>, 2> values; ///< AOV_SUMS a pixel
@@ -24,14 +25,23 @@ struct HitSums {
     MatteSlots mattes;
     /// Samples of a pixel that are enough; of an adaptive film half of them in each half.
     std::uint64_t most_samples = std::numeric_limits<std::uint64_t>::max();
-    std::uint64_t samples = 0; ///< a pixel, of a film that is not adaptive
-    TileSamples tile_samples;  ///< of an adaptive film
+    std::uint64_t samples = 0;                         ///< a pixel, of a film that is not adaptive,
+    std::array<std::uint64_t, 2> samples_of_half = {}; ///< and of each half where there are two
+    TileSamples tile_samples;                          ///< of an adaptive film
     bool empty() const { return values[0].empty(); }
     /// How many halves there are sums of.
-    size_t halves() const { return tile_samples[0].empty() ? 1 : 2; }
+    size_t halves() const { return values[1].empty() ? 1 : 2; }
     /// How many samples of a pixel those of a half are.
     double half_samples(const Film& film, size_t half, size_t pixel) const {
-        return halves() == 2 ? tile_samples[half][film_tile(film, pixel)] : double(samples);
+        if (!tile_samples[0].empty())
+            return tile_samples[half][film_tile(film, pixel)];
+        return double(halves() == 2 ? samples_of_half[half] : samples);
+    }
+    /// What the mean of a half weighs in that of both: as much as in the film's picture.
+    double half_weight(size_t half) const {
+        if (!tile_samples[0].empty())
+            return 0.5;
+        return halves() == 2 ? double(samples_of_half[half]) / double(samples) : 1;
     }
 };
 
@@ -55,5 +65,8 @@ struct PixelHits {
 
 /// The averages of a pixel; each half weighs as much as it does in the film's picture.
 PixelHits pixel_hits(const HitSums& hits, const Film& film, size_t pixel);
+
+/// Those over the samples of one of two halves.
+PixelHits pixel_hits_of_half(const HitSums& hits, const Film& film, size_t half, size_t pixel);
 
 } // namespace clrt

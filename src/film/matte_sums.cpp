@@ -9,7 +9,7 @@ std::vector<IndexShare> matte_shares(const HitSums& hits, const Film& film, size
     std::vector<IndexShare> shares;
     for (size_t half = 0; half < hits.halves(); ++half) {
         const u32* slots = &hits.mattes[half][MATTE_WORDS * pixel + MATTE_KIND_WORDS * kind];
-        const double weight = 1.0 / double(hits.halves()), samples = hits.half_samples(film, half, pixel);
+        const double weight = hits.half_weight(half), samples = hits.half_samples(film, half, pixel);
         for (size_t i = 0; i < MATTE_SLOTS; ++i) {
             const u32* slot = slots + MATTE_SLOT_WORDS * i;
             if (slot[MATTE_SAMPLES] > 0)

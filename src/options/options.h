@@ -5,6 +5,7 @@
 
 #include "options/bvh_options.h"
 #include "options/camera_options.h"
+#include "options/denoise_options.h"
 #include "options/device_options.h"
 #include "options/effect_options.h"
 #include "options/film_file_options.h"
@@ -31,6 +32,7 @@ struct Options {
     FilmFileOptions film_file;
     OutputOptions output;
     ViewOptions view;
+    DenoiseOptions denoise;
     DeviceOptions device;
     BvhOptions bvh;
 };

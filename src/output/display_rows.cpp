@@ -8,7 +8,7 @@
 namespace clrt {
 
 DisplayRows::DisplayRows(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap)
-    : pixels_(picture, path), factor_(std::exp2(exposure_ev)), tonemap_(tonemap) {}
+    : pixels_(picture, path, picture.displayed), factor_(std::exp2(exposure_ev)), tonemap_(tonemap) {}
 
 ImageLayout DisplayRows::layout() const {
     ImageLayout layout = pixels_.layout(ChannelType::UINT8);

@@ -3,8 +3,9 @@
 
 namespace clrt {
 
-FlatPixels::FlatPixels(const Picture& picture, const std::string& path)
-    : picture_(picture), alpha_(can_hold_alpha(path) ? picture_coverage(picture) : nullptr) {}
+FlatPixels::FlatPixels(const Picture& picture, const std::string& path, size_t layer)
+    : picture_(picture), radiance_(picture.layers[layer].values),
+      alpha_(can_hold_alpha(path) ? picture_coverage(picture) : nullptr) {}
 
 ImageLayout FlatPixels::layout(ChannelType type) const {
     ImageLayout layout;
@@ -19,12 +20,11 @@ ImageLayout FlatPixels::layout(ChannelType type) const {
 
 const std::vector<float>& FlatPixels::row(int y) {
     const size_t width = size_t(picture_.width), first = size_t(y) * width;
-    const std::vector<float>& radiance = picture_.layers[0].values;
     row_.clear();
     for (size_t pixel = first; pixel < first + width; ++pixel) {
         const float alpha = alpha_ ? (*alpha_)[pixel] : 1;
         for (size_t c = 0; c < 3; ++c)
-            row_.push_back(alpha > 0 ? radiance[3 * pixel + c] / alpha : 0);
+            row_.push_back(alpha > 0 ? radiance_[3 * pixel + c] / alpha : 0);
         if (alpha_)
             row_.push_back(alpha);
     }

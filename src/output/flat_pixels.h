@@ -14,8 +14,8 @@ namespace clrt {
 /// Refers to the picture.
 class FlatPixels {
 public:
-    /// `path` names the format.
-    FlatPixels(const Picture& picture, const std::string& path);
+    /// `path` names the format, `layer` the radiance among the picture's layers.
+    FlatPixels(const Picture& picture, const std::string& path, size_t layer = 0);
 
     /// 3, or 4 with alpha.
     int channels() const { return alpha_ ? 4 : 3; }
@@ -27,6 +27,7 @@ public:
 
 private:
     const Picture& picture_;
+    const std::vector<float>& radiance_;
     const std::vector<float>* alpha_ = nullptr; ///< layer "A"; none: opaque
     std::vector<float> row_;
 };

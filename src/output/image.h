@@ -31,6 +31,7 @@ struct Picture {
     int x0 = 0, y0 = 0;        ///< the window's place in the whole picture
     int full_width = 0, full_height = 0;
     std::vector<Layer> layers;
+    size_t displayed = 0;        ///< the layer that 8-bit files show
     bool is_transparent = false; ///< a layer is the coverage by which layers[0] is multiplied
     Metadata metadata;
 };
@@ -72,11 +73,11 @@ void prepare_output(const std::string& path);
 /// The coverage of a transparent picture, a value a pixel; none of an opaque one.
 const std::vector<float>* picture_coverage(const Picture& picture);
 
-/// Writes the picture. 8-bit formats get exposure, tone map and the sRGB curve and only layer 0; .hdr, .pfm
-/// and float TIFF get linear layer 0; .exr gets every layer as float and the metadata. Those that hold alpha
-/// get the coverage of a transparent picture. The file appears whole or not at all: temporary name in the
-/// same folder, flush, rename; on the standard output likewise, all at once. Throws SceneError with the
-/// reason (no such folder, disk full, ...).
+/// Writes the picture. 8-bit formats get exposure, tone map and the sRGB curve and only the displayed
+/// layer; .hdr, .pfm and float TIFF get linear layer 0; .exr gets every layer as float and the metadata.
+/// Those that hold alpha get the coverage of a transparent picture. The file appears whole or not at all:
+/// temporary name in the same folder, flush, rename; on the standard output likewise, all at once. Throws
+/// SceneError with the reason (no such folder, disk full, ...).
 void write_picture(const Picture& picture, const std::string& path, double exposure_ev, Tonemap tonemap);
 
 /// Writes text under a temporary name and renames it, or to the standard output. Throws SceneError.

@@ -44,15 +44,14 @@ std::vector<u32> step_towards(const std::vector<u32>& from, const std::vector<u3
 
 } // namespace
 
-HitLayers::HitLayers(const Device& device, const Program& program, const RenderParams& params,
-                     bool is_adaptive, const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums,
-                     bool has_mattes)
+HitLayers::HitLayers(const Device& device, const Program& program, const RenderParams& params, bool by_halves,
+                     const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums, bool has_mattes)
     : device_(device), params_(params), film_buffers_(film_buffers), sums_(sums),
       launcher_(device, program, "render_aov", params, scene), launch_size_(device.info.compute_units),
       largest_launch_(u32(std::min<size_t>(params.tile_count, LARGEST_BUFFER_BYTES / TILE_BYTES))),
       has_mattes_(has_mattes) {
     const size_t pixels = size_t(params.crop_width) * params.crop_height;
-    for (size_t half = 0; half < (is_adaptive ? 2 : 1); ++half) {
+    for (size_t half = 0; half < (by_halves ? 2 : 1); ++half) {
         sums_.values[half].resize(AOV_SUMS * pixels);
         sums_.words[half].resize(AOV_WORDS * pixels);
         if (has_mattes)
@@ -104,11 +103,29 @@ void HitLayers::advance_equally(const Film& film, const std::function<void(doubl
                 return;
             const u32 count = u32(std::min<std::uint64_t>(before + length - sums_.samples, fitting));
             const u32 first = u32(range.first + (sums_.samples - before));
-            run_tiles(0, count, [&](u32 tile, u32 end) { launcher_.run(first, count, tile, end); });
+            if (sums_.halves() == 2)
+                advance_halves(first, std::uint64_t(first) + count);
+            else
+                run_tiles(0, count, [&](u32 tile, u32 end) { launcher_.run(first, count, tile, end); });
             sums_.samples += count;
             report(double(sums_.samples) / double(all));
         }
         before += length;
+    }
+}
+
+/// Adds samples [first, end) to the sums of the halves that they belong to.
+void HitLayers::advance_halves(std::uint64_t first, std::uint64_t end) {
+    const size_t tiles = size_t((params_.crop_width + ADAPTIVE_TILE_SIZE - 1) / ADAPTIVE_TILE_SIZE) *
+                         ((params_.crop_height + ADAPTIVE_TILE_SIZE - 1) / ADAPTIVE_TILE_SIZE);
+    for (size_t half = 0; half < 2; ++half) {
+        const u32 from = u32(samples_of_half_below(first, int(params_.replicates), half));
+        const u32 to = u32(samples_of_half_below(end, int(params_.replicates), half));
+        film_buffers_.write_tile_ranges(std::vector<u32>(tiles, from), std::vector<u32>(tiles, to));
+        if (to > from)
+            run_tiles(half, to - from,
+                      [&](u32 tile, u32 tiles_end) { launcher_.run_half(int(half), tile, tiles_end); });
+        sums_.samples_of_half[half] += to - from;
     }
 }
 

@@ -20,8 +20,9 @@ class HitLayers {
 public:
     /// Takes all memory that it will need: the sums of the window on the host, and on the device a buffer for
     /// the tiles of one launch, fewer where memory is scarce. Throws DeviceError where not even one tile
-    /// fits. `has_mattes`: the program counts samples by object and material.
-    HitLayers(const Device& device, const Program& program, const RenderParams& params, bool is_adaptive,
+    /// fits. `by_halves`: the sums are those of halves of the replicates, as an adaptive film needs and a
+    /// denoised picture. `has_mattes`: the program counts samples by object and material.
+    HitLayers(const Device& device, const Program& program, const RenderParams& params, bool by_halves,
               const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums, bool has_mattes = false);
 
     /// Adds the samples that the film has and the sums are to have and lack, in launches of LAUNCH_SECONDS;
@@ -32,6 +33,7 @@ public:
 private:
     void make_buffers();
     void advance_equally(const Film& film, const std::function<void(double)>& report);
+    void advance_halves(std::uint64_t first, std::uint64_t end);
     void advance_tiles(const Film& film, const std::function<void(double)>& report);
     template <class Launch>
     void run_tiles(size_t half, double samples, Launch&& launch);

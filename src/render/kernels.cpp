@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/kernels.h"
 
+#include "denoise/denoise.h"
 #include "device/kernel_source.h"
 #include "film/film_buffers.h"
 #include "output/image.h"
@@ -25,11 +26,6 @@ const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay", GUIDED_
 
 /// For programs that do not simulate several samples of a pixel side by side (kernels/integrators/pixel.h).
 const std::string ONE_SAMPLE_AT_ONCE = "SAMPLES_AT_ONCE=1";
-
-KernelFiles kernel_files(const Options& options) {
-    return options.device.kernels_folder.empty() ? embedded_kernel_files()
-                                                 : read_kernel_files(options.device.kernels_folder);
-}
 
 void append(std::vector<std::string>& defines, const std::vector<std::string>& more) {
     defines.insert(defines.end(), more.begin(), more.end());
@@ -110,7 +106,7 @@ BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& devic
 }
 
 bool wants_layers(const Options& options) {
-    if (wants_alpha(options))
+    if (options.denoise.denoiser || wants_alpha(options))
         return true;
     const auto& outputs = options.output.files;
     const bool has_exr = std::any_of(outputs.begin(), outputs.end(), is_layered_output);
@@ -121,8 +117,9 @@ bool wants_layers(const Options& options) {
 }
 
 std::uint64_t most_hit_samples(const Options& options) {
-    return wants_alpha(options) || options.output.aovs ? std::numeric_limits<std::uint64_t>::max()
-                                                       : UNASKED_HIT_SAMPLES;
+    return options.denoise.denoiser || wants_alpha(options) || options.output.aovs
+               ? std::numeric_limits<std::uint64_t>::max()
+               : UNASKED_HIT_SAMPLES;
 }
 
 bool wants_mattes(const Options& options) {
@@ -137,7 +134,7 @@ bool wants_mattes(const Options& options) {
 RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
                                      BvhLayout layout, const PathPlan& paths) {
     const auto start = std::chrono::steady_clock::now();
-    const KernelFiles files = kernel_files(options);
+    const KernelFiles files = kernel_files(options.device.kernels_folder);
     const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
         return build_program(device,
                              launched_request(device, files, name, options, effects, layout, defines));
@@ -156,8 +153,8 @@ Program build_guided_program(const Device& device, const Options& options, u32 e
     std::vector<std::string> defines = picture_defines(device, options, paths);
     append(defines, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
     ProgramRequest request =
-        launched_request(device, kernel_files(options), integrator_stem(options.transport.integrator),
-                         options, effects, layout, defines);
+        launched_request(device, kernel_files(options.device.kernels_folder),
+                         integrator_stem(options.transport.integrator), options, effects, layout, defines);
     request.name += GUIDED_ENDING;
     return build_program(device, request);
 }
@@ -167,16 +164,17 @@ Program build_pilot_program(const Device& device, const Options& options, u32 ef
     std::vector<std::string> defines = picture_defines(device, options, paths);
     defines.emplace_back("FILM_MOMENTS=1");
     ProgramRequest request =
-        launched_request(device, kernel_files(options), integrator_stem(options.transport.integrator),
-                         options, effects, layout, defines);
+        launched_request(device, kernel_files(options.device.kernels_folder),
+                         integrator_stem(options.transport.integrator), options, effects, layout, defines);
     request.name += PILOT_ENDING;
     return build_program(device, request);
 }
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
                              BvhLayout layout, const PathPlan& paths) {
-    ProgramRequest request = make_request(
-        kernel_files(options), integrator_stem(options.transport.integrator), options, effects, layout);
+    ProgramRequest request =
+        make_request(kernel_files(options.device.kernels_folder),
+                     integrator_stem(options.transport.integrator), options, effects, layout);
     request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     request.name += REPLAY_ENDING;
     request.precision = precision;
@@ -190,8 +188,9 @@ std::vector<std::string> dumped_files(const Options& options) {
     if (options.device.dump_folder.empty())
         return paths;
     const std::string integrator = integrator_stem(options.transport.integrator);
-    for (const std::string& name : {integrator, HIT_LAYERS_PROGRAM, integrator + REPLAY_ENDING,
-                                    integrator + GUIDED_ENDING, integrator + PILOT_ENDING}) {
+    for (const std::string& name :
+         {integrator, HIT_LAYERS_PROGRAM, std::string(DENOISE_PROGRAM), integrator + REPLAY_ENDING,
+          integrator + GUIDED_ENDING, integrator + PILOT_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});
     }

@@ -22,7 +22,8 @@ struct RenderPrograms {
 /// elsewhere: the simpler of the two layouts for GPUs, until bvh2 and cwbvh have been measured on one.
 BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device);
 
-/// True if some output file can hold auxiliary layers and the options want one.
+/// True if some output file can hold auxiliary layers and the options want one, or the picture is denoised,
+/// which they guide.
 bool wants_layers(const Options& options);
 
 /// How many of a pixel's samples the layers of the primary hits are means over, at most. Those that are there

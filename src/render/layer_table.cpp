@@ -240,6 +240,8 @@ bool is_layer_taken(const std::string& layer) {
             return whole.rfind(layer + ".", 0) == 0;
         });
     };
+    if (layer == DENOISED_LAYER || layer == ERROR_LAYER)
+        return true;
     const std::vector<LayerRow>& rows = layer_table();
     return std::any_of(rows.begin(), rows.end(), [&](const LayerRow& row) {
         return row.name == layer || holds(row.clrt) || holds(row.blender);

@@ -59,6 +59,9 @@ struct LayerRow {
 /// The layer that a transparent picture always has: the share of the samples that hit something.
 inline const std::string ALPHA_LAYER = "alpha";
 
+/// The layer of the denoised picture, and the one that holds its error by tiles in a channel of that name.
+inline const std::string DENOISED_LAYER = "denoised", ERROR_LAYER = "error";
+
 /// All rows, in the order of --help.
 const std::vector<LayerRow>& layer_table();
 

@@ -82,8 +82,8 @@ void Passes::begin_hits() {
     try {
         result_.hits.most_samples = most_hit_samples(options_);
         hit_layers_.emplace(prepared_.device, *prepared_.programs->layers, params_,
-                            options_.sampling.adaptive.has_value(), prepared_.buffers, film_buffers_,
-                            result_.hits, wants_mattes(options_));
+                            options_.sampling.adaptive || options_.denoise.denoiser, prepared_.buffers,
+                            film_buffers_, result_.hits, wants_mattes(options_));
     } catch (const DeviceError& error) {
         give_up_hits(error);
     }

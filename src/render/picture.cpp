@@ -18,6 +18,17 @@ bool is_wanted(const LayerRow& row, const Render& render, const Options& options
            (row.by_default == LayerDefault::SHOWN_WHERE_BAD && !render.counts.bad_pixels.empty());
 }
 
+/// The denoised picture and its error by tiles, where there is one.
+void add_denoised_layers(const Render& render, const Options& options, Picture& picture) {
+    if (!render.denoised)
+        return;
+    if (options.denoise.png_from == PngFrom::DENOISED)
+        picture.displayed = picture.layers.size();
+    picture.layers.push_back({DENOISED_LAYER, {"R", "G", "B"}, render.denoised->radiance});
+    if (render.denoised->errors)
+        picture.layers.push_back({ERROR_LAYER, {DENOISED_LAYER}, render.denoised->errors->tiles});
+}
+
 } // namespace
 
 Picture make_plain_picture(const Render& render, const Options& options) {
@@ -39,6 +50,7 @@ Picture make_picture(const Render& render, const Scene& scene, const Options& op
     for (size_t i = 0; i < render.path_layers.size(); ++i)
         picture.layers.push_back(
             {options.output.path_layers[i].name, {"R", "G", "B"}, film_mean(render.path_layers[i]), false});
+    add_denoised_layers(render, options, picture);
     for (const LayerRow& row : layer_table()) {
         if (!is_wanted(row, render, options) && !(picture.is_transparent && row.name == ALPHA_LAYER))
             continue;

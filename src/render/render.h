@@ -3,6 +3,7 @@
 #pragma once
 
 #include "console/progress.h"
+#include "denoise/denoise.h"
 #include "film/hit_sums.h"
 #include "film/render_progress.h"
 #include "render/error_price.h"
@@ -29,14 +30,16 @@ struct ChainCounts {
 
 /// What a render gives: film, counts, history and seconds of the whole picture, the rest of this run.
 struct Render : RenderProgress {
-    HitSums hits;                    ///< empty if no file wants layers of them
-    std::string hits_error;          ///< why they had to be given up, else empty
-    std::uint64_t passes = 0;        ///< samples a pixel in this run
-    ChainCounts chains;              ///< of this run; none but with `mlt`
-    double first_launch_seconds = 0; ///< what the driver still compiles at the first launch
-    double run_seconds = 0;          ///< of this run's render stage, first_launch_seconds not included
-    double device_seconds = 0;       ///< of this run's launches, as run_groups counts them
-    double check_seconds = 0;        ///< of them: reading the film and measuring its error
+    HitSums hits;                     ///< empty if no file wants layers of them
+    std::string hits_error;           ///< why they had to be given up, else empty
+    std::optional<Denoised> denoised; ///< of the film as it is in the end, where that is asked for
+    std::string denoise_error;        ///< why it could not be done, else empty
+    std::uint64_t passes = 0;         ///< samples a pixel in this run
+    ChainCounts chains;               ///< of this run; none but with `mlt`
+    double first_launch_seconds = 0;  ///< what the driver still compiles at the first launch
+    double run_seconds = 0;           ///< of this run's render stage, first_launch_seconds not included
+    double device_seconds = 0;        ///< of this run's launches, as run_groups counts them
+    double check_seconds = 0;         ///< of them: reading the film and measuring its error
     double dropped_seconds = 0; ///< of them: for a pass that was interrupted and dropped; not in `seconds`
     double overrun_seconds = 0; ///< beyond --time
     double longest_launch_seconds = 0;

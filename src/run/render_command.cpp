@@ -5,6 +5,7 @@
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/render_params.h"
+#include "run/denoising.h"
 #include "run/report.h"
 #include "run/run_files.h"
 #include "run/saving.h"
@@ -40,6 +41,10 @@ int finish(const Report& report) {
     }
     if (!render.hits_error.empty()) {
         spdlog::error("the picture was written without the layers of hits: {}", render.hits_error);
+        return EXIT_DEVICE;
+    }
+    if (!render.denoise_error.empty()) {
+        spdlog::error("the picture was written without a denoised one: {}", render.denoise_error);
         return EXIT_DEVICE;
     }
     spdlog::info("ended after {} spp: {}", film_samples(render.film), render.stop_text);
@@ -107,6 +112,7 @@ int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::op
     if (saving.needs_film(render))
         files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
 
+    denoise_render(job.device, options, progress, done->render);
     const SceneTree no_tree;
     Report report = make_report(job, *done, done->prepared ? *done->prepared->tree : no_tree);
     write_outputs(report, files);
@@ -160,6 +166,7 @@ void announce(const PlannedScene& planned) {
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     check_checkpoint(options);
+    check_denoiser(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
     Viewers viewers(options, progress);
     const Device device = open_chosen_device(options);

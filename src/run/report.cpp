@@ -2,6 +2,7 @@
 #include "run/report.h"
 
 #include "paths/path_report.h"
+#include "run/denoising.h"
 #include "run/report_facts.h"
 #include "scene/ground.h"
 #include "scene/normalise.h"
@@ -210,6 +211,7 @@ std::string report_json(const Report& report) {
     json["rays_per_second"] = rays_per_second(render);
     json["peak_memory_bytes"] = peak_memory_bytes();
     json["error"] = error_report_json(report.error);
+    json["denoised"] = denoised_json(render);
     json["cut"] = cut_json(report.error.cut);
     json["blind_spots"] = blind_spots_json(report.error.blind_spots);
     json["stop"] = stop_json(report);
@@ -280,6 +282,7 @@ Metadata report_metadata(const Report& report) {
     }
     add_paths(report.effects.paths, metadata);
     add_error_metadata(report.error, metadata);
+    add_denoised_metadata(render, metadata);
     return metadata;
 }
 

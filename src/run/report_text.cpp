@@ -6,6 +6,7 @@
 #include "render/error_text.h"
 #include "render/guiding.h"
 #include "render/metropolis.h"
+#include "run/denoising.h"
 #include "run/report.h"
 #include "run/report_facts.h"
 
@@ -127,8 +128,8 @@ std::string proof_lines(const Report& report) {
 std::string format_report(const Report& report) {
     std::string text =
         picture_line(report) + choice_line(report) + adaptive_line(report) + guide_line(report) +
-        chain_line(report) +
-        time_line(report) + format_error_report(report.error) + missed_line(report) +
+        chain_line(report) + time_line(report) + format_error_report(report.error) +
+        format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         left_out_lines(report) + bad_lines(report);
     if (report.options.run.verbosity > 0)

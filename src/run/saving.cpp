@@ -20,7 +20,7 @@ namespace {
 
 /// Auto exposure is that of the samples so far.
 void write_pictures(const Picture& picture, const Options& options, const Film& film) {
-    const double exposure_ev = chosen_exposure_ev(options.output, picture.layers[0].values);
+    const double exposure_ev = chosen_exposure_ev(options.output, picture.layers[picture.displayed].values);
     for (const std::string& name : options.output.files)
         if (!is_standard_output(name)) // which takes one picture, at the end
             write_picture(picture, output_name(name, options, film), exposure_ev, options.output.tonemap);
@@ -96,7 +96,7 @@ void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& 
 void write_outputs(Report& report, FinalFiles& files) {
     const Options& options = report.options;
     Picture picture = picture_within_memory(report, files);
-    report.exposure_ev = chosen_exposure_ev(options.output, picture.layers[0].values);
+    report.exposure_ev = chosen_exposure_ev(options.output, picture.layers[picture.displayed].values);
     picture.metadata = report_metadata(report);
     if (options.output.auto_exposure)
         spdlog::info("{}", exposure_notice(report.exposure_ev));

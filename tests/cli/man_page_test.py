@@ -40,7 +40,7 @@ class ManPage(unittest.TestCase):
 
     def test_it_explains_the_lines_of_the_report(self):
         source = "".join(pathlib.Path(ROOT, "src", name).read_text(encoding="utf-8") for name in
-                         ("run/report_text.cpp", "render/error_text.cpp", "render/cut_paths.cpp", "paths/blind_spots.cpp"))
+                         ("run/report_text.cpp", "run/denoising.cpp", "render/error_text.cpp", "render/cut_paths.cpp", "paths/blind_spots.cpp"))
         labels = {label.strip() for label in re.findall(r'"([a-z][a-z ]{7} )\S', source) if re.match(r"[a-z ]{8} ", label)}
         self.assertTrue({"picture", "error", "verdict", "price", "left out", "not seen", "tails"} <= labels, labels)
         page = next(page_of(program) for program in PROGRAMS if os.path.basename(program) == "clrt")

@@ -128,6 +128,8 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--exposure", "auto+"},
         {"--exposure", "auto+101"},
         {"--tonemap", "film"},
+        {"--png-from", "both"},
+        {"--aov", "denoised=LDE"},
         {"--aov", "albedo,depth"},
         {"--aov", "N,N"},
         {"--aov", "N,none"},
@@ -260,6 +262,12 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
     expect({"--first-sample", "4294901760", "--error", "1%"}, "expected a sum below 4294967296");
     expect({"--error", "1%", "--replicates", "3"}, "option --error: expected --replicates 4 or more");
+    expect({"--denoise", "--replicates", "2"},
+           "option --denoise: expected an even number of --replicates from 4, found 2");
+    expect({"--denoise", "--spp", "3"},
+           "option --denoise: expected --spp 4 or more with --replicates 4, found 3");
+    expect({"--denoise", "--ledger"}, "options --denoise and --ledger: expected one of them");
+    expect({"--png-from", "denoised"}, "option --png-from denoised: expected together with --denoise");
     expect({"--adaptive", "--replicates", "2"},
            "option --adaptive: expected an even number of --replicates from 4");
     expect({"--adaptive", "--replicates", "5"},

@@ -24,6 +24,7 @@ HOST = (
     ("src/effects", "what the scene calls for, and what is left out"),
     ("src/guide", "where paths have found light"),
     ("src/film", "sums, their error, film files"),
+    ("src/denoise", "film and features -> a smoother picture, and its error"),
     ("src/render", "scene -> film"),
     ("src/replay", "single samples once more, value by value"),
     ("src/view", "who sees a run while it goes on: tev, the page"),
@@ -40,6 +41,7 @@ KERNELS = (
     ("kernels/lights", "emitters, sky, points and suns"),
     ("kernels/camera", "rays of pixels"),
     ("kernels/film", "sums of pixels"),
+    ("kernels/denoise", "a picture's colours smoothed along its features"),
     ("kernels/path", "what integrators share: visibility, path notation, layers"),
     ("kernels/integrators", "the entry points"),
 )

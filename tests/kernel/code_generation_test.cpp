@@ -108,7 +108,7 @@ std::string include(const std::vector<std::string>& files) {
 
 TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
     const std::string text = entry_points({"path", "distribution", "whitted", "raycast"}) +
-                             include({"integrators/aov.cl", "numerics/device_facts.cl"});
+                             include({"denoise/filter.cl", "integrators/aov.cl", "numerics/device_facts.cl"});
     for (const BvhLayout layout : ALL_LAYOUTS)
         expect_clean_with_and_without_effects(name_of(layout), text,
                                               {fmt::format("-DBVH_LAYOUT={}", int(layout))});

@@ -73,6 +73,16 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
     }
 }
 
+TEST(EffectSyntax, TheDenoisingFilterCompilesToo) {
+    const ScratchFolder folder;
+    for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
+        const std::string file =
+            folder.write("filter.cl", precision + std::string("#include \"denoise/filter.cl\"\n"));
+        for (const char* standard : {"CL1.2", "CL3.0"})
+            EXPECT_EQ(complaints(file, standard, EFFECT_ALL), "") << standard << precision;
+    }
+}
+
 TEST(EffectSyntax, RecordingProgramsCompileToo) {
     const ScratchFolder folder;
     for (const char* name : {"path", "distribution", "whitted", "raycast"})
