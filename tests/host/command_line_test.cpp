@@ -43,6 +43,7 @@ const std::map<std::string, std::string>& samples() {
         {"--threads", "2"},
         {"--bvh", "bvh2"},
         {"--mtl", "plain"},
+        {"--instances", "on"},
         {"--gltf-lights", "raw"},
         {"--gltf-solid-glass", ""},
         {"--camera", "Camera.001"},
