@@ -37,6 +37,13 @@ vec4 placed_as_kernels_do(const Instance& instance, const vec4& p) {
             coordinate(instance.to_world[2], p), 0};
 }
 
+/// By the transpose of the inverse.
+glm::dvec3 turned_normal(const Instance& instance, const glm::dvec3& n) {
+    return glm::normalize(n.x * to_dvec3(instance.to_prototype[0]) +
+                          n.y * to_dvec3(instance.to_prototype[1]) +
+                          n.z * to_dvec3(instance.to_prototype[2]));
+}
+
 } // namespace
 
 glm::dvec3 corner_position(const Scene& scene, const Triangle& triangle, int corner) {
@@ -208,6 +215,11 @@ Scene written_out(const Scene& scene) {
             for (u32* v : {&triangle.v0, &triangle.v1, &triangle.v2})
                 *v = place(*v);
             triangle.object = instance.object;
+            if (triangle.n0 != NO_INDEX)
+                for (u32* n : {&triangle.n0, &triangle.n1, &triangle.n2}) {
+                    all.normals.push_back(to_vec4(turned_normal(instance, to_dvec3(all.normals[*n]))));
+                    *n = u32(all.normals.size() - 1);
+                }
             all.triangles.push_back(triangle);
         }
     }

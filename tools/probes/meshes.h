@@ -61,7 +61,7 @@ Scene normalised(Scene scene);
 void add_instances(Scene& scene, const Scene& prototype, const std::vector<glm::dmat4>& maps);
 
 /// The same scene without instances: each one's triangles written out behind the scene's own, with corners
-/// rounded as kernels/geometry/instance.h rounds them; without normals.
+/// rounded as kernels/geometry/instance.h rounds them, and with normals by double.
 Scene written_out(const Scene& scene);
 
 /// Largest |coordinate| of the triangles' corners (RenderParams::scene_extent).

@@ -72,7 +72,9 @@ static Hit closest_of_all(const Scene* scene, const RenderParams* params, const 
 
 static Surface load_surface(const Scene* scene, const Ray* ray, const TracedHit* traced)
 {
-    Hit hit = {traced->t, traced->b1, traced->b2, NO_INDEX};
+    Hit hit = hit_none(traced->t);
+    hit.b1 = traced->b1;
+    hit.b2 = traced->b2;
     hit_set_triangle(traced->instance, traced->triangle, &hit);
     return surface_at(scene, &hit, ray);
 }

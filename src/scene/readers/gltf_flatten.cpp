@@ -118,7 +118,8 @@ private:
 void check_size(const Size& size, size_t instances, const GltfFile& file) {
     if (size.vertices >= NO_INDEX || size.bytes > MOST_FLATTENED_BYTES)
         file.json().root().fail(
-            fmt::format("meshes that take at most {} GiB and {} vertices with a copy for each instance",
+            fmt::format("meshes that take at most {} GiB and {} vertices with a copy for each instance "
+                        "(--instances on shares what neither shines nor moves)",
                         MOST_FLATTENED_BYTES >> 30, NO_INDEX - 1),
             fmt::format("{} instances of {} triangles and {} vertices, {:.1f} GiB", instances, size.triangles,
                         size.vertices, double(size.bytes) / double(size_t(1) << 30)));

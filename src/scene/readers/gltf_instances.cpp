@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <map>
 
 namespace clrt {
@@ -37,22 +38,46 @@ std::vector<glm::dmat4> gpu_instances(const JsonValue& extension, GltfBuffers& b
 
 /// A mesh that is used.
 struct Use {
-    size_t count = 0;     ///< of its instances that could share it
-    size_t triangles = 0; ///< that do not shine
+    size_t count = 0;      ///< of its instances that could share it
+    size_t triangles = 0;  ///< that do not shine
+    glm::dvec3 largest{0}; ///< |coordinates| of its corners
     u32 prototype = NO_INDEX;
 };
 
 using Uses = std::map<const std::vector<GltfPrimitive>*, Use>;
 
-Uses count_uses(const std::vector<GltfInstance>& instances, const GltfMaterials& materials) {
+glm::dvec3 largest_coordinates(const std::vector<GltfPrimitive>& primitives) {
+    glm::dvec3 largest(0);
+    for (const GltfPrimitive& primitive : primitives)
+        for (const glm::vec3& p : primitive.positions)
+            if (is_finite(glm::dvec3(p)))
+                largest = glm::max(largest, glm::abs(glm::dvec3(p)));
+    return largest;
+}
+
+/// Whether an instance has a map that can be undone, and all its corners are finite.
+bool can_share(const glm::dmat4& world, const glm::dvec3& largest) {
+    if (kind_of_map(world) != MapKind::PLACES)
+        return false;
+    glm::dvec3 farthest = glm::abs(glm::dvec3(world[3]));
+    for (int column = 0; column < 3; ++column)
+        farthest += glm::abs(glm::dvec3(world[column])) * largest[column];
+    return is_finite(farthest);
+}
+
+Uses find_uses(const std::vector<GltfInstance>& instances, const GltfMaterials& materials) {
     Uses uses;
-    for (const GltfInstance& instance : instances)
-        if (kind_of_map(instance.world) == MapKind::PLACES)
-            ++uses[instance.primitives].count;
-    for (auto& [primitives, use] : uses)
-        for (const GltfPrimitive& primitive : *primitives)
-            if (!materials.is_emissive(primitive.material))
-                use.triangles += primitive.corners.size() / 3;
+    for (const GltfInstance& instance : instances) {
+        const auto [known, is_new] = uses.try_emplace(instance.primitives);
+        Use& use = known->second;
+        if (is_new) {
+            use.largest = largest_coordinates(*instance.primitives);
+            for (const GltfPrimitive& primitive : *instance.primitives)
+                if (!materials.is_emissive(primitive.material))
+                    use.triangles += primitive.corners.size() / 3;
+        }
+        use.count += can_share(instance.world, use.largest);
+    }
     return uses;
 }
 
@@ -154,13 +179,13 @@ std::vector<GltfInstance> find_gltf_instances(const std::vector<GltfNode>& nodes
 std::vector<GltfInstance> share_gltf_meshes(std::vector<GltfInstance> instances,
                                             const GltfMaterials& materials, const ReadContext& context,
                                             const std::string& path, SceneDescription& scene) {
-    Uses uses = count_uses(instances, materials);
+    Uses uses = find_uses(instances, materials);
     std::vector<GltfInstance> copied;
     std::map<u32, bool> shines; // by prototype
     size_t triangles = 0;
     for (GltfInstance& instance : instances) {
         Use& use = uses[instance.primitives];
-        if (!is_shared(use, context.instances) || kind_of_map(instance.world) != MapKind::PLACES) {
+        if (!is_shared(use, context.instances) || !can_share(instance.world, use.largest)) {
             copied.push_back(instance);
             continue;
         }
