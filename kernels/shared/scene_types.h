@@ -35,7 +35,7 @@ typedef struct {
 } Instance;
 ASSERT_SIZE(Instance, 112);
 
-/* How much a world coordinate of 1 can be along an axis of the prototype (geometry/instance.h). */
+/* What rounds along an axis of the prototype for any ray, in units of 2^-24 (geometry/instance.h). */
 #define INSTANCE_SLACK(row) ((row).w)
 
 /* What scales LOBE_GLOSSY and LOBE_MIRROR. */
