@@ -31,21 +31,33 @@ typedef struct {
     real3 exit_reciprocal, exit_offset;
 } BoxRay;
 
-/* With planes moved out by `roundings` units. */
-static inline BoxRay box_ray_make_padded(const Ray* ray, real scene_extent, real roundings)
+/* Of a ray in the frame of the boxes, with planes moved out by `slack` along each axis. */
+static inline BoxRay box_ray_make_slack(real3 origin, real3 direction, real3 slack)
 {
     BoxRay box;
-    const real3 d = ray->direction;
-    const real3 clamped = copysign(max(fabs(d), (real3)(BOX_SMALLEST_DIRECTION)), d);
+    const real3 clamped =
+        copysign(max(fabs(direction), (real3)(BOX_SMALLEST_DIRECTION)), direction);
     box.reciprocal = REAL(1.0) / clamped;
-    const real3 o = fabs(ray->origin);
-    const real reach = max(max(o.x, o.y), max(o.z, scene_extent));
-    const real3 pad = fabs(box.reciprocal) * (roundings * FLOAT_ROUNDING * reach);
-    const real3 offset = ray->origin * box.reciprocal;
+    const real3 pad = fabs(box.reciprocal) * slack;
+    const real3 offset = origin * box.reciprocal;
     box.entry_offset = -offset - pad;
     box.exit_reciprocal = box.reciprocal * BOX_EXIT_FACTOR;
     box.exit_offset = (pad - offset) * BOX_EXIT_FACTOR;
     return box;
+}
+
+/* The largest |coordinate| of a ray's origin and the scene. */
+static inline real box_ray_reach(const Ray* ray, real scene_extent)
+{
+    const real3 o = fabs(ray->origin);
+    return max(max(o.x, o.y), max(o.z, scene_extent));
+}
+
+/* With planes moved out by `roundings` units. */
+static inline BoxRay box_ray_make_padded(const Ray* ray, real scene_extent, real roundings)
+{
+    const real reach = box_ray_reach(ray, scene_extent);
+    return box_ray_make_slack(ray->origin, ray->direction, (real3)(roundings * FLOAT_ROUNDING * reach));
 }
 
 static inline BoxRay box_ray_make(const Ray* ray, real scene_extent)

@@ -3,18 +3,33 @@
 #ifndef CLRT_GEOMETRY_LEAF_TRIANGLE_H
 #define CLRT_GEOMETRY_LEAF_TRIANGLE_H
 
+#include "instance.h"
 #include "scene.h"
 #include "triangle.h"
 
-/* Tests one leaf triangle at the ray's time; true where it is hit within (0, t_max]. */
-static inline bool leaf_triangle_hit(const Scene* scene, global const uint* words, const Ray* ray,
-                                     const RayShear* shear, real t_max, Hit* found)
+/* Tests one leaf triangle, of an instance or, 0, the scene's own, at the ray's time; true where it is hit
+   within (0, t_max]. */
+static inline bool leaf_triangle_hit(const Scene* scene, global const uint* words, uint instance,
+                                     const Ray* ray, const RayShear* shear, real t_max, Hit* found)
 {
     global const float* corners = (global const float*)words;
-    real x[3] = {corners[shear->kx], corners[4 + shear->kx], corners[8 + shear->kx]};
-    real y[3] = {corners[shear->ky], corners[4 + shear->ky], corners[8 + shear->ky]};
-    real z[3] = {corners[shear->kz], corners[4 + shear->kz], corners[8 + shear->kz]};
-    if (scene_moves(scene)) {
+    real x[3], y[3], z[3];
+    if (HAS(EFFECT_INSTANCES) && instance != 0u) {
+        global const vec4* rows = scene->instances[instance].to_world;
+        for (uint corner = 0; corner < 3u; ++corner) {
+            const real3 p = convert_real3(vload3(0, corners + 4u * corner));
+            x[corner] = instance_coordinate(rows[shear->kx], p);
+            y[corner] = instance_coordinate(rows[shear->ky], p);
+            z[corner] = instance_coordinate(rows[shear->kz], p);
+        }
+    } else {
+        for (uint corner = 0; corner < 3u; ++corner) {
+            x[corner] = corners[4u * corner + shear->kx];
+            y[corner] = corners[4u * corner + shear->ky];
+            z[corner] = corners[4u * corner + shear->kz];
+        }
+    }
+    if (scene_moves(scene) && instance == 0u) {
         global const float* moves =
             (global const float*)(scene->bvh_leaf_moves + (words - scene->bvh_leaves));
         const real time = ray_time(ray);
@@ -32,19 +47,19 @@ static inline bool leaf_triangle_hit(const Scene* scene, global const uint* word
     found->t = t_det / det;
     found->b1 = v / det;
     found->b2 = w / det;
-    found->triangle = words[3];
+    hit_set_triangle(instance, words[3], found);
     return found->t > REAL(0.0) && found->t <= t_max;
 }
 
 /* Keeps the hit of one leaf triangle if it comes after `after` and before the hit so far. */
-static inline void leaf_triangle_closest(const Scene* scene, global const uint* words, const Ray* ray,
-                                         const RayShear* shear, const Hit* after, Hit* hit)
+static inline void leaf_triangle_closest(const Scene* scene, global const uint* words, uint instance,
+                                         const Ray* ray, const RayShear* shear, const Hit* after, Hit* hit)
 {
     Hit found;
-    if (!leaf_triangle_hit(scene, words, ray, shear, hit->t, &found) ||
-        !hit_is_before(found.t, found.triangle, hit->t, hit->triangle))
+    if (!leaf_triangle_hit(scene, words, instance, ray, shear, hit->t, &found) ||
+        !hit_comes_before(found.t, instance, found.triangle, hit))
         return;
-    if (HAS(EFFECT_CUT_OUT) && !hit_is_before(after->t, after->triangle, found.t, found.triangle))
+    if (HAS(EFFECT_CUT_OUT) && !hit_comes_after(found.t, instance, found.triangle, after))
         return;
     *hit = found;
 }

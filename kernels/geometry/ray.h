@@ -21,6 +21,9 @@ typedef struct {
     real t;
     real b1, b2;
     uint triangle; /* NO_INDEX: no hit */
+#if CLRT_EFFECTS & EFFECT_INSTANCES
+    uint instance; /* hit_instance */
+#endif
 } Hit;
 
 /* `time` is within the shutter's opening, from 0 to 1; where nothing moves it is not kept. */
@@ -54,13 +57,56 @@ static inline Hit hit_none(real t_max)
     hit.b1 = REAL(0.0);
     hit.b2 = REAL(0.0);
     hit.triangle = NO_INDEX;
+#if CLRT_EFFECTS & EFFECT_INSTANCES
+    hit.instance = NO_INDEX;
+#endif
     return hit;
 }
 
-/* Hits are ordered by distance, at equal distance by triangle index. */
-static inline bool hit_is_before(real t, uint triangle, real other_t, uint other_triangle)
+/* The instance whose triangle it is: 0 for the scene's own. */
+static inline uint hit_instance(const Hit* hit)
 {
-    return t < other_t || (t == other_t && triangle < other_triangle);
+#if CLRT_EFFECTS & EFFECT_INSTANCES
+    return hit->instance;
+#else
+    return 0u;
+#endif
+}
+
+static inline void hit_set_triangle(uint instance, uint triangle, Hit* hit)
+{
+    hit->triangle = triangle;
+#if CLRT_EFFECTS & EFFECT_INSTANCES
+    hit->instance = instance;
+#endif
+}
+
+static inline bool hit_is_same_triangle(const Hit* a, const Hit* b)
+{
+    return a->triangle == b->triangle && hit_instance(a) == hit_instance(b);
+}
+
+/* Hits are ordered by distance, at equal distance by instance and triangle index. */
+static inline bool hit_triangle_is_before(uint instance, uint triangle, uint other_instance,
+                                          uint other_triangle)
+{
+    if (HAS(EFFECT_INSTANCES) && instance != other_instance)
+        return instance < other_instance;
+    return triangle < other_triangle;
+}
+
+/* Whether what is hit at t comes before a hit, */
+static inline bool hit_comes_before(real t, uint instance, uint triangle, const Hit* hit)
+{
+    return t < hit->t ||
+           (t == hit->t && hit_triangle_is_before(instance, triangle, hit_instance(hit), hit->triangle));
+}
+
+/* and after one. */
+static inline bool hit_comes_after(real t, uint instance, uint triangle, const Hit* hit)
+{
+    return hit->t < t ||
+           (hit->t == t && hit_triangle_is_before(hit_instance(hit), hit->triangle, instance, triangle));
 }
 
 #endif

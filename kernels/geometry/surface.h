@@ -3,6 +3,7 @@
 #ifndef CLRT_GEOMETRY_SURFACE_H
 #define CLRT_GEOMETRY_SURFACE_H
 
+#include "instance.h"
 #include "ray.h"
 #include "scene.h"
 
@@ -36,10 +37,17 @@ static inline real3 surface_moved(const Scene* scene, global const float4* start
     return scene_moves(scene) ? fma((real3)(time), vector_from(moves[i]), start) : start;
 }
 
-/* Corner positions at a time: the same bits as in the leaves. */
-static inline void surface_corners_at(const Scene* scene, global const Triangle* triangle, real time,
-                                      real3* p)
+/* Corner positions at a time: the same bits as the triangle test's. `instance`: that of the hit. */
+static inline void surface_corners_at(const Scene* scene, global const Triangle* triangle, uint instance,
+                                      real time, real3* p)
 {
+    if (HAS(EFFECT_INSTANCES) && instance != 0u) {
+        global const Instance* placed = scene->instances + instance;
+        p[0] = instance_point(placed, vector_from(scene->positions[triangle->v0]));
+        p[1] = instance_point(placed, vector_from(scene->positions[triangle->v1]));
+        p[2] = instance_point(placed, vector_from(scene->positions[triangle->v2]));
+        return;
+    }
     p[0] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v0, time);
     p[1] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v1, time);
     p[2] = surface_moved(scene, scene->positions, scene->position_moves, triangle->v2, time);
@@ -47,9 +55,16 @@ static inline void surface_corners_at(const Scene* scene, global const Triangle*
 
 /* Corner normals at a time, of a triangle that has some: unit vectors on the straight way between two, 0
    where it leads through 0. */
-static inline void surface_normals_at(const Scene* scene, global const Triangle* triangle, real time,
-                                      real3* n)
+static inline void surface_normals_at(const Scene* scene, global const Triangle* triangle, uint instance,
+                                      real time, real3* n)
 {
+    if (HAS(EFFECT_INSTANCES) && instance != 0u) {
+        global const Instance* placed = scene->instances + instance;
+        n[0] = instance_normal(placed, vector_from(scene->normals[triangle->n0]));
+        n[1] = instance_normal(placed, vector_from(scene->normals[triangle->n1]));
+        n[2] = instance_normal(placed, vector_from(scene->normals[triangle->n2]));
+        return;
+    }
     n[0] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n0, time);
     n[1] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n1, time);
     n[2] = surface_moved(scene, scene->normals, scene->normal_moves, triangle->n2, time);
@@ -59,7 +74,21 @@ static inline void surface_normals_at(const Scene* scene, global const Triangle*
     }
 }
 
-/* Corner positions of a triangle that does not move, as no lamp does. */
+/* -1 where an instance is mirrored, and its triangles' winding with it; else 1. */
+static inline real surface_instance_side(const Scene* scene, uint instance)
+{
+    return HAS(EFFECT_INSTANCES) && instance != 0u ? (real)scene->instances[instance].side : REAL(1.0);
+}
+
+/* The object that a hit is on. */
+static inline uint surface_object(const Scene* scene, const Hit* hit)
+{
+    if (HAS(EFFECT_INSTANCES) && hit_instance(hit) != 0u)
+        return scene->instances[hit_instance(hit)].object;
+    return scene->triangles[hit->triangle].object;
+}
+
+/* Corner positions of a triangle that does not move and is no instance's, as no lamp does or is. */
 static inline void surface_corners(const Scene* scene, global const Triangle* triangle, real3* p0, real3* p1,
                                    real3* p2)
 {
@@ -163,13 +192,13 @@ static inline void surface_uv(const Scene* scene, global const Triangle* triangl
    tangent planes of the corners, and the projections are interpolated (Hanika 2021, Ray Tracing Gems II, ch.
    4). Without it coarse meshes shade themselves near the terminator. A displacement that leads below the
    plane or the shading normal's horizon, as corner normals that contradict each other give, is none. */
-static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, real time,
-                                  const real3* p, real b1, real b2, Surface* surface)
+static inline void surface_smooth(const Scene* scene, global const Triangle* triangle, uint instance,
+                                  real time, const real3* p, real b1, real b2, Surface* surface)
 {
     if (!HAS(EFFECT_SMOOTH_NORMALS) || triangle->n0 == NO_INDEX)
         return;
     real3 n[3];
-    surface_normals_at(scene, triangle, time, n);
+    surface_normals_at(scene, triangle, instance, time, n);
     const real3 n0 = n[0], n1 = n[1], n2 = n[2];
     const real b0 = REAL(1.0) - b1 - b2;
     const real3 sum = b0 * n0 + b1 * n1 + b2 * n2;
@@ -193,13 +222,13 @@ static inline void surface_smooth(const Scene* scene, global const Triangle* tri
 }
 
 /* True where the given normals say that the winding's normal points inward. */
-static inline bool surface_winding_is_reversed(const Scene* scene, global const Triangle* triangle, real time,
-                                               real3 normal)
+static inline bool surface_winding_is_reversed(const Scene* scene, global const Triangle* triangle,
+                                               uint instance, real time, real3 normal)
 {
     if (triangle->n0 == NO_INDEX)
         return false;
     real3 n[3];
-    surface_normals_at(scene, triangle, time, n);
+    surface_normals_at(scene, triangle, instance, time, n);
     return vector_dot(n[0] + n[1] + n[2], normal) < REAL(0.0);
 }
 
@@ -209,16 +238,18 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
 {
     const real3 wo = -ray->direction;
     global const Triangle* triangle = scene->triangles + hit->triangle;
+    const uint instance = hit_instance(hit);
     real3 p[3];
     const real time = ray_time(ray);
-    surface_corners_at(scene, triangle, time, p);
+    surface_corners_at(scene, triangle, instance, time, p);
     const real3 e1 = p[1] - p[0];
     const real3 e2 = p[2] - p[0];
     const real3 cross = surface_cross(e1, e2);
     const real across = vector_length(cross);
     /* The edges of a needle may become parallel when they are rounded: then no direction is better than
        wo. */
-    const real3 normal = across > REAL(0.0) ? cross / across : wo;
+    const real3 normal =
+        across > REAL(0.0) ? cross / across * surface_instance_side(scene, instance) : wo;
     const real side = vector_dot(normal, wo) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
 
     Surface surface;
@@ -228,7 +259,7 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
     surface.is_near_edge =
         across > REAL(0.0) && surface_is_near_edge(hit, surface_extent(p[0], p[1], p[2]), across, margin);
     if (surface.is_near_edge)
-        point = surface_inset(point, e1, e2, normal, margin);
+        point = surface_inset(point, e1, e2, normal * surface_instance_side(scene, instance), margin);
     surface.position = p[0] + point;
     surface.normal_g = normal * side;
     surface.normal_s = surface.normal_g;
@@ -245,10 +276,11 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     surface.time = ray->time;
 #endif
-    surface.front = (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, time, normal);
+    surface.front =
+        (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, instance, time, normal);
     if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL))
         surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
-    surface_smooth(scene, triangle, time, p, hit->b1, hit->b2, &surface);
+    surface_smooth(scene, triangle, instance, time, p, hit->b1, hit->b2, &surface);
     return surface;
 }
 

@@ -24,8 +24,8 @@
 #endif
 
 /* The first hit after `after` (hit_none(0) for all) within the ray; triangle NO_INDEX where there is none. At
-   equal distance the lowest triangle index comes first. Rays that are not finite or have no direction miss,
-   at a distance that is a NaN. */
+   equal distance the lowest instance and triangle index comes first. Rays that are not finite or have no
+   direction miss, at a distance that is a NaN. */
 static inline Hit scene_closest_hit(const Scene* scene, const RenderParams* params, const Ray* ray,
                                     const Hit* after)
 {

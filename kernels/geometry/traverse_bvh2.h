@@ -17,6 +17,7 @@
 #define CLRT_GEOMETRY_TRAVERSE_BVH2_H
 
 #include "box.h"
+#include "instance.h"
 #include "leaf_triangle.h"
 #include "scene.h"
 
@@ -81,7 +82,7 @@ static inline uint bvh2_walk_down(Bvh2Walk* walk, Bvh2Stack* stack, real entry_0
 
 /* Goes to the child that waits on the deepest level, or to the root where it has been forgotten; false where
    none waits before t_max. */
-static inline bool bvh2_walk_up(Bvh2Walk* walk, const Bvh2Stack* stack, real t_max, uint* node)
+static inline bool bvh2_walk_up(Bvh2Walk* walk, const Bvh2Stack* stack, real t_max, uint root, uint* node)
 {
     for (;;) {
         /* Adding a 1 to the parent's bit carries it to the deepest level where a child waits. */
@@ -92,7 +93,7 @@ static inline bool bvh2_walk_up(Bvh2Walk* walk, const Bvh2Stack* stack, real t_m
         walk->resume = walk->trail & (0 - walk->trail);
         if (walk->count == 0u) {
             walk->level = BVH2_ROOT;
-            *node = 0u;
+            *node = root;
             return true;
         }
         walk->level = walk->resume >> 1;
@@ -128,12 +129,24 @@ static inline real bvh2_enter(float4 xy, float2 z, const BoxRay* box, real limit
 CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, const Ray* ray,
                                const Hit* after, Hit* hit, bool any)
 {
-    const BoxRay box = box_ray_make(ray, params->scene_extent);
+    const BoxRay scene_box = box_ray_make(ray, params->scene_extent);
     const RayShear shear = ray_shear_make(ray);
+    BoxRay box = scene_box;
     Bvh2Walk walk = bvh2_walk_make();
-    Bvh2Stack stack;
-    uint node = 0;
+    Bvh2Walk scene_walk = walk; /* while the traversal is in an instance */
+    Bvh2Stack stacks[HAS(EFFECT_INSTANCES) ? 2 : 1];
+    Bvh2Stack* stack = stacks;
+    uint instance = 0u, root = 0u, node = 0u;
     for (;;) {
+        if (HAS(EFFECT_INSTANCES) && (node & BVH_INSTANCE_BIT)) {
+            instance = node & ~BVH_INSTANCE_BIT;
+            global const Instance* placed = scene->instances + instance;
+            box = instance_box_ray(placed, ray);
+            scene_walk = walk;
+            walk = bvh2_walk_make();
+            stack = stacks + (HAS(EFFECT_INSTANCES) ? 1 : 0);
+            node = root = scene->bvh_roots[placed->prototype];
+        }
         global const uint* words = scene->bvh_nodes + (size_t)BVH2_NODE_WORDS * node;
         global const float* planes = (global const float*)words;
         const real limit = hit->t * BOX_EXIT_FACTOR;
@@ -155,14 +168,23 @@ CLRT_INLINE bool bvh2_traverse(const Scene* scene, const RenderParams* params, c
             for (uint i = 0; i < count; ++i, leaf += LEAF_TRIANGLE_WORDS) {
                 Hit found;
                 if (!any)
-                    leaf_triangle_closest(scene, leaf, ray, &shear, after, hit);
-                else if (leaf_triangle_hit(scene, leaf, ray, &shear, hit->t, &found))
+                    leaf_triangle_closest(scene, leaf, instance, ray, &shear, after, hit);
+                else if (leaf_triangle_hit(scene, leaf, instance, ray, &shear, hit->t, &found))
                     return true;
             }
         }
-        node = bvh2_walk_down(&walk, &stack, entry[0], entry[1], words[BVH2_CHILD_WORD],
+        node = bvh2_walk_down(&walk, stack, entry[0], entry[1], words[BVH2_CHILD_WORD],
                               words[BVH2_CHILD_WORD + 1]);
-        if (node == 0u && !bvh2_walk_up(&walk, &stack, hit->t, &node))
+        if (node != 0u || bvh2_walk_up(&walk, stack, hit->t, root, &node))
+            continue;
+        if (!HAS(EFFECT_INSTANCES) || instance == 0u)
+            return false;
+        /* Go on in the scene's tree. */
+        instance = root = 0u;
+        box = scene_box;
+        walk = scene_walk;
+        stack = stacks;
+        if (!bvh2_walk_up(&walk, stack, hit->t, root, &node))
             return false;
     }
 }

@@ -10,11 +10,12 @@
 #define CLRT_GEOMETRY_TRAVERSE_BVH8_H
 
 #include "box.h"
+#include "instance.h"
 #include "scene.h"
 #include "triangle.h"
 
-/* A level of the tree leaves at most seven siblings behind. */
-#define BVH8_STACK_SIZE (7 * BVH_MAX_DEPTH + 1)
+/* A level of a tree leaves at most seven siblings behind. An instance's tree stands on the scene's. */
+#define BVH8_STACK_SIZE ((HAS(EFFECT_INSTANCES) ? 2 : 1) * 7 * BVH_MAX_DEPTH + 1)
 
 static inline real8 bvh8_load(global const uint* words)
 {
@@ -44,10 +45,23 @@ static inline global const uint* bvh8_leaf(const Scene* scene, uint child)
     return scene->bvh_leaves + (size_t)BVH8_BLOCK_WORDS * (child & ~BVH_LEAF_BIT);
 }
 
+/* The instance that a child of the scene's tree is, 0 for any other. */
+static inline uint bvh8_instance(uint child)
+{
+    const bool is_instance = HAS(EFFECT_INSTANCES) && (child & BVH_LEAF_BIT) && (child & BVH_INSTANCE_BIT);
+    return is_instance ? child & ~(BVH_LEAF_BIT | BVH_INSTANCE_BIT) : 0u;
+}
+
 /* Starts to load what a child consists of: four cache lines of a node, of a block all but its triangle
-   indices. */
+   indices, an instance. */
 static inline void bvh8_prefetch(const Scene* scene, uint child)
 {
+    if (HAS(EFFECT_INSTANCES) && bvh8_instance(child) != 0u) {
+        global const float* members = (global const float*)(scene->instances + bvh8_instance(child));
+        CLRT_PREFETCH(members);
+        CLRT_PREFETCH(members + 16);
+        return;
+    }
     global const uint* words = child & BVH_LEAF_BIT ? bvh8_leaf(scene, child) : bvh8_node(scene, child);
     CLRT_PREFETCH(words);
     CLRT_PREFETCH(words + 16);
@@ -111,17 +125,43 @@ static inline void bvh8_move(const Scene* scene, global const uint* words, real 
         corners[corner] = fma((real8)(time), bvh8_load(moves + 8u * corner), corners[corner]);
 }
 
-static inline BlockHits bvh8_block(const Scene* scene, global const uint* block, const RayShear* shear,
-                                   real time, real t_max)
+/* The coordinates along a permuted axis of the corners of a block of the scene's own tree. */
+static inline void bvh8_corners(const Scene* scene, global const uint* block, uint axis, real time,
+                                real8* corners)
 {
-    global const uint* words[3] = {block + 24u * shear->kx, block + 24u * shear->ky, block + 24u * shear->kz};
-    real8 x[3] = {bvh8_load(words[0]), bvh8_load(words[0] + 8), bvh8_load(words[0] + 16)};
-    real8 y[3] = {bvh8_load(words[1]), bvh8_load(words[1] + 8), bvh8_load(words[1] + 16)};
-    real8 z[3] = {bvh8_load(words[2]), bvh8_load(words[2] + 8), bvh8_load(words[2] + 16)};
-    if (scene_moves(scene)) {
-        bvh8_move(scene, words[0], time, x);
-        bvh8_move(scene, words[1], time, y);
-        bvh8_move(scene, words[2], time, z);
+    global const uint* words = block + 24u * axis;
+    for (uint corner = 0; corner < 3u; ++corner)
+        corners[corner] = bvh8_load(words + 8u * corner);
+    if (scene_moves(scene))
+        bvh8_move(scene, words, time, corners);
+}
+
+/* The same of a block of an instance (instance_point). */
+static inline void bvh8_instance_corners(global const uint* block, vec4 row, real8* corners)
+{
+    for (uint corner = 0; corner < 3u; ++corner) {
+        const real8 x = bvh8_load(block + 8u * corner);
+        const real8 y = bvh8_load(block + 24u + 8u * corner);
+        const real8 z = bvh8_load(block + 48u + 8u * corner);
+        const real8 sum = fma((real8)((real)row.z), z, (real8)((real)row.w));
+        corners[corner] = fma((real8)((real)row.x), x, fma((real8)((real)row.y), y, sum));
+    }
+}
+
+/* `instance`: 0 for a block of the scene's own tree. */
+static inline BlockHits bvh8_block(const Scene* scene, global const uint* block, uint instance,
+                                   const RayShear* shear, real time, real t_max)
+{
+    real8 x[3], y[3], z[3];
+    if (HAS(EFFECT_INSTANCES) && instance != 0u) {
+        global const vec4* rows = scene->instances[instance].to_world;
+        bvh8_instance_corners(block, rows[shear->kx], x);
+        bvh8_instance_corners(block, rows[shear->ky], y);
+        bvh8_instance_corners(block, rows[shear->kz], z);
+    } else {
+        bvh8_corners(scene, block, shear->kx, time, x);
+        bvh8_corners(scene, block, shear->ky, time, y);
+        bvh8_corners(scene, block, shear->kz, time, z);
     }
     BlockHits hits;
     real8 u, t_det;
@@ -135,10 +175,10 @@ static inline BlockHits bvh8_block(const Scene* scene, global const uint* block,
 }
 
 /* Keeps the first of the block's hits that comes after `after`. */
-static inline void bvh8_block_closest(const Scene* scene, global const uint* block, const RayShear* shear,
-                                      real time, const Hit* after, Hit* hit)
+static inline void bvh8_block_closest(const Scene* scene, global const uint* block, uint instance,
+                                      const RayShear* shear, real time, const Hit* after, Hit* hit)
 {
-    const BlockHits hits = bvh8_block(scene, block, shear, time, hit->t);
+    const BlockHits hits = bvh8_block(scene, block, instance, shear, time, hit->t);
     if (hits.lanes == 0u)
         return;
     real t[8], v[8], w[8], det[8];
@@ -149,14 +189,14 @@ static inline void bvh8_block_closest(const Scene* scene, global const uint* blo
     for (uint lanes = hits.lanes; lanes != 0u; lanes &= lanes - 1u) {
         const uint lane = CLRT_LOWEST_BIT(lanes);
         const uint triangle = block[BVH8_BLOCK_ID_WORD + lane];
-        if (!hit_is_before(t[lane], triangle, hit->t, hit->triangle))
+        if (!hit_comes_before(t[lane], instance, triangle, hit))
             continue;
-        if (HAS(EFFECT_CUT_OUT) && !hit_is_before(after->t, after->triangle, t[lane], triangle))
+        if (HAS(EFFECT_CUT_OUT) && !hit_comes_after(t[lane], instance, triangle, after))
             continue;
         hit->t = t[lane];
         hit->b1 = v[lane] / det[lane];
         hit->b2 = w[lane] / det[lane];
-        hit->triangle = triangle;
+        hit_set_triangle(instance, triangle, hit);
     }
 }
 
@@ -205,13 +245,45 @@ static inline int bvh8_push_sorted(const Scene* scene, global const uint* childr
     return top;
 }
 
+/* Where a traversal is: in the scene's tree, instance 0, or in an instance's. */
+typedef struct {
+    BoxRay box;
+    uint8 planes;
+    uint instance;
+    int floor; /* of the stack: what waits below it is of the scene's tree */
+} Bvh8Tree;
+
+static inline Bvh8Tree bvh8_scene_tree(const RenderParams* params, const Ray* ray)
+{
+    Bvh8Tree tree;
+    tree.box = box_ray_make(ray, params->scene_extent);
+    tree.planes = bvh8_planes(tree.box.reciprocal);
+    tree.instance = 0u;
+    tree.floor = 0;
+    return tree;
+}
+
+/* Goes into the tree of an instance, which begins with node *child. */
+static inline Bvh8Tree bvh8_instance_tree(const Scene* scene, const Ray* ray, uint instance, int top,
+                                          uint* child)
+{
+    global const Instance* placed = scene->instances + instance;
+    Bvh8Tree tree;
+    tree.box = instance_box_ray(placed, ray);
+    tree.planes = bvh8_planes(tree.box.reciprocal);
+    tree.instance = instance;
+    tree.floor = top;
+    *child = scene->bvh_roots[placed->prototype];
+    return tree;
+}
+
 /* Finds the first hit after `after` and not beyond hit->t; leaves hit unchanged where there is none. */
 static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParams* params, const Ray* ray,
                                            const Hit* after, Hit* hit)
 {
-    const BoxRay box = box_ray_make(ray, params->scene_extent);
+    const Bvh8Tree scene_tree = bvh8_scene_tree(params, ray);
     const RayShear shear = ray_shear_make(ray);
-    const uint8 planes = bvh8_planes(box.reciprocal);
+    Bvh8Tree tree = scene_tree;
     uint stack[BVH8_STACK_SIZE];
     real stack_t[BVH8_STACK_SIZE];
     real entries[BVH8_WIDTH];
@@ -225,7 +297,7 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
             SCENE_COUNT_NODE(scene);
             global const uint* children = node + BVH8_CHILD_WORD;
             real8 entry;
-            const uint lanes = bvh8_enter(node, &box, planes, limit, &entry);
+            const uint lanes = bvh8_enter(node, &tree.box, tree.planes, limit, &entry);
             if (lanes == 0u)
                 break;
             /* One or two children are the usual case, and need no sorting. */
@@ -250,13 +322,20 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
             top = bvh8_push_sorted(scene, children, lanes, entries, stack, stack_t, top) - 1;
             child = stack[top];
         }
+        if (bvh8_instance(child) != 0u) {
+            tree = bvh8_instance_tree(scene, ray, bvh8_instance(child), top, &child);
+            continue;
+        }
         if (child & BVH_LEAF_BIT) {
-            SCENE_COUNT_LEAF(scene, bvh8_block_size(bvh8_leaf(scene, child)));
-            bvh8_block_closest(scene, bvh8_leaf(scene, child), &shear, ray_time(ray), after, hit);
+            global const uint* block = bvh8_leaf(scene, child);
+            SCENE_COUNT_LEAF(scene, bvh8_block_size(block));
+            bvh8_block_closest(scene, block, tree.instance, &shear, ray_time(ray), after, hit);
             limit = hit->t * BOX_EXIT_FACTOR;
         }
         /* Take the nearest child that can still hold a nearer hit. */
         do {
+            if (HAS(EFFECT_INSTANCES) && top == tree.floor && tree.instance != 0u)
+                tree = scene_tree;
             if (top == 0)
                 return;
             child = stack[--top];
@@ -268,9 +347,9 @@ static CLRT_NOINLINE void bvh8_closest_hit(const Scene* scene, const RenderParam
    chose for this question. */
 static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
-    const BoxRay box = box_ray_make(ray, params->scene_extent);
+    const Bvh8Tree scene_tree = bvh8_scene_tree(params, ray);
     const RayShear shear = ray_shear_make(ray);
-    const uint8 planes = bvh8_planes(box.reciprocal);
+    Bvh8Tree tree = scene_tree;
     const real limit = ray->t_max * BOX_EXIT_FACTOR;
     uint stack[BVH8_STACK_SIZE];
     int top = 0;
@@ -281,7 +360,7 @@ static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* p
             SCENE_COUNT_NODE(scene);
             real8 entry;
             global const uint* children = node + BVH8_CHILD_WORD;
-            const uint lanes = bvh8_enter(node, &box, planes, limit, &entry);
+            const uint lanes = bvh8_enter(node, &tree.box, tree.planes, limit, &entry);
             if (lanes == 0u)
                 break;
             /* One child is the usual case, and need not go through the stack. */
@@ -295,11 +374,18 @@ static CLRT_NOINLINE bool bvh8_any_hit(const Scene* scene, const RenderParams* p
                     stack[top++] = children[lane];
             child = stack[--top];
         }
+        if (bvh8_instance(child) != 0u) {
+            tree = bvh8_instance_tree(scene, ray, bvh8_instance(child), top, &child);
+            continue;
+        }
         if (child & BVH_LEAF_BIT) {
-            SCENE_COUNT_LEAF(scene, bvh8_block_size(bvh8_leaf(scene, child)));
-            if (bvh8_block(scene, bvh8_leaf(scene, child), &shear, ray_time(ray), ray->t_max).lanes != 0u)
+            global const uint* block = bvh8_leaf(scene, child);
+            SCENE_COUNT_LEAF(scene, bvh8_block_size(block));
+            if (bvh8_block(scene, block, tree.instance, &shear, ray_time(ray), ray->t_max).lanes != 0u)
                 return true;
         }
+        if (HAS(EFFECT_INSTANCES) && top == tree.floor && tree.instance != 0u)
+            tree = scene_tree;
         if (top == 0)
             return false;
         child = stack[--top];

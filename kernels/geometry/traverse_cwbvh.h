@@ -6,7 +6,7 @@
 // and the met ones are bits of a word, the nearest uppermost. Such a word with the index of the first child
 // is a group; one node leaves at most one group behind, so the stack holds a group a level and no distances.
 // A tree has at most CWBVH_MAX_LEVELS levels of nodes, and the deepest has no children left to put off: 20
-// entries of eight bytes.
+// entries of eight bytes. An instance's tree stands on the scene's.
 //
 // Boxes are safe in three steps: the lattice's box encloses the child's exactly (layout_cwbvh.cpp); step
 // times reciprocal is exact, since steps are powers of two and too large to underflow; and the pad below
@@ -15,10 +15,11 @@
 #define CLRT_GEOMETRY_TRAVERSE_CWBVH_H
 
 #include "box.h"
+#include "instance.h"
 #include "leaf_triangle.h"
 #include "scene.h"
 
-#define CWBVH_STACK_SIZE (CWBVH_MAX_LEVELS - 1)
+#define CWBVH_STACK_SIZE (HAS(EFFECT_INSTANCES) ? 2 * CWBVH_MAX_LEVELS : CWBVH_MAX_LEVELS - 1)
 
 /* A plane at origin + q step is met at fma(q, step r, fma(origin, r, entry_offset)), where box.h has
    fma(plane, r, entry_offset). The inner fma rounds a sum of at most 2 reach |r| and a pad: 2 units and a
@@ -99,17 +100,25 @@ static inline uint cwbvh_take_nearest(uint2* group, uint flip)
     return group->x + popcount(group->y & ((1u << slot) - 1u));
 }
 
+/* The complement of a ray's octant. */
+static inline uint cwbvh_flip(const BoxRay* box)
+{
+    return (box->reciprocal.x < REAL(0.0) ? 0u : 1u) | (box->reciprocal.y < REAL(0.0) ? 0u : 2u) |
+           (box->reciprocal.z < REAL(0.0) ? 0u : 4u);
+}
+
 /* Finds the first hit after `after` and not beyond hit->t, or leaves hit unchanged; with `any`, true at the
    first triangle that is met, whichever it is. `any` is a constant. */
 CLRT_INLINE bool cwbvh_traverse(const Scene* scene, const RenderParams* params, const Ray* ray,
                                 const Hit* after, Hit* hit, bool any)
 {
-    const BoxRay box = box_ray_make_padded(ray, params->scene_extent, CWBVH_PAD_ROUNDINGS);
+    const BoxRay scene_box = box_ray_make_padded(ray, params->scene_extent, CWBVH_PAD_ROUNDINGS);
     const RayShear shear = ray_shear_make(ray);
-    const uint flip = (box.reciprocal.x < REAL(0.0) ? 0u : 1u) | (box.reciprocal.y < REAL(0.0) ? 0u : 2u) |
-                      (box.reciprocal.z < REAL(0.0) ? 0u : 4u);
+    BoxRay box = scene_box;
+    uint flip = cwbvh_flip(&box);
     uint2 stack[CWBVH_STACK_SIZE];
-    uint top = 0;
+    uint top = 0u, floor = 0u, instance = 0u;
+    uint2 scene_rest = (uint2)(0u); /* while the traversal is in an instance */
     /* The root is the only child of a group without a mask. */
     uint2 group = (uint2)(0u, 0x80000000u);
     for (;;) {
@@ -119,22 +128,47 @@ CLRT_INLINE bool cwbvh_traverse(const Scene* scene, const RenderParams* params, 
         global const uint4* node = (global const uint4*)(scene->bvh_nodes + (size_t)CWBVH_NODE_WORDS * index);
         SCENE_COUNT_NODE(scene);
         const CwbvhGroups groups = cwbvh_enter(node, &box, flip, hit->t);
-        for (uint rest = groups.triangles.y; rest != 0u; rest &= rest - 1u) {
-            const uint place = 31u - clz(rest & -rest);
-            global const uint* leaf =
-                scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (groups.triangles.x + place);
-            SCENE_COUNT_LEAF(scene, 1u);
-            Hit found;
-            if (!any)
-                leaf_triangle_closest(scene, leaf, ray, &shear, after, hit);
-            else if (leaf_triangle_hit(scene, leaf, ray, &shear, hit->t, &found))
-                return true;
-        }
         group = groups.nodes;
-        if (!(group.y & CWBVH_INNER_BITS)) {
-            if (top == 0u)
+        for (uint2 rest = groups.triangles;;) {
+            for (; rest.y != 0u; rest.y &= rest.y - 1u) {
+                const uint place = 31u - clz(rest.y & -rest.y);
+                global const uint* leaf = scene->bvh_leaves + (size_t)LEAF_TRIANGLE_WORDS * (rest.x + place);
+                if (HAS(EFFECT_INSTANCES) && leaf[BVH_INSTANCE_WORD] != 0u) {
+                    instance = leaf[BVH_INSTANCE_WORD];
+                    break;
+                }
+                SCENE_COUNT_LEAF(scene, 1u);
+                Hit found;
+                if (!any)
+                    leaf_triangle_closest(scene, leaf, instance, ray, &shear, after, hit);
+                else if (leaf_triangle_hit(scene, leaf, instance, ray, &shear, hit->t, &found))
+                    return true;
+            }
+            if (HAS(EFFECT_INSTANCES) && rest.y != 0u) {
+                /* Go into the instance's tree; what is left of the node waits. */
+                global const Instance* placed = scene->instances + instance;
+                box = instance_box_ray(placed, ray);
+                flip = cwbvh_flip(&box);
+                if (group.y & CWBVH_INNER_BITS)
+                    stack[top++] = group;
+                floor = top;
+                scene_rest = (uint2)(rest.x, rest.y & (rest.y - 1u));
+                group = (uint2)(scene->bvh_roots[placed->prototype], 0x80000000u);
+                break;
+            }
+            if (group.y & CWBVH_INNER_BITS)
+                break;
+            if (top > floor) {
+                group = stack[--top];
+                break;
+            }
+            if (!HAS(EFFECT_INSTANCES) || instance == 0u)
                 return false;
-            group = stack[--top];
+            /* Go on in the scene's tree. */
+            box = scene_box;
+            flip = cwbvh_flip(&box);
+            instance = floor = 0u;
+            rest = scene_rest;
         }
     }
 }

@@ -56,7 +56,7 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
     aov_add(sums->values + AOV_ALBEDO, bsdf_albedo(&bsdf));
     aov_add(sums->values + AOV_NORMAL, bsdf.frame.z);
     aov_add(sums->values + AOV_POSITION, surface.position);
-    const uint object = scene->triangles[hit.triangle].object;
+    const uint object = surface_object(scene, &hit);
     if (sums->words[AOV_HITS]++ == 0u) {
         sums->words[AOV_OBJECT] = object;
         sums->words[AOV_MATERIAL] = surface.material;

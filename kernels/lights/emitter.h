@@ -53,7 +53,7 @@ CLRT_GIVES_STRUCT LightSample emitter_sample_chosen(const Scene* scene, uint cho
     const real3 way = point - position;
     const real facing = -vector_dot(way, normal);
     const bool front =
-        (facing > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, REAL(0.0), normal);
+        (facing > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, 0u, REAL(0.0), normal);
     global const Material* material = scene->materials + triangle->material;
     const bool shines = facing != REAL(0.0) && material_emits(material, front);
     if (!shines && !real_is_nan(facing))

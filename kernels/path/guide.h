@@ -51,9 +51,9 @@ static inline uint guide_find_cell(const Scene* scene, const RenderParams* param
 {
     if (hit->triangle == NO_INDEX)
         return NO_INDEX;
-    real3 p0, p1, p2;
-    surface_corners(scene, scene->triangles + hit->triangle, &p0, &p1, &p2);
-    const real3 normal = surface_cross(p1 - p0, p2 - p0);
+    real3 p[3];
+    surface_corners_at(scene, scene->triangles + hit->triangle, hit_instance(hit), REAL(0.0), p);
+    const real3 normal = surface_cross(p[1] - p[0], p[2] - p[0]);
     const bool is_front = vector_dot(normal, ray->direction) <= REAL(0.0);
     const real3 position = fma((real3)(hit->t), ray->direction, ray->origin);
     const uint number =

@@ -15,6 +15,9 @@
 /* A vertex that scatters other than as a delta function. */
 typedef struct {
     uint triangle;
+#if CLRT_EFFECTS & EFFECT_INSTANCES
+    uint instance;
+#endif
     uint segment;         /* of the light path up to the vertex, from 1 */
     real b1, b2;          /* barycentric weights of corners 1 and 2 */
     real wo[3];           /* unit, to where the light has come from */
@@ -39,6 +42,9 @@ static inline void light_vertices_keep(uint segment, const Hit* hit, real3 wo, r
         return;
     KeptVertex* vertex = &kept->at[kept->count++];
     vertex->triangle = hit->triangle;
+#if CLRT_EFFECTS & EFFECT_INSTANCES
+    vertex->instance = hit->instance;
+#endif
     vertex->segment = segment;
     vertex->b1 = hit->b1;
     vertex->b2 = hit->b2;
@@ -70,6 +76,9 @@ static inline Hit light_vertices_hit(const KeptVertex* kept)
 {
     Hit hit = hit_none(REAL(0.0));
     hit.triangle = kept->triangle;
+#if CLRT_EFFECTS & EFFECT_INSTANCES
+    hit.instance = kept->instance;
+#endif
     hit.b1 = kept->b1;
     hit.b2 = kept->b2;
     return hit;

@@ -18,7 +18,7 @@ static inline Hit vertex_hit(const Scene* scene, const RenderParams* params, con
     TRACE_CHOICES(scene, TRACE_VERTEX, segment, node);
     TRACE_VECTOR(scene, TRACE_RAY_ORIGIN, ray->origin);
     TRACE_VECTOR(scene, TRACE_RAY_DIRECTION, ray->direction);
-    TRACE_CHOICE(scene, TRACE_TRIANGLE, hit.triangle);
+    TRACE_CHOICES(scene, TRACE_TRIANGLE, hit.triangle, hit_instance(&hit));
     if (hit.triangle != NO_INDEX) {
         TRACE_NUMBER(scene, TRACE_DISTANCE, hit.t);
         TRACE_VECTOR(scene, TRACE_BARYCENTRIC, vector_make(hit.b1, hit.b2, REAL(0.0)));

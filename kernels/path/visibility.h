@@ -61,11 +61,11 @@ static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderPara
     shifted.t_max = reach;
     const Hit after = hit_none(REAL(0.0));
     const Hit nearer = scene_closest_hit(scene, params, &shifted, &after);
-    if (nearer.triangle == NO_INDEX || nearer.triangle == hit->triangle)
+    if (nearer.triangle == NO_INDEX || hit_is_same_triangle(&nearer, hit))
         return false;
     if (HAS(EFFECT_CUT_OUT) && visibility_coverage(scene, &nearer) < REAL(1.0))
         return false;
-    hit->triangle = nearer.triangle;
+    hit_set_triangle(hit_instance(&nearer), nearer.triangle, hit);
     hit->b1 = nearer.b1;
     hit->b2 = nearer.b2;
     return true;

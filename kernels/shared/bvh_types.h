@@ -11,6 +11,15 @@
 #define BVH_LAYOUT_CWBVH 80 /* eight quantised children in 80 bytes (Ylitie et al. 2017): for GPUs */
 
 #define BVH_LEAF_BIT 0x80000000u
+
+/* Where meshes are shared there is a tree over each, in the frame of its prototype, and one over the scene,
+   whose leaves hold triangles or a single instance. The trees lie in the same arrays one after the other, the
+   scene's first; the roots say where those of the prototypes begin. bvh8: the child word of an instance
+   is its index with this bit and BVH_LEAF_BIT; bvh2: with this bit alone. cwbvh: a leaf triangle whose word
+   BVH_INSTANCE_WORD is not 0 is that instance. */
+#define BVH_INSTANCE_BIT 0x40000000u
+#define BVH_INSTANCE_WORD 7
+
 #define BVH_MAX_DEPTH 64 /* levels of the binary tree; the builder guarantees it, stacks are sized by it */
 
 /* An empty child has lower = +BVH_EMPTY, upper = -BVH_EMPTY: no ray enters it. Products with the clamped
@@ -40,7 +49,7 @@
 #define BVH2_LEAF_TRIANGLES 4 /* most triangles a leaf holds */
 
 /* Leaf triangle of bvh2 and cwbvh: 12 words: corner 0 xyz, triangle index; corner 1 xyz, 0; corner 2 xyz,
-   0. */
+   0. An instance of cwbvh: zeros but for BVH_INSTANCE_WORD. */
 #define LEAF_TRIANGLE_WORDS 12
 
 /* Where triangles move while the shutter is open, leaves have a second array: at the places of the corners,

@@ -29,9 +29,10 @@
 #define EFFECT_SHEEN 0x200000u         /* fibres that reflect towards grazing angles */
 #define EFFECT_SPOT 0x400000u          /* point lights that shine within a cone */
 #define EFFECT_CONDUCTOR 0x800000u     /* reflection by a complex index of refraction */
+#define EFFECT_INSTANCES 0x10000000u   /* copies that share one mesh (geometry/instance.h) */
 #define EFFECT_THIN_WALL 0x20000000u   /* panes without an inside */
 #define EFFECT_ROTATION 0x40000000u    /* highlights stretched askew to the texture coordinates */
-#define EFFECT_ALL (0xffffffu | EFFECT_THIN_WALL | EFFECT_ROTATION)
+#define EFFECT_ALL (0xffffffu | EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_ROTATION)
 
 /* Effects that read the array of material extensions. */
 #define EFFECTS_EXTENSION                                                                                    \

@@ -13,7 +13,8 @@
 #define BVH_ARRAYS(ROW)                                                                                      \
     ROW(u32, bvh_nodes, nodes)                                                                               \
     ROW(u32, bvh_leaves, leaves)                                                                             \
-    ROW(u32, bvh_leaf_moves, leaf_moves)
+    ROW(u32, bvh_leaf_moves, leaf_moves)                                                                     \
+    ROW(u32, bvh_roots, roots)
 
 /* ROW(type of an element, name in the kernels, member of the host's Scene), in the order in which they are
    hashed. */
@@ -24,6 +25,7 @@
     ROW(vec4, normal_moves, normal_moves)                                                                    \
     ROW(vec2, uvs, uvs)                                                                                      \
     ROW(Triangle, triangles, triangles)                                                                      \
+    ROW(Instance, instances, instances)                                                                      \
     ROW(Material, materials, materials)                                                                      \
     ROW(MaterialExtension, extensions, extensions)                                                           \
     ROW(Texture, textures, textures)                                                                         \

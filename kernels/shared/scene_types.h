@@ -21,6 +21,23 @@ typedef struct {
 } Triangle;
 ASSERT_SIZE(Triangle, 48);
 
+/* A copy of a prototype's triangles, which the scene shows at an affine map's places only. Triangles of the
+   scene itself are those of instance 0, which is in the array where there are others and whose members no
+   kernel reads. */
+typedef struct {
+    vec4 to_world[3]; /* rows of the map from the prototype's frame to the normalised one: xyz, and in w what
+                         is added */
+    vec4 to_prototype[3]; /* xyz: rows of the inverse of its linear part; w: INSTANCE_SLACK along that axis */
+    u32 prototype; /* number of its tree */
+    u32 object;    /* for the objectId layer, in the place of its triangles' */
+    float side;    /* -1 where the map mirrors, else 1 */
+    u32 unused0;
+} Instance;
+ASSERT_SIZE(Instance, 112);
+
+/* What rounds along an axis of the prototype for any ray, in units of 2^-24 (geometry/instance.h). */
+#define INSTANCE_SLACK(row) ((row).w)
+
 /* What scales LOBE_GLOSSY and LOBE_MIRROR. */
 #define FRESNEL_NONE 0u    /* colour `specular` at every angle */
 #define FRESNEL_SCHLICK 1u /* F0 = `specular`, 1 at grazing */

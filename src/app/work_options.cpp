@@ -184,6 +184,13 @@ std::vector<OptionSpec> work_options() {
          "repair "
          "is said) or plain (word by word) (default auto)",
          [](Options& o, const OptionValue& v) { o.scene.mtl = parse_choice<MtlReading>(v); }},
+        {group, "", "--instances", "auto|on|off",
+         fmt::format(
+             "meshes that a glTF file uses several times: kept once and shared (on), copied (off), or "
+             "auto: shared where the copies would be {} triangles or more; what shines or moves is "
+             "copied (default auto)",
+             LEAST_COPIED_TRIANGLES),
+         [](Options& o, const OptionValue& v) { o.scene.instances = parse_choice<Toggle>(v); }},
         {group, "", "--gltf-lights", "UNITS",
          "lights of glTF files: blender (candela and lux over 683, as Blender writes them; emission as it "
          "is) or raw (watts as they are) (default blender)",

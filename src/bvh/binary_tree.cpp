@@ -99,6 +99,14 @@ Preparation prepare_items(const std::vector<vec4>& positions, const std::vector<
                                 prepare, merge);
 }
 
+// Appends an item for each box behind those of the triangles.
+void add_boxes(const std::vector<Box>& boxes, u32 triangle_count, BuildItem* items, ItemBounds& bounds) {
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        bounds.extend(boxes[i]);
+        items[triangle_count + i] = BuildItem(boxes[i], triangle_count + u32(i));
+    }
+}
+
 // Levels that `count` triangles need when every split is at the median.
 int levels_needed(u32 count, u32 max_leaf) {
     int levels = 1;
@@ -114,10 +122,12 @@ struct ItemRange {
 
 class Builder {
 public:
-    // Without a mesh there are no spatial splits; `leaf_begins` gets where each leaf's items begin.
+    // Without a mesh there are no spatial splits; items from `first_box` on are boxes; `leaf_begins` gets
+    // where each leaf's items begin.
     Builder(BuildItem* items, BinaryNode* nodes, const LeafCost& leaf_cost, const TriangleCorners* mesh,
-            u32* leaf_begins)
-        : items_(items), nodes_(nodes), leaf_cost_(leaf_cost), mesh_(mesh), leaf_begins_(leaf_begins) {}
+            u32 first_box, u32* leaf_begins)
+        : items_(items), nodes_(nodes), leaf_cost_(leaf_cost), mesh_(mesh), first_box_(first_box),
+          leaf_begins_(leaf_begins) {}
 
     void build_root(const ItemRange& range, const ItemBounds& bounds) {
         const Float4 edge = bounds.box.upper - bounds.box.lower;
@@ -161,7 +171,8 @@ private:
     bool split(ItemRange& range, const ItemBounds& bounds, int level, SplitSides& sides) {
         BuildItem* const items = items_ + range.begin;
         const u32 count = range.count;
-        if (count <= leaf_cost_.min_leaf)
+        const bool may_be_leaf = count <= leaf_cost_.max_leaf && (count == 1 || !holds_box(items, count));
+        if (may_be_leaf && count <= leaf_cost_.min_leaf)
             return false;
         const BinMap map(bounds.centres, count);
         const BinnedSplit best = find_split(items, count, bounds, map, leaf_cost_);
@@ -170,7 +181,7 @@ private:
         // Both sides must be able to finish within the levels that are left.
         const bool allowed =
             best.axis >= 0 && fits(std::max(best.left_count, count - best.left_count), level);
-        if (count <= leaf_cost_.max_leaf && (!allowed || best.leaf_cost <= best.cost))
+        if (may_be_leaf && (!allowed || best.leaf_cost <= best.cost))
             return false;
         sides =
             allowed ? apply_split(items, count, map, best) : split_at_median(items, count, bounds.centres);
@@ -203,6 +214,12 @@ private:
         return true;
     }
 
+    bool holds_box(const BuildItem* items, u32 count) const {
+        return first_box_ != NO_INDEX && std::any_of(items, items + count, [&](const BuildItem& item) {
+                   return item.triangle() >= first_box_;
+               });
+    }
+
     bool overlap(const BinnedSplit& split, const Box& box) const {
         Box common;
         common.lower = lane_max(split.left.lower, split.right.lower);
@@ -215,6 +232,8 @@ private:
 
     // Whether a side of so many items can be finished by medians within the levels below this one.
     bool fits(u32 count, int level) const {
+        if (first_box_ != NO_INDEX)
+            return levels_needed(count, 1) < BVH_MAX_DEPTH - level; // BinaryTree::most_levels
         return levels_needed(count, leaf_cost_.max_leaf) <= BVH_MAX_DEPTH - level;
     }
 
@@ -233,6 +252,7 @@ private:
     BinaryNode* nodes_;
     LeafCost leaf_cost_;
     const TriangleCorners* mesh_;
+    u32 first_box_;
     u32* leaf_begins_;
     float root_scale_ = 1, least_overlap_ = 0;
     std::atomic<u32> node_count_{1};
@@ -256,22 +276,24 @@ double half_area(const float* lower, const float* upper) {
 
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
                              const LeafCost& leaf_cost, const TreeEffort& effort,
-                             const std::vector<vec4>& moves) {
-    assert(moves.empty() || !effort.spatial_splits);
+                             const std::vector<vec4>& moves, const std::vector<Box>& boxes) {
+    assert((moves.empty() && boxes.empty()) || !effort.spatial_splits);
     const size_t capacity = effort.spatial_splits
                                 ? std::min(size_t(double(triangles.size()) * MOST_REFERENCES), MOST_TRIANGLES)
-                                : triangles.size();
+                                : triangles.size() + boxes.size();
     // Uninitialised: each page is first touched by the thread that fills it.
     std::unique_ptr<BuildItem[]> items(new BuildItem[capacity]);
-    const Preparation prepared = prepare_items(positions, triangles, moves, items.get());
-    BuildItem* items_end = items.get() + triangles.size();
+    Preparation prepared = prepare_items(positions, triangles, moves, items.get());
+    add_boxes(boxes, u32(triangles.size()), items.get(), prepared.bounds);
+    BuildItem* items_end = items.get() + triangles.size() + boxes.size();
     if (prepared.left_out > 0)
         items_end = std::remove_if(items.get(), items_end,
                                    [](const BuildItem& i) { return i.triangle() == NO_INDEX; });
     const u32 count = u32(items_end - items.get());
 
     BinaryTree tree;
-    tree.triangle_count = count;
+    tree.triangle_count = count - u32(boxes.size());
+    tree.first_box = boxes.empty() ? NO_INDEX : u32(triangles.size());
     if (count == 0)
         return tree;
     // At most two nodes an item; the part that is not used is never touched and takes no memory.
@@ -279,7 +301,7 @@ BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vect
     std::unique_ptr<u32[]> leaf_begins(new u32[2 * capacity]);
     const TriangleCorners mesh{positions, triangles};
     Builder builder(items.get(), tree.nodes.get(), leaf_cost, effort.spatial_splits ? &mesh : nullptr,
-                    leaf_begins.get());
+                    tree.first_box, leaf_begins.get());
     builder.build_root({0, count, u32(effort.spatial_splits ? capacity : count) - count}, prepared.bounds);
     tree.node_count = builder.node_count();
     const auto triangle_at = [&](u32 item) { return items[item].triangle(); };

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "bvh/binned_split.h"
+#include "bvh/box.h"
 #include "bvh/bvh.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -25,9 +27,17 @@ struct BinaryNode {
 struct BinaryTree {
     std::unique_ptr<BinaryNode[]> nodes; ///< no root when `order` is empty
     u32 node_count = 0;
-    std::vector<u32> order; ///< triangle indices, leaf by leaf; with spatial splits some more than once
-    u32 triangle_count = 0; ///< different triangles in `order`
-    int depth = 0;          ///< levels: 0 for an empty tree, 1 for a root that is a leaf
+    std::vector<u32> order;   ///< triangle indices, leaf by leaf; with spatial splits some more than once
+    u32 triangle_count = 0;   ///< different triangles in `order`
+    u32 first_box = NO_INDEX; ///< in `order`, what is no triangle but a box: alone in its leaf
+    int depth = 0;            ///< levels: 0 for an empty tree, 1 for a root that is a leaf
+
+    /// How deep it may be: boxes, in leaves of their own, are a level more to bvh2, which has a bit for each.
+    int most_levels() const { return first_box == NO_INDEX ? BVH_MAX_DEPTH : BVH_MAX_DEPTH - 1; }
+    /// Whether the entries of `order` from `first` on hold a box.
+    bool holds_box(u32 first, u32 count) const {
+        return std::any_of(&order[first], &order[first] + count, [&](u32 i) { return i >= first_box; });
+    }
 };
 
 /// Whether a tree holds the triangle of these corners (build_bvh says which it does).
@@ -48,10 +58,16 @@ struct TreeEffort {
 /// Builds the tree by binned SAH, and by object medians where centres coincide or the depth that is left
 /// demands it; then as much more as `effort` says. Leaves hold at most `leaf_cost.max_leaf` triangles. Time
 /// is at most BVH_MAX_DEPTH passes.
-/// Boxes enclose the ways of `moves` (bvh.h), which excludes spatial splits.
+/// Boxes enclose the ways of `moves` (bvh.h), which excludes spatial splits, as `boxes` do: each of them is
+/// an entry behind the triangles in a leaf of its own.
 BinaryTree build_binary_tree(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
                              const LeafCost& leaf_cost, const TreeEffort& effort,
-                             const std::vector<vec4>& moves = {});
+                             const std::vector<vec4>& moves = {}, const std::vector<Box>& boxes = {});
+
+/// As build_bvh, with instances by their boxes (build_instanced_bvh).
+Bvh build_bvh_with_boxes(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                         const std::vector<Box>& boxes, BvhLayout layout, BvhQuality quality,
+                         const std::vector<vec4>& moves);
 
 /// Half the surface of a box, of three coordinates each.
 double half_area(const float* lower, const float* upper);

@@ -20,6 +20,7 @@ struct Bvh {
     std::vector<u32> nodes;      ///< node 0 is the root; floats are stored by their bits
     std::vector<u32> leaves;     ///< triangle blocks or leaf triangles; floats are stored by their bits
     std::vector<u32> leaf_moves; ///< of the corners in the leaves; empty where no triangle moves
+    std::vector<u32> roots;      ///< of the trees over prototypes (bvh/instanced_bvh.h); empty without them
     int depth = 0;               ///< levels of the binary tree, at most BVH_MAX_DEPTH
     size_t triangle_count = 0;   ///< in the tree; those with equal or non-finite corners are left out
     size_t reference_count = 0;  ///< entries in leaves: more than triangles where spatial splits cut some

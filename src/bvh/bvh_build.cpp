@@ -41,12 +41,12 @@ Bvh write_layout(const std::vector<vec4>& positions, const std::vector<Triangle>
     return bvh;
 }
 
-// Parts of a triangle that moves would have to be cut at every time.
+// Parts of a triangle that moves would have to be cut at every time; boxes are not cut.
 BinaryTree build_high(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
-                      BvhLayout layout, const std::vector<vec4>& moves) {
+                      BvhLayout layout, const std::vector<vec4>& moves, const std::vector<Box>& boxes) {
     const LeafCost leaves = leaf_cost(layout);
-    BinaryTree whole = build_binary_tree(positions, triangles, leaves, MORE_ROUNDS, moves);
-    if (!moves.empty())
+    BinaryTree whole = build_binary_tree(positions, triangles, leaves, MORE_ROUNDS, moves, boxes);
+    if (!moves.empty() || !boxes.empty())
         return whole;
     BinaryTree cut = build_binary_tree(positions, triangles, leaves, SPATIAL_SPLITS);
     const bool pays = cost_in_layout(cut, layout) <= LARGEST_COST_SHARE * cost_in_layout(whole, layout);
@@ -57,16 +57,22 @@ BinaryTree build_high(const std::vector<vec4>& positions, const std::vector<Tria
 
 Bvh build_bvh(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles, BvhLayout layout,
               BvhQuality quality, const std::vector<vec4>& moves) {
+    return build_bvh_with_boxes(positions, triangles, {}, layout, quality, moves);
+}
+
+Bvh build_bvh_with_boxes(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
+                         const std::vector<Box>& boxes, BvhLayout layout, BvhQuality quality,
+                         const std::vector<vec4>& moves) {
     const auto start = std::chrono::steady_clock::now();
     // Indices of nodes and leaves have 31 bits, and each layout has at most one of either a triangle. The
     // builder rounds counts up to whole blocks in 32 signed bits.
-    if (triangles.size() > MOST_TRIANGLES)
+    if (triangles.size() + boxes.size() > MOST_TRIANGLES)
         throw SceneError("scene", 0,
                          "expected at most " + std::to_string(MOST_TRIANGLES) + " triangles, found " +
                              std::to_string(triangles.size()) + "; split the scene or simplify its meshes");
-    BinaryTree tree = quality == BvhQuality::HIGH
-                          ? build_high(positions, triangles, layout, moves)
-                          : build_binary_tree(positions, triangles, leaf_cost(layout), OBJECT_SPLITS, moves);
+    BinaryTree tree = quality == BvhQuality::HIGH ? build_high(positions, triangles, layout, moves, boxes)
+                                                  : build_binary_tree(positions, triangles, leaf_cost(layout),
+                                                                      OBJECT_SPLITS, moves, boxes);
     Bvh bvh = write_layout(positions, triangles, std::move(tree), layout);
     if (!moves.empty())
         write_leaf_moves(moves, triangles, bvh);

@@ -18,9 +18,10 @@ float relative_area(const BinaryNode& node, double root_area) {
 } // namespace
 
 WideCollapse::WideCollapse(const BinaryTree& tree, const WideRules& rules)
-    : nodes_(tree.nodes.get()), rules_(rules), root_area_(half_area(nodes_[0])), costs_(tree.node_count),
-      heights_(tree.node_count) {
-    find_costs(0);
+    : tree_(tree), nodes_(tree.nodes.get()), rules_(rules), root_area_(half_area(nodes_[0])),
+      costs_(tree.node_count), heights_(tree.node_count),
+      parted_(tree.first_box == NO_INDEX ? 0 : tree.node_count) {
+    find_costs(0, 0);
 }
 
 double WideCollapse::cost() const {
@@ -33,22 +34,29 @@ float WideCollapse::leaf_cost(u32 node) const {
     return relative_area(n, root_area_) * (rules_.price.leaf + rules_.price.triangle * float(n.count));
 }
 
-void WideCollapse::find_costs(u32 node) {
+bool WideCollapse::may_be_leaf(u32 node) const {
+    return nodes_[node].count <= rules_.max_leaf && (parted_.empty() || !parted_[node]);
+}
+
+void WideCollapse::find_costs(u32 node, u32 first) {
     const BinaryNode& n = nodes_[node];
     Costs& costs = costs_[node];
+    if (!parted_.empty() && n.count <= rules_.max_leaf)
+        parted_[node] = n.count > 1 && tree_.holds_box(first, n.count);
     if (n.child == 0) {
         costs.fill(leaf_cost(node));
         return;
     }
+    const u32 right = first + nodes_[n.child].count;
     if (n.count < PARALLEL_COLLAPSE) {
-        find_costs(n.child);
-        find_costs(n.child + 1);
+        find_costs(n.child, first);
+        find_costs(n.child + 1, right);
     } else {
-        tbb::parallel_invoke([&] { find_costs(n.child); }, [&] { find_costs(n.child + 1); });
+        tbb::parallel_invoke([&] { find_costs(n.child, first); }, [&] { find_costs(n.child + 1, right); });
     }
     // One child: a leaf, or a wide node of its own.
     costs[0] = relative_area(n, root_area_) + distribute(n, BVH8_WIDTH).cost;
-    if (n.count <= rules_.max_leaf)
+    if (may_be_leaf(node))
         costs[0] = std::min(costs[0], leaf_cost(node));
     // More children: shared by both sides, unless fewer are cheaper.
     for (int children = 2; children < BVH8_WIDTH; ++children)
@@ -71,7 +79,7 @@ WideCollapse::Distribution WideCollapse::distribute(const BinaryNode& node, int 
 
 bool WideCollapse::is_leaf(u32 node) const {
     const BinaryNode& n = nodes_[node];
-    return n.child == 0 || (n.count <= rules_.max_leaf && costs_[node][0] == leaf_cost(node));
+    return n.child == 0 || (may_be_leaf(node) && costs_[node][0] == leaf_cost(node));
 }
 
 void WideCollapse::expand(WideChild subtree, int children, WideChildList& list) const {

@@ -77,18 +77,21 @@ private:
         int left; // children given to the left subtree
     };
 
-    void find_costs(u32 node);
+    void find_costs(u32 node, u32 first);
     float leaf_cost(u32 node) const;
+    bool may_be_leaf(u32 node) const;
     bool fits(const WideChildList& list, int levels) const;
     void expand_levels(WideChild subtree, int levels, WideChildList& list) const;
     Distribution distribute(const BinaryNode& node, int children) const;
     void expand(WideChild subtree, int children, WideChildList& list) const;
 
+    const BinaryTree& tree_;
     const BinaryNode* nodes_;
     WideRules rules_;
     double root_area_; // costs are relative to it
     std::vector<Costs> costs_;
     std::vector<std::uint8_t> heights_; // binary levels below each node down to what becomes a leaf
+    std::vector<std::uint8_t> parted_;  // whether a box among others is below each node; empty: no boxes
 };
 
 } // namespace clrt

@@ -45,6 +45,11 @@ constexpr LeafCost leaf_cost(BvhLayout layout) {
     return {3, BVH8_WIDTH / 4, BVH8_WIDTH, 0.0f};
 }
 
+/// The instance that a box of the tree is: from 1, in the order of the boxes (Instance).
+inline u32 instance_at(const BinaryTree& tree, u32 place) {
+    return tree.order[place] - tree.first_box + 1;
+}
+
 /// The cost that the tree will have in a layout (Bvh::sah_cost but for rounding); 0 where it is empty.
 double cost_in_layout(const BinaryTree& tree, BvhLayout layout);
 

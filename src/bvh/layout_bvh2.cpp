@@ -58,6 +58,12 @@ std::vector<LeafRange> write_bvh2_nodes(const BinaryTree& tree, Bvh& bvh) {
         stack.pop_back();
         const BinaryNode& b = binary[p.subtree];
         const bool is_leaf = b.child == 0;
+        if (is_leaf && tree.order[p.first] >= tree.first_box) {
+            write_child(&bvh.nodes[size_t(p.parent) * BVH2_NODE_WORDS], p.child, b.lower, b.upper,
+                        BVH_INSTANCE_BIT | instance_at(tree, p.first), 0);
+            cost.add_leaf(half_area(b), 1);
+            continue;
+        }
         const u32 reference = is_leaf ? BVH_LEAF_BIT | p.first : append_bvh2_node(bvh.nodes);
         write_child(&bvh.nodes[size_t(p.parent) * BVH2_NODE_WORDS], p.child, b.lower, b.upper, reference,
                     is_leaf ? b.count : 0);

@@ -67,7 +67,10 @@ std::vector<LeafRange> write_bvh8_nodes(const BinaryTree& tree, Bvh& bvh) {
             const WideChild child = children.items[size_t(lane)];
             const BinaryNode& b = binary[child.node];
             u32 reference;
-            if (collapse.is_leaf(child.node)) {
+            if (tree.order[child.first] >= tree.first_box && b.count == 1) {
+                reference = BVH_LEAF_BIT | BVH_INSTANCE_BIT | instance_at(tree, child.first);
+                cost.add_leaf(half_area(b), 1);
+            } else if (collapse.is_leaf(child.node)) {
                 reference = BVH_LEAF_BIT | u32(leaves.size());
                 leaves.push_back({child.first, b.count});
                 cost.add_leaf(half_area(b), b.count);

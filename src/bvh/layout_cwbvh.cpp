@@ -174,6 +174,11 @@ void write_cwbvh(const std::vector<vec4>& positions, const std::vector<Triangle>
     tbb::parallel_for(size_t(0), writer.leaves().size(), [&](size_t i) {
         const LeafRange& leaf = writer.leaves()[i];
         const u32* indices = &tree.order[leaf.first];
+        if (indices[0] >= tree.first_box) {
+            bvh.leaves[size_t(writer.places()[i]) * LEAF_TRIANGLE_WORDS + BVH_INSTANCE_WORD] =
+                instance_at(tree, leaf.first);
+            return;
+        }
         for (u32 k = 0; k < leaf.count; ++k)
             write_leaf_triangle(positions, triangles[indices[k]], indices[k],
                                 &bvh.leaves[size_t(writer.places()[i] + k) * LEAF_TRIANGLE_WORDS]);

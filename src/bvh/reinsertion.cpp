@@ -54,7 +54,7 @@ public:
             const std::vector<Move> done = apply(find_moves());
             if (done.empty())
                 break;
-            if (depth(0) > BVH_MAX_DEPTH) {
+            if (depth(0) > tree_.most_levels()) {
                 for (auto move = done.rbegin(); move != done.rend(); ++move)
                     reinsert(move->node, move->target);
                 break;

@@ -52,6 +52,7 @@ const std::vector<EffectSpec>& effect_table() {
          "metals reflect by Schlick's approximation from their colour head-on"},
         {EFFECT_INTERREFLECTION, "interreflection", 0, lobe_effects(),
          "direct light only: paths of two segments"},
+        {EFFECT_INSTANCES, "instances", 0, 0, "meshes that are shared are not there"},
         {EFFECT_THIN_WALL, "thin walls", 0, 0, "thin walls of glass are black and opaque"},
         {EFFECT_ROTATION, "rotated highlights", 0, EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL,
          "stretched highlights lie along the texture coordinates"},

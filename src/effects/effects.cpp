@@ -235,6 +235,17 @@ void find_conductors(EffectFinder& finder) {
     finder.material(EFFECT_CONDUCTOR, "no material has a complex index of refraction", is_conductor);
 }
 
+void find_instances(const Scene& scene, const Options& options, EffectFinder& finder) {
+    const char* const option = "--instances";
+    const bool has = !scene.prototypes.empty();
+    finder.fact(
+        EFFECT_INSTANCES, has,
+        has ? fmt::format("{} instances of {} meshes", scene.instances.size() - 1, scene.prototypes.size())
+        : options.scene.instances == Toggle::OFF ? describe_option(options, option) + " off"
+                                                 : "no mesh is shared",
+        has ? SourcePlace{} : place_of(options, option));
+}
+
 void find_filter(const Options& options, EffectFinder& finder) {
     const bool filtered = options.film.filter != Filter::BOX;
     finder.fact(EFFECT_FILTER, filtered, filtered ? describe_option(options, "--filter") : "box filter",
@@ -336,6 +347,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_depth_of_field(scene, options, finder);
     find_spots(scene, finder);
     find_conductors(finder);
+    find_instances(scene, options, finder);
     find_interreflection(scene, options, finder);
 
     effects.list = finder.take();

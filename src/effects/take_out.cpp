@@ -160,6 +160,13 @@ void take_out_motion(Scene& scene) {
     scene.normal_moves.clear();
 }
 
+/// Without instances nobody asks for the prototypes' triangles, which lie behind all others.
+void take_out_instances(Scene& scene) {
+    scene.triangles.resize(own_triangle_count(scene.triangles, scene.prototypes));
+    scene.prototypes.clear();
+    scene.instances.clear();
+}
+
 void take_out_lights(u32 effects, Scene& scene) {
     if (effects & EFFECT_AREA_LIGHT)
         take_out_area_lights(scene);
@@ -216,6 +223,8 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
     }
     if ((effects & EFFECT_LIGHT_TREE) && options.sampling.light_sampler == LightSampler::TREE)
         options.sampling.light_sampler = LightSampler::MIXTURE;
+    if (effects & EFFECT_INSTANCES)
+        take_out_instances(scene);
     if (effects & EFFECT_MOTION_BLUR)
         take_out_motion(scene);
     if (effects & EFFECT_DEPTH_OF_FIELD)

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "options/names.h"
+#include "options/toggle.h"
 
+#include <cstddef>
 #include <string>
 
 namespace clrt {
@@ -31,6 +33,10 @@ template <>
 inline constexpr Named<GltfLights> NAMES<GltfLights>[] = {{GltfLights::BLENDER, "blender"},
                                                           {GltfLights::RAW, "raw"}};
 
+/// Where copies of a mesh are at least so many triangles, one copy and a second tree take less memory and are
+/// built sooner; and the ray's way through two trees is no longer than through one that fills no cache.
+constexpr size_t LEAST_COPIED_TRIANGLES = 1000000;
+
 struct GltfReading {
     GltfLights lights = GltfLights::BLENDER;
     bool solid_glass = false; ///< transmission without volume refracts, where the standard has a thin wall
@@ -41,6 +47,7 @@ struct SceneOptions {
     std::string end_path;              ///< the same scene at time 1; empty: nothing moves
     MtlReading mtl = MtlReading::AUTO; ///< auto: as the writers of libraries mean them
     MaterialOverride material_override = MaterialOverride::NONE;
+    Toggle instances = Toggle::AUTO; ///< meshes that are used several times are shared, not copied
     GltfReading gltf{};
 };
 

@@ -163,7 +163,8 @@ std::optional<std::string> explain_empty_picture(const Scene& scene, const Optio
     const bool met_nothing = render.counts.secondary + render.counts.shadow == 0;
     if (!is_dark && !met_nothing)
         return std::nullopt;
-    const std::optional<VoxelGrid> grid = VoxelGrid::make(scene);
+    // A grid knows nothing of instances.
+    const std::optional<VoxelGrid> grid = scene.prototypes.empty() ? VoxelGrid::make(scene) : std::nullopt;
     const InView view = grid ? probe_view(*grid, scene, options) : InView{};
     if (grid && view.hits == 0)
         return (is_dark ? "the picture is black: " : "the picture shows no surface: ") +

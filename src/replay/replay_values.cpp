@@ -11,16 +11,18 @@ namespace clrt {
 
 namespace {
 
-std::string triangle_text(std::uint64_t index, const Scene& scene) {
+std::string triangle_text(std::uint64_t index, std::uint64_t instance, const Scene& scene) {
     if (index >= scene.triangles.size())
         return "none: leaves the scene";
     const Triangle& triangle = scene.triangles[index];
     const auto name = [](const std::vector<std::string>& names, u32 i) {
         return i < names.size() ? names[i] : "";
     };
-    const std::string object = name(scene.object_names, triangle.object);
-    return fmt::format("{}{}, {}", index, object.empty() ? "" : " of " + object,
-                       name(scene.material_names, triangle.material));
+    const bool is_shared = instance > 0 && instance < scene.instances.size();
+    const std::string object =
+        name(scene.object_names, is_shared ? scene.instances[instance].object : triangle.object);
+    return fmt::format("{}{}{}, {}", index, is_shared ? fmt::format(" of instance {}", instance) : "",
+                       object.empty() ? "" : " of " + object, name(scene.material_names, triangle.material));
 }
 
 /// The name of a lobe; of one that reflects and refracts, with the way that was taken.
@@ -63,7 +65,7 @@ std::string choice_text(const TraceEvent& event, const Scene& scene) {
         return event.bits[1] ? fmt::format("{}, ray {} of the tree", word, event.bits[1])
                              : std::to_string(word);
     case TRACE_TRIANGLE:
-        return triangle_text(word, scene);
+        return triangle_text(word, event.bits[1], scene);
     case TRACE_FRONT:
         return word ? "front" : "back";
     case TRACE_LOBE:

@@ -3,6 +3,7 @@
 
 #include "colour.h"
 #include "kernels/shared/path_types.h"
+#include "scene/placed_box.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -110,13 +111,36 @@ double squared_distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dve
     return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
 }
 
+/// That of the nearest triangle of an instance, if it is less than `nearest`. Only instances are looked into
+/// whose boxes are nearer.
+double squared_distance_to_instances(const Scene& scene, const glm::dvec3& p, double nearest) {
+    std::vector<PlacedBox> boxes;
+    for (const Prototype& prototype : scene.prototypes)
+        boxes.push_back(box_of_prototype(scene, prototype, [](const Triangle&) { return true; }));
+    for (size_t i = 1; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (boxes[instance.prototype].squared_distance_in(instance, p) >= nearest)
+            continue;
+        const Prototype& prototype = scene.prototypes[instance.prototype];
+        const auto place = [&](u32 v) { return placed(instance, to_dvec3(scene.positions[v])); };
+        for (u32 k = 0; k < prototype.triangle_count; ++k) {
+            const Triangle& t = scene.triangles[prototype.first_triangle + k];
+            nearest = std::min(nearest, squared_distance(p, place(t.v0), place(t.v1), place(t.v2)));
+        }
+    }
+    return nearest;
+}
+
 double squared_distance_to_scene(const Scene& scene, const glm::dvec3& p) {
     double nearest = std::numeric_limits<double>::max();
-    for (const Triangle& t : scene.triangles)
+    const size_t own = own_triangle_count(scene.triangles, scene.prototypes);
+    for (size_t i = 0; i < own; ++i) {
+        const Triangle& t = scene.triangles[i];
         nearest = std::min(nearest, squared_distance(p, to_dvec3(scene.positions[t.v0]),
                                                      to_dvec3(scene.positions[t.v1]),
                                                      to_dvec3(scene.positions[t.v2])));
-    return nearest;
+    }
+    return std::min(nearest, squared_distance_to_instances(scene, p, nearest));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/casters.h"
 
+#include "scene/placed_box.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -64,6 +65,24 @@ vec4 sphere_of(const Part& part) {
     return to_vec4(box.middle(), std::sqrt(square) * RADIUS_MARGIN);
 }
 
+/// Adds the boxes of instances whose prototypes have casters.
+void add_instances(const Scene& scene, Part& all) {
+    std::vector<PlacedBox> boxes;
+    for (const Prototype& prototype : scene.prototypes)
+        boxes.push_back(box_of_prototype(scene, prototype, [&](const Triangle& triangle) {
+            return is_caster(scene.materials[triangle.material]);
+        }));
+    for (size_t i = 1; i < scene.instances.size(); ++i)
+        if (const PlacedBox& box = boxes[scene.instances[i].prototype]; !box.is_empty()) {
+            CasterCorners corners;
+            for (const glm::dvec3& point : box.corners_in(scene.instances[i]))
+                corners.points.push_back(point);
+            for (const glm::dvec3& point : corners.points)
+                corners.middle += point / double(corners.points.size());
+            all.push_back(std::move(corners));
+        }
+}
+
 /// The triangles on both sides of the plane through the middle of where they are widest apart.
 std::pair<Part, Part> halves_of(Part part) {
     Box middles;
@@ -100,9 +119,11 @@ bool is_caster(const Material& material) {
 
 std::vector<vec4> find_casters(const Scene& scene) {
     Part all;
-    for (const Triangle& triangle : scene.triangles)
-        if (is_caster(scene.materials[triangle.material]))
-            all.push_back(caster_corners(scene, triangle));
+    const size_t own = own_triangle_count(scene.triangles, scene.prototypes);
+    for (size_t i = 0; i < own; ++i)
+        if (is_caster(scene.materials[scene.triangles[i].material]))
+            all.push_back(caster_corners(scene, scene.triangles[i]));
+    add_instances(scene, all);
     return all.empty() ? std::vector<vec4>() : cover(std::move(all), 0);
 }
 

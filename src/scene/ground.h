@@ -22,7 +22,7 @@ constexpr double GROUND_SQUARE = 4;
 /// a face that lies on it is seen whole.
 constexpr double GROUND_GAP = 0x1p-15;
 
-/// Triangles of the scene's file: all but the ground's.
+/// Triangles of the scene's file, prototypes' once: all but the ground's.
 size_t file_triangles(const Scene& scene);
 
 /// The lowest corner of the scene's triangles along `up` (unit), normalised frame; 0 where there are none.

@@ -150,9 +150,10 @@ KindShares kind_shares(LightSampler sampler, const Scene& scene) {
 }
 
 double emission_radius(const Scene& scene) {
-    double square = 0;
-    for (const Triangle& triangle : scene.triangles)
-        for (const u32 corner : {triangle.v0, triangle.v1, triangle.v2}) {
+    double square = 0; // the radius covers instances
+    const size_t own = own_triangle_count(scene.triangles, scene.prototypes);
+    for (size_t i = 0; i < own; ++i)
+        for (const u32 corner : {scene.triangles[i].v0, scene.triangles[i].v1, scene.triangles[i].v2}) {
             const glm::dvec3 p = to_dvec3(scene.positions[corner]);
             square = std::max(square, glm::dot(p, p));
         }

@@ -19,6 +19,7 @@
 #include "scene/material_override.h"
 #include "scene/mesh_motion.h"
 #include "scene/normalise.h"
+#include "scene/place_instances.h"
 #include "scene/readers/reader_table.h"
 #include "scene/scene_up.h"
 #include "scene/smoothing.h"
@@ -93,7 +94,8 @@ SceneDescription read_scene(const SceneOptions& options, Progress& progress, Pic
     const PictureFacts facts = pictures.facts();
     const SceneReader& reader = find_reader(file);
     SceneDescription description =
-        reader.read(std::move(file), {progress, notices, facts, options.mtl, options.gltf});
+        reader.read(std::move(file), {progress, notices, facts, options.mtl, options.gltf,
+                                      options.end_path.empty() ? options.instances : Toggle::OFF});
     statistics.obj_seconds = watch.seconds() - statistics.texture_seconds;
     statistics.dropped_faces = description.dropped_faces;
     return description;
@@ -215,8 +217,8 @@ void add_end_frame(const SceneRequest& request, Progress& progress, Mesh& mesh, 
     const PictureFacts facts = {[](const TextureUse&, TextureRole) { return true; },
                                 [](const TextureUse&) { return false; },
                                 [](const TextureUse&) { return false; }};
-    SceneDescription end =
-        reader.read(std::move(file), {progress, unused, facts, request.scene.mtl, request.scene.gltf});
+    SceneDescription end = reader.read(
+        std::move(file), {progress, unused, facts, request.scene.mtl, request.scene.gltf, Toggle::OFF});
     add_motion({input_name(request.scene.path), request.scene.end_path}, shutter_times(request.camera), mesh,
                std::move(end.mesh), notices);
     files.push_back({"the scene at time 1", request.scene.end_path});
@@ -238,7 +240,7 @@ Scene load_all(SceneRequest request, Progress& progress) {
         add_end_frame(request, progress, mesh, scene.files, notices);
 
     // The frame, then everything that is measured in it.
-    const Bounds bounds = bounds_of_triangles(mesh);
+    const Bounds bounds = bounds_with_instances(description, bounds_of_triangles(mesh));
     scene.picture_size = take_file_camera(description.cameras, bounds, request, notices);
     if (!request.camera.up && !description.is_y_up)
         request.camera =
@@ -257,8 +259,11 @@ Scene load_all(SceneRequest request, Progress& progress) {
     if (cut.vast)
         notices.add_line(fmt::format("{}: {} triangles are vast beside what lies near them: cut into {}",
                                      path, cut.vast, cut.vast + cut.added));
-    store_vertex_colours(scene, path);
+    const StandIns stand_ins = add_stand_ins(description, scene);
     load_camera_and_lights(request, description, exitance, bounds, scene, notices);
+    remove_stand_ins(stand_ins, scene);
+    append_instances(description, path, scene, notices);
+    store_vertex_colours(scene, path);
     finish_moves(request.scene.end_path, scene);
     scene.notices = notices.lines();
     return scene;

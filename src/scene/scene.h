@@ -3,6 +3,7 @@
 // behaviour.
 #pragma once
 
+#include "bvh/instanced_bvh.h"
 #include "kernels/shared/camera_types.h"
 #include "kernels/shared/scene_types.h"
 #include "options/integrators.h"
@@ -85,8 +86,10 @@ struct Scene {
     std::vector<vec4> normals;   ///< unit or zero, w = 0
     /// From the shutter's opening to its closing, of each position and normal; empty where no triangle moves.
     std::vector<vec4> position_moves, normal_moves;
-    std::vector<float> uvs; ///< u, v pairs
-    std::vector<Triangle> triangles;
+    std::vector<float> uvs;            ///< u, v pairs
+    std::vector<Triangle> triangles;   ///< the scene's own, then those of prototypes, in frames of their own
+    std::vector<Prototype> prototypes; ///< of the meshes that instances share
+    std::vector<Instance> instances;   ///< the first stands for the scene itself; empty without prototypes
     std::vector<Material> materials;
     std::vector<MaterialExtension> extensions; ///< one for each material, or none at all
     std::vector<EmittedRadiance> emitted;      ///< by each material
@@ -112,10 +115,11 @@ struct Scene {
     Camera camera;
     std::optional<glm::ivec2> picture_size; ///< where no option gives it and the file's camera has an aspect
     Normalisation normalisation;
-    SourcePlace first_smooth;         ///< the face that the first triangle with corner normals is from
-    double radius = 1;                ///< of the bounding sphere of the file's geometry, normalised frame
-    float extent = 0;                 ///< largest |coordinate| of the file's geometry, normalised frame
-    float ground_extent = 0;          ///< the same of the ground, whose triangles are the last; 0: none
+    SourcePlace first_smooth; ///< the face that the first triangle with corner normals is from
+    double radius = 1;        ///< of the bounding sphere of the file's geometry, normalised frame
+    float extent = 0;         ///< largest |coordinate| of the file's geometry, normalised frame
+    float ground_extent =
+        0; ///< the same of the ground, whose triangles are the last of the scene's own; 0: none
     double emitted_power = 0;         ///< luminance of all lights but the environment, normalised frame
     std::vector<std::string> notices; ///< every fallback, one line each, for the log and --explain
     std::vector<NamedFile> files;     ///< all that were opened, those that could not be understood too

@@ -7,6 +7,7 @@
 #include "scene/material_description.h"
 #include "scene/mesh.h"
 
+#include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,9 +21,18 @@ struct FileCamera {
     std::optional<double> aspect{}; ///< width over height of its picture; absent: any
 };
 
+/// A place where a prototype is seen.
+struct MeshInstance {
+    u32 prototype; ///< into SceneDescription::prototypes
+    u32 object;    ///< into the object names of SceneDescription::mesh
+    glm::dmat4 to_world;
+};
+
 struct SceneDescription {
-    Mesh mesh;
-    std::vector<Remark> colour_remarks; ///< about Mesh::colours, not said where another surface takes theirs
+    Mesh mesh;                    ///< what is seen where it is
+    std::vector<Mesh> prototypes; ///< meshes that instances share, without motion, in frames of their own
+    std::vector<MeshInstance> instances; ///< by maps that place_instances.h can undo
+    std::vector<Remark> colour_remarks;  ///< about Mesh::colours, not said where another surface takes theirs
     std::vector<MaterialDescription> materials; ///< those that triangles use
     std::vector<PointOptions> points;           ///< lights that are no geometry, in the units of the options
     std::vector<SunOptions> suns;

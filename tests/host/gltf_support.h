@@ -111,11 +111,13 @@ struct ReadGltf {
     NoticeList notices;
     SceneDescription scene;
 
-    explicit ReadGltf(const std::string& bytes, GltfReading reading = {}, const std::string& name = "a.glb") {
+    explicit ReadGltf(const std::string& bytes, GltfReading reading = {}, const std::string& name = "a.glb",
+                      Toggle instances = Toggle::AUTO) {
         Progress silent(Toggle::OFF, true);
         PictureFacts facts;
         facts.has_alpha = [](const TextureUse&) { return true; };
-        scene = read_gltf_scene({name, bytes}, {silent, notices, facts, MtlReading::AUTO, reading});
+        scene =
+            read_gltf_scene({name, bytes}, {silent, notices, facts, MtlReading::AUTO, reading, instances});
     }
     const Mesh& mesh() const { return scene.mesh; }
     glm::dvec3 corner(size_t triangle, int c) const {

@@ -32,6 +32,7 @@ const std::map<std::string, std::string>& samples() {
         {"--denoise", ""},
         {"--oidn", "libOpenImageDenoise.so.2"},
         {"--png-from", "raw"},
+        {"--instances", "on"},
         {"--seed", "4294967295"},
         {"--first-sample", "32"},
         {"--replicates", "8"},

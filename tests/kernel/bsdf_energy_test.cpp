@@ -81,13 +81,13 @@ SceneProbe& probe() {
     static SceneProbe instance = [] {
         SceneProbe made(test_device(), {"scattering/material.h"}, TEXT);
         // a: barycentric weights, triangle, number of directions; b: wo
-        made.add(
-            "albedo",
-            "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; hit.triangle = as_uint(a.z);"
-            "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
-            "const Surface surface = surface_at(scene, &hit, &ray_there);"
-            "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b), TRANSPORT_RADIANCE);"
-            "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)), REAL(0.0));");
+        made.add("albedo",
+                 "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; hit_set_triangle(0u, "
+                 "as_uint(a.z), &hit);"
+                 "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
+                 "const Surface surface = surface_at(scene, &hit, &ray_there);"
+                 "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b), TRANSPORT_RADIANCE);"
+                 "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)), REAL(0.0));");
         return made;
     }();
     return instance;

@@ -165,12 +165,13 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
         transport.max_depth = depth;
         return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0), gpu_layout});
     };
-    EXPECT_LT(paired(USUAL_BDPT_DEPTH), 8 << 10);
+    // With all effects: where there are instances, a prototype's tree needs a stack on that of the scene's.
+    EXPECT_LT(paired(USUAL_BDPT_DEPTH), 9 << 10);
     EXPECT_LT(paired(LARGEST_BDPT_DEPTH), 12 << 10);
-    EXPECT_LT(bytes("path", {}), 8 << 10);
-    EXPECT_LT(bytes("whitted", {}), 12 << 10);
+    EXPECT_LT(bytes("path", {}), 11 << 10);
+    EXPECT_LT(bytes("whitted", {}), 15 << 10);
     EXPECT_LT(bytes("distribution", few_on_gpu), 5 << 10);
-    EXPECT_LT(bytes("distribution", few), 9 << 10);
+    EXPECT_LT(bytes("distribution", few), 12 << 10);
     EXPECT_LT(bytes("distribution", many), 24 << 10);
     EXPECT_LT(bytes("mlt", {"-DFILM_SPLATS=1"}), 12 << 10);
 }

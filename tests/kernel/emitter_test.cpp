@@ -30,7 +30,7 @@ SceneProbe& probe() {
                 "third = probe_vec4(s.target, (s.is_distant ? 1.0f : 0.0f) + (s.is_delta ? 2.0f : 0.0f));");
         // a: barycentric weights 1 and 2, triangle; b: wo; c: the point that the ray left, distance
         made.add("hit_pdf", "Hit hit; hit.t = (real)c.w; hit.b1 = (real)a.x; hit.b2 = (real)a.y;"
-                            "hit.triangle = as_uint(a.z);"
+                            "hit_set_triangle(0u, as_uint(a.z), &hit);"
                             "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
                             "const Surface surface = surface_at(scene, &hit, &ray_there);"
                             "first.x = emitter_hit_pdf_w(scene, &surface, "

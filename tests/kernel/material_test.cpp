@@ -18,7 +18,7 @@ SceneProbe& probe() {
         // a: barycentric weights 1 and 2, triangle; b: wo
         const std::string surface =
             "Hit hit; hit.t = REAL(1.0); hit.b1 = (real)a.x; hit.b2 = (real)a.y; "
-            "hit.triangle = as_uint(a.z);"
+            "hit_set_triangle(0u, as_uint(a.z), &hit);"
             "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
             "const Surface surface = surface_at(scene, &hit, &ray_there);";
         const std::string bsdf =

@@ -24,7 +24,9 @@ SceneProbe& probe() {
         // a: where the ray starts, and its time; b: a light.
         made.add("surface", R"(
             Ray ray = ray_make(vector_from(a), vector_make(REAL(0.0), REAL(0.0), REAL(-1.0)), (real)a.w);
-            Hit hit = {REAL(1.0), REAL(0.25), REAL(0.25), 0u};
+            Hit hit = hit_none(REAL(1.0));
+            hit.b1 = hit.b2 = REAL(0.25);
+            hit_set_triangle(0u, 0u, &hit);
             const Surface surface = visible_surface(scene, params, &ray, &hit);
             LightSample light = light_sample_none();
             light.target = vector_from(b);

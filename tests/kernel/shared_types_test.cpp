@@ -62,6 +62,12 @@ const Layout TEXTURE = {
     {M(first_word), M(width), M(height), M(format), M(scale_u), M(scale_v), M(offset_u), M(offset_v),
      M(shear_u), M(shear_v), M(base), M(gain), M(wrap_u), M(wrap_v), M(channel), M(vertex_word)}};
 #undef M
+#define M(name) MEMBER(Instance, name)
+const Layout INSTANCE = {
+    "Instance",
+    sizeof(Instance),
+    {M(to_world), M(to_prototype), M(prototype), M(object), M(side), M(unused0)}};
+#undef M
 #define M(name) MEMBER(Emitter, name)
 const Layout EMITTER = {
     "Emitter",
@@ -149,10 +155,10 @@ const Layout ARRAY_PLACES = {
 // clang-format on
 
 const std::vector<Layout> LAYOUTS = {
-    TRIANGLE,      MATERIAL,           MATERIAL_EXTENSION, TEXTURE,     EMITTER,
-    LIGHT,         ENVIRONMENT_TEXEL,  LIGHT_NODE,         LIGHT_PLACE, CAMERA_PARAMS,
-    RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES,       GUIDE_CELL,  CHAIN,
-    CHAIN_LAUNCH};
+    TRIANGLE,      MATERIAL,      MATERIAL_EXTENSION, TEXTURE,      EMITTER,
+    INSTANCE,      LIGHT,         ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE,
+    CAMERA_PARAMS, RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL,
+    CHAIN,         CHAIN_LAUNCH};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.

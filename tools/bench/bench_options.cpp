@@ -243,7 +243,8 @@ Options scene_options(const BenchOptions& bench, const std::string& scene) {
         arguments.insert(arguments.end(), {"--", scene.c_str()});
         options = parse_command_line(int(arguments.size()), arguments.data()).options;
     }
-    options.light.studio = false; // its ground is not of the scene
+    options.light.studio = false;          // its ground is not of the scene
+    options.scene.instances = Toggle::OFF; // one tree, as the others have it
     options.device.name = bench.clrt.device.name;
     options.bvh.layout = bench.clrt.bvh.layout;
     // The fast tree, as clrt builds it for most renders, unless the other is asked for.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/effect_masks.h"
 
+#include "probes/meshes.h"
+
 #include <algorithm>
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 #include <random>
 #include <set>
 #include <utility>
@@ -53,6 +56,14 @@ u32 random_effects(std::mt19937& random) {
 }
 
 const char* const COLOUR = "colour.png";
+
+/// A ball of the floor's material on either side, one of them a mirror image.
+void add_two_instances(Scene& scene) {
+    const glm::dmat4 left = glm::scale(glm::translate(glm::dmat4(1), {-0.5, 0.3, 0}), glm::dvec3(0.1));
+    add_instances(scene, make_ball(6, 5), {left, glm::scale(glm::dmat4(1), {-1, 1, 1}) * left});
+    for (Instance& instance : scene.instances)
+        instance.object = 0;
+}
 
 } // namespace
 
@@ -123,6 +134,8 @@ SceneOfEffects::SceneOfEffects(u32 effects) : effects_(effects) {
     add_bodies();
     add_lights();
     look({0.2, 1.6, 3}, {0, 0.5, 0}, 50);
+    if (has(EFFECT_INSTANCES))
+        finish = add_two_instances;
     if (has(EFFECT_MOTION_BLUR))
         options.camera.end_eye = glm::dvec3(0.3, 1.7, 2.9);
     if (has(EFFECT_DEPTH_OF_FIELD))

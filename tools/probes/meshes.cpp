@@ -3,12 +3,14 @@
 
 #include "probes/random_inputs.h"
 #include "scene/normalise.h"
+#include "scene/place_instances.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 
 namespace clrt {
 
@@ -24,6 +26,22 @@ Bounds bounds_of(const Scene& scene) {
             bounds.high = glm::max(bounds.high, p);
         }
     return scene.triangles.empty() ? Bounds() : bounds;
+}
+
+float coordinate(const vec4& row, const vec4& p) {
+    return std::fma(row.x, p.x, std::fma(row.y, p.y, std::fma(row.z, p.z, row.w)));
+}
+
+vec4 placed_as_kernels_do(const Instance& instance, const vec4& p) {
+    return {coordinate(instance.to_world[0], p), coordinate(instance.to_world[1], p),
+            coordinate(instance.to_world[2], p), 0};
+}
+
+/// By the transpose of the inverse.
+glm::dvec3 turned_normal(const Instance& instance, const glm::dvec3& n) {
+    return glm::normalize(n.x * to_dvec3(instance.to_prototype[0]) +
+                          n.y * to_dvec3(instance.to_prototype[1]) +
+                          n.z * to_dvec3(instance.to_prototype[2]));
 }
 
 } // namespace
@@ -160,6 +178,52 @@ Scene normalised(Scene scene) {
     for (vec4& p : scene.positions)
         p = to_vec4(to_normalised(scene.normalisation, to_dvec3(p)));
     return scene;
+}
+
+void add_instances(Scene& scene, const Scene& prototype, const std::vector<glm::dmat4>& maps) {
+    const u32 first = static_cast<u32>(scene.triangles.size()), number = u32(scene.prototypes.size());
+    append_scene(scene, prototype);
+    scene.prototypes.push_back({first, static_cast<u32>(prototype.triangles.size())});
+    if (scene.instances.empty())
+        scene.instances.emplace_back();
+    const Bounds bounds = bounds_of(prototype);
+    for (const glm::dmat4& map : maps) {
+        Instance instance = make_instance(map, glm::max(glm::abs(bounds.low), glm::abs(bounds.high)));
+        instance.prototype = number;
+        instance.object = u32(scene.instances.size());
+        scene.instances.push_back(instance);
+    }
+}
+
+Scene written_out(const Scene& scene) {
+    Scene all = scene;
+    all.prototypes.clear();
+    all.instances.clear();
+    all.triangles.resize(own_triangle_count(scene.triangles, scene.prototypes));
+    for (size_t i = 1; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const Prototype& prototype = scene.prototypes[instance.prototype];
+        std::map<u32, u32> places;
+        const auto place = [&](u32 v) {
+            const auto [known, is_new] = places.try_emplace(v, u32(all.positions.size()));
+            if (is_new)
+                all.positions.push_back(placed_as_kernels_do(instance, scene.positions[v]));
+            return known->second;
+        };
+        for (u32 k = 0; k < prototype.triangle_count; ++k) {
+            Triangle triangle = scene.triangles[prototype.first_triangle + k];
+            for (u32* v : {&triangle.v0, &triangle.v1, &triangle.v2})
+                *v = place(*v);
+            triangle.object = instance.object;
+            if (triangle.n0 != NO_INDEX)
+                for (u32* n : {&triangle.n0, &triangle.n1, &triangle.n2}) {
+                    all.normals.push_back(to_vec4(turned_normal(instance, to_dvec3(all.normals[*n]))));
+                    *n = u32(all.normals.size() - 1);
+                }
+            all.triangles.push_back(triangle);
+        }
+    }
+    return all;
 }
 
 float extent_of(const Scene& scene) {

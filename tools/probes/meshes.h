@@ -5,7 +5,9 @@
 #include "scene/scene.h"
 
 #include <cstddef>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 namespace clrt {
 
@@ -53,6 +55,14 @@ Scene placed(Scene scene, double size, const glm::dvec3& place);
 
 /// The scene in the normalised frame, as the loader makes it.
 Scene normalised(Scene scene);
+
+/// Makes a scene's triangles the prototype of instances under maps to the frame of another scene, whose own
+/// triangles come first. May be called again with the result.
+void add_instances(Scene& scene, const Scene& prototype, const std::vector<glm::dmat4>& maps);
+
+/// The same scene without instances: each one's triangles written out behind the scene's own, with corners
+/// rounded as kernels/geometry/instance.h rounds them, and with normals by double.
+Scene written_out(const Scene& scene);
 
 /// Largest |coordinate| of the triangles' corners (RenderParams::scene_extent).
 float extent_of(const Scene& scene);

@@ -18,7 +18,7 @@ constexpr size_t MOST_LAYERS = 16;
 const char* const FUNCTIONS = R"(
 typedef struct {
     real t, b1, b2;
-    u32 triangle;
+    u32 triangle, instance;
 } TracedHit;
 
 typedef struct {
@@ -34,7 +34,8 @@ static Ray load_ray(global const float4* rays, size_t i)
 
 static TracedHit traced_hit(const Hit* hit)
 {
-    const TracedHit traced = {hit->t, hit->b1, hit->b2, hit->triangle};
+    const u32 instance = hit->triangle == NO_INDEX ? 0u : hit_instance(hit);
+    const TracedHit traced = {hit->t, hit->b1, hit->b2, hit->triangle, instance};
     return traced;
 }
 
@@ -59,11 +60,11 @@ static Hit closest_of_all(const Scene* scene, const RenderParams* params, const 
         if (!inside || det == 0)
             continue;
         const real t = t_det / det;
-        if (t > 0 && hit_is_before(t, k, hit.t, hit.triangle)) {
+        if (t > 0 && hit_comes_before(t, 0u, k, &hit)) {
             hit.t = t;
             hit.b1 = v / det;
             hit.b2 = w / det;
-            hit.triangle = k;
+            hit_set_triangle(0u, k, &hit);
         }
     }
     return hit;
@@ -71,7 +72,10 @@ static Hit closest_of_all(const Scene* scene, const RenderParams* params, const 
 
 static Surface load_surface(const Scene* scene, const Ray* ray, const TracedHit* traced)
 {
-    const Hit hit = {traced->t, traced->b1, traced->b2, traced->triangle};
+    Hit hit = hit_none(traced->t);
+    hit.b1 = traced->b1;
+    hit.b2 = traced->b2;
+    hit_set_triangle(traced->instance, traced->triangle, &hit);
     return surface_at(scene, &hit, ray);
 }
 )";
@@ -155,13 +159,10 @@ kernel void {}(const RenderParams params, SCENE_PARAMS, global const float4* res
 }
 
 /// TracedHit as the host lays it out.
-struct FloatHit {
-    float t, b1, b2;
-    u32 triangle;
-};
-struct DoubleHit {
-    double t, b1, b2;
-    u32 triangle, padding;
+template <class Number>
+struct NumberHit {
+    Number t, b1, b2;
+    u32 triangle, instance;
 };
 template <class Number>
 struct NumberPoint {
@@ -200,7 +201,8 @@ TestRay make_ray_to(const glm::dvec3& origin, const glm::dvec3& target) {
 
 bool operator==(const TestHit& a, const TestHit& b) {
     return std::memcmp(&a.t, &b.t, sizeof a.t) == 0 && std::memcmp(&a.b1, &b.b1, sizeof a.b1) == 0 &&
-           std::memcmp(&a.b2, &b.b2, sizeof a.b2) == 0 && a.triangle == b.triangle;
+           std::memcmp(&a.b2, &b.b2, sizeof a.b2) == 0 && a.triangle == b.triangle &&
+           a.instance == b.instance;
 }
 
 RayDevice::RayDevice(const ProbeDevice& device, const Scene& scene, BvhLayout layout, Precision precision,
@@ -210,11 +212,13 @@ RayDevice::RayDevice(const ProbeDevice& device, const Scene& scene, BvhLayout la
 
 RayDevice::RayDevice(const ProbeDevice& device, const Scene& scene, const RayDeviceOptions& options)
     : device_(device), probe_(ray_probe(device, options)), precision_(options.precision),
-      bvh_(build_bvh(scene.positions, scene.triangles, options.layout, options.quality)),
+      bvh_(build_instanced_bvh(scene.positions, scene.triangles, scene.prototypes, scene.instances,
+                               options.layout, options.quality)),
       buffers_(upload_scene(device_, scene, bvh_)) {
     params_.scene_extent = options.extent ? *options.extent : extent_of(scene);
     params_.emitter_count = static_cast<u32>(scene.emitters.size());
-    params_.width = static_cast<u32>(scene.triangles.size()); // how many trace_all tests
+    // How many trace_all tests.
+    params_.width = static_cast<u32>(own_triangle_count(scene.triangles, scene.prototypes));
 }
 
 Kernel RayDevice::make_kernel(const std::string& name, const std::vector<TestRay>& rays,
@@ -241,11 +245,11 @@ std::vector<TestHit> RayDevice::trace_hits(const std::string& name, const std::v
     std::vector<TestHit> hits;
     hits.reserve(rays.size());
     if (precision_ == Precision::DOUBLE)
-        for (const DoubleHit& hit : trace<DoubleHit>(name, rays))
-            hits.push_back({hit.t, hit.b1, hit.b2, hit.triangle});
+        for (const auto& hit : trace<NumberHit<double>>(name, rays))
+            hits.push_back({hit.t, hit.b1, hit.b2, hit.triangle, hit.instance});
     else
-        for (const FloatHit& hit : trace<FloatHit>(name, rays))
-            hits.push_back({hit.t, hit.b1, hit.b2, hit.triangle});
+        for (const auto& hit : trace<NumberHit<float>>(name, rays))
+            hits.push_back({hit.t, hit.b1, hit.b2, hit.triangle, hit.instance});
     return hits;
 }
 
@@ -265,14 +269,14 @@ Kernel RayDevice::make_surface_kernel(const std::string& name, const std::vector
                                       const std::vector<TestHit>& hits, const std::vector<vec4>& in,
                                       const cl::Buffer& out) const {
     assert(hits.size() == rays.size() && in.size() == rays.size());
-    std::vector<FloatHit> float_hits;
-    std::vector<DoubleHit> double_hits;
+    std::vector<NumberHit<float>> float_hits;
+    std::vector<NumberHit<double>> double_hits;
     for (const TestHit& hit : hits) {
         assert(hit.triangle != NO_INDEX);
         if (precision_ == Precision::DOUBLE)
-            double_hits.push_back({hit.t, hit.b1, hit.b2, hit.triangle, 0});
+            double_hits.push_back({hit.t, hit.b1, hit.b2, hit.triangle, hit.instance});
         else
-            float_hits.push_back({float(hit.t), float(hit.b1), float(hit.b2), hit.triangle});
+            float_hits.push_back({float(hit.t), float(hit.b1), float(hit.b2), hit.triangle, hit.instance});
     }
     Kernel kernel = make_kernel(name, rays, out);
     kernel.set("hits",
@@ -339,7 +343,7 @@ std::function<void()> RayDevice::leaver(const std::vector<TestRay>& rays,
 }
 
 std::function<void()> RayDevice::tracer(const std::vector<TestRay>& rays) const {
-    const cl::Buffer out = create_buffer(device_, "traced", rays.size() * sizeof(DoubleHit));
+    const cl::Buffer out = create_buffer(device_, "traced", rays.size() * sizeof(NumberHit<double>));
     return [this, count = rays.size(), kernel = make_kernel("trace_closest", rays, out)] {
         probe_.launch(kernel, count);
     };

@@ -36,7 +36,8 @@ TestRay make_ray_to(const glm::dvec3& origin, const glm::dvec3& target);
 /// A hit; floats are widened, so that equal bits stay equal bits.
 struct TestHit {
     double t, b1, b2;
-    u32 triangle; ///< NO_INDEX: a miss
+    u32 triangle;     ///< NO_INDEX: a miss
+    u32 instance = 0; ///< whose triangle it is; 0: the scene's own, or a miss
 };
 
 /// Bit for bit equality, where -0 differs from 0.

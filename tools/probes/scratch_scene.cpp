@@ -82,6 +82,8 @@ Scene ScratchScene::load() const {
     with_path.scene.path = folder.write("scene.obj", build.obj("scene.mtl", scale));
     Progress progress(Toggle::OFF, true);
     Scene scene = load_scene(with_path, progress);
+    if (finish)
+        finish(scene);
     tabulate_sky(scene.environment, integrator_row(options.transport.integrator).sky);
     return scene;
 }

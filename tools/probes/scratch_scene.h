@@ -10,6 +10,7 @@
 #include "render/render.h"
 #include "scene/scene.h"
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -38,7 +39,7 @@ public:
     void texture8(const std::string& name, int width, int height, int channels,
                   const std::vector<unsigned char>& values);
 
-    /// Loads the scene's files.
+    /// Loads the scene's files and finishes the scene.
     Scene load() const;
     /// Loads and renders.
     Render render(const ProbeDevice& device) const;
@@ -46,7 +47,8 @@ public:
     SceneBuilder build;
     Options options;
     ScratchFolder folder;
-    double scale = 1; ///< of positions in the OBJ file
+    std::function<void(Scene&)> finish; ///< what no file can say; empty: nothing
+    double scale = 1;                   ///< of positions in the OBJ file
 };
 
 /// The plan of a scene, by the device's kernels unless the options name a folder of kernels themselves.

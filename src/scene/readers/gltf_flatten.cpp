@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/readers/gltf_flatten.h"
 
+#include "scene/readers/gltf_instances.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -14,36 +15,6 @@ namespace {
 /// Between two updates of the progress line.
 constexpr size_t INSTANCES_A_STEP = 256;
 
-/// A use of a mesh.
-struct Instance {
-    const std::vector<GltfPrimitive>* primitives;
-    glm::dmat4 world;
-    u32 object;
-};
-
-/// The places of EXT_mesh_gpu_instancing: one transform each, between the node and its mesh.
-std::vector<glm::dmat4> gpu_instances(const JsonValue& extension, GltfBuffers& buffers) {
-    const JsonValue attributes = extension.at("attributes");
-    const auto read = [&](const char* name, GltfElement element) {
-        const std::optional<JsonValue> index = attributes.find(name);
-        return index ? read_gltf_numbers(buffers, *index, element) : GltfNumbers();
-    };
-    const GltfNumbers translation = read("TRANSLATION", GltfElement::VEC3),
-                      rotation = read("ROTATION", GltfElement::VEC4),
-                      scale = read("SCALE", GltfElement::VEC3);
-    const size_t count = std::max({translation.count(), rotation.count(), scale.count()});
-    for (const GltfNumbers* numbers : {&translation, &rotation, &scale})
-        if (numbers->count() != 0 && numbers->count() != count)
-            attributes.fail(fmt::format("{} elements each", count), fmt::format("{}", numbers->count()));
-    std::vector<glm::dmat4> transforms;
-    for (size_t i = 0; i < count; ++i)
-        transforms.push_back(
-            gltf_transform(translation.count() ? glm::dvec3(translation.vec3(i)) : glm::dvec3(0),
-                           rotation.count() ? glm::dvec4(rotation.vec4(i)) : glm::dvec4(0, 0, 0, 1),
-                           scale.count() ? glm::dvec3(scale.vec3(i)) : glm::dvec3(1)));
-    return transforms;
-}
-
 /// What flattened instances take.
 struct Size {
     size_t vertices = 0, triangles = 0, bytes = 0;
@@ -54,11 +25,16 @@ size_t vertex_bytes(const GltfPrimitive& primitive, bool has_colours) {
            (primitive.uvs.empty() ? 0 : sizeof(glm::vec2)) + (has_colours ? sizeof(glm::vec3) : 0);
 }
 
-/// Counts until there is too much, in time that the limit bounds.
-Size measure(const std::vector<Instance>& instances, bool has_colours) {
+bool is_copied(const GltfPrimitive& primitive, const GltfInstance& instance, const GltfMaterials& materials) {
+    return !instance.only_emissive || materials.is_emissive(primitive.material);
+}
+
+Size measure(const std::vector<GltfInstance>& instances, const GltfMaterials& materials, bool has_colours) {
     Size size;
-    for (const Instance& instance : instances)
+    for (const GltfInstance& instance : instances)
         for (const GltfPrimitive& primitive : *instance.primitives) {
+            if (!is_copied(primitive, instance, materials))
+                continue;
             size.vertices += primitive.positions.size();
             size.triangles += primitive.corners.size() / 3;
             size.bytes += primitive.positions.size() * vertex_bytes(primitive, has_colours) +
@@ -67,8 +43,8 @@ Size measure(const std::vector<Instance>& instances, bool has_colours) {
     return size;
 }
 
-bool has_colours(const std::vector<Instance>& instances) {
-    return std::any_of(instances.begin(), instances.end(), [](const Instance& instance) {
+bool has_colours(const std::vector<GltfInstance>& instances) {
+    return std::any_of(instances.begin(), instances.end(), [](const GltfInstance& instance) {
         return std::any_of(instance.primitives->begin(), instance.primitives->end(),
                            [](const GltfPrimitive& primitive) { return !primitive.colours.empty(); });
     });
@@ -79,7 +55,7 @@ class Flattener {
 public:
     Flattener(Mesh& mesh, bool has_colours) : mesh_(mesh), has_colours_(has_colours) {}
 
-    void add(const GltfPrimitive& primitive, const Instance& instance) {
+    void add(const GltfPrimitive& primitive, const GltfInstance& instance) {
         const u32 first_position = u32(mesh_.positions.size()), first_normal = u32(mesh_.normals.size()),
                   first_uv = u32(mesh_.uvs.size());
         for (const glm::vec3& p : primitive.positions)
@@ -139,35 +115,11 @@ private:
     size_t dropped_ = 0;
 };
 
-/// The uses of meshes on all nodes, which become objects.
-std::vector<Instance> find_instances(const std::vector<GltfNode>& nodes, GltfBuffers& buffers,
-                                     GltfMeshes& meshes, const ReadContext& context, Mesh& mesh) {
-    std::vector<Instance> instances;
-    for (const GltfNode& node : nodes) {
-        const std::optional<JsonValue> index = node.json.find("mesh");
-        if (!index)
-            continue;
-        if (node.json.find("skin"))
-            context.notices.add("skins are ignored: meshes are shown as they were bound", node.json.place());
-        const std::vector<GltfPrimitive>& primitives = meshes.find(*index);
-        const u32 object = u32(mesh.object_names.size());
-        const JsonValue shape = buffers.file().json().element("meshes", *index);
-        mesh.object_names.push_back(node.name.empty() ? shape.text("name") : node.name);
-        const std::optional<JsonValue> extensions = node.json.find("extensions");
-        const auto places = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-        if (!places)
-            instances.push_back({&primitives, node.world, object});
-        else
-            for (const glm::dmat4& place : gpu_instances(*places, buffers))
-                instances.push_back({&primitives, node.world * place, object});
-    }
-    return instances;
-}
-
 void check_size(const Size& size, size_t instances, const GltfFile& file) {
     if (size.vertices >= NO_INDEX || size.bytes > MOST_FLATTENED_BYTES)
         file.json().root().fail(
-            fmt::format("meshes that take at most {} GiB and {} vertices with a copy for each instance",
+            fmt::format("meshes that take at most {} GiB and {} vertices with a copy for each instance "
+                        "(--instances on shares what neither shines nor moves)",
                         MOST_FLATTENED_BYTES >> 30, NO_INDEX - 1),
             fmt::format("{} instances of {} triangles and {} vertices, {:.1f} GiB", instances, size.triangles,
                         size.vertices, double(size.bytes) / double(size_t(1) << 30)));
@@ -176,13 +128,14 @@ void check_size(const Size& size, size_t instances, const GltfFile& file) {
 } // namespace
 
 void flatten_gltf(const std::vector<GltfNode>& nodes, GltfBuffers& buffers, GltfMeshes& meshes,
-                  const ReadContext& context, SceneDescription& scene) {
-    const std::vector<Instance> instances = find_instances(nodes, buffers, meshes, context, scene.mesh);
+                  const GltfMaterials& materials, const ReadContext& context, SceneDescription& scene) {
+    std::vector<GltfInstance> instances = find_gltf_instances(nodes, buffers, meshes, context, scene.mesh);
+    instances = share_gltf_meshes(std::move(instances), materials, context, buffers.file().name(), scene);
     const bool coloured = has_colours(instances);
-    const Size size = measure(instances, coloured);
+    const Size size = measure(instances, materials, coloured);
     check_size(size, instances.size(), buffers.file());
     std::set<const void*> shapes;
-    for (const Instance& instance : instances)
+    for (const GltfInstance& instance : instances)
         shapes.insert(instance.primitives);
     if (instances.size() > shapes.size())
         context.notices.add(fmt::format("{} instances of {} meshes, a copy for each: {} triangles, {:.1f} MB",
@@ -194,7 +147,8 @@ void flatten_gltf(const std::vector<GltfNode>& nodes, GltfBuffers& buffers, Gltf
     Flattener flattener(scene.mesh, coloured);
     for (size_t i = 0; i < instances.size(); ++i) {
         for (const GltfPrimitive& primitive : *instances[i].primitives)
-            flattener.add(primitive, instances[i]);
+            if (is_copied(primitive, instances[i], materials))
+                flattener.add(primitive, instances[i]);
         if (i % INSTANCES_A_STEP == 0)
             context.progress.update({"load", double(i) / double(instances.size())});
     }

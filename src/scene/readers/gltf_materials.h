@@ -29,6 +29,9 @@ public:
     /// The material of a primitive; `coloured`: its vertices have colours, which multiply the base.
     GltfSurface find(const JsonValue& primitive, bool coloured);
 
+    /// Whether a material that was found shines.
+    bool is_emissive(u32 material) const { return descriptions_[material].emission.value != glm::dvec3(0); }
+
     std::vector<MaterialDescription> take() { return std::move(descriptions_); }
 
 private:

@@ -43,8 +43,8 @@ SceneDescription read_gltf_scene(SceneFile source, const ReadContext& context) {
     note_light_units(scene, context.gltf.lights, file.name(), context.notices);
     if (!file.json().elements("animations").empty())
         context.notices.add("animations are ignored: the scene is shown as it stands", {file.name(), 0});
-    flatten_gltf(nodes, buffers, meshes, context, scene);
-    if (scene.mesh.triangles.empty())
+    flatten_gltf(nodes, buffers, meshes, materials, context, scene);
+    if (scene.mesh.triangles.empty() && scene.instances.empty())
         throw SceneError(file.name(), 0,
                          fmt::format("the file's scene has no triangles to render; triangles that are left "
                                      "out: {}",

@@ -21,6 +21,7 @@ struct ReadContext {
     const PictureFacts& pictures;
     MtlReading mtl;
     GltfReading gltf{};
+    Toggle instances = Toggle::AUTO; ///< SceneOptions::instances
 };
 
 struct SceneReader {

@@ -30,7 +30,10 @@ static inline void bench_ray_store(global float4* rays, uint index, const Ray* r
 /* A hit: distance, weights of corners 1 and 2, and the triangle's index by its bits. */
 static inline Hit bench_hit_load(global const float4* hits, uint index) {
     const float4 words = hits[index];
-    Hit hit = {words.x, words.y, words.z, as_uint(words.w)};
+    Hit hit = hit_none(words.x);
+    hit.b1 = words.y;
+    hit.b2 = words.z;
+    hit_set_triangle(0u, as_uint(words.w), &hit);
     return hit;
 }
 
