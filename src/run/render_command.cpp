@@ -18,6 +18,7 @@
 #include <optional>
 #include <spdlog/spdlog.h>
 #include <utility>
+#include <vector>
 
 namespace clrt {
 
@@ -52,7 +53,7 @@ int finish(const Report& report) {
 /// A scene to be rendered, once or turning.
 struct Job {
     std::chrono::steady_clock::time_point start;
-    const Device& device;
+    const std::vector<Device>& devices;
     std::shared_ptr<PlannedScene> planned;
     IntegratorChoice choice;
     std::shared_ptr<const SceneTree> tree; ///< null: it is not built yet
@@ -68,7 +69,7 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
     return {options,
             scene,
             effects,
-            job.device.info,
+            job.devices.front().info,
             done.facts,
             tree.bvh,
             done.render,
@@ -86,9 +87,10 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
 /// One picture with its files and its report; prepares the scene for the first.
 int render_picture(const Job& job, Progress& progress, std::optional<Simulation>& done) {
     const Options& options = job.planned->options;
-    const Saving saving(job.planned->scene, job.planned->effects.paths, options, job.device.info, progress);
+    const Saving saving(job.planned->scene, job.planned->effects.paths, options, job.devices.front().info,
+                        progress);
     if (!done)
-        done.emplace(simulate(job.device, job.planned, progress, saving.hooks, job.tree));
+        done.emplace(simulate(job.devices, job.planned, progress, saving.hooks, job.tree));
     else
         simulate_again(progress, saving.hooks, *done);
     progress.finish();
@@ -145,12 +147,12 @@ void announce(const PlannedScene& planned) {
 int run_render(Options options) {
     const auto start = std::chrono::steady_clock::now();
     check_checkpoint(options);
-    const Device device = open_chosen_device(options);
+    const std::vector<Device> devices = open_chosen_devices(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
-    Job job{start, device, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
-    job.choice = choose_integrator(device, job.planned, job.tree, progress);
+    Job job{start, devices, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
+    job.choice = choose_integrator(devices.front(), job.planned, job.tree, progress);
     announce(*job.planned);
     if (options.camera.frames)
         return render_turn(job, progress);

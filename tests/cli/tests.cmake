@@ -13,6 +13,12 @@ target_compile_definitions(error_report_test PRIVATE CLRT_SCENES_FOLDER="${PROJE
 add_dependencies(error_report_test clrt-merge)
 clrt_command_test(camera_command_test)
 clrt_command_test(compile_time_test)
+# A device that fails in the middle, by LD_PRELOAD.
+add_library(failing_launches MODULE support/failing_launches.cpp)
+clrt_command_test(devices_command_test)
+target_compile_definitions(devices_command_test PRIVATE CLRT_FAILING_LAUNCHES="$<TARGET_FILE:failing_launches>"
+                                                        CLRT_MERGE_EXECUTABLE="$<TARGET_FILE:clrt-merge>")
+add_dependencies(devices_command_test failing_launches clrt-merge)
 clrt_command_test(exit_code_test)
 clrt_command_test(fault_test)
 clrt_command_test(file_safety_test)

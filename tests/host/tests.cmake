@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+clrt_test(host crew_test)
 clrt_test(host daylight_test)
 clrt_test(host device_choose_test GTest::gmock)
 clrt_test(host direction_bins_test)
