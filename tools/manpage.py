@@ -18,6 +18,7 @@ SUMMARIES = {"clrt": "render OBJ and glTF scenes on any OpenCL device",
              "clrt-agree": "test whether integrators agree and error bars hold",
              "clrt-compare": "compare two pictures by statistical tests",
              "clrt-mitsuba": "render a scene of clrt with Mitsuba 3, to compare with",
+             "clrt-slurm": "render one picture on the machines of a Slurm cluster",
              "clrt-study": "measure what accuracy costs in time"}
 HEADINGS = {"Example": "EXAMPLE", "Options file": "FILES", "Exit codes": "EXIT STATUS"}
 

@@ -12,7 +12,8 @@ import unittest
 
 CMAKE, CPACK, BUILD = sys.argv[1:4] if len(sys.argv) > 3 else ("cmake", "cpack", "build")
 DEVICE = os.environ.get("CLRT_TEST_DEVICE", "pocl")
-PROGRAMS = ["clrt", "clrt-agree", "clrt-bench", "clrt-compare", "clrt-merge", "clrt-mitsuba", "clrt-stability", "clrt-study"]
+PROGRAMS = ["clrt", "clrt-agree", "clrt-bench", "clrt-compare", "clrt-merge", "clrt-mitsuba", "clrt-slurm", "clrt-stability",
+            "clrt-study"]
 SECONDS = 300  # a program that takes longer hangs
 
 EQUIVALENT, DIFFERENT, FAILED_CHECK = 0, 1, 4

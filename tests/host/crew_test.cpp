@@ -61,9 +61,13 @@ struct TwoDevices {
 
     Crew crew() {
         return Crew({&one, &two},
-                    {[this] { return seconds_left; }, [this](double) { return drops.load(); },
+                    {[this] { return seconds_left.load(); }, [this](double) { return drops.load(); },
                      [this](double samples) {
                          most = std::max(most, samples);
+                         if (samples >= ends_at) {
+                             seconds_left = 0.06;
+                             drops = true;
+                         }
                          return stops;
                      },
                      [this](size_t member, const std::vector<SampleRange>& lost) {
@@ -82,8 +86,10 @@ struct TwoDevices {
 
     Film film;
     FakeMember one, two;
-    double seconds_left = 1e9, most = 0;
+    std::atomic<double> seconds_left{1e9};
     std::atomic<bool> drops{false};
+    double most = 0;
+    double ends_at = 1e9; ///< samples from which time is nearly over
     bool stops = false;
     std::vector<size_t> failed;
     std::uint64_t lost_samples = 0;
@@ -180,6 +186,17 @@ TEST(Crew, TheFirstPassIsFinishedWhateverTheTime) {
     EXPECT_EQ(done[0].first, 0u);
     EXPECT_LE(done[0].end, 2u) << "the faster device's if it took the first";
     EXPECT_TRUE(devices.has(0, done[0].end));
+}
+
+TEST(Crew, WhatWasRenderedBeforeIsDeliveredBeforeARangeThatMayBeDropped) {
+    TwoDevices devices(0.03, 0.03);
+    devices.ends_at = 6;
+    Crew crew = devices.crew();
+    const Ranges done = crew.run({{0, 600}});
+    EXPECT_TRUE(crew.has_dropped());
+    EXPECT_GE(count_samples(done), 6u);
+    EXPECT_LT(count_samples(done), 600u);
+    EXPECT_EQ(devices.film.size(), count_samples(done));
 }
 
 TEST(Crew, ARangeThatIsDroppedLosesNothingElse) {

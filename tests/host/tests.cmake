@@ -102,6 +102,7 @@ clrt_python_test(host study_ratios_test)
 clrt_python_test(host study_sweep_test)
 clrt_python_test(host study_series_test)
 clrt_python_test(host plain_scene_test)
+clrt_python_test(host slurm_plan_test)
 clrt_python_test(host verdict_test)
 
 # Where the library's files are compiled a folder at a time, they must compile one by one as well: an include that a
