@@ -13,6 +13,7 @@
 #include "run/turntable.h"
 #include "seconds.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -115,13 +116,14 @@ int render_picture(const Job& job, Progress& progress, std::optional<Simulation>
     return finish(report);
 }
 
-/// The pictures of --frames. The scene is loaded and prepared once.
+/// The pictures of --frames, or the one of them that is asked for. The scene is loaded and prepared once.
 int render_turn(const Job& job, Progress& progress) {
     const Camera camera = job.planned->scene.camera;
     CameraOptions& options = job.planned->options.camera;
     std::optional<Simulation> done;
     int exit_code = EXIT_DONE;
-    for (options.frame = 1; options.frame <= *options.frames; ++options.frame) {
+    const int first = std::max(options.frame, 1), last = options.frame > 0 ? options.frame : *options.frames;
+    for (options.frame = first; options.frame <= last; ++options.frame) {
         job.planned->scene.camera = turned_camera(camera, options.frame, *options.frames);
         exit_code = graver_exit(exit_code, render_picture(job, progress, done));
         if (done->render.stop_signal)
