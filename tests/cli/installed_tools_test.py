@@ -107,6 +107,12 @@ class InstalledTools:
         ratios = self.read_json("bench.json")["ratio"]
         self.assertEqual(sorted(ratios), ["diffuse", "mirror", "primary", "shadow"])
 
+    def test_clrt_slurm_renders_a_part_and_tells_what_is_missing(self):
+        printed = self.run_program("clrt-slurm", "submit", "job", "-s", "16", "-k", "2", "--dry-run", "--", self.scene, "-r", "32x24")
+        self.assertIn("sbatch --parsable ", printed)
+        self.run_program("clrt-slurm", "task", "job", "--task", "1")
+        self.assertIn("missing  samples 0 to 7: ", self.run_program("clrt-slurm", "status", "job", code=1))
+
     def test_clrt_stability_runs_a_case_and_times_what_it_is_about(self):
         self.run_program("clrt-stability", "--case", "L06", "--rounds", "1", "--stats", "report.json",
                          "-o", "page.html")
