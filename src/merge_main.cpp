@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace clrt {
@@ -30,6 +31,7 @@ namespace {
 /// What the command line asks for.
 struct MergeOptions {
     std::vector<std::string> films, outputs;
+    std::string stats;
     std::string exposure = "0", tonemap = "none";
     bool quiet = false, force = false, help = false, version = false;
 };
@@ -67,6 +69,7 @@ Options:
       --tonemap NAME           {}
       --force                  let a .film replace what is there, be it a film of more samples, one
                                of another scene, or no film
+      --stats FILE             write samples, their ranges and the error as JSON, in SI units
   -q, --quiet                  errors only
   -h, --help                   print this page and exit
       --version                print the version and exit
@@ -90,12 +93,13 @@ void declare(CLI::App& app, MergeOptions& options) {
     app.add_option("--exposure", options.exposure);
     app.add_option("--tonemap", options.tonemap);
     app.add_flag("--force", options.force);
+    app.add_option("--stats", options.stats);
     app.add_flag("-q,--quiet", options.quiet);
     app.add_flag("--version", options.version);
 }
 
 void check(const MergeOptions& options) {
-    if (options.films.empty() || options.outputs.empty())
+    if (options.films.empty() || (options.outputs.empty() && options.stats.empty()))
         throw UsageError("expected clrt-merge a.film b.film ... -o out.exr; `clrt-merge --help` says more");
     for (const std::string& path : options.outputs) {
         if (!is_film_path(path))
@@ -107,6 +111,10 @@ void check(const MergeOptions& options) {
         read.push_back({"the film", path});
     for (const std::string& path : options.outputs)
         written.push_back({"--output", path});
+    if (!options.stats.empty()) {
+        check_output_folder(options.stats);
+        written.push_back({"--stats", options.stats});
+    }
     check_written_files(written, read);
     for (const std::string& path : options.outputs)
         prepare_output(path);
@@ -120,6 +128,20 @@ void check_replaced_films(const MergeOptions& options, const FilmFile& film) {
                                       : std::nullopt)
             throw UsageError(fmt::format("option --output: '{}' cannot be replaced: {}; --force replaces it",
                                          path, *obstacle));
+}
+
+/// What --stats writes.
+std::string merge_json(const FilmFile& sum, const ErrorReport& error, size_t films) {
+    nlohmann::ordered_json json;
+    json["version"] = CLRT_VERSION;
+    json["films"] = films;
+    json["spp"] = film_samples(sum.render.film);
+    json["ranges"] = nlohmann::ordered_json::array();
+    for (const SampleRange& range : sum.render.film.ranges)
+        json["ranges"].push_back({range.first, range.end});
+    json["seconds"] = sum.render.seconds;
+    json["error"] = error_report_json(error);
+    return json.dump(2) + "\n";
 }
 
 void merge(const MergeOptions& options, const Options& look) {
@@ -149,13 +171,17 @@ void merge(const MergeOptions& options, const Options& look) {
             else
                 write_picture(picture, path, exposure_ev, look.output.tonemap);
         });
+    const ErrorReport error = make_error_report(sum.render, sum.bias, picture.x0, picture.y0);
+    if (!options.stats.empty())
+        files.write(options.stats,
+                    [&] { write_text_file(options.stats, merge_json(sum, error, options.films.size())); });
     files.finish();
     if (options.quiet)
         return;
     const bool is_piped = std::any_of(options.outputs.begin(), options.outputs.end(), is_standard_output);
     fmt::print(is_piped ? stderr : stdout, "{} x {}, {} spp of {} films, {:.1f} s of rendering\n{}",
                film.width, film.height, film_samples(film), options.films.size(), sum.render.seconds,
-               format_error_report(make_error_report(sum.render, sum.bias, picture.x0, picture.y0)));
+               format_error_report(error));
 }
 
 int run(int argc, const char* const* argv) {

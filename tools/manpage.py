@@ -18,6 +18,7 @@ SUMMARIES = {"clrt": "render OBJ and glTF scenes on any OpenCL device",
              "clrt-agree": "test whether integrators agree and error bars hold",
              "clrt-compare": "compare two pictures by statistical tests",
              "clrt-mitsuba": "render a scene of clrt with Mitsuba 3, to compare with",
+             "clrt-slurm": "render one picture on the machines of a Slurm cluster",
              "clrt-study": "measure what accuracy costs in time"}
 HEADINGS = {"Example": "EXAMPLE", "Options file": "FILES", "Exit codes": "EXIT STATUS"}
 
@@ -28,6 +29,9 @@ REPORT = [
     ("spp", "Samples a pixel: how many paths were traced through each. A pass is one sample of every pixel; a picture always "
             "ends with a whole pass."),
     ("time", "Seconds from the start of the program, and those of rendering alone, without loading and compiling."),
+    ("device", "Of several devices (--device A,B): the samples a pixel that each rendered, the seconds it took for them, and "
+     "whether it failed. The film is that of one device, to the last bit, where all keep the rules (--list-devices -v). Paths "
+     "are not guided; the pilot of --integrator auto runs on the first device."),
     ("error", "How far the picture is from the one that endless rendering would give: the differences of all pixels and "
               "colours are squared, averaged, and the root of that is divided by the picture's mean brightness (radiance), "
               "also known as relative RMSE. A picture with 10 % looks noisy, with 2 % clean, with 0.5 % no noise is left to "

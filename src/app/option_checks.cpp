@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace clrt {
@@ -178,6 +179,28 @@ void check_guide(const Options& options) {
            "options --guide on and " + other + ": expected one of them, found both; " + refusal->reason);
 }
 
+/// Devices share samples that need none before them.
+void check_devices(const Options& options) {
+    const std::vector<std::string> names = device_names(options.device);
+    if (names.size() < 2)
+        return;
+    if (std::count(names.begin(), names.end(), ""))
+        reject(options, "option --device: expected a name between commas, found none");
+    const std::tuple<bool, std::string, const char*> others[] = {
+        {options.sampling.adaptive.has_value(), "--adaptive",
+         "a round deals out samples by the noise of all before it"},
+        {walks_chains(options.transport.integrator),
+         std::string("--integrator ") + name_of(options.transport.integrator),
+         "a step of a chain follows from all those before it"},
+        {options.run.ledger != LedgerOf::NOTHING, "--ledger", "its seconds are those of one device"},
+        {options.run.pixel.has_value(), "--pixel", "a sample is replayed on one device"},
+        {!options.device.dump_folder.empty(), "--dump-kernels", "each device has kernels of its own"}};
+    for (const auto& [is_given, name, reason] : others)
+        if (is_given)
+            reject(options, "option --device: expected one device with " + name + ", found " +
+                                std::to_string(names.size()) + "; " + reason);
+}
+
 /// Placeholders that are known; {frame} where there are frames.
 void check_name(const Options& options, const char* option, const std::string& name) {
     bool has_frame = false;
@@ -301,6 +324,7 @@ void check_combinations(const Options& options) {
     check_denoise(options);
     check_chains(options);
     check_guide(options);
+    check_devices(options);
     check_names(options);
     check_frames(options);
     check_written_files(files_to_write(options), files_to_read(options));

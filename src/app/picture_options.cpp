@@ -29,6 +29,19 @@ void apply_filter(Options& o, const OptionValue& v) {
                                         [](double r) { return r > 0 && r <= LARGEST_FILTER_RADIUS; });
 }
 
+/// "36": a turn of 36 pictures; "36:5": the fifth of them alone.
+void apply_frames(Options& o, const OptionValue& v) {
+    const size_t colon = v.text.find(':');
+    OptionValue all = v, one = v;
+    all.text = v.text.substr(0, colon);
+    o.camera.frames = static_cast<int>(parse_whole(all, 1, MOST_FRAMES));
+    o.camera.frame = 0;
+    if (colon == std::string::npos)
+        return;
+    one.text = v.text.substr(colon + 1);
+    o.camera.frame = static_cast<int>(parse_whole(one, 1, *o.camera.frames));
+}
+
 void apply_output(Options& o, const OptionValue& v) {
     const std::string path = parse_result(v);
     if (!is_output_path(path))
@@ -56,13 +69,13 @@ std::vector<OptionSpec> picture_options() {
          "become numbers, {frame:4} one of four digits, {{ and }} braces; repeatable (default SCENE.png in "
          "the current folder)",
          apply_output, REPEATABLE},
-        {group, "", "--frames", "N",
+        {group, "", "--frames", "N[:K]",
          "turntable: N pictures, the eye going once around --at about --up; lights stay with the scene; "
          "names get "
-         "-0001 and so on, or say where by {frame}; -s, -t and -e count for each (default: one picture)",
-         [](Options& o, const OptionValue& v) {
-             o.camera.frames = static_cast<int>(parse_whole(v, 1, MOST_FRAMES));
-         }},
+         "-0001 and so on, or say where by {frame}; -s, -t and -e count for each; N:K renders the K-th of "
+         "them "
+         "alone (default: one picture)",
+         apply_frames},
         {group, "", "--crop", "X0,Y0,X1,Y1",
          "render this window only; pixels from the top left, end excluded",
          [](Options& o, const OptionValue& v) { o.film.crop = parse_crop(v); }},

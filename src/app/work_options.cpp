@@ -70,8 +70,8 @@ std::vector<OptionSpec> work_options() {
     const TransportOptions defaults;
     return {
         {group, "d", "--device", "NAME",
-         "platform, else device, by a part of its name; cpu, gpu; or P:D as listed (default: variable "
-         "CLRT_DEVICE, else the first GPU, else the CPU)",
+         "platform, else device, by a part of its name; cpu, gpu; or P:D as listed; several with commas "
+         "between them share the samples (default: variable CLRT_DEVICE, else the first GPU, else the CPU)",
          [](Options& o, const OptionValue& v) { apply_text(o.device.name, v); }},
         {group, "l", "--list-devices", "", "list platforms and devices, with -v how they compute, then exit",
          [](Options& o, const OptionValue&) { o.run.list_devices = true; }, Repeat::NO, COMMAND_LINE_ONLY},

@@ -108,9 +108,10 @@ void FilmBuffers::for_each_pixel(const Band& band, Action&& action) const {
 void FilmBuffers::write_plane(size_t plane, const std::int64_t* sums) const {
     for (const Band& band : bands()) {
         std::vector<std::int64_t> piece(3 * slot_count(band), 0);
-        for_each_pixel(band, [&](size_t on_device, size_t in_film) {
-            std::copy_n(sums + in_film, 3, &piece[on_device]);
-        });
+        if (sums)
+            for_each_pixel(band, [&](size_t on_device, size_t in_film) {
+                std::copy_n(sums + in_film, 3, &piece[on_device]);
+            });
         check_opencl("continuing the picture", [&] {
             device_.queue.enqueueWriteBuffer(film_, CL_TRUE,
                                              3 * first_slot(plane, band) * sizeof(std::int64_t),
@@ -158,6 +159,11 @@ void FilmBuffers::write_sums(const RenderProgress& render) {
         write_plane(i, &render.film.sums[i * film_plane(render.film)]);
     for (size_t i = 0; i < layers_; ++i)
         write_plane(replicates + i, render.path_layers[i].sums.data());
+}
+
+void FilmBuffers::clear_sums() {
+    for (size_t plane = 0; plane < params_.film_replicates + layers_; ++plane)
+        write_plane(plane, nullptr);
 }
 
 void FilmBuffers::read_sums(RenderProgress& render) const {

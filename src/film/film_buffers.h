@@ -34,6 +34,8 @@ public:
     void write_tile_ranges(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to);
     /// Starts from the sums of an earlier run.
     void write_sums(const RenderProgress& render);
+    /// Starts anew from sums of 0; counts and marks stay.
+    void clear_sums();
     /// Reads the sums, from the device's tiles into the rows of film and layers. Full ones are INT64_MAX.
     void read_sums(RenderProgress& render) const;
     /// Marks the pixels in which a camera ray has hit the scene since the start, where the film knows that of
@@ -55,7 +57,7 @@ private:
     /// Calls action(index of a pixel's sums in the band, its index in the plane of a film).
     template <class Action>
     void for_each_pixel(const Band& band, Action&& action) const;
-    /// One plane's sums, by way of a small copy.
+    /// One plane's sums, by way of a small copy; null: zeros.
     void write_plane(size_t plane, const std::int64_t* sums) const;
     void read_plane(size_t plane, std::int64_t* sums) const;
 

@@ -22,6 +22,9 @@ std::optional<GuideRefusal> guide_refusal(const Options& options) {
                             "its halves decide for each other and must not share what paths have learnt"};
     if (options.sampling.replicates < FEWEST_GUIDED_REPLICATES)
         return GuideRefusal{"--replicates", "the spread of four or more tells what a guide is worth"};
+    if (shares_picture(options.device))
+        return GuideRefusal{"--device with several names",
+                            "guided samples need all those before them, which devices take at once"};
     if (options.run.ledger != LedgerOf::NOTHING)
         return GuideRefusal{"--ledger", "the ledger compares pictures of the same samples"};
     if (options.run.pixel)

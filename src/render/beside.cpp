@@ -22,27 +22,32 @@ std::chrono::steady_clock::duration Beside::between_launches() const {
     return std::chrono::steady_clock::now() - begun;
 }
 
-void Beside::at_pass(Render& result, const std::function<void()>& read_back) {
+bool Beside::waits() {
     RenderObserver* const observer = hooks_.observer;
-    const bool is_asked = observer && observer->wants_saving();
     const bool has_film = !options_.film_file.checkpoint_path.empty();
-    const bool saves_film = hooks_.save_film && (film_reminder_.due() || (is_asked && has_film));
-    const bool saves_picture = hooks_.save_picture && (picture_reminder_.due() || is_asked);
-    const bool shows = observer && observer->wants_picture();
-    if (!saves_film && !saves_picture && !shows)
+    is_asked_ = is_asked_ || (observer && observer->wants_saving());
+    saves_film_ |= hooks_.save_film && (film_reminder_.due() || (is_asked_ && has_film));
+    saves_picture_ |= hooks_.save_picture && (picture_reminder_.due() || is_asked_);
+    shows_ = shows_ || (observer && observer->wants_picture());
+    return saves_film_ || saves_picture_ || shows_;
+}
+
+void Beside::at_pass(Render& result, const std::function<void()>& read_back) {
+    if (!waits())
         return;
     read_back();
     bool is_saved = true;
-    if (saves_film)
+    if (saves_film_)
         is_saved = hooks_.save_film(result);
-    if (saves_picture || shows)
+    if (saves_picture_ || shows_)
         result.error = film_error(result.film, ErrorPixels::SCENE, options_.sampling.measure());
-    if (saves_picture)
+    if (saves_picture_)
         is_saved = hooks_.save_picture(result) && is_saved;
-    if (is_asked)
-        observer->saved(is_saved, film_samples(result.film));
-    if (shows)
-        observer->show(result);
+    if (is_asked_)
+        hooks_.observer->saved(is_saved, film_samples(result.film));
+    if (shows_)
+        hooks_.observer->show(result);
+    is_asked_ = saves_film_ = saves_picture_ = shows_ = false;
 }
 
 } // namespace clrt

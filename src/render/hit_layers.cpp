@@ -65,6 +65,14 @@ HitLayers::HitLayers(const Device& device, const Program& program, const RenderP
     launcher_.run(0, 0, 0, 0);
 }
 
+HitLayers::HitLayers(const PreparedScene& prepared, const RenderParams& params, FilmBuffers& film_buffers,
+                     HitSums& sums)
+    : HitLayers(prepared.device, *prepared.programs->layers, params,
+                prepared.planned->options.sampling.adaptive || prepared.planned->options.denoise.denoiser,
+                prepared.buffers, film_buffers, sums, wants_mattes(prepared.planned->options)) {
+    sums.most_samples = most_hit_samples(prepared.planned->options);
+}
+
 /// Halves the buffers until they fit.
 void HitLayers::make_buffers() {
     for (;; largest_launch_ /= 2)

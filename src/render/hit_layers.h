@@ -9,6 +9,7 @@
 #include "render/launch_size.h"
 #include "render/launcher.h"
 #include "render/matte_buffer.h"
+#include "render/prepared_scene.h"
 
 #include <functional>
 #include <optional>
@@ -24,6 +25,10 @@ public:
     /// denoised picture. `has_mattes`: the program counts samples by object and material.
     HitLayers(const Device& device, const Program& program, const RenderParams& params, bool by_halves,
               const SceneBuffers& scene, FilmBuffers& film_buffers, HitSums& sums, bool has_mattes = false);
+
+    /// Those of a scene that is prepared with a program for them, as its options want them.
+    HitLayers(const PreparedScene& prepared, const RenderParams& params, FilmBuffers& film_buffers,
+              HitSums& sums);
 
     /// Adds the samples that the film has and the sums are to have and lack, in launches of LAUNCH_SECONDS;
     /// `report` is told after each which share of all samples is there. After a signal it leaves out what

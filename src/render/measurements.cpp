@@ -32,10 +32,17 @@ void Measurements::measure_film(const FilmBuffers& buffers, std::uint64_t earlie
     const auto start = Clock::now();
     buffers.read_sums(render);
     buffers.read_shown(render.film);
-    error_ = film_squared_error(render.film, ErrorPixels::SCENE, 1, render.round.measure);
     // Beside the sums of all replicates, a few words a pixel are read in no time.
+    const RenderCounts counts = buffers.read_counts();
+    render.check_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    judge_film(counts, earlier_samples, render);
+}
+
+void Measurements::judge_film(const RenderCounts& counts, std::uint64_t earlier_samples, Render& render) {
+    const auto start = Clock::now();
+    error_ = film_squared_error(render.film, ErrorPixels::SCENE, 1, render.round.measure);
     if (const std::uint64_t samples = film_all_samples(render.film) - earlier_samples; samples > 0)
-        rays_per_sample_ = rays_per_sample(buffers.read_counts(), double(samples));
+        rays_per_sample_ = rays_per_sample(counts, double(samples));
     render.check_seconds += std::chrono::duration<double>(Clock::now() - start).count();
 }
 

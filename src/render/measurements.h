@@ -16,6 +16,8 @@ public:
     /// Reads the film into `render` and measures its error and its rays; `earlier_samples`, of all pixels,
     /// were there before this run.
     void measure_film(const FilmBuffers& buffers, std::uint64_t earlier_samples, Render& render);
+    /// The same of a film that is in `render` already, with these counts of this run.
+    void judge_film(const RenderCounts& counts, std::uint64_t earlier_samples, Render& render);
     /// Measures the rays alone, now and then; this run has taken `samples` a pixel in `seconds`.
     void measure_rays(const FilmBuffers& buffers, const Film& film, double samples, double seconds);
 

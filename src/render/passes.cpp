@@ -4,9 +4,11 @@
 #include "console/signals.h"
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
+#include "film/sample_ranges.h"
 #include "options/guide_refusal.h"
 #include "render/error_text.h"
 #include "render/good_counts.h"
+#include "render/outlook.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -41,13 +43,12 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
       launch_size_(prepared.device.info.compute_units) {
     film_buffers_.bind(launcher_.kernel());
     take_host_memory();
-    first_ = options_.sampling.first_sample;
     if (!result.film.ranges.empty()) {
         film_buffers_.write_sums(result);
-        first_ = result.film.ranges.back().end;
         samples_ = film_samples(result.film);
         earlier_samples_ = film_all_samples(result.film);
     }
+    go_to_next_sample();
     earlier_counts_ = result.counts;
     earlier_seconds_ = result.seconds;
     if (may_guide(options_)) {
@@ -66,6 +67,20 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
     result.first_launch_seconds = seconds_between(start, Clock::now());
 }
 
+/// Whether samples are missing between those of the film. The layers of hits go through them in order, and
+/// wait until they are there.
+bool Passes::has_gaps() const {
+    return result_.film.ranges.size() > 1;
+}
+
+/// The next sample that the film lacks: between its ranges, else behind them.
+void Passes::go_to_next_sample() {
+    const SampleRange lacking =
+        next_ranges(result_.film.ranges, options_.sampling.first_sample, rules_.last_samples()).front();
+    first_ = lacking.first;
+    lacking_end_ = lacking.end;
+}
+
 /// Takes what reading the film at the end needs, once the device is known to hold it.
 void Passes::take_host_memory() {
     Film& film = result_.film;
@@ -80,10 +95,7 @@ void Passes::begin_hits() {
     if (!prepared_.programs->layers)
         return;
     try {
-        result_.hits.most_samples = most_hit_samples(options_);
-        hit_layers_.emplace(prepared_.device, *prepared_.programs->layers, params_,
-                            options_.sampling.adaptive || options_.denoise.denoiser, prepared_.buffers,
-                            film_buffers_, result_.hits, wants_mattes(options_));
+        hit_layers_.emplace(prepared_, params_, film_buffers_, result_.hits);
     } catch (const DeviceError& error) {
         give_up_hits(error);
     }
@@ -119,6 +131,7 @@ void Passes::give_up_hits(const DeviceError& error) {
 /// the end.
 std::uint32_t Passes::next_samples(const RenderState& state) const {
     std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
+    end = std::min(end, samples_ + (lacking_end_ - first_));
     if (options_.sampling.adaptive)
         end = std::min(end, result_.round.end);
     if (guiding_)
@@ -206,42 +219,10 @@ bool Passes::run_tiles(double samples, double done, Launch&& launch) {
 void Passes::show(double samples) {
     const double of_run = samples_of_run(samples);
     measurements_.measure_rays(film_buffers_, result_.film, of_run, seconds());
-    progress_.update({"render", rules_.fraction(samples, seconds(), expected_samples()),
+    progress_.update({"render", rules_.fraction(samples, seconds(), expected_samples(measurements_)),
                       std::uint64_t(samples), measurements_.rays_per_second(result_.film, of_run, seconds()),
-                      measurements_.error_at(samples), false, progress_target(samples)});
-}
-
-/// What the last measured error and those before it let expect of --error.
-void Passes::forecast_error() {
-    measurements_.forecast(result_.history, options_.sampling.replicates, options_.sampling.error);
-    const std::optional<ErrorPrice>& price = measurements_.price();
-    if (!price || !is_doubling(samples_, options_.sampling.replicates) || result_.passes == 0)
-        return;
-    const double pace = seconds() / double(result_.passes);
-    result_.forecasts.push_back({samples_, seconds(), *price});
-    ErrorPrice& noted = result_.forecasts.back().price;
-    noted.seconds *= pace;
-    noted.low_seconds *= pace;
-    if (noted.high_seconds)
-        *noted.high_seconds *= pace;
-}
-
-std::optional<std::uint64_t> Passes::expected_samples() const {
-    return measurements_.price() ? std::optional(measurements_.price()->samples) : std::nullopt;
-}
-
-/// When the render will have come to --error, at the pace of this run.
-std::optional<ProgressTarget> Passes::progress_target(double samples) const {
-    const std::optional<ErrorPrice>& price = measurements_.price();
-    const double of_run = samples_of_run(samples);
-    if (!price || !(of_run > 0))
-        return std::nullopt;
-    const auto seconds_to = [&](std::uint64_t count) {
-        return std::max(double(count) - samples, 0.0) * seconds() / of_run;
-    };
-    return ProgressTarget{*options_.sampling.error, seconds_to(price->samples),
-                          seconds_to(price->low_samples) / PACE_SPREAD,
-                          price->high_samples ? seconds_to(*price->high_samples) * PACE_SPREAD : -1};
+                      measurements_.error_at(samples), false,
+                      progress_target(measurements_, options_.sampling, samples, of_run, seconds())});
 }
 
 /// Shows what the render has come to.
@@ -255,7 +236,7 @@ void Passes::show_end() {
                         result_.error ? result_.error->relative_rmse : -1,
                         true};
     if (result_.stop == StopRule::SIGNAL)
-        state.fraction = rules_.fraction(double(samples_), seconds, expected_samples());
+        state.fraction = rules_.fraction(double(samples_), seconds, expected_samples(measurements_));
     progress_.update(state);
 }
 
@@ -343,12 +324,9 @@ bool Passes::run_launches(std::uint32_t samples) {
     if (metropolis_)
         walk_chains(samples);
     samples_ += samples;
-    first_ += samples;
     result_.passes += samples;
-    std::vector<SampleRange>& ranges = result_.film.ranges;
-    if (ranges.empty())
-        ranges.push_back({first_ - samples, first_});
-    ranges.back().end = first_;
+    add_range(result_.film.ranges, {first_, first_ + samples});
+    go_to_next_sample();
     return true;
 }
 
@@ -367,11 +345,7 @@ bool Passes::is_worth_measuring() const {
 RenderState Passes::measured_state() {
     if (is_worth_measuring()) {
         measurements_.measure_film(film_buffers_, earlier_samples_, result_);
-        const bool is_new = result_.history.empty() || result_.history.back().samples < samples_;
-        if (measurements_.error() && is_new && is_doubling(samples_, options_.sampling.replicates))
-            result_.history.push_back(*measurements_.error());
-        if (measurements_.error())
-            forecast_error();
+        note_error(measurements_, result_, options_.sampling, samples_, seconds());
     }
     RenderState state;
     state.samples = samples_;
@@ -424,7 +398,8 @@ StopRule Passes::run_until_stopped() {
         keep_film(state, samples);
         if (!run_launches(samples))
             return *interrupted_;
-        advance_hits();
+        if (!has_gaps())
+            advance_hits();
         beside_.at_pass(result_, [&] { read_back(); });
     }
 }
@@ -443,7 +418,7 @@ void Passes::finish() {
 void Passes::run() {
     beside_.begin(prepared_);
     start_ = Clock::now();
-    if (samples_ > 0) {
+    if (samples_ > 0 && !has_gaps()) {
         advance_hits("layers");             // of the film that the render goes on from
         launch_seconds_ = hit_seconds_ = 0; // no pass of this run
     }
@@ -452,6 +427,8 @@ void Passes::run() {
     result_.stop_signal = result_.stop == StopRule::SIGNAL ? stop_signal() : 0;
     if (options_.sampling.time_seconds)
         result_.overrun_seconds = std::max(0.0, stop_seconds - *options_.sampling.time_seconds);
+    if (has_gaps())
+        advance_hits("layers");
     finish();
     const std::uint64_t fewest = options_.sampling.adaptive ? std::uint64_t(options_.sampling.replicates) : 1;
     const bool is_first_pass = samples_ == fewest && result_.passes == fewest;

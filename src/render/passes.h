@@ -50,11 +50,10 @@ private:
     std::optional<StopRule> interruption(double seconds_left) const;
     void show(double samples);
     void show_end();
-    void forecast_error();
-    std::optional<ProgressTarget> progress_target(double samples) const;
-    std::optional<std::uint64_t> expected_samples() const;
     void read_back();
     void finish();
+    void go_to_next_sample();
+    bool has_gaps() const;
     void take_host_memory();
     void begin_hits();
     void advance_hits(const char* phase = nullptr);
@@ -79,6 +78,7 @@ private:
     RenderCounts earlier_counts_;
     double earlier_seconds_ = 0;
     std::uint64_t first_ = 0, samples_ = 0; ///< the next sample's number; samples of the whole film
+    std::uint64_t lacking_end_ = 0;         ///< end of the samples that the film lacks from first_ on
     std::uint64_t earlier_samples_ = 0;     ///< of all pixels, from earlier runs
     double first_device_seconds_ = 0;       ///< of the launch without samples
     double launch_seconds_ = 0;             ///< of all launches of this run

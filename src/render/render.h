@@ -6,6 +6,7 @@
 #include "denoise/denoise.h"
 #include "film/hit_sums.h"
 #include "film/render_progress.h"
+#include "render/crew.h"
 #include "render/error_price.h"
 #include "render/prepared_scene.h"
 #include "render/stop_rules.h"
@@ -28,6 +29,12 @@ struct ChainCounts {
     std::uint64_t small = 0, large = 0, taken_small = 0, taken_large = 0;
 };
 
+/// What one of several devices did.
+struct DeviceShare {
+    DeviceInfo device;
+    CrewShare work;
+};
+
 /// What a render gives: film, counts, history and seconds of the whole picture, the rest of this run.
 struct Render : RenderProgress {
     HitSums hits;                     ///< empty if no file wants layers of them
@@ -44,6 +51,7 @@ struct Render : RenderProgress {
     double overrun_seconds = 0; ///< beyond --time
     double longest_launch_seconds = 0;
     std::optional<FilmError> error;        ///< of the film as it is
+    std::vector<DeviceShare> shares;       ///< of several devices; empty: there was one
     std::vector<RenderForecast> forecasts; ///< of --error, at doublings
     StopRule stop = StopRule::SPP;         ///< what ended it
     std::string stop_text;                 ///< the same in words

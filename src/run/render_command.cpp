@@ -15,6 +15,7 @@
 #include "seconds.h"
 #include "view/viewers.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <memory>
@@ -22,6 +23,7 @@
 #include <spdlog/spdlog.h>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace clrt {
 
@@ -60,7 +62,7 @@ int finish(const Report& report) {
 /// A scene to be rendered, once or turning.
 struct Job {
     std::chrono::steady_clock::time_point start;
-    const Device& device;
+    const std::vector<Device>& devices;
     std::shared_ptr<PlannedScene> planned;
     IntegratorChoice choice;
     std::shared_ptr<const SceneTree> tree; ///< null: it is not built yet
@@ -76,7 +78,7 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
     return {options,
             scene,
             effects,
-            job.device.info,
+            job.devices.front().info,
             done.facts,
             tree.bvh,
             done.render,
@@ -94,11 +96,12 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
 /// One picture with its files and its report; prepares the scene for the first.
 int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::optional<Simulation>& done) {
     const Options& options = job.planned->options;
-    const Saving saving(job.planned->scene, job.planned->effects.paths, options, job.device.info, progress);
+    const Saving saving(job.planned->scene, job.planned->effects.paths, options, job.devices.front().info,
+                        progress);
     RenderHooks hooks = saving.hooks;
     hooks.observer = viewers.observer();
     if (!done)
-        done.emplace(simulate(job.device, job.planned, progress, hooks, job.tree));
+        done.emplace(simulate(job.devices, job.planned, progress, hooks, job.tree));
     else
         simulate_again(progress, hooks, *done);
     progress.finish();
@@ -112,7 +115,7 @@ int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::op
     if (saving.needs_film(render))
         files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
 
-    denoise_render(job.device, options, progress, done->render);
+    denoise_render(job.devices.front(), options, progress, done->render);
     const SceneTree no_tree;
     Report report = make_report(job, *done, done->prepared ? *done->prepared->tree : no_tree);
     write_outputs(report, files);
@@ -125,12 +128,13 @@ int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::op
     return finish(report);
 }
 
-/// The pictures of --frames. The scene is loaded and prepared once.
+/// The pictures of --frames, or the one of them that is asked for. The scene is loaded and prepared once.
 int render_turn(const Job& job, Progress& progress, Viewers& viewers, std::optional<Simulation>& done) {
     const Camera camera = job.planned->scene.camera;
     CameraOptions& options = job.planned->options.camera;
     int exit_code = EXIT_DONE;
-    for (options.frame = 1; options.frame <= *options.frames; ++options.frame) {
+    const int first = std::max(options.frame, 1), last = options.frame > 0 ? options.frame : *options.frames;
+    for (options.frame = first; options.frame <= last; ++options.frame) {
         job.planned->scene.camera = turned_camera(camera, options.frame, *options.frames);
         exit_code = graver_exit(exit_code, render_picture(job, progress, viewers, done));
         if (done->render.stop_signal)
@@ -169,11 +173,11 @@ int run_render(Options options) {
     check_denoiser(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
     Viewers viewers(options, progress);
-    const Device device = open_chosen_device(options);
+    const std::vector<Device> devices = open_chosen_devices(options);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
-    Job job{start, device, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
-    job.choice = choose_integrator(device, job.planned, job.tree, progress);
+    Job job{start, devices, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
+    job.choice = choose_integrator(devices.front(), job.planned, job.tree, progress);
     announce(*job.planned);
     std::optional<Simulation> done;
     const int exit_code = options.camera.frames ? render_turn(job, progress, viewers, done)

@@ -67,6 +67,32 @@ Json device_json(const Report& report) {
             {"facts", report.facts ? facts_json(*report.facts) : Json(nullptr)}};
 }
 
+/// What each of several devices did; null: there was one.
+Json shares_json(const Render& render) {
+    if (render.shares.empty())
+        return nullptr;
+    Json list = Json::array();
+    for (const auto& [device, work] : render.shares)
+        list.push_back({{"index", fmt::format("{}:{}", device.platform_index, device.device_index)},
+                        {"platform", device.platform},
+                        {"name", device.name},
+                        {"driver", device.driver},
+                        {"spp", work.samples},
+                        {"seconds", work.seconds},
+                        {"failure", work.failure.empty() ? Json(nullptr) : Json(work.failure)}});
+    return list;
+}
+
+/// The devices of a picture.
+std::string device_text(const Report& report) {
+    if (report.render.shares.empty())
+        return report.device.platform + ": " + report.device.name;
+    std::string text;
+    for (const DeviceShare& share : report.render.shares)
+        text += (text.empty() ? "" : "; ") + share.device.platform + ": " + share.device.name;
+    return text;
+}
+
 /// The same as metadata.
 void add_facts(const Report& report, Metadata& metadata) {
     const std::optional<bool> same_bits = has_same_bits(report);
@@ -228,6 +254,7 @@ std::string report_json(const Report& report) {
                                        {"sample", sample}});
     json["exposure_ev"] = report.exposure_ev;
     json["device"] = device_json(report);
+    json["devices"] = shares_json(render);
     json["bvh"] = {{"layout", name_of(report.bvh.layout)},
                    {"quality", name_of(report.bvh.quality)},
                    {"reason", report.bvh_reason},
@@ -251,7 +278,7 @@ Metadata report_metadata(const Report& report) {
     Metadata metadata{{"version", CLRT_VERSION},
                       {"command", command_text(report.options)},
                       {"integrator", name_of(report.options.transport.integrator)},
-                      {"device", report.device.platform + ": " + report.device.name},
+                      {"device", device_text(report)},
                       {"driver", report.device.driver},
                       {"sampler", name_of(report.options.sampling.sampler)},
                       {"seed", std::to_string(report.options.sampling.seed)},

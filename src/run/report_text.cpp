@@ -57,7 +57,19 @@ std::string chain_line(const Report& report) {
 
 std::string time_line(const Report& report) {
     return fmt::format("time     {:.1f} s, {:.1f} s of it rendering, on {}\n", report.total_seconds,
-                       report.render.run_seconds, report.device.name);
+                       report.render.run_seconds,
+                       report.render.shares.empty() ? report.device.name
+                                                    : fmt::format("{} devices", report.render.shares.size()));
+}
+
+/// What each of several devices did.
+std::string share_lines(const Report& report) {
+    std::string text;
+    for (const auto& [device, work] : report.render.shares)
+        text += fmt::format("device   {} spp in {:.1f} s by {}:{} {}{}\n", work.samples, work.seconds,
+                            device.platform_index, device.device_index, device.name,
+                            work.failure.empty() ? "" : ", which failed and was left out");
+    return text;
 }
 
 /// What the picture lacks although the scene calls for it.
@@ -128,7 +140,7 @@ std::string proof_lines(const Report& report) {
 std::string format_report(const Report& report) {
     std::string text =
         picture_line(report) + choice_line(report) + adaptive_line(report) + guide_line(report) +
-        chain_line(report) + time_line(report) + format_error_report(report.error) +
+        chain_line(report) + time_line(report) + share_lines(report) + format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         left_out_lines(report) + bad_lines(report);

@@ -3,8 +3,10 @@
 
 #include "error.h"
 #include "paths/path_report.h"
+#include "render/shared_render.h"
 
 #include <fmt/format.h>
+#include <future>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -49,15 +51,32 @@ std::vector<CauseCount> explain_bad_samples(const PreparedScene& prepared, const
     }
 }
 
+/// Prepares the scene on every device; what compiles does so side by side.
+void prepare(const std::vector<Device>& devices, const std::shared_ptr<const PlannedScene>& planned,
+             std::shared_ptr<const SceneTree> tree, Simulation& done) {
+    std::vector<std::future<std::shared_ptr<const RenderPrograms>>> programs;
+    for (size_t i = 1; i < devices.size(); ++i)
+        programs.push_back(
+            std::async(std::launch::async, [&, i] { return plan_programs(devices[i], *planned); }));
+    done.prepared.emplace(prepare_render(devices.front(), planned, {std::move(tree), nullptr}));
+    for (size_t i = 1; i < devices.size(); ++i)
+        done.others.push_back(
+            prepare_scene(devices[i], planned, {done.prepared->tree, programs[i - 1].get()}));
+}
+
 } // namespace
 
-Simulation simulate(const Device& device, const std::shared_ptr<const PlannedScene>& planned,
+Simulation simulate(const std::vector<Device>& devices, const std::shared_ptr<const PlannedScene>& planned,
                     Progress& progress, const RenderHooks& hooks, std::shared_ptr<const SceneTree> tree) {
     Simulation done;
     if (!planned->effects.paths.is_empty) {
         progress.update({"compile", -1, 0, -1});
-        done.prepared.emplace(prepare_render(device, planned, {std::move(tree), nullptr}));
-        done.facts = ask_facts(device, planned->options, progress);
+        prepare(devices, planned, std::move(tree), done);
+        for (const Device& device : devices) {
+            std::optional<DeviceFacts> facts = ask_facts(device, planned->options, progress);
+            if (!done.facts || (facts && promises_bits(*done.facts) && !promises_bits(*facts)))
+                done.facts = std::move(facts);
+        }
         simulate_again(progress, hooks, done);
     } else {
         spdlog::warn("{}", path_summary(planned->effects.paths));
@@ -69,7 +88,14 @@ Simulation simulate(const Device& device, const std::shared_ptr<const PlannedSce
 void simulate_again(Progress& progress, const RenderHooks& hooks, Simulation& done) {
     if (!done.prepared)
         return;
-    done.render = render(*done.prepared, progress, hooks);
+    if (done.others.empty()) {
+        done.render = render(*done.prepared, progress, hooks);
+    } else {
+        std::vector<const PreparedScene*> all{&*done.prepared};
+        for (const PreparedScene& other : done.others)
+            all.push_back(&other);
+        done.render = render_shared(all, progress, hooks);
+    }
     done.causes = explain_bad_samples(*done.prepared, done.render);
 }
 

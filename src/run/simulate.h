@@ -17,6 +17,7 @@ namespace clrt {
 /// What preparing and rendering give.
 struct Simulation {
     std::optional<PreparedScene> prepared; ///< none where no path of the scene is asked for
+    std::vector<PreparedScene> others;     ///< on further devices that share the picture
     std::optional<DeviceFacts> facts;
     Render render;                  ///< the last
     std::vector<CauseCount> causes; ///< of its bad samples
@@ -24,8 +25,9 @@ struct Simulation {
 
 /// Prepares a scene and renders it. What cannot be told about the device or about bad samples is only said.
 /// Where no path is asked for this is the black picture, and nothing is prepared. `tree`: that of the plan,
-/// or null. Throws DeviceError.
-Simulation simulate(const Device& device, const std::shared_ptr<const PlannedScene>& planned,
+/// or null. Several devices share the picture; facts are those of the first that breaks a rule, else of the
+/// first. Throws DeviceError.
+Simulation simulate(const std::vector<Device>& devices, const std::shared_ptr<const PlannedScene>& planned,
                     Progress& progress, const RenderHooks& hooks,
                     std::shared_ptr<const SceneTree> tree = nullptr);
 

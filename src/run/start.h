@@ -7,10 +7,15 @@
 #include "options/options.h"
 #include "scene/scene.h"
 
+#include <vector>
+
 namespace clrt {
 
-/// The device that the options name, open; says what platforms and the cache of programs lack. Throws
+/// The devices that the options name, open; says what platforms and the cache of programs lack. Throws
 /// DeviceError.
+std::vector<Device> open_chosen_devices(const Options& options);
+
+/// The same where only one is asked for.
 Device open_chosen_device(const Options& options);
 
 /// The scene of a run, whose results are known not to replace what it was loaded from; the options take over

@@ -120,6 +120,20 @@ TEST_F(CameraCommand, ATurntableWritesAPictureAFrame) {
     EXPECT_EQ(stats("turn-0001.json")["spp"], 1);
 }
 
+TEST_F(CameraCommand, AFrameAloneIsThatOfTheTurn) {
+    write_pyramid("pyramid");
+    const auto turn = [&](const std::string& frames, const std::string& output) {
+        return clrt(quick({"pyramid.obj", "--frames", frames, "--sun", "1,2,3,3,3,3", "-o", output}))
+            .exit_code;
+    };
+    EXPECT_EQ(turn("3", "all{frame}.exr"), 0);
+    EXPECT_EQ(turn("3:2", "one{frame}.exr"), 0);
+    EXPECT_FALSE(exists("one1.exr") || exists("one3.exr"));
+    EXPECT_EQ(ReadPicture(folder.file("one2.exr")).values, ReadPicture(folder.file("all2.exr")).values);
+    for (const char* frames : {"3:4", "3:0", "3:", ":2", "3:x"})
+        EXPECT_EQ(turn(frames, "no.exr"), 2) << frames;
+}
+
 TEST_F(CameraCommand, ATurnedFrameIsThePictureOfItsCamera) {
     write_pyramid("pyramid");
     const std::vector<std::string> scene = {"pyramid.obj", "--up",  "z",          "--at",

@@ -12,7 +12,8 @@ import unittest
 
 CMAKE, CPACK, BUILD = sys.argv[1:4] if len(sys.argv) > 3 else ("cmake", "cpack", "build")
 DEVICE = os.environ.get("CLRT_TEST_DEVICE", "pocl")
-PROGRAMS = ["clrt", "clrt-agree", "clrt-bench", "clrt-compare", "clrt-merge", "clrt-mitsuba", "clrt-stability", "clrt-study"]
+PROGRAMS = ["clrt", "clrt-agree", "clrt-bench", "clrt-compare", "clrt-merge", "clrt-mitsuba", "clrt-slurm", "clrt-stability",
+            "clrt-study"]
 SECONDS = 300  # a program that takes longer hangs
 
 EQUIVALENT, DIFFERENT, FAILED_CHECK = 0, 1, 4
@@ -105,6 +106,12 @@ class InstalledTools:
         self.run_program("clrt-bench", self.scene, "--rays", "4096", "--rounds", "1", "--stats", "bench.json")
         ratios = self.read_json("bench.json")["ratio"]
         self.assertEqual(sorted(ratios), ["diffuse", "mirror", "primary", "shadow"])
+
+    def test_clrt_slurm_renders_a_part_and_tells_what_is_missing(self):
+        printed = self.run_program("clrt-slurm", "submit", "job", "-s", "16", "-k", "2", "--dry-run", "--", self.scene, "-r", "32x24")
+        self.assertIn("sbatch --parsable ", printed)
+        self.run_program("clrt-slurm", "task", "job", "--task", "1")
+        self.assertIn("missing  samples 0 to 7: ", self.run_program("clrt-slurm", "status", "job", code=1))
 
     def test_clrt_stability_runs_a_case_and_times_what_it_is_about(self):
         self.run_program("clrt-stability", "--case", "L06", "--rounds", "1", "--stats", "report.json",

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+clrt_test(host crew_test)
 clrt_test(host daylight_test)
 clrt_test(host denoise_choice_test)
 clrt_test(host denoised_error_test)
@@ -109,6 +110,7 @@ clrt_python_test(host study_ratios_test)
 clrt_python_test(host study_sweep_test)
 clrt_python_test(host study_series_test)
 clrt_python_test(host plain_scene_test)
+clrt_python_test(host slurm_plan_test)
 clrt_python_test(host verdict_test)
 
 # Where the library's files are compiled a folder at a time, they must compile one by one as well: an include that a

@@ -12,6 +12,7 @@ using namespace clrt;
 namespace {
 
 const KernelFiles FILES = {{"shared/types.h", embedded_kernel_files().at("shared/types.h")},
+                           {"numerics/device.h", embedded_kernel_files().at("numerics/device.h")},
                            {"half.h",
                             "#include \"shared/types.h\"\n"
                             "float half_of(float x) { return x * 0.5f; }\n"

@@ -46,6 +46,7 @@ clrt_python_test(render seeded_faults ${PROJECT_BINARY_DIR} --quick)
 set_tests_properties(render.seeded_faults PROPERTIES TIMEOUT 3600) # CLRT_TEST_LONG plants them all
 clrt_test(render scarce_memory_test)
 clrt_test(render shading_normal_test)
+clrt_test(render shared_render_test)
 clrt_test(render sky_light_test)
 clrt_test(render shutter_test)
 clrt_test(render splat_render_test)

@@ -13,7 +13,7 @@ sys.dont_write_bytecode = True
 TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools")
 sys.path.insert(0, TOOLS)
 
-from clrt_tools.film_file import FORMAT_VERSION  # noqa: E402 (needs the path above)
+from clrt_tools.film_header import FORMAT_VERSION  # noqa: E402 (needs the path above)
 from clrt_tools.picture_file import Picture, Window  # noqa: E402
 
 REPLICATES = 8

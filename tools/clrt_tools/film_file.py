@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads film files, as `clrt --checkpoint` writes them (layout: src/film/film_file.h)."""
 import dataclasses
-import json
-import struct
 
 import numpy
 
-MAGIC = b"CLRTFILM"
-FORMAT_VERSION = 2
+from clrt_tools.film_header import MAGIC, FilmError, parse_header
+
 CHECKSUM_BYTES = 16
 NODE_BYTES, CELL_BYTES, WEIGHT_BYTES = 4, 534 + 2056, 4
-
-
-class FilmError(Exception):
-    """A film file that cannot be used: what was expected, what was found."""
 
 
 @dataclasses.dataclass
@@ -42,7 +36,7 @@ def read_film(path):
     """Reads and checks it all."""
     with open(path, "rb") as file:
         content = file.read()
-    header, start = _read_header(content)
+    header, start = parse_header(content)
     try:
         identity, count = header["identity"], int(header["replicates"])
         x0, y0, x1, y1 = window = tuple(int(value) for value in identity["window"])
@@ -58,22 +52,6 @@ def read_film(path):
     samples = [replicate_samples(ranges, count, replicate) for replicate in range(count)]
     means = [sums[r] * (quantum / samples[r]) for r in range(count) if samples[r] > 0]
     return Film(numpy.array(means), window, size, sum(samples), seed)
-
-
-def _read_header(content):
-    """The header, and where the sums start."""
-    if len(content) < len(MAGIC) + 8:
-        raise FilmError(f"truncated: expected {len(MAGIC) + 8} bytes or more, found {len(content)}")
-    version, length = struct.unpack_from("<II", content, len(MAGIC))
-    if version != FORMAT_VERSION:
-        raise FilmError(f"expected a film file of format version {FORMAT_VERSION}, found {version}")
-    start = len(MAGIC) + 8 + length
-    if len(content) < start:
-        raise FilmError(f"truncated: expected {start} bytes or more, found {len(content)}")
-    try:
-        return json.loads(content[len(MAGIC) + 8:start].decode()), start
-    except ValueError as error:
-        raise FilmError("damaged: the header is no JSON") from error
 
 
 def _guide_bytes(header):

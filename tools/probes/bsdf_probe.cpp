@@ -44,7 +44,7 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     return bsdf;
 }
 
-kernel void probe_eval(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
+CLRT_KERNEL void probe_eval(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
                        global vec4* out_first, global vec4* out_second)
 {
     const size_t i = get_global_id(0);
@@ -57,7 +57,7 @@ kernel void probe_eval(PROBE_BSDF, global const vec4* in_a, global const vec4* i
     out_second[i] = (vec4)(bsdf_has_smooth_lobe(&bsdf) ? 1.0f : 0.0f, (float)bsdf_pdf_w_reverse(&bsdf, wi), 0.0f, 0.0f);
 }
 
-kernel void probe_sample(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
+CLRT_KERNEL void probe_sample(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
                          global vec4* out_first, global vec4* out_second)
 {
     const size_t i = get_global_id(0);
@@ -73,7 +73,7 @@ kernel void probe_sample(PROBE_BSDF, global const vec4* in_a, global const vec4*
 
 /// Appended to TEXT: what the tables of albedo.h say of a set's roughness and of directions.
 const char* const ALBEDO_TEXT = R"(
-kernel void probe_albedo(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
+CLRT_KERNEL void probe_albedo(PROBE_BSDF, global const vec4* in_a, global const vec4* in_b, const u32 count,
                          global vec4* out_first, global vec4* out_second)
 {
     const size_t i = get_global_id(0);

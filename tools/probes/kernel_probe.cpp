@@ -23,7 +23,7 @@ std::string kernel_text(const std::string& name, const std::string& code, const 
         inputs_read += fmt::format("    const {} {} = in_{}[i];\n", inputs[i], letter, letter);
     }
     const bool is_statements = code.find(';') != std::string::npos;
-    return fmt::format("__kernel void probe_{}({}const u32 count, __global {} *restrict out_values) {{\n"
+    return fmt::format("CLRT_KERNEL void probe_{}({}const u32 count, __global {} *restrict out_values) {{\n"
                        "    const u32 i = (u32)get_global_id(0);\n"
                        "    if (i >= count)\n"
                        "        return;\n"
@@ -73,7 +73,7 @@ void KernelProbe::check_run(const std::string& name, const std::string& signatur
 }
 
 std::string KernelProbe::source() const {
-    std::string probe = "#include \"shared/types.h\"\n";
+    std::string probe = "#include \"shared/types.h\"\n#include \"numerics/device.h\"\n";
     for (const std::string& header : headers_)
         probe += fmt::format("#include \"{}\"\n", header);
     probe += text_;

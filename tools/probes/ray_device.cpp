@@ -144,7 +144,7 @@ std::string kernel_text() {
     std::string text = FUNCTIONS;
     for (const EntryPoint& entry : ENTRY_POINTS)
         text += fmt::format(R"(
-kernel void {}(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
+CLRT_KERNEL void {}(const RenderParams params, SCENE_PARAMS, global const float4* restrict rays, const u32 count,
                {}global {}* restrict out)
 {{
     const size_t i = get_global_id(0);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/begin_film.h"
+
+#include "error.h"
+#include "film/film_buffers.h"
+#include "film/film_capacity.h"
+#include "render/prepared_scene.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace clrt {
+
+RenderParams begin_film(const PlannedScene& planned, const std::vector<const Device*>& devices,
+                        const RenderProgress* resume, Render& result) {
+    const Options& options = planned.options;
+    if (resume)
+        static_cast<RenderProgress&>(result) = *resume;
+    Film& film = result.film;
+    film.scale = film_scale(planned.scene);
+    RenderParams params = launch_params(planned);
+    film.width = int(params.crop_width);
+    film.height = int(params.crop_height);
+    int fitting = int(params.replicates);
+    for (const Device* device : devices)
+        fitting = std::min(fitting, fitting_replicates(*device, params, planned.effects.paths.layers.size()));
+    if (!resume) {
+        film.replicates = fitting;
+        film.shown.assign(film_plane(film) / 3, 0);
+    } else
+        fold_replicates(film, std::min(fitting, film.replicates));
+    params.film_replicates = u32(film.replicates);
+    check_film_capacity(options, film);
+    if (options.sampling.adaptive && film.replicates != options.sampling.replicates)
+        throw DeviceError(
+            fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
+                        "a smaller --size or fewer --replicates",
+                        options.sampling.replicates, film.replicates));
+    return params;
+}
+
+} // namespace clrt
