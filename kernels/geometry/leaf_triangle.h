@@ -44,7 +44,7 @@ static inline void leaf_triangle_closest(const Scene* scene, global const uint* 
     if (!leaf_triangle_hit(scene, words, ray, shear, hit->t, &found) ||
         !hit_is_before(found.t, found.triangle, hit->t, hit->triangle))
         return;
-    if (HAS(EFFECT_CUT_OUT) && !hit_is_before(after->t, after->triangle, found.t, found.triangle))
+    if (HAS(EFFECTS_PASSED) && !hit_is_before(after->t, after->triangle, found.t, found.triangle))
         return;
     *hit = found;
 }

@@ -151,7 +151,7 @@ static inline void bvh8_block_closest(const Scene* scene, global const uint* blo
         const uint triangle = block[BVH8_BLOCK_ID_WORD + lane];
         if (!hit_is_before(t[lane], triangle, hit->t, hit->triangle))
             continue;
-        if (HAS(EFFECT_CUT_OUT) && !hit_is_before(after->t, after->triangle, t[lane], triangle))
+        if (HAS(EFFECTS_PASSED) && !hit_is_before(after->t, after->triangle, t[lane], triangle))
             continue;
         hit->t = t[lane];
         hit->b1 = v[lane] / det[lane];

@@ -82,7 +82,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
 }
 
 /* Adds the share of the connection that arrives. */
-static inline void path_add_connection(const Scene* scene, const Path* path, real share, real3* radiance,
+static inline void path_add_connection(const Scene* scene, const Path* path, real3 share, real3* radiance,
                                        LayerSums* layers)
 {
     vertex_add(scene, path->connection * share, radiance);

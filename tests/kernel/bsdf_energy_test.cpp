@@ -34,7 +34,8 @@ constexpr double LEAST_COVERED = 0.93, LEAST_COATED_SHEEN = 0.98;
 
 /// The albedo of a BSDF: the mean weight of its samples, radiance behind glass freed of eta^2. Every part of
 /// the mixture gets the same directions (Roberts' generalised golden ratio) and counts by its probability;
-/// where the lobe's number decides between reflection and refraction too, it takes STRATA values.
+/// where the lobe's number decides between reflection and refraction too, it takes STRATA values. What passes
+/// a smooth pane is no sample, and added.
 const char* const TEXT = R"(
 #define STRATA 12u
 
@@ -87,7 +88,9 @@ SceneProbe& probe() {
             "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
             "const Surface surface = surface_at(scene, &hit, &ray_there);"
             "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b), TRANSPORT_RADIANCE);"
-            "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)), REAL(0.0));");
+            "const bool crosses = (bsdf.lobes & LOBE_PANE) && bsdf_pane_is_delta(&bsdf);"
+            "const real3 passes = crosses ? bsdf_pane_passes(&bsdf) : (real3)(REAL(0.0));"
+            "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)) + passes, REAL(0.0));");
         return made;
     }();
     return instance;

@@ -37,7 +37,7 @@ static bool oracle_sample(const Scene* scene, const RenderParams* params, Camera
     for (uint segment = 1u; segment <= params->max_depth; ++segment) {
         OracleVertex* v = &path->at[segment - 1u];
         const PathNumbers numbers = numbers_make(&sample->sampler, segment, 0u);
-        v->hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &ray);
+        v->hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &ray, 0);
         if (v->hit.triangle == NO_INDEX)
             return false;
         v->surface = visible_surface(scene, params, &ray, &v->hit);
