@@ -51,7 +51,7 @@ static inline void distribution_add_emission(const Scene* scene, const RenderPar
 {
     if (!HAS(EFFECT_AREA_LIGHT) || surface->emitter == NO_INDEX || !(distribution_accepted(path) & KIND_AREA))
         return;
-    real3 emitted = material_emitted(scene, surface);
+    real3 emitted = material_emitted(scene, surface, -path->ray.direction);
     if (path->pdf_w != REAL(0.0)) {
         const real light_pdf_w = each_light_emitter_pdf_w(
             scene, params, &path->view, path->has_crossed_curved, surface, distribution_length(path, hit),

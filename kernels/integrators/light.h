@@ -24,7 +24,8 @@ static inline void light_gather(const Scene* scene, const RenderParams* params, 
     const Surface surface = visible_surface(scene, params, &sample->ray, &hit);
     nan_carry(scene, nan_of_vector(surface.normal_g), &sample->radiance);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-        vertex_add(scene, carried * material_emitted(scene, &surface), &sample->radiance);
+        vertex_add(scene, carried * material_emitted(scene, &surface, -sample->ray.direction),
+                   &sample->radiance);
 }
 
 static CLRT_NOINLINE void light_radiance(const Scene* scene, const RenderParams* params,

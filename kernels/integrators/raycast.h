@@ -23,7 +23,7 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
     const real3 wo = -ray.direction;
     const Surface surface = visible_surface(scene, params, &ray, &hit);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-        vertex_add(scene, carried * material_emitted(scene, &surface), &radiance);
+        vertex_add(scene, carried * material_emitted(scene, &surface, wo), &radiance);
     if (params->max_depth < 2u)
         return radiance;
     const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);

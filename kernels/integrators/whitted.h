@@ -147,7 +147,7 @@ static inline uint whitted_vertex(const Scene* scene, const RenderParams* params
     solid_arrive(scene, current->solid, &surface, hit.t, &current->weight);
 #endif
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-        vertex_add(scene, current->weight * material_emitted(scene, &surface), radiance);
+        vertex_add(scene, current->weight * material_emitted(scene, &surface, wo), radiance);
     top = whitted_pass(scene, params, current, &surface, stack, top);
     if (current->segment >= params->max_depth) {
         whitted_cut(scene, current, &surface, rays);

@@ -45,7 +45,7 @@ static bool oracle_sample(const Scene* scene, const RenderParams* params, Camera
         v->wo = -ray.direction;
         path->last = segment - 1u;
         if (v->surface.emitter != NO_INDEX)
-            return segment > 1u && !vector_is_black(material_emitted(scene, &v->surface));
+            return segment > 1u && !vector_is_black(material_emitted(scene, &v->surface, v->wo));
         v->bsdf = vertex_bsdf(scene, &v->surface, v->wo);
         const BsdfSample next = bsdf_sample(&v->bsdf, numbers.lobe, numbers.direction);
         if (!next.is_valid)
