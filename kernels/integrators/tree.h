@@ -48,8 +48,8 @@ static inline SmoothRays tree_smooth_rays(const Surface* surface, const Bsdf* bs
     if (bsdf_is_covered(bsdf))
         rays.reflected_color *= bsdf_cover(bsdf)->left;
     rays.refracts = false;
-    /* A mirror, or total reflection, or a pane. */
-    if (f >= REAL(1.0) || (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE)))
+    const bool is_pane = HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE);
+    if (f >= REAL(1.0) || is_pane) /* a mirror, or total reflection */
         return rays;
     rays.refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
     rays.refracts = !surface_reflects(surface, rays.refracted);

@@ -136,15 +136,17 @@ TEST(Glass, AThinWallLetsLightPassStraightAndOnce) {
     scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1");
     scene.build.use("pane").polygon({{-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0}});
     scene.build.use("lamp").polygon({{-50, -50, -2}, {50, -50, -2}, {50, 50, -2}, {-50, 50, -2}});
+    scene.build.polygon({{-50, 50, 8}, {50, 50, 8}, {50, -50, 8}, {-50, -50, 8}}); // behind the camera
     scene.options.sampling.spp = 256;
     scene.options.transport.min_contribution = 0;
     scene.look_at_point({0, 0, 5}, {0, 0, -2});
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::DISTRIBUTION}) {
         scene.options.transport.integrator = integrator;
-        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.9 * 0.96, 1e-4)) << name_of(integrator);
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.9 * 0.96 + 0.04, 1e-4))
+            << name_of(integrator);
     }
     scene.options.transport.integrator = Integrator::PATH;
-    EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.9 * 0.96, 1e-2));
+    EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.9 * 0.96 + 0.04, 1e-2));
 }
 
 TEST(Glass, TheShallowestTreesSeeTheFirstTermsOfTheSeries) {
@@ -241,10 +243,10 @@ TEST(Panes, BothWaysToALampBehindThemAreWeightedAgainstEachOther) {
     TestScene scene;
     scene.build.material("metal", "Kd 1 1 1\nPm 1\nPr 0.4").use("metal").floor(3);
     scene.build.material("pane", "Ni 1.5\nillum 7\nthin_walled 1").use("pane").floor(9, 1).floor(9, 1.5);
-    scene.build.material("lamp", "Kd 0 0 0\nKe 3 3 3")
+    scene.build.material("lamp", "Kd 0 0 0\nKe 20 20 20")
         .use("lamp")
-        .polygon({{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}});
-    scene.look_at_point({0.2, 0.7, 1}, {0.2, 0, 0.05});
+        .polygon({{0.1, 2, -0.6}, {0.3, 2, -0.6}, {0.3, 2, -0.4}, {0.1, 2, -0.4}});
+    scene.look_at_point({0.2, 0.7, 0.25}, {0.2, 0, 0.05});
     scene.options.light.environment = glm::dvec3(0);
     scene.options.transport.max_depth = 2;
     scene.options.transport.min_contribution = 0;
