@@ -59,7 +59,7 @@ static inline void leaf_triangle_closest(const Scene* scene, global const uint* 
     if (!leaf_triangle_hit(scene, words, instance, ray, shear, hit->t, &found) ||
         !hit_comes_before(found.t, instance, found.triangle, hit))
         return;
-    if (HAS(EFFECT_CUT_OUT) && !hit_comes_after(found.t, instance, found.triangle, after))
+    if (HAS(EFFECTS_PASSED) && !hit_comes_after(found.t, instance, found.triangle, after))
         return;
     *hit = found;
 }

@@ -191,7 +191,7 @@ static inline void bvh8_block_closest(const Scene* scene, global const uint* blo
         const uint triangle = block[BVH8_BLOCK_ID_WORD + lane];
         if (!hit_comes_before(t[lane], instance, triangle, hit))
             continue;
-        if (HAS(EFFECT_CUT_OUT) && !hit_comes_after(t[lane], instance, triangle, after))
+        if (HAS(EFFECTS_PASSED) && !hit_comes_after(t[lane], instance, triangle, after))
             continue;
         hit->t = t[lane];
         hit->b1 = v[lane] / det[lane];

@@ -47,7 +47,8 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
 {
     const Sampler sampler = tile_sampler(params, x, y, counter);
     const Ray ray = camera_ray(params, &sampler, x, y);
-    Hit hit = visible_hit(scene, params, &sampler, 1u, &ray);
+    real3 carried = (real3)(REAL(1.0));
+    Hit hit = visible_hit(scene, params, &sampler, 1u, &ray, &carried);
     if (hit.triangle == NO_INDEX)
         return;
     const real3 wo = -ray.direction;

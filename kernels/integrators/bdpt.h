@@ -25,7 +25,7 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
     if (!bdpt_join(scene, eye, &kept->at[chosen], &connection))
         return;
     ++rays->shadow;
-    const real share = (real)count * visible_share(scene, params, &connection.shadow);
+    const real3 share = (real)count * visible_share(scene, params, &connection.shadow);
     vertex_add(scene, throughput * connection.light * share, &sample->radiance);
 #if FILM_MOMENTS
     moments_connect(throughput * connection.light * (share / (real)count), (real)count, connection.excess,
@@ -93,13 +93,13 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
     path_begin(&path, &sample->ray);
     for (uint segment = 1u; path.is_alive; ++segment) {
         path.numbers = numbers_make(&sample->sampler, segment, 0u);
-        path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray);
+        path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray, &path.throughput);
         bdpt_vertex(scene, params, segment, &path, &eye, kept, sample, rays);
         rays->secondary += path.is_alive ? 1u : 0u;
         rays->shadow += path.is_connected ? 1u : 0u;
         if (!path.is_connected)
             continue;
-        const real share = visible_share(scene, params, &path.shadow);
+        const real3 share = visible_share(scene, params, &path.shadow);
         path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
 #if FILM_MOMENTS
         moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);

@@ -47,7 +47,7 @@ static CLRT_NOINLINE real3 direct_from(const Scene* scene, const RenderParams* p
         return nothing;
     const Ray shadow = light_shadow_ray(surface, light);
     ++rays->shadow;
-    const real share = visible_share(scene, params, &shadow);
+    const real3 share = visible_share(scene, params, &shadow);
     TRACE_VECTOR(scene, TRACE_CONNECTION, contribution * (share / light->pdf_w));
     return contribution * (share / light->pdf_w);
 }

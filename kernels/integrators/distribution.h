@@ -51,10 +51,11 @@ static inline void distribution_add_emission(const Scene* scene, const RenderPar
 {
     if (!HAS(EFFECT_AREA_LIGHT) || surface->emitter == NO_INDEX || !(distribution_accepted(path) & KIND_AREA))
         return;
-    real3 emitted = material_emitted(scene, surface);
+    real3 emitted = material_emitted(scene, surface, -path->ray.direction);
     if (path->pdf_w != REAL(0.0)) {
         const real light_pdf_w = each_light_emitter_pdf_w(
-            scene, params, &path->view, path->has_crossed_curved, surface, hit->t, -path->ray.direction);
+            scene, params, &path->view, path->has_crossed_curved, surface, distribution_length(path, hit),
+            -path->ray.direction);
         TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
         emitted *= mis_weight(path->pdf_w, light_pdf_w);
     }
@@ -110,12 +111,13 @@ static inline TreeVertex distribution_vertex_make(const RenderParams* params, co
 /* Lights the surface where a ray ends, and puts the rays that it sends on upon the stack; gives its new
    size. */
 static CLRT_NOINLINE uint distribution_shade(const Scene* scene, const RenderParams* params,
-                                             const TreeRay* path, const Surface* surface,
+                                             const TreeRay* path, const Surface* surface, const Hit* hit,
                                              const Sampler* sampler, TreeRay* stack, uint top,
                                              CameraSample* sample, PixelRays* rays)
 {
     Bsdf bsdf = vertex_bsdf(scene, surface, -path->ray.direction);
     nan_carry(scene, nan_of_vector(surface->normal_g + bsdf.wo), &sample->radiance);
+    top = distribution_pass(scene, params, path, surface, hit, sampler, &bsdf, stack, top);
     if (path->segment >= params->max_depth) {
         distribution_cut(scene, params, path, &bsdf, rays);
         return top;
@@ -141,7 +143,7 @@ static CLRT_NOINLINE uint distribution_follow(const Scene* scene, const RenderPa
                                               CameraSample* sample, PixelRays* rays)
 {
     const Sampler sampler = sampler_at(sample->sampler.key, path->index);
-    Hit hit = vertex_hit(scene, params, &sampler, path->segment, path->node, &path->ray);
+    Hit hit = vertex_hit(scene, params, &sampler, path->segment, path->node, &path->ray, 0);
     TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->weight);
     nan_carry(scene, nan_of_vector(path->weight), &sample->radiance);
     if (hit.triangle == NO_INDEX) {
@@ -156,7 +158,7 @@ static CLRT_NOINLINE uint distribution_follow(const Scene* scene, const RenderPa
     solid_arrive(scene, path->solid, &surface, hit.t, &path->weight);
 #endif
     distribution_add_emission(scene, params, &surface, &hit, path, sample);
-    return distribution_shade(scene, params, path, &surface, &sampler, stack, top, sample, rays);
+    return distribution_shade(scene, params, path, &surface, &hit, &sampler, stack, top, sample, rays);
 }
 
 static CLRT_NOINLINE void distribution_sample(const Scene* scene, const RenderParams* params,

@@ -51,7 +51,7 @@ static CLRT_NOINLINE void distribution_connect(const Scene* scene, const RenderP
         return;
     const Ray shadow = light_shadow_ray(vertex->surface, light);
     ++rays->shadow;
-    const real share = visible_share(scene, params, &shadow);
+    const real3 share = visible_share(scene, params, &shadow);
     vertex_add(scene, arriving * share, &sample->radiance);
     if (PATH_LAYERS == 0)
         return;

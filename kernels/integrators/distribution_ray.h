@@ -24,6 +24,7 @@
 #define WAY_REFLECTED 0u
 #define WAY_REFRACTED 1u
 #define WAY_ROUGH 2u
+#define WAY_PASSED 3u
 #define WAY_COUNT 4u
 
 /* A ray of the tree on its way. */
@@ -33,6 +34,9 @@ typedef struct {
     real3 weight;            /* of what it meets in the sample's radiance */
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     uint solid; /* as in Path */
+#endif
+#if CLRT_EFFECTS & EFFECT_THIN_WALL
+    real before; /* its length up to the pane that it has passed last */
 #endif
     real pdf_w;              /* of its direction, times rough over shadow rays of the vertex that it left;
                                 0 for camera rays and delta lobes */
@@ -64,6 +68,9 @@ static inline TreeRay distribution_first(const CameraSample* sample)
     path.weight = (real3)(REAL(1.0));
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path.solid = NO_INDEX;
+#endif
+#if CLRT_EFFECTS & EFFECT_THIN_WALL
+    path.before = REAL(0.0);
 #endif
     path.pdf_w = REAL(0.0);
     path.has_crossed_curved = false;
@@ -105,6 +112,9 @@ static inline TreeRay distribution_child(const Scene* scene, const TreeVertex* v
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     child.solid = solid_beside(scene, vertex->surface, reflects);
 #endif
+#if CLRT_EFFECTS & EFFECT_THIN_WALL
+    child.before = REAL(0.0);
+#endif
     child.pdf_w = REAL(0.0);
     child.has_crossed_curved = vertex->surface->is_curved && !reflects;
     ++child.segment;
@@ -133,6 +143,34 @@ static inline uint distribution_push(const Scene* scene, const RenderParams* par
     }
     stack[top] = child;
     return top + 1u;
+}
+
+/* The length of the ray up to a hit. */
+static inline real distribution_length(const TreeRay* path, const Hit* hit)
+{
+#if CLRT_EFFECTS & EFFECT_THIN_WALL
+    return path->before + hit->t;
+#else
+    return hit->t;
+#endif
+}
+
+/* Lets the ray pass a pane: it stays what it is. */
+static CLRT_NOINLINE uint distribution_pass(const Scene* scene, const RenderParams* params,
+                                            const TreeRay* path, const Surface* surface, const Hit* hit,
+                                            const Sampler* sampler, const Bsdf* bsdf, TreeRay* stack,
+                                            uint top)
+{
+    if (!visibility_is_pane(scene, hit))
+        return top;
+    TreeRay behind = *path;
+    behind.ray = surface_ray(surface, false, path->ray.direction);
+    behind.weight *= bsdf_pane_passes(bsdf);
+    behind.node = tree_number(path->node, WAY_COUNT, WAY_PASSED);
+#if CLRT_EFFECTS & EFFECT_THIN_WALL
+    behind.before = distribution_length(path, hit);
+#endif
+    return distribution_push(scene, params, sampler, behind, stack, top);
 }
 
 /* Spawns the rays that smooth lobes send on, one each. */

@@ -11,19 +11,21 @@
 static inline void light_gather(const Scene* scene, const RenderParams* params, CameraSample* sample,
                                 PixelRays* rays)
 {
-    Hit hit = vertex_hit(scene, params, &sample->sampler, 1u, 0u, &sample->ray);
+    real3 carried = (real3)(REAL(1.0));
+    Hit hit = vertex_hit(scene, params, &sample->sampler, 1u, 0u, &sample->ray, &carried);
     if (hit.triangle == NO_INDEX) {
         ++rays->missed;
         if (nan_carry(scene, nan_of_miss(&hit), &sample->radiance))
             return;
         const real3 sky = vertex_sky(scene, params, 1u, 0, &sample->ray, REAL(0.0), KINDS_ALL);
-        vertex_add(scene, sky, &sample->radiance);
+        vertex_add(scene, carried * sky, &sample->radiance);
         return;
     }
     const Surface surface = visible_surface(scene, params, &sample->ray, &hit);
     nan_carry(scene, nan_of_vector(surface.normal_g), &sample->radiance);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-        vertex_add(scene, material_emitted(scene, &surface), &sample->radiance);
+        vertex_add(scene, carried * material_emitted(scene, &surface, -sample->ray.direction),
+                   &sample->radiance);
 }
 
 static CLRT_NOINLINE void light_radiance(const Scene* scene, const RenderParams* params,

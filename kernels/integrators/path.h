@@ -111,7 +111,8 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
        where a ray has missed, the triangle's address is nowhere, which a prefetch may be asked for. */
     for (uint i = 0; i < alive->count; ++i) {
         const uint k = alive->at[i];
-        paths[k].hit = vertex_hit(scene, params, &samples[k].sampler, segment, 0u, &paths[k].ray);
+        paths[k].hit = vertex_hit(scene, params, &samples[k].sampler, segment, 0u, &paths[k].ray,
+                                  &paths[k].throughput);
         environment_prefetch_texel(scene, params, paths[k].numbers.light, paths[k].numbers.alias);
         CLRT_PREFETCH((ulong)scene->triangles + sizeof(Triangle) * paths[k].hit.triangle);
     }
@@ -139,7 +140,7 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
     /* Add the light that nothing keeps away. */
     for (uint i = 0; i < connected.count; ++i) {
         const uint k = connected.at[i];
-        const real share = visible_share(scene, params, &paths[k].shadow);
+        const real3 share = visible_share(scene, params, &paths[k].shadow);
         path_add_connection(scene, &paths[k], share, &samples[k].radiance, &samples[k].layers);
     }
 }

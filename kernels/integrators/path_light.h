@@ -64,13 +64,13 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
     path_begin(&path, &sample->ray);
     for (uint segment = 1u; path.is_alive; ++segment) {
         path.numbers = numbers_make(&sample->sampler, segment, 0u);
-        path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray);
+        path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray, &path.throughput);
         path_light_vertex(scene, params, segment, &path, &weights, sample, rays);
         rays->secondary += path.is_alive ? 1u : 0u;
         rays->shadow += path.is_connected ? 1u : 0u;
         if (!path.is_connected)
             continue;
-        const real share = visible_share(scene, params, &path.shadow);
+        const real3 share = visible_share(scene, params, &path.shadow);
         path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
 #if FILM_MOMENTS
         moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);

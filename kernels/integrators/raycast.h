@@ -11,22 +11,25 @@ static CLRT_NOINLINE real3 raycast_sample(const Scene* scene, const RenderParams
                                           const Sampler* sampler, Ray ray, PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
-    Hit hit = vertex_hit(scene, params, sampler, 1u, 0u, &ray);
+    real3 carried = (real3)(REAL(1.0));
+    Hit hit = vertex_hit(scene, params, sampler, 1u, 0u, &ray, &carried);
     if (hit.triangle == NO_INDEX) {
         ++rays->missed;
         if (!nan_carry(scene, nan_of_miss(&hit), &radiance))
-            vertex_add(scene, vertex_sky(scene, params, 1u, 0, &ray, REAL(0.0), KINDS_ALL), &radiance);
+            vertex_add(scene, carried * vertex_sky(scene, params, 1u, 0, &ray, REAL(0.0), KINDS_ALL),
+                       &radiance);
         return radiance;
     }
     const real3 wo = -ray.direction;
     const Surface surface = visible_surface(scene, params, &ray, &hit);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-        vertex_add(scene, material_emitted(scene, &surface), &radiance);
+        vertex_add(scene, carried * material_emitted(scene, &surface, wo), &radiance);
     if (params->max_depth < 2u)
         return radiance;
     const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
     nan_carry(scene, nan_of_vector(surface.normal_g + bsdf.wo), &radiance);
-    vertex_add(scene, direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays), &radiance);
+    const real3 direct = direct_light(scene, params, sampler, 1u, &surface, &bsdf, true, rays);
+    vertex_add(scene, carried * direct, &radiance);
     return radiance;
 }
 

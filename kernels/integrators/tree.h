@@ -22,7 +22,9 @@ static inline uint tree_number(uint parent, uint ways, uint which)
 }
 
 /* Where a smooth surface sends a ray on, and with how much of its weight. A mirror has no second ray, nor has
-   a dielectric that reflects totally. */
+   a dielectric that reflects totally. What passes a pane is none either: it goes on in the same segment. It
+   is put on the stack before what the pane reflects, and so followed behind that: no segment has more rays
+   waiting than by glass that refracts. */
 typedef struct {
     real3 reflected, reflected_color;
     real3 refracted, refracted_color;
@@ -37,7 +39,6 @@ static inline SmoothRays tree_smooth_rays(const Surface* surface, const Bsdf* bs
     const real3 n = bsdf->frame.z;
     const real cos_o = clamp(bsdf->wo.z, REAL(0.0), REAL(1.0));
     real cos_t = REAL(0.0);
-    const bool pane = HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE);
     const real f = dielectric ? fresnel_dielectric(cos_o, bsdf->eta, &cos_t) : REAL(1.0);
     rays.reflected = REAL(2.0) * cos_o * n - wo_world;
     rays.reflects = surface_reflects(surface, rays.reflected);
@@ -47,12 +48,12 @@ static inline SmoothRays tree_smooth_rays(const Surface* surface, const Bsdf* bs
     if (bsdf_is_covered(bsdf))
         rays.reflected_color *= bsdf_cover(bsdf)->left;
     rays.refracts = false;
-    if (f >= REAL(1.0)) /* a mirror, or total reflection */
+    const bool is_pane = HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE);
+    if (f >= REAL(1.0) || is_pane) /* a mirror, or total reflection */
         return rays;
-    rays.refracted = pane ? -wo_world : fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
+    rays.refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
     rays.refracts = !surface_reflects(surface, rays.refracted);
-    rays.refracted_color =
-        bsdf->transmission * (pane ? REAL(1.0) - f : bsdf_cross(bsdf, REAL(1.0) - f));
+    rays.refracted_color = bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
     if (bsdf_is_covered(bsdf))
         rays.refracted_color *= cover_factors(bsdf, frame_to_local(&bsdf->frame, rays.refracted)).other;
     return rays;

@@ -43,6 +43,20 @@ static inline uint whitted_push(const RenderParams* params, WhittedRay child, Wh
     return top + 1u;
 }
 
+/* Lets the ray pass a pane; gives the new stack size. */
+static inline uint whitted_pass(const Scene* scene, const RenderParams* params, const WhittedRay* parent,
+                                const Surface* surface, WhittedRay* stack, uint top)
+{
+    if (!HAS(EFFECT_THIN_WALL) || !(scene->materials[surface->material].lobes & LOBE_PANE))
+        return top;
+    const Bsdf bsdf = material_bsdf(scene, surface, -parent->ray.direction, TRANSPORT_RADIANCE);
+    WhittedRay behind = *parent;
+    behind.ray = surface_ray(surface, false, parent->ray.direction);
+    behind.weight *= bsdf_pane_passes(&bsdf);
+    behind.node = tree_number(parent->node, 2u, 1u);
+    return whitted_push(params, behind, stack, top);
+}
+
 /* Spawns the reflected and the refracted ray; gives the new stack size. */
 static inline uint whitted_spawn_children(const Scene* scene, const RenderParams* params,
                                           const WhittedRay* parent, const Surface* surface, const Bsdf* bsdf,
@@ -86,7 +100,7 @@ static inline uint whitted_spawn(const Scene* scene, const RenderParams* params,
 static inline Hit whitted_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
                               const WhittedRay* current, real3* radiance)
 {
-    const Hit hit = vertex_hit(scene, params, sampler, current->segment, current->node, &current->ray);
+    const Hit hit = vertex_hit(scene, params, sampler, current->segment, current->node, &current->ray, 0);
     TRACE_VECTOR(scene, TRACE_THROUGHPUT, current->weight);
     nan_carry(scene, nan_of_vector(current->weight), radiance);
     return hit;
@@ -133,7 +147,8 @@ static inline uint whitted_vertex(const Scene* scene, const RenderParams* params
     solid_arrive(scene, current->solid, &surface, hit.t, &current->weight);
 #endif
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
-        vertex_add(scene, current->weight * material_emitted(scene, &surface), radiance);
+        vertex_add(scene, current->weight * material_emitted(scene, &surface, wo), radiance);
+    top = whitted_pass(scene, params, current, &surface, stack, top);
     if (current->segment >= params->max_depth) {
         whitted_cut(scene, current, &surface, rays);
         return top;

@@ -93,7 +93,7 @@ static CLRT_NOINLINE Emission emission_of_triangle(const Scene* scene, const Ren
         const float2 t0 = scene->uvs[triangle->t0];
         uv = t0 + (float)b.x * (scene->uvs[triangle->t1] - t0) + (float)b.y * (scene->uvs[triangle->t2] - t0);
     }
-    real3 radiance = material_emission(scene, material, uv);
+    real3 radiance = material_emission(scene, triangle->material, uv, emission.cosine);
     if (HAS(EFFECT_CUT_OUT) && (material->flags & MATERIAL_CUT_OUT))
         radiance *= material_coverage(scene, material, uv);
     /* Where emission is not aimed, the cosine is in the density, too. */

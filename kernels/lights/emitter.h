@@ -75,7 +75,8 @@ CLRT_GIVES_STRUCT LightSample emitter_sample_chosen(const Scene* scene, uint cho
         const float2 t0 = scene->uvs[triangle->t0];
         uv = t0 + (float)b.x * (scene->uvs[triangle->t1] - t0) + (float)b.y * (scene->uvs[triangle->t2] - t0);
     }
-    sample.radiance = material_emission(scene, material, uv);
+    sample.radiance = material_emission(scene, triangle->material, uv,
+                                        facing / (distance * vector_length(normal)));
     /* What a cut-out leaves of itself: rays that hit it by chance are passed as often. */
     if (HAS(EFFECT_CUT_OUT) && (material->flags & MATERIAL_CUT_OUT))
         sample.radiance *= material_coverage(scene, material, uv);

@@ -88,7 +88,7 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
     path_begin(&path, &ray);
     for (uint segment = 1u;; ++segment) {
         path.numbers = numbers_make(sampler, segment, 0u);
-        path.hit = vertex_hit(scene, params, sampler, segment, 0u, &path.ray);
+        path.hit = vertex_hit(scene, params, sampler, segment, 0u, &path.ray, &path.throughput);
         ++rays->secondary;
         if (path.hit.triangle == NO_INDEX) {
             found->watched += nan_of_miss(&path.hit);
@@ -131,7 +131,7 @@ static CLRT_NOINLINE void chain_from_light(const Scene* scene, const RenderParam
     if (!light_path_begin(scene, params, &path))
         return;
     for (uint segment = 1u; segment < length; ++segment) {
-        Hit hit = vertex_hit(scene, params, sampler, segment, 0u, &path.ray);
+        Hit hit = vertex_hit(scene, params, sampler, segment, 0u, &path.ray, &path.throughput);
         ++rays->secondary;
         if (hit.triangle == NO_INDEX) {
             found->watched += nan_of_miss(&hit);

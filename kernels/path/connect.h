@@ -11,7 +11,7 @@
 static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
                                   const Path* path, real3 wo)
 {
-    const real3 emitted = material_emitted(scene, surface);
+    const real3 emitted = material_emitted(scene, surface, wo);
     const real pdf_w = path->pdf_w;
     if (pdf_w == REAL(0.0))
         return emitted;
@@ -82,7 +82,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
 }
 
 /* Adds the share of the connection that arrives. */
-static inline void path_add_connection(const Scene* scene, const Path* path, real share, real3* radiance,
+static inline void path_add_connection(const Scene* scene, const Path* path, real3 share, real3* radiance,
                                        LayerSums* layers)
 {
     vertex_add(scene, path->connection * share, radiance);

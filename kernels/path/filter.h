@@ -25,8 +25,7 @@ static inline void filter_lobes(const AutomatonStep* step, Bsdf* bsdf)
 {
     const uint open = automaton_open(step);
     const uint left = bsdf_lobes_of(bsdf, open);
-    const bool is_smooth_pane = HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE) && bsdf_pane_is_delta(bsdf);
-    if (((bsdf->lobes & LOBE_DIELECTRIC) && bsdf_dielectric_is_delta(bsdf)) || is_smooth_pane) {
+    if ((bsdf->lobes & LOBE_DIELECTRIC) && bsdf_dielectric_is_delta(bsdf)) {
         bsdf->flags |= (open & LETTER_BIT(LETTER_MIRROR)) ? 0u : BSDF_NO_REFLECTION;
         bsdf->flags |= (open & LETTER_BIT(LETTER_REFRACTION)) ? 0u : BSDF_NO_REFRACTION;
     }

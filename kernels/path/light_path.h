@@ -283,7 +283,7 @@ static CLRT_NOINLINE void light_path_trace(const Scene* scene, const RenderParam
     path.ray.time = light_path_eye_time(params, sink->replicate, number);
 #endif
     for (uint segment = 1u; segment < params->max_depth; ++segment) {
-        Hit hit = vertex_hit(scene, params, &path.sampler, segment, 0u, &path.ray);
+        Hit hit = vertex_hit(scene, params, &path.sampler, segment, 0u, &path.ray, &path.throughput);
         ++rays->secondary;
         if (hit.triangle == NO_INDEX) {
             sink->watched += nan_of_miss(&hit);

@@ -70,7 +70,7 @@ static inline real splat_hit_weight(const Path* path, const SplatWeights* weight
 static inline real3 splat_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
                                    const Path* path, real3 wo, const SplatWeights* weights)
 {
-    const real3 emitted = material_emitted(scene, surface);
+    const real3 emitted = material_emitted(scene, surface, wo);
     real light_pdf_w = REAL(0.0);
     if (path->pdf_w > REAL(0.0)) {
         const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);

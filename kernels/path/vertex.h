@@ -10,11 +10,12 @@
 #include "visibility.h"
 
 /* Finds where a ray ends. `segment`: of its path, from 1; `node`: its number in a tree of rays, 0 on a path.
-   The random numbers of cut-outs are addressed by the node, on a path by the segment. */
+   The random numbers of cut-outs and panes are addressed by the node, on a path by the segment. `carried`: as
+   in visible_hit. */
 static inline Hit vertex_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                             uint segment, uint node, const Ray* ray)
+                             uint segment, uint node, const Ray* ray, real3* carried)
 {
-    const Hit hit = visible_hit(scene, params, sampler, node != 0u ? node : segment, ray);
+    const Hit hit = visible_hit(scene, params, sampler, node != 0u ? node : segment, ray, carried);
     TRACE_CHOICES(scene, TRACE_VERTEX, segment, node);
     TRACE_VECTOR(scene, TRACE_RAY_ORIGIN, ray->origin);
     TRACE_VECTOR(scene, TRACE_RAY_DIRECTION, ray->direction);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hits and shadow rays that see through cut-outs.
+// Hits and shadow rays that see through cut-outs and smooth panes. Light that crosses a pane goes straight
+// on, so a crossing is no event: it ends no segment, has no letter in the path notation and does not count
+// towards max_depth; shadow rays cross, too, and densities know nothing of it. Paths cross with a
+// probability, shadow rays by the share that passes; trees of rays split there (integrators/tree.h).
 #ifndef CLRT_PATH_VISIBILITY_H
 #define CLRT_PATH_VISIBILITY_H
 
@@ -23,24 +26,78 @@ static inline real visibility_coverage(const Scene* scene, const Hit* hit)
     return material_coverage(scene, material, uv);
 }
 
-/* The first hit that is not passed: a surface of coverage c is passed with probability 1 - c. The search goes
-   on behind the passed hit in the order of hits, so no layer is missed or met twice. Where a coverage is a
-   NaN, so is the distance of the miss that it gives. */
+/* True if light crosses the surface at a hit straight on, beside what its lobes scatter. */
+static inline bool visibility_is_pane(const Scene* scene, const Hit* hit)
+{
+    global const Material* material = scene->materials + scene->triangles[hit->triangle].material;
+    return HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE) && material->alpha_x == 0.0f;
+}
+
+/* How a ray goes on at a hit. */
+typedef struct {
+    real3 share;   /* of the light along it that passes */
+    real coverage; /* of the surface, which the rest meets */
+    real stop;     /* probability that a path stops: coverage but for panes */
+    bool is_pane;
+} Crossing;
+
+/* A pane that shines is seen by the paths that stop there: at least by half of them. */
+#define VISIBILITY_SHINING_STOP REAL(0.5)
+
+/* What a pane lets pass, and with which probability paths do. */
+static CLRT_NOINLINE void visibility_cross_pane(const Scene* scene, const Hit* hit, const Ray* ray,
+                                                Crossing* crossing)
+{
+    const Ray unit = ray_make(ray->origin, vector_normalize(ray->direction), ray_time(ray));
+    const Surface surface = surface_at(scene, hit, &unit);
+    const Bsdf bsdf = material_bsdf(scene, &surface, -unit.direction, TRANSPORT_RADIANCE);
+    const real coverage = crossing->coverage;
+    const real3 passes = bsdf_pane_passes(&bsdf);
+    real stop = REAL(1.0) - bsdf_pane_passing(&bsdf);
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+        stop = fmax(stop, VISIBILITY_SHINING_STOP);
+    crossing->share += coverage * passes;
+    if (!vector_is_black(passes))
+        crossing->stop = coverage * stop;
+    if (real_is_nan(passes.x + passes.y + passes.z))
+        crossing->stop = REAL_NAN;
+}
+
+static inline Crossing visibility_crossing(const Scene* scene, const Hit* hit, const Ray* ray, bool by_panes)
+{
+    Crossing crossing;
+    crossing.coverage = HAS(EFFECT_CUT_OUT) ? visibility_coverage(scene, hit) : REAL(1.0);
+    crossing.share = (real3)(REAL(1.0) - crossing.coverage);
+    crossing.stop = crossing.coverage;
+    crossing.is_pane = by_panes && visibility_is_pane(scene, hit);
+    if (crossing.is_pane)
+        visibility_cross_pane(scene, hit, ray, &crossing);
+    return crossing;
+}
+
+/* The first hit that is not passed: a surface of coverage c is passed with probability 1 - c, a pane with
+   that of its glass (bsdf_pane_passing), and `carried` weighs that; 0: panes stop the ray. The search goes on
+   behind the passed hit in the order of hits, so no layer is missed or met twice. Where a coverage is a NaN,
+   so is the distance of the miss that it gives. */
 static inline Hit visible_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                              uint bounce, const Ray* ray)
+                              uint bounce, const Ray* ray, real3* carried)
 {
     Hit after = hit_none(REAL(0.0));
     Hit hit = scene_closest_hit(scene, params, ray, &after);
-    if (!HAS(EFFECT_CUT_OUT))
+    if (!HAS(EFFECTS_PASSED))
         return hit;
     for (uint layer = 0; hit.triangle != NO_INDEX; ++layer) {
-        const real coverage = visibility_coverage(scene, &hit);
-        if (coverage >= REAL(1.0))
+        const Crossing crossing = visibility_crossing(scene, &hit, ray, carried != 0);
+        if (crossing.stop >= REAL(1.0))
             break;
-        if (real_is_nan(coverage))
+        if (real_is_nan(crossing.stop))
             return hit_none(REAL_NAN);
         const uint word = sampler_word(sampler, bounce, SAMPLE_COVERAGE);
-        if (sampler_unit(sampler_hash(word + layer)) < coverage)
+        const bool stops = sampler_unit(sampler_hash(word + layer)) < crossing.stop;
+        if (crossing.is_pane)
+            *carried *= stops ? (real3)(crossing.coverage / crossing.stop)
+                              : crossing.share / (REAL(1.0) - crossing.stop);
+        if (stops)
             break;
         after = hit;
         hit = scene_closest_hit(scene, params, ray, &after);
@@ -64,6 +121,8 @@ static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderPara
     if (nearer.triangle == NO_INDEX || hit_is_same_triangle(&nearer, hit))
         return false;
     if (HAS(EFFECT_CUT_OUT) && visibility_coverage(scene, &nearer) < REAL(1.0))
+        return false;
+    if (visibility_is_pane(scene, &nearer))
         return false;
     hit_set_triangle(hit_instance(&nearer), nearer.triangle, hit);
     hit->b1 = nearer.b1;
@@ -91,34 +150,34 @@ static inline Surface visible_surface(const Scene* scene, const RenderParams* pa
     return surface;
 }
 
-/* What cut-outs let pass of the light to the ray's end. */
-static inline real visible_share_of_cut_outs(const Scene* scene, const RenderParams* params, const Ray* ray)
+/* What cut-outs and panes let pass of the light to the ray's end. */
+static inline real3 visible_share_of_layers(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
-    real share = REAL(1.0);
+    real3 share = (real3)(REAL(1.0));
     Hit after = hit_none(REAL(0.0));
-    while (share > REAL(0.0)) {
+    while (vector_max_component(share) > REAL(0.0)) {
         const Hit hit = scene_closest_hit(scene, params, ray, &after);
         if (hit.triangle == NO_INDEX)
             break;
-        share *= REAL(1.0) - visibility_coverage(scene, &hit);
+        share *= visibility_crossing(scene, &hit, ray, true).share;
         after = hit;
     }
     return share;
 }
 
-/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs let pass; a NaN for
-   a ray that is not finite. */
-static CLRT_NOINLINE real visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs and panes let pass;
+   a NaN for a ray that is not finite. */
+static CLRT_NOINLINE real3 visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
-    real share = REAL_NAN;
+    real3 share = (real3)(REAL_NAN);
     if (vector_is_finite(ray->origin) && vector_is_finite(ray->direction)) {
-        if (HAS(EFFECT_CUT_OUT))
-            share = visible_share_of_cut_outs(scene, params, ray);
+        if (HAS(EFFECTS_PASSED))
+            share = visible_share_of_layers(scene, params, ray);
         else
-            share = scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
+            share = (real3)(scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0));
     }
-    TRACE_CHOICE(scene, TRACE_VISIBLE, share > REAL(0.0) ? 1u : 0u);
-    TRACE_NUMBER(scene, TRACE_SHARE, share);
+    TRACE_CHOICE(scene, TRACE_VISIBLE, vector_max_component(share) > REAL(0.0) ? 1u : 0u);
+    TRACE_NUMBER(scene, TRACE_SHARE, vector_max_component(share));
     return share;
 }
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies above a surface: a coat, then fibres that give it a sheen. Of the light that comes from a
 // direction the cover sends back its albedo and leaves the rest, p(w), to what is below (albedo scaling:
-// Kulla and Conty 2017). Both ends count, so that it stays reciprocal: of the matte lobe as p(wo) p(wi) /
-// mean(p), which keeps all light, as below Fresnel's reflection (bsdf_energy.h); of lobes that keep the angle,
-// wholly or nearly, as the smaller of p(wo) and p(wi), which never creates light and loses none where both
-// angles are the same. Glass has its cover outside: from inside, only what crosses meets it.
+// Kulla and Conty 2017). Both ends count, so that it stays reciprocal:
+// - of the matte lobe as p(wo) p(wi) / mean(p), which keeps all light, as below Fresnel's reflection
+//   (bsdf_energy.h);
+// - of all other lobes below a coat as s(wo) s(wi), where s is such that the light of the lobe, if white,
+//   sums to p(wo). For a mirror that is the root of p, for what scatters everywhere p / sqrt(mean(p)), and
+//   between them s(w) = p(w) / sqrt(p(w) - d) by a table (tools/fit_cover.py);
+// - below a sheen, and of the sheen below a coat, as the smaller of p(wo) and p(wi), which never creates
+//   light and loses none where both angles are the same.
+// Glass has its cover outside: from inside, only what crosses meets it.
 #ifndef CLRT_SCATTERING_BSDF_COVER_H
 #define CLRT_SCATTERING_BSDF_COVER_H
 
 #include "albedo_sheen_table.h"
 #include "bsdf_types.h"
+#include "cover_table.h"
 #include "fresnel.h"
 
 /* F0 of the coat, of index 1.5. */
@@ -18,16 +24,10 @@
 /* What is left below a cover is at least this in a quotient. */
 #define COVER_SMALLEST_LEFT REAL(1e-3)
 
-/* The roughness of the coat's film. */
-static inline AlbedoRoughness cover_film(const Bsdf* bsdf)
+/* Albedo of a coat of this weight where that of its film is known, of a direction or the mean. */
+static inline real cover_coat_albedo(real coat, Albedo albedo)
 {
-    return albedo_roughness(bsdf_cover(bsdf)->coat_alpha, bsdf_cover(bsdf)->coat_alpha);
-}
-
-/* Albedo of the coat's film towards a local direction, and its mean. */
-static inline real cover_coat_albedo(const Bsdf* bsdf, Albedo albedo)
-{
-    return bsdf_cover(bsdf)->coat *
+    return coat *
            fma(COVER_COAT_F0, REAL(1.0) - albedo.loss, (REAL(1.0) - COVER_COAT_F0) * albedo.schlick);
 }
 
@@ -61,13 +61,17 @@ static inline bool cover_has_sheen(const Bsdf* bsdf)
     return HAS(EFFECT_SHEEN) && vector_max_component(bsdf_cover(bsdf)->sheen) > REAL(0.0);
 }
 
-/* What the coat leaves of light from a local direction. */
+/* What a coat leaves of light along a local direction. */
+static inline real cover_film_left(real coat, real coat_alpha, real3 w)
+{
+    const AlbedoRoughness film = albedo_roughness(coat_alpha, coat_alpha);
+    return REAL(1.0) - cover_coat_albedo(coat, albedo_reflection(&film, w));
+}
+
 static inline real cover_coat_left(const Bsdf* bsdf, real3 w)
 {
-    if (!cover_has_coat(bsdf))
-        return REAL(1.0);
-    const AlbedoRoughness film = cover_film(bsdf);
-    return REAL(1.0) - cover_coat_albedo(bsdf, albedo_reflection(&film, w));
+    const BsdfCover* cover = bsdf_cover(bsdf);
+    return cover_has_coat(bsdf) ? cover_film_left(cover->coat, cover->coat_alpha, w) : REAL(1.0);
 }
 
 /* What both leave, of what the coat leaves. */
@@ -94,9 +98,10 @@ static inline real cover_mean_left(const Bsdf* bsdf)
     real coat_left = REAL(1.0), coat_schlick = REAL(0.0);
     real sheen_left = REAL(1.0), sheen_varies = REAL(0.0);
     if (cover_has_coat(bsdf)) {
-        const AlbedoRoughness film = cover_film(bsdf);
-        coat_left -= cover_coat_albedo(bsdf, albedo_reflection_mean(&film));
-        coat_schlick = bsdf_cover(bsdf)->coat * (REAL(1.0) - COVER_COAT_F0);
+        const BsdfCover* cover = bsdf_cover(bsdf);
+        const AlbedoRoughness film = albedo_roughness(cover->coat_alpha, cover->coat_alpha);
+        coat_left -= cover_coat_albedo(cover->coat, albedo_reflection_mean(&film));
+        coat_schlick = cover->coat * (REAL(1.0) - COVER_COAT_F0);
     }
     if (cover_has_sheen(bsdf)) {
         const AlbedoPlace y = cover_sheen_place(bsdf_cover(bsdf)->sheen_alpha);
@@ -108,11 +113,40 @@ static inline real cover_mean_left(const Bsdf* bsdf)
            coat_schlick * below * COVER_SCHLICK_VARIANCE * sheen_left;
 }
 
+/* d of s(w), for a coat of weight 1. */
+static inline real cover_spread(real coat_alpha, real alpha, real cos_w)
+{
+    const AlbedoPlace z = albedo_place(real_sqrt(coat_alpha), COVER_COATS);
+    const AlbedoPlace y = albedo_place(real_sqrt(alpha), COVER_NODES);
+    const AlbedoPlace x = albedo_place(real_sqrt(cos_w), COVER_NODES);
+    real sum = REAL(0.0);
+    for (uint corner = 0u; corner < 8u; ++corner) {
+        const uint dx = corner & 1u, dy = (corner >> 1) & 1u, dz = corner >> 2;
+        const real part = (dx ? x.part : REAL(1.0) - x.part) * (dy ? y.part : REAL(1.0) - y.part) *
+                          (dz ? z.part : REAL(1.0) - z.part);
+        const uint at = ((z.node + dz) * COVER_NODES + y.node + dy) * COVER_NODES + x.node + dx;
+        sum = fma(part, (real)COVER_SPREAD[at], sum);
+    }
+    return sum;
+}
+
+/* s(w) below the coat, which leaves p(w) = `coat_left`. */
+static inline real cover_coat_shared(const Bsdf* bsdf, real3 w, real coat_left)
+{
+    const BsdfCover* cover = bsdf_cover(bsdf);
+    const real alpha = real_sqrt(bsdf->alpha_x * bsdf->alpha_y);
+    if (!cover_has_coat(bsdf) || alpha == REAL(0.0))
+        return real_sqrt(coat_left);
+    const real spread = cover->coat * cover_spread(cover->coat_alpha, alpha, fmin(fabs(w.z), REAL(1.0)));
+    return coat_left / real_sqrt(fmax(coat_left - spread, COVER_SMALLEST_LEFT));
+}
+
 /* Sets what depends on wo. */
 static inline void cover_set(Bsdf* bsdf)
 {
     bsdf_cover(bsdf)->coat_left = cover_coat_left(bsdf, bsdf->wo);
     bsdf_cover(bsdf)->left = cover_left(bsdf, bsdf->wo, bsdf_cover(bsdf)->coat_left);
+    bsdf_cover(bsdf)->coat_shared = cover_coat_shared(bsdf, bsdf->wo, bsdf_cover(bsdf)->coat_left);
     bsdf_cover(bsdf)->mean_left = cover_mean_left(bsdf);
 }
 
@@ -134,7 +168,11 @@ static inline CoverFactors cover_factors(const Bsdf* bsdf, real3 wi)
     const real left = cover_left(bsdf, wi, coat_left);
     factors.coat = fmin(bsdf_cover(bsdf)->coat_left, coat_left);
     factors.matte = bsdf_cover(bsdf)->left * left / bsdf_cover(bsdf)->mean_left;
-    factors.other = fmin(bsdf_cover(bsdf)->left, left);
+    /* What the sheen leaves is left / coat_left. */
+    const BsdfCover* cover = bsdf_cover(bsdf);
+    factors.other = cover->coat_shared * cover_coat_shared(bsdf, wi, coat_left) *
+                    fmin(cover->left / fmax(cover->coat_left, COVER_SMALLEST_LEFT),
+                         left / fmax(coat_left, COVER_SMALLEST_LEFT));
     /* What crosses into a solid or out of it meets the cover once, outside. */
     if (wi.z < REAL(0.0) && (bsdf->lobes & LOBE_DIELECTRIC))
         factors.other = is_inside ? left : bsdf_cover(bsdf)->left;

@@ -33,6 +33,7 @@ typedef struct {
     real coat_alpha;
     real coat_left, left; /* what the coat, and what both leave of light from wo, */
     real mean_left;       /* and both of light from everywhere */
+    real coat_shared;     /* s(wo) below the coat */
 } BsdfCover;
 
 typedef struct {

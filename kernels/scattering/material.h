@@ -23,15 +23,6 @@ static inline real material_coverage(const Scene* scene, global const Material* 
     return real_unit(coverage);
 }
 
-/* Emitted radiance at uv, both sides alike; the caller knows the side. */
-static inline real3 material_emission(const Scene* scene, global const Material* material, float2 uv)
-{
-    real3 emission = vector_from(material->emission);
-    if (HAS(EFFECT_TEXTURES) && material->map_emission != NO_INDEX)
-        emission *= texture_color(scene, material->map_emission, uv);
-    return emission;
-}
-
 /* True if the material shines on this side. */
 static inline bool material_emits(global const Material* material, bool front)
 {
@@ -121,11 +112,20 @@ static inline real3 material_reflectance(const Scene* scene, uint map, const Sur
 }
 
 /* A constant times its map. */
-static inline real material_scaled(const Scene* scene, float constant_part, uint map, const Surface* surface)
+static inline real material_scaled(const Scene* scene, float constant_part, uint map, float2 uv)
 {
     const real value = (real)constant_part;
-    return HAS(EFFECT_TEXTURES) && map != NO_INDEX ? value * real_unit(texture_scalar(scene, map, surface->uv))
+    return HAS(EFFECT_TEXTURES) && map != NO_INDEX ? value * real_unit(texture_scalar(scene, map, uv))
                                                    : value;
+}
+
+/* Weight and alpha of a material's coat at uv. */
+static inline real2 material_coat(const Scene* scene, uint material, float2 uv)
+{
+    global const MaterialExtension* extension = scene->extensions + material;
+    const real root = material_scaled(scene, 1.0f, extension->map_coat_roughness, uv);
+    return (real2)(material_scaled(scene, extension->coat, extension->map_coat, uv),
+                   fmax((real)extension->coat_alpha * root * root, MATERIAL_SMALLEST_ALPHA));
 }
 
 /* Splits off the glass of a material, whose base colour is still `matte`: metal, then glass of weight w in
@@ -136,7 +136,7 @@ static inline real material_part_glass(const Scene* scene, global const Material
 {
     global const MaterialExtension* extension = scene->extensions + surface->material;
     const real weight = material_scaled(scene, EXTENSION_TRANSMISSION(*extension),
-                                        extension->map_transmission, surface);
+                                        extension->map_transmission, surface->uv);
     const real3 base = bsdf->matte;
     const bool is_pane = (material->lobes & LOBE_PANE) != 0u;
     bsdf->glass = (REAL(1.0) - metallic) * weight;
@@ -152,16 +152,15 @@ static inline void material_cover(const Scene* scene, global const Material* mat
     bsdf_cover(bsdf)->sheen = (real3)(REAL(0.0));
     global const MaterialExtension* extension = scene->extensions + surface->material;
     if (HAS(EFFECT_COAT) && (material->lobes & LOBE_COAT)) {
-        bsdf_cover(bsdf)->coat = material_scaled(scene, extension->coat, extension->map_coat, surface);
-        const real root = material_scaled(scene, 1.0f, extension->map_coat_roughness, surface);
-        bsdf_cover(bsdf)->coat_alpha =
-            fmax((real)extension->coat_alpha * root * root, MATERIAL_SMALLEST_ALPHA);
+        const real2 coat = material_coat(scene, surface->material, surface->uv);
+        bsdf_cover(bsdf)->coat = coat.x;
+        bsdf_cover(bsdf)->coat_alpha = coat.y;
     }
     if (HAS(EFFECT_SHEEN) && (material->lobes & LOBE_SHEEN)) {
         bsdf_cover(bsdf)->sheen = vector_from(extension->sheen);
         if (HAS(EFFECT_TEXTURES) && extension->map_sheen != NO_INDEX)
             bsdf_cover(bsdf)->sheen *= material_reflectance(scene, extension->map_sheen, surface);
-        const real root = material_scaled(scene, 1.0f, extension->map_sheen_roughness, surface);
+        const real root = material_scaled(scene, 1.0f, extension->map_sheen_roughness, surface->uv);
         bsdf_cover(bsdf)->sheen_alpha =
             fmax((real)EXTENSION_SHEEN_ALPHA(*extension) * root * root, SHEEN_SMALLEST_ALPHA);
     }
@@ -212,12 +211,30 @@ static inline void material_parameters(const Scene* scene, global const Material
     }
 }
 
-/* Radiance that the surface emits towards wo. */
-static inline real3 material_emitted(const Scene* scene, const Surface* surface)
+/* Emitted radiance at uv, both sides alike, towards a direction of this cosine on the facet; the caller knows
+   the side. A coat above dims it by what it sends back inward (KHR_materials_clearcoat): along the facet's
+   normal, which every way to find a light knows, be it met, sampled or left. */
+static inline real3 material_emission(const Scene* scene, uint index, float2 uv, real cos_o)
 {
-    global const Material* material = scene->materials + surface->material;
-    const real3 emitted = material_emits(material, surface->front)
-                              ? material_emission(scene, material, surface->uv)
+    global const Material* material = scene->materials + index;
+    real3 emission = vector_from(material->emission);
+    if (HAS(EFFECT_TEXTURES) && material->map_emission != NO_INDEX)
+        emission *= texture_color(scene, material->map_emission, uv);
+    if (HAS(EFFECT_COAT) && (material->lobes & LOBE_COAT)) {
+        const real2 coat = material_coat(scene, index, uv);
+        const real cosine = fmin(fabs(cos_o), REAL(1.0));
+        const real sine = real_sqrt(fma(-cosine, cosine, REAL(1.0)));
+        emission *= cover_film_left(coat.x, coat.y, vector_make(sine, REAL(0.0), cosine));
+    }
+    return emission;
+}
+
+/* Radiance that the surface emits towards wo. */
+static inline real3 material_emitted(const Scene* scene, const Surface* surface, real3 wo)
+{
+    const real3 emitted = material_emits(scene->materials + surface->material, surface->front)
+                              ? material_emission(scene, surface->material, surface->uv,
+                                                  vector_dot(surface->normal_g, wo))
                               : (real3)(REAL(0.0));
     TRACE_VECTOR(scene, TRACE_EMITTED, emitted);
     return emitted;

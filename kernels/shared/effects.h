@@ -38,6 +38,9 @@
 #define EFFECTS_EXTENSION                                                                                    \
     (EFFECT_PART_GLASS | EFFECT_ATTENUATION | EFFECT_COAT | EFFECT_SHEEN | EFFECT_ROTATION)
 
+/* Effects of surfaces behind which the same ray goes on (path/visibility.h). */
+#define EFFECTS_PASSED (EFFECT_CUT_OUT | EFFECT_THIN_WALL)
+
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS
 #define CLRT_EFFECTS EFFECT_ALL

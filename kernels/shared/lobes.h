@@ -14,7 +14,8 @@
 #define LOBE_GLOSSY 8u      /* GGX reflection, colour `specular`, alpha_x, alpha_y > 0 */
 #define LOBE_MIRROR 16u     /* delta reflection, colour `specular` */
 #define LOBE_DIELECTRIC 32u /* reflection and refraction with exact Fresnel, smooth when alpha_x = 0 */
-#define LOBE_PANE 64u       /* a thin wall: reflection, and transmission straight on; smooth when alpha_x = 0 */
+#define LOBE_PANE 64u       /* a thin wall: reflection, and transmission that is not bent; where alpha_x = 0 it
+                               is a mirror, and what passes is no event (path/visibility.h) */
 
 /* Lobes of microfacets, which reflect light more than once (scattering/bsdf_energy.h). */
 #define LOBES_ROUGH (LOBE_GLOSSY | LOBE_DIELECTRIC | LOBE_PANE)
@@ -38,8 +39,8 @@
     ROW(MIRROR, mirror, EFFECT_MIRROR, 0u, LETTER_BIT(LETTER_MIRROR), "no material is a mirror")             \
     ROW(DIELECTRIC, dielectric, EFFECT_REFRACTION, LETTER_BIT(LETTER_GLOSSY),                                \
         LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION), "no material is a dielectric")         \
-    ROW(PANE, pane, EFFECT_THIN_WALL, LETTER_BIT(LETTER_GLOSSY),                                             \
-        LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION), "no material is a thin wall")
+    ROW(PANE, pane, EFFECT_THIN_WALL, LETTER_BIT(LETTER_GLOSSY), LETTER_BIT(LETTER_MIRROR),                  \
+        "no material is a thin wall")
 
 #define LOBE_NUMBER(NAME, name, effect, letters, delta_letters, absent) LOBE_ROW_##NAME,
 enum { LOBE_TABLE(LOBE_NUMBER) LOBE_COUNT };

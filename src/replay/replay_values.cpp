@@ -32,7 +32,7 @@ std::string lobe_text(std::uint64_t recorded) {
     for (const LobeSpec& row : LOBE_SPECS) {
         if (lobe != row.bit)
             continue;
-        if (row.delta_letters & LETTER_BIT(LETTER_REFRACTION))
+        if (row.bit & LOBES_GLASS)
             return fmt::format("{}, {}", row.name, refracts ? "refracted" : "reflected");
         return row.name;
     }

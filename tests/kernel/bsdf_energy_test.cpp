@@ -28,13 +28,14 @@ constexpr double LEAST_LOSSLESS = 0.99, LEAST_GLASS = 0.97;
 
 /// Mixtures are sampled as wholes, which has a larger error.
 constexpr double MIXED_ERROR = 4e-3;
-/// Below a coat a rough metal loses what the film reflects back to it at another angle (bsdf_cover.h), and
-/// glass from inside what the film sends back.
-constexpr double LEAST_COVERED = 0.93, LEAST_COATED_SHEEN = 0.98;
+/// Below a coat the table is that of a white lobe (bsdf_cover.h), and glass from inside loses what the film
+/// sends back. Below a sheen a rough metal loses what is reflected back to it at another angle.
+constexpr double LEAST_COATED = 0.98, LEAST_COVERED = 0.93, LEAST_COATED_SHEEN = 0.98;
 
 /// The albedo of a BSDF: the mean weight of its samples, radiance behind glass freed of eta^2. Every part of
 /// the mixture gets the same directions (Roberts' generalised golden ratio) and counts by its probability;
-/// where the lobe's number decides between reflection and refraction too, it takes STRATA values.
+/// where the lobe's number decides between reflection and refraction too, it takes STRATA values. What passes
+/// a smooth pane is no sample, and added.
 const char* const TEXT = R"(
 #define STRATA 12u
 
@@ -87,7 +88,9 @@ SceneProbe& probe() {
                  "const Ray ray_there = ray_make((real3)(REAL(0.0)), -vector_from(b), REAL(0.0));"
                  "const Surface surface = surface_at(scene, &hit, &ray_there);"
                  "const Bsdf bsdf = material_bsdf(scene, &surface, vector_from(b), TRANSPORT_RADIANCE);"
-                 "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)), REAL(0.0));");
+                 "const bool crosses = (bsdf.lobes & LOBE_PANE) && bsdf_pane_is_delta(&bsdf);"
+                 "const real3 passes = crosses ? bsdf_pane_passes(&bsdf) : (real3)(REAL(0.0));"
+                 "first = probe_vec4(furnace_albedo(&bsdf, as_uint(a.w)) + passes, REAL(0.0));");
         return made;
     }();
     return instance;
@@ -193,8 +196,8 @@ void add_rules(const std::string& colours, Materials& materials) {
 
 double least_of(const Material& material) {
     const bool is_covered = (material.lobes & (LOBE_COAT | LOBE_SHEEN)) != 0;
-    if (is_covered && (material.lobes & LOBES_ROUGH) && !(material.lobes & LOBE_MATTE))
-        return LEAST_COVERED;
+    if (is_covered && (material.lobes & LOBES_ROUGH))
+        return material.lobes & LOBE_SHEEN ? LEAST_COVERED : LEAST_COATED;
     if ((material.lobes & LOBE_COAT) && (material.lobes & LOBE_SHEEN))
         return LEAST_COATED_SHEEN;
     return material.lobes & LOBE_DIELECTRIC ? LEAST_GLASS : LEAST_LOSSLESS;

@@ -36,7 +36,7 @@ SceneProbe& probe() {
                      "first = (vec4)(as_float(bsdf.lobes), as_float(bsdf.fresnel), as_float(bsdf.flags), 0);"
                      "second = (vec4)(bsdf.choose[LOBE_ROW_MATTE], bsdf.choose[LOBE_ROW_GLOSSY], 0, 0);");
         made.add("light", surface +
-                              "first = probe_vec4(material_emitted(scene, &surface), "
+                              "first = probe_vec4(material_emitted(scene, &surface, vector_from(b)), "
                               "material_coverage(scene, scene->materials + surface.material, surface.uv));");
         return made;
     }();

@@ -37,7 +37,7 @@ static bool oracle_sample(const Scene* scene, const RenderParams* params, Camera
     for (uint segment = 1u; segment <= params->max_depth; ++segment) {
         OracleVertex* v = &path->at[segment - 1u];
         const PathNumbers numbers = numbers_make(&sample->sampler, segment, 0u);
-        v->hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &ray);
+        v->hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &ray, 0);
         if (v->hit.triangle == NO_INDEX)
             return false;
         v->surface = visible_surface(scene, params, &ray, &v->hit);
@@ -45,7 +45,7 @@ static bool oracle_sample(const Scene* scene, const RenderParams* params, Camera
         v->wo = -ray.direction;
         path->last = segment - 1u;
         if (v->surface.emitter != NO_INDEX)
-            return segment > 1u && !vector_is_black(material_emitted(scene, &v->surface));
+            return segment > 1u && !vector_is_black(material_emitted(scene, &v->surface, v->wo));
         v->bsdf = vertex_bsdf(scene, &v->surface, v->wo);
         const BsdfSample next = bsdf_sample(&v->bsdf, numbers.lobe, numbers.direction);
         if (!next.is_valid)

@@ -309,4 +309,23 @@ TEST(Furnace, PhongsHighlightIsNormalisedForALookStraightDown) {
     }
 }
 
+TEST(Furnace, LampsBelowACoatAreDimmerTheMoreAslantTheyAreSeen) {
+    const auto left = [](double cosine) { return 1 - 0.8 * (0.04 + 0.96 * std::pow(1 - cosine, 5)); };
+    TestScene scene;
+    scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1\nPc 0.8\nPcr 0.03").use("lamp").floor(600);
+    scene.build.material("ceiling", "Kd 0.5 0.5 0.5")
+        .use("ceiling")
+        .polygon({{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}});
+    scene.options.light.environment = glm::dvec3(0);
+    scene.options.transport.max_depth = 1;
+    for (const double cosine : {1.0, 0.5, 0.2}) { // coats are never quite smooth: 2e-3
+        scene.look_at_point({std::sqrt(1 - cosine * cosine), cosine, 0}, {0, 0, 0});
+        EXPECT_TRUE(agrees(film_estimate(scene.render().film), left(cosine), 1e-5, 2e-3)) << cosine;
+    }
+    // What falls on the ceiling: the mean of (1 - cos)^5 over equal radiance is 1 / 21.
+    scene.options.transport.max_depth = 2;
+    scene.look_at_point({0.2, 1, 0.5}, {0.2, 2, 0.1});
+    EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.5 * (1 - 0.8 * (0.04 + 0.96 / 21)), 2e-3, 2e-3));
+}
+
 } // namespace clrt

@@ -204,6 +204,14 @@ TEST(WeightedSplats, LeaveBentNormalsAndCurvedFacetsToTheEye) {
                  tile_means(room, room.options, Integrator::PATH, ""), 0.05);
 }
 
+TEST(WeightedSplats, SeeLampsBelowCoatsAsPathsFromTheEyeDo) {
+    Room room;
+    room.build.material("coated", "Kd 0.3 0.3 0.3\nKe 6 5 4\nPc 1\nPcr 0.3").use("coated");
+    room.build.polygon({{-0.6, 2, -0.6}, {0.6, 2, -0.6}, {0.6, 2, 0.6}, {-0.6, 2, 0.6}});
+    expect_equal(tile_means(room, room.options, Integrator::LIGHT, ""),
+                 tile_means(room, room.options, Integrator::PATH, ""), 0.08);
+}
+
 TEST(WeightedSplats, AreLeftOutWhereThereAreNoCaustics) {
     for (const bool is_glossy : {false, true}) {
         Room room;

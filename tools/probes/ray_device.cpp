@@ -112,9 +112,9 @@ const EntryPoint ENTRY_POINTS[] = {
     })"},
     {"trace_visible", "u32", "", R"(
     const Sampler sampler = sampler_make(1u, (u32)i, 0u, 0u);
-    out[i] = visible_hit(&scene, &params, &sampler, 0u, &ray).triangle;)"},
+    out[i] = visible_hit(&scene, &params, &sampler, 0u, &ray, 0).triangle;)"},
     {"trace_share", "float", "", R"(
-    out[i] = (float)visible_share(&scene, &params, &ray);)"},
+    out[i] = (float)visible_share(&scene, &params, &ray).x;)"},
     {"surface_leave", "float4", SURFACE_PARAMETERS, R"(
     const TracedHit traced = hits[i];
     const Surface surface = load_surface(&scene, &ray, &traced);
