@@ -23,11 +23,10 @@ static inline bool leaf_triangle_hit(const Scene* scene, global const uint* word
             z[corner] = instance_coordinate(rows[shear->kz], p);
         }
     } else {
-        for (uint corner = 0; corner < 3u; ++corner) {
-            x[corner] = corners[4u * corner + shear->kx];
-            y[corner] = corners[4u * corner + shear->ky];
-            z[corner] = corners[4u * corner + shear->kz];
-        }
+        /* No loop: what it writes would stay in memory. */
+        x[0] = corners[shear->kx], x[1] = corners[4u + shear->kx], x[2] = corners[8u + shear->kx];
+        y[0] = corners[shear->ky], y[1] = corners[4u + shear->ky], y[2] = corners[8u + shear->ky];
+        z[0] = corners[shear->kz], z[1] = corners[4u + shear->kz], z[2] = corners[8u + shear->kz];
     }
     if (scene_moves(scene) && instance == 0u) {
         global const float* moves =

@@ -129,10 +129,17 @@ TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
 TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
     // The frames of all functions together, as they lie in memory where registers do not hold them. That of a
     // tree's rays is as large as the depth and the branches that are asked for.
+    u32 effects = EFFECT_ALL & ~u32(EFFECT_INSTANCES);
     const auto bytes = [&](const std::string& integrator, const std::vector<std::string>& defines) {
         const std::string file = folder.write("kernels.cl", include({"integrators/" + integrator + ".cl"}));
         const std::string code = folder.file("kernels.ptx");
-        std::vector<std::string> options = {"-cl-std=CL1.2", "-O2", "-S", "-o", code, "-DSAMPLES_AT_ONCE=1"};
+        std::vector<std::string> options = {"-cl-std=CL1.2",
+                                            "-O2",
+                                            "-S",
+                                            "-o",
+                                            code,
+                                            "-DSAMPLES_AT_ONCE=1",
+                                            fmt::format("-DCLRT_EFFECTS={:#x}u", effects)};
         options.insert(options.end(), NVPTX.options.begin(), NVPTX.options.end());
         options.insert(options.end(), defines.begin(), defines.end());
         EXPECT_EQ(clang_complaints(file, options), "") << integrator;
@@ -165,15 +172,20 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
         transport.max_depth = depth;
         return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0), gpu_layout});
     };
-    // With all effects: where there are instances, a prototype's tree needs a stack on that of the scene's.
-    EXPECT_LT(paired(USUAL_BDPT_DEPTH), 9 << 10);
+    EXPECT_LT(paired(USUAL_BDPT_DEPTH), 8 << 10);
     EXPECT_LT(paired(LARGEST_BDPT_DEPTH), 12 << 10);
-    EXPECT_LT(bytes("path", {}), 11 << 10);
-    EXPECT_LT(bytes("whitted", {}), 15 << 10);
+    EXPECT_LT(bytes("path", {}), 8 << 10);
+    EXPECT_LT(bytes("whitted", {}), 12 << 10);
     EXPECT_LT(bytes("distribution", few_on_gpu), 5 << 10);
-    EXPECT_LT(bytes("distribution", few), 12 << 10);
+    EXPECT_LT(bytes("distribution", few), 9 << 10);
     EXPECT_LT(bytes("distribution", many), 24 << 10);
     EXPECT_LT(bytes("mlt", {"-DFILM_SPLATS=1"}), 12 << 10);
+
+    // What waits in an instance's tree lies on what waits in the scene's.
+    effects = EFFECT_ALL;
+    EXPECT_LT(bytes("path", {gpu_layout}), 4 << 10);
+    EXPECT_LT(bytes("path", {}), 11 << 10);
+    EXPECT_LT(paired(USUAL_BDPT_DEPTH), 9 << 10);
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatSplat) {

@@ -154,14 +154,21 @@ TEST(Instance, SurfacesAreThoseOfItsTrianglesWrittenOut) {
                             expected_normals = reference.normals(rays, there);
     const std::vector<TestPoint> points = device.points(rays, hits),
                                  expected_points = reference.points(rays, there);
-    size_t instances = 0;
+    const std::vector<u32> fronts = device.fronts(rays, hits),
+                           expected_fronts = reference.fronts(rays, there);
+    size_t instances = 0, mirrored = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
         instances += hits[i].instance != 0;
+        // What is written out keeps its winding, which a mirror turns round.
+        const bool is_mirrored = hits[i].instance != 0 && scene.instances[hits[i].instance].side < 0;
+        mirrored += is_mirrored;
+        EXPECT_EQ(fronts[i] != expected_fronts[i], is_mirrored) << i;
         EXPECT_EQ(to_dvec3(normals[i]), to_dvec3(expected_normals[i])) << i;
         EXPECT_EQ(normals[i].w, expected_normals[i].w) << i;
         EXPECT_EQ(points[i].position, expected_points[i].position) << i;
     }
     EXPECT_GT(instances, rays.size() / 5);
+    EXPECT_GT(mirrored, rays.size() / 50);
 }
 
 // From inside, at shared edges and corners.

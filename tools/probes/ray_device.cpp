@@ -125,6 +125,9 @@ const EntryPoint ENTRY_POINTS[] = {
     const Surface surface = load_surface(&scene, &ray, &traced);
     const real3 n = surface.normal_g;
     out[i] = (float4)((float)n.x, (float)n.y, (float)n.z, (float)surface.offset);)"},
+    {"surface_front", "u32", SURFACE_PARAMETERS, R"(
+    const TracedHit traced = hits[i];
+    out[i] = load_surface(&scene, &ray, &traced).front ? 1u : 0u;)"},
     {"surface_light", "u32", SURFACE_PARAMETERS, R"(
     const TracedHit traced = hits[i];
     const Surface surface = load_surface(&scene, &ray, &traced);
@@ -311,6 +314,9 @@ std::vector<vec4> RayDevice::normals(const std::vector<TestRay>& rays,
     return at_surfaces<vec4>("surface_normal", rays, hits, std::vector<vec4>(rays.size()));
 }
 
+std::vector<u32> RayDevice::fronts(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const {
+    return at_surfaces<u32>("surface_front", rays, hits, std::vector<vec4>(rays.size()));
+}
 std::vector<TestPoint> RayDevice::points(const std::vector<TestRay>& rays,
                                          const std::vector<TestHit>& hits) const {
     std::vector<TestPoint> points;

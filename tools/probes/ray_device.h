@@ -103,6 +103,9 @@ public:
     /// float.
     std::vector<vec4> normals(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
 
+    /// 1 where a ray meets its surface from the front, else 0.
+    std::vector<u32> fronts(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
+
     /// The position of surface_at for every hit, in the kernels' precision.
     std::vector<TestPoint> points(const std::vector<TestRay>& rays, const std::vector<TestHit>& hits) const;
 
