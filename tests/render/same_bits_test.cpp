@@ -3,11 +3,13 @@
 #include "kernels/shared/effects.h"
 #include "probes/film_estimate.h"
 #include "probes/kernel_probe.h"
+#include "probes/meshes.h"
 #include "render/kernels.h"
 #include "support/render_scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -15,7 +17,7 @@ namespace clrt {
 namespace {
 
 /// A room of two colours with a lamp and a box: area lights, matte.
-void make_room(TestScene& scene) {
+void make_lit_room(TestScene& scene) {
     scene.build.material("white", "Kd 0.7 0.7 0.7").material("red", "Kd 0.6 0.1 0.1");
     scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5");
     scene.build.use("white").box({-1, 0, -1}, {1, 2, 1}, Facing::INWARD);
@@ -81,17 +83,40 @@ void make_covers(TestScene& scene) {
         x += 0.6;
     }
     scene.build.material("white", "Kd 0.7 0.7 0.7").use("white").floor(3);
-    scene.build.material("pane", "Ni 1.5\nillum 7\nthin_walled 1").use("pane").textured_quad(
-        {{-1, 0.2, 0.6}, {1, 0.2, 0.6}, {1, 1, 0.5}, {-1, 1, 0.5}});
+    scene.build.material("pane", "Ni 1.5\nillum 7\nthin_walled 1")
+        .use("pane")
+        .textured_quad({{-1, 0.2, 0.6}, {1, 0.2, 0.6}, {1, 1, 0.5}, {-1, 1, 0.5}});
     scene.build.use("brushed").textured_quad({{-1, 0, -1}, {1, 0, -1}, {1, 1, -1.2}, {-1, 1, -1.2}});
-    scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5").use("lamp").polygon(
-        {{-0.4, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.4, 2, 0.4}});
+    scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5")
+        .use("lamp")
+        .polygon({{-0.4, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.4, 2, 0.4}});
     scene.look({0, 1.2, 3}, {0, 0.4, 0}, 45);
 }
 
+/// One ball at three places, once turned round by a mirror.
+void make_repeated(TestScene& scene) {
+    scene.build.material("white", "Kd 0.7 0.7 0.7").use("white").floor(3);
+    scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5")
+        .use("lamp")
+        .polygon({{-0.4, 2, -0.4}, {0.4, 2, -0.4}, {0.4, 2, 0.4}, {-0.4, 2, 0.4}});
+    scene.look({0, 1.2, 3}, {0, 0.4, 0}, 45);
+    scene.finish = [](Scene& loaded) {
+        std::vector<glm::dmat4> maps; // in the frame where the scene's extent is about 1
+        for (const glm::dvec3& place : {glm::dvec3(-0.2, 0, 0), {0.1, 0, 0.1}, {0.2, -0.1, -0.1}})
+            maps.push_back(
+                glm::scale(glm::translate(glm::dmat4(1), place), {0.1, 0.1, place.x < 0 ? -0.1 : 0.1}));
+        add_instances(loaded, make_ball(8, 6), maps);
+        for (Instance& instance : loaded.instances)
+            instance.object = 0;
+    };
+}
+
 using Maker = void (*)(TestScene&);
-const std::pair<const char*, Maker> SCENES[] = {
-    {"room", make_room}, {"optics", make_optics}, {"maps", make_maps}, {"covers", make_covers}};
+const std::pair<const char*, Maker> SCENES[] = {{"room", make_lit_room},
+                                                {"optics", make_optics},
+                                                {"maps", make_maps},
+                                                {"covers", make_covers},
+                                                {"repeated", make_repeated}};
 
 /// A scene with few samples, enough for every kind of path to occur.
 struct SmallScene : TestScene {
@@ -158,7 +183,7 @@ TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
         scene.options.effects.all = false;
-        if (make == make_room) {
+        if (make == make_lit_room) {
             scene.options.transport.paths = "LDE";
             scene.options.camera.aperture = 0.1;
             scene.options.camera.end_up = glm::dvec3(0.1, 1, 0);
@@ -194,7 +219,7 @@ TEST(SameBits, AWindowHoldsWhatTheWholePictureHoldsThere) {
 }
 
 TEST(SameBits, SamplesGoRoundTheReplicates) {
-    SmallScene scene(make_room);
+    SmallScene scene(make_lit_room);
     scene.options.sampling.spp = 3;
     scene.options.sampling.first_sample = 6; // samples 6, 7 and 8 belong to replicates 6, 7 and 0
     const Film film = scene.render().film;
@@ -236,7 +261,7 @@ TEST(SameBits, TheSameRunTwiceGivesTheSameFilmAndAnotherSeedAnother) {
 
 TEST(SameBits, DoublePrecisionFollowsTheSamePaths) {
     if (!test_device().info.fp64) {
-        SmallScene scene(make_room);
+        SmallScene scene(make_lit_room);
         scene.options.device.precision = Precision::DOUBLE;
         EXPECT_THROW(scene.render(), std::exception);
         return;
