@@ -20,9 +20,9 @@ struct PlannedScene {
 };
 
 /// Takes `path` for `path+light` where the scene has no caustics; tabulates the sky as the integrator samples
-/// it, finds the effects, takes out those that are not wanted, plans the paths of what is left, and finds what
-/// casts the caustics: the one order of these. Throws UsageError for path expressions that are wrong or too
-/// large.
+/// it, finds the effects, takes out those that are not wanted, plans the paths of what is left, and finds
+/// what casts the caustics: the one order of these. Throws UsageError for path expressions that are wrong or
+/// too large.
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
 
 /// Whether the scene as it is rendered casts light by mirrors or smooth glass on a surface (LS+DE) within

@@ -30,8 +30,8 @@ u32 fan_end(const Scene& scene, u32 first);
 /// Whether next-event estimation chooses among the kinds (KIND_*) of lights at all: there are two leaves.
 bool has_several_leaves(const Scene& scene, unsigned kinds);
 
-/// Whether the lights of these kinds are the triangles of one object that surrounds the scene: a glowing dome.
-/// Its parts lie alike to every point, so that the choice by area is as good as one by position.
+/// Whether the lights of these kinds are the triangles of one object that surrounds the scene: a glowing
+/// dome. Its parts lie alike to every point, so that the choice by area is as good as one by position.
 bool is_glowing_dome(const Scene& scene, unsigned kinds);
 
 /// The leaves of all lights of the kinds that next-event estimation finds. A sun is a point so far away that

@@ -223,7 +223,8 @@ TEST_F(FilmCommand, GuidedFilmsGoOnAndDoNotMergeWithOthers) {
     render_part("part", 24, 8, {"--guide", "auto"});
     const CommandResult refused = merge({"part.film", "whole.film", "-o", "out.exr"});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_TRUE(holds(refused.err, {"whole.film: expected a film of the same scene and options", "another guide"}));
+    EXPECT_TRUE(
+        holds(refused.err, {"whole.film: expected a film of the same scene and options", "another guide"}));
 }
 
 TEST_F(FilmCommand, ResumingSaysWhatDoesNotFit) {

@@ -167,7 +167,8 @@ TEST(BlindSpots, TheOtherIntegratorsSampleAllOfTheirLanguage) {
 TEST(BlindSpots, ThoseOfDistributionEndAtRoughSurfaces) {
     LitFloor scene;
     scene.options.transport.integrator = Integrator::DISTRIBUTION;
-    EXPECT_EQ(scene.pane("glass").paths(), "") << "what matte surfaces get so is left out, as the report says";
+    EXPECT_EQ(scene.pane("glass").paths(), "")
+        << "what matte surfaces get so is left out, as the report says";
     EXPECT_EQ(scene.pane("shiny").paths(), "LpS+G(G|S)*E");
 }
 

@@ -6,8 +6,8 @@
 
 namespace clrt {
 
-/// Stands in for bdpt_radiance. Red counts paths, green those whose weights do not sum to 1, blue those with a
-/// weight that is not the oracle's.
+/// Stands in for bdpt_radiance. Red counts paths, green those whose weights do not sum to 1, blue those with
+/// a weight that is not the oracle's.
 inline constexpr const char* BDPT_ORACLE = R"(
 #define ORACLE_MOST 8
 #define ORACLE_TOLERANCE (sizeof(real) == 8 ? REAL(1e-6) : REAL(4e-3))

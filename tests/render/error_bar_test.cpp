@@ -130,8 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"relative_lamp", Integrator::PATH, ErrorMeasure::RELATIVE, make_lamp},
                     Case{"light", Integrator::LIGHT, {}}, Case{"path_light", Integrator::PATH_LIGHT, {}},
                     Case{"bdpt", Integrator::BDPT, {}}, Case{"mlt", Integrator::MLT, {}},
-                    Case{"whitted", Integrator::WHITTED, {}},
-                    Case{"raycast", Integrator::RAYCAST, {}}),
+                    Case{"whitted", Integrator::WHITTED, {}}, Case{"raycast", Integrator::RAYCAST, {}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 // Direct light without a penumbra, one bounce: what Sobol points are good at.

@@ -113,8 +113,8 @@ struct Fault {
 std::vector<Fault> planted_faults() {
     const std::string planted = "sampler_make(0u, 2u * 16u + 3u, 2u, 1u)";
     const std::string vertex = "    const real3 wo = -path->ray.direction;\n";
-    const std::string sampled =
-        "const BsdfSample next = guide_sample(scene, bsdf, path->numbers.lobe, path->numbers.direction, guide);";
+    const std::string sampled = "const BsdfSample next = guide_sample(scene, bsdf, path->numbers.lobe, "
+                                "path->numbers.direction, guide);";
     const auto spoil_sample = [&](const char* bounce, const char* what) {
         return "const Sampler planted = " + planted + ";\n    " + sampled.substr(6) +
                "\n    if (path->numbers.alias == sampler_partner_words(&planted, " + bounce +
