@@ -33,10 +33,10 @@ Pixels squared_errors(const std::array<Pixels, 2>& d, const std::array<Pixels, 2
 
 } // namespace
 
-DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<Candidate>& candidates) {
+DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<DenoiseCandidate>& candidates) {
     const size_t pixels = half.mean.size() / 3, count = candidates.size() + 1;
     std::vector<Pixels> errors = {squared_errors(half.quarter, half.quarter)}, deciding;
-    for (const Candidate& candidate : candidates)
+    for (const DenoiseCandidate& candidate : candidates)
         errors.push_back(squared_errors(candidate.quarter, half.quarter));
     for (const Pixels& of_candidate : errors)
         deciding.push_back(smooth_binomial(of_candidate, half.width, half.height, 1, DECIDING_RADIUS));

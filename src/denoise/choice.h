@@ -8,7 +8,7 @@
 namespace clrt {
 
 /// What some filter makes of a half.
-struct Candidate {
+struct DenoiseCandidate {
     std::array<Pixels, 2> quarter; ///< of each quarter, without the noise of the other one
     Pixels half;                   ///< of both
 };
@@ -24,6 +24,6 @@ struct DenoisedHalf {
 
 /// Takes of the candidates and the half itself, which is the first one, what has the least squared error
 /// around each pixel, by what each quarter tells of the other one's result.
-DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<Candidate>& candidates);
+DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<DenoiseCandidate>& candidates);
 
 } // namespace clrt

@@ -51,7 +51,7 @@ Denoised denoise(const Device& device, const Film& film, const HitSums& hits, co
         result.method = "oidn " + oidn->version();
         try {
             halves = denoise_halves(film, hits, [&](const HalfPicture& half) {
-                return std::vector<Candidate>{oidn->candidate(half)};
+                return std::vector<DenoiseCandidate>{oidn->candidate(half)};
             });
         } catch (const std::runtime_error& error) {
             throw DeviceError(error.what());

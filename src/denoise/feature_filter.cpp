@@ -117,13 +117,13 @@ void FeatureFilter::run(Kernel& kernel, size_t columns, size_t lines) {
     });
 }
 
-Candidate FeatureFilter::candidate(const HalfPicture& half, float noise) {
+DenoiseCandidate FeatureFilter::candidate(const HalfPicture& half, float noise) {
     const size_t pixels = half.mean.size() / 3;
     const size_t columns = over_stride(half.width), lines = over_stride(half.height);
     const cl::Buffer models =
         create_buffer(device_, "denoise_models", DENOISE_MODEL * columns * lines * sizeof(float));
     const cl::Buffer colours = create_buffer(device_, "denoise_colours", pixels * sizeof(vec4));
-    Candidate result;
+    DenoiseCandidate result;
     for (size_t quarter = 0; quarter < 2; ++quarter) {
         const cl::Buffer guide = upload_buffer(device_, "denoise_guide", make_guide(half, 1 - quarter));
         for (Kernel* kernel : {&fit_, &apply_}) {
@@ -145,7 +145,7 @@ Candidate FeatureFilter::candidate(const HalfPicture& half, float noise) {
     return result;
 }
 
-std::vector<Candidate> FeatureFilter::candidates(const HalfPicture& half) {
+std::vector<DenoiseCandidate> FeatureFilter::candidates(const HalfPicture& half) {
     const cl::Buffer rows = upload_buffer(device_, "denoise_rows", make_rows(half));
     const cl::Buffer places = upload_buffer(device_, "denoise_places", make_places(half));
     for (Kernel* kernel : {&fit_, &apply_}) {
@@ -154,7 +154,7 @@ std::vector<Candidate> FeatureFilter::candidates(const HalfPicture& half) {
         kernel->set("rows", rows);
         kernel->set("places", places);
     }
-    std::vector<Candidate> result;
+    std::vector<DenoiseCandidate> result;
     for (const float noise : NOISES)
         result.push_back(candidate(half, noise));
     return result;

@@ -18,10 +18,10 @@ public:
 
     /// A half's candidates, one for each notion of how much like each other colours must be. Throws
     /// DeviceError.
-    std::vector<Candidate> candidates(const HalfPicture& half);
+    std::vector<DenoiseCandidate> candidates(const HalfPicture& half);
 
 private:
-    Candidate candidate(const HalfPicture& half, float noise);
+    DenoiseCandidate candidate(const HalfPicture& half, float noise);
     void run(Kernel& kernel, size_t columns, size_t lines);
 
     const Device& device_;

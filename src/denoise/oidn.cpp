@@ -137,7 +137,7 @@ Pixels Oidn::filter(const char* name, const Pixels& values, const Pixels* albedo
     return result;
 }
 
-Candidate Oidn::candidate(const HalfPicture& half) {
+DenoiseCandidate Oidn::candidate(const HalfPicture& half) {
     const auto guide = [&](const char* name, Pixels values, float lowest) {
         for (float& value : values)
             value = std::clamp(value, lowest, 1.0f);

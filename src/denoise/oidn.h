@@ -29,7 +29,7 @@ public:
 
     /// What it makes of a half and of its quarters, guided by albedo and normal that it has smoothed first.
     /// Throws std::runtime_error with its message.
-    Candidate candidate(const HalfPicture& half);
+    DenoiseCandidate candidate(const HalfPicture& half);
 
 private:
     /// Denoises three values a pixel; `name` is what they are: "color", "albedo" or "normal".

@@ -4,6 +4,7 @@
 #include "error.h"
 #include "film/sample_ranges.h"
 #include "render/launch_size.h"
+#include "render/pace.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -18,19 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ranges are multiples of this many samples where they can be: kernels simulate up to four at once.
-constexpr double SAMPLE_GROUP = 4;
 /// A range is at most this part of what a member may expect of the samples that are left, so that all members
 /// end at nearly the same time.
 constexpr double LARGEST_PART = 0.5;
 /// Between two looks at the work, seconds.
 constexpr double LOOK_SECONDS = 0.1;
-/// A range is begun when the time that is left is this part of what it will take.
-constexpr double WORTH_BEGINNING = 0.8;
-/// A range may take this many times as long as those before it.
-constexpr double LARGEST_SLOWDOWN = 4;
-/// What takes longer, seconds, may have to be dropped when a signal comes.
-constexpr double LONGEST_WAIT = 3;
 
 } // namespace
 

@@ -9,6 +9,7 @@
 #include "render/error_text.h"
 #include "render/good_counts.h"
 #include "render/outlook.h"
+#include "render/pace.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -19,17 +20,10 @@ namespace clrt {
 
 namespace {
 
-/// A signal does not wait longer for a pass to end, seconds: it is dropped.
-constexpr double LONGEST_WAIT = 3;
-/// Launches take multiples of this many samples where they can: kernels simulate up to four at once.
-constexpr double SAMPLE_GROUP = 4;
 /// Without --error, measuring errors may take this part of the render; the slope is worth no more.
 constexpr double LARGEST_CHECK_SHARE = 0.05;
 /// So much is always worth it, seconds.
 constexpr double SMALL_CHECK_SECONDS = 0.2;
-/// A pass may take this many times as long as those before it: other programs come to work, and adaptive
-/// rounds go where paths are long.
-constexpr double LARGEST_SLOWDOWN = 4;
 
 } // namespace
 

@@ -12,6 +12,7 @@
 #include "render/good_counts.h"
 #include "render/hit_layers.h"
 #include "render/outlook.h"
+#include "render/pace.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -30,9 +31,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Prepared = std::vector<const PreparedScene*>;
 using Workers = std::vector<std::unique_ptr<FilmWorker>>;
-
-/// A signal does not wait longer for samples to end, seconds.
-constexpr double LONGEST_WAIT = 3;
 
 /// One worker a device; their drivers compile side by side.
 Workers make_workers(const Prepared& prepared, const RenderParams& params, RenderProgress& shared) {

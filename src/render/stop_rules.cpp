@@ -2,6 +2,7 @@
 #include "render/stop_rules.h"
 
 #include "render/good_counts.h"
+#include "render/pace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,6 @@ namespace clrt {
 
 namespace {
 
-/// A pass is begun when the time that is left is this part of what passes took so far: they differ by about
-/// as much, and one that is not done in time can be dropped.
-constexpr double WORTH_BEGINNING = 0.8;
 /// No integrand's error falls faster than samples to this power while pixels have edges in them.
 constexpr double STEEPEST_SLOPE = -1;
 /// What a render differs from --time is said from this part of it.

@@ -35,7 +35,7 @@ HalfPicture noisy_half(double deviation) {
     return half;
 }
 
-Candidate smoothed(const HalfPicture& half, int radius) {
+DenoiseCandidate smoothed(const HalfPicture& half, int radius) {
     const auto smooth = [&](const Pixels& pixels) {
         return smooth_binomial(pixels, WIDTH, HEIGHT, 3, radius);
     };
@@ -65,7 +65,7 @@ TEST(DenoiseChoice, NoisyPixelsStayWhereSmoothingDoesHarm) {
 
 TEST(DenoiseChoice, TheStrongerFilterWinsOnWhatIsFlat) {
     const HalfPicture half = noisy_half(0.2);
-    const Candidate weak = smoothed(half, 1), strong = smoothed(half, 6);
+    const DenoiseCandidate weak = smoothed(half, 1), strong = smoothed(half, 6);
     const DenoisedHalf chosen = choose_candidates(half, {weak, strong});
     size_t strongs = 0;
     for (size_t i = 0; i < 3 * 16; ++i)
