@@ -38,11 +38,6 @@ bool differ(const vec4& a, const vec4& b) {
     return a.x != b.x || a.y != b.y || a.z != b.z;
 }
 
-// Adding +0 turns -0 into +0, so that the bits of a box do not depend on the order of its corners.
-Float4 corner(const vec4& p) {
-    return Float4{p.x, p.y, p.z, 0} + splat(0);
-}
-
 struct Preparation {
     ItemBounds bounds;
     u32 left_out = 0;
@@ -60,7 +55,7 @@ bool extend_by_ends(const std::vector<vec4>& positions, const std::vector<vec4>&
         ends[k] = {p.x + move.x, p.y + move.y, p.z + move.z, 0};
         if (move.x == 0 && move.y == 0 && move.z == 0)
             continue;
-        const Float4 end = corner(ends[k]);
+        const Float4 end = box_corner(ends[k]);
         for (const float towards : {-INFINITE_FLOAT, INFINITE_FLOAT})
             box.extend(Float4{std::nextafter(end[0], towards), std::nextafter(end[1], towards),
                               std::nextafter(end[2], towards), 0});
@@ -79,7 +74,7 @@ Preparation prepare_items(const std::vector<vec4>& positions, const std::vector<
             bool usable = can_be_hit(a, b, c);
             Box box;
             for (const vec4* p : {&a, &b, &c})
-                box.extend(corner(*p));
+                box.extend(box_corner(*p));
             if (!moves.empty())
                 usable |= extend_by_ends(positions, moves, t, box);
             if (usable)

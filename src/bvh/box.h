@@ -18,6 +18,10 @@ constexpr float INFINITE_FLOAT = std::numeric_limits<float>::infinity();
 inline Float4 splat(float x) {
     return Float4{x, x, x, x};
 }
+/// A point. Adding +0 turns -0 into +0, so that the bits of a box do not depend on the order of its corners.
+inline Float4 box_corner(const vec4& p) {
+    return Float4{p.x, p.y, p.z, 0} + splat(0);
+}
 /// The smaller and the larger lanes; `b` where one is NaN.
 inline Float4 lane_min(Float4 a, Float4 b) {
     return a < b ? a : b;

@@ -14,16 +14,12 @@ constexpr int CELLS = 4;
 /// is added; the one more is for those that bound them.
 constexpr double PLACING_ERROR = 4 * 0x1p-24;
 
-Float4 corner(const vec4& p) {
-    return Float4{p.x, p.y, p.z, 0};
-}
-
 template <class Visit>
 void for_each_corner(const std::vector<vec4>& positions, const std::vector<Triangle>& triangles,
                      const Visit& visit) {
     for (const Triangle& t : triangles)
         for (const u32 v : {t.v0, t.v1, t.v2})
-            visit(corner(positions[v]));
+            visit(box_corner(positions[v]));
 }
 
 int cell_of(const Box& box, Float4 p) {

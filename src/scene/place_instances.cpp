@@ -75,13 +75,13 @@ void add_stand_in(const Mesh& mesh, const MeshTriangle& from, const MeshInstance
 }
 
 /// A mesh in its own frame, as the scene's arrays take it.
-struct Part {
+struct FramedMesh {
     Scene scene;
     Normalisation frame;
 };
 
-Part assemble_part(Mesh& mesh, const std::string& path, NoticeList& notices) {
-    Part part;
+FramedMesh assemble_framed(Mesh& mesh, const std::string& path, NoticeList& notices) {
+    FramedMesh part;
     const Bounds bounds = bounds_of_triangles(mesh);
     part.frame = fit_normalisation(bounds);
     assemble_geometry(mesh, bounds, part.frame, path, part.scene, notices);
@@ -258,7 +258,7 @@ void append_instances(SceneDescription& description, const std::string& path, Sc
     std::vector<Normalisation> frames;
     std::vector<glm::dvec3> largest;
     for (size_t i = 0; i < description.prototypes.size(); ++i) {
-        const Part part = assemble_part(description.prototypes[i], path, notices);
+        const FramedMesh part = assemble_framed(description.prototypes[i], path, notices);
         if (scene.positions.size() + part.scene.positions.size() >= NO_INDEX)
             throw SceneError(path, 0, fmt::format("expected at most {} vertices", NO_INDEX - 1));
         append_part(part.scene, objects[i], scene);
