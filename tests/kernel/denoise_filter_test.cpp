@@ -70,7 +70,7 @@ TEST(DenoiseFilter, LinearColoursPassUnchanged) {
         return 1 + 0.05 * x - 0.02 * y + (2 + c) * double(half.albedo[size_t(3 * (y * WIDTH + x))]);
     };
     shine(half, 0, colour);
-    for (const Candidate& candidate : filter().candidates(half))
+    for (const DenoiseCandidate& candidate : filter().candidates(half))
         EXPECT_LT(error_of(candidate.half, colour), 0.03) << "colours are 1 to 6";
 }
 
@@ -78,7 +78,7 @@ TEST(DenoiseFilter, NoiseOfAWallIsAveraged) {
     HalfPicture half = wall();
     const auto colour = [](int x, int, int) { return 1 + 0.01 * x; };
     shine(half, 0.3, colour);
-    for (const Candidate& candidate : filter().candidates(half)) {
+    for (const DenoiseCandidate& candidate : filter().candidates(half)) {
         EXPECT_LT(error_of(candidate.half, colour), 0.045) << "less than a fifth of 0.3 / sqrt(2)";
         EXPECT_GT(error_of(candidate.quarter[0], colour), error_of(candidate.half, colour));
     }
@@ -121,10 +121,10 @@ TEST(DenoiseFilter, AQuarterIsFilteredByWhatTheOtherLooksLike) {
     // say.
     HalfPicture half = wall();
     shine(half, 0.3, [](int, int, int) { return 1.0; });
-    const Candidate before = filter().candidates(half)[0];
+    const DenoiseCandidate before = filter().candidates(half)[0];
     for (float& value : half.quarter[0])
         value *= 1.0009765625f;
-    const Candidate after = filter().candidates(half)[0];
+    const DenoiseCandidate after = filter().candidates(half)[0];
     EXPECT_NE(before.quarter[0], after.quarter[0]);
     double difference = 0;
     for (size_t i = 0; i < before.quarter[1].size(); ++i)
