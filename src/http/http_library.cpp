@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "http/http_server.h"
 
-#include <dlfcn.h>
-#include <stdexcept>
+#include "own_library.h"
 
 namespace clrt {
 
-namespace {
-
-/// Loads CLRT_HTTP_LIBRARY, a file that is looked for in the folders of the program's run path.
-const HttpLibrary& load_http() {
-    void* const library = dlopen(CLRT_HTTP_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
-    void* const entry = library ? dlsym(library, HTTP_LIBRARY_ENTRY) : nullptr;
-    if (!entry)
-        throw std::runtime_error(
-            std::string("the HTTP server cannot be loaded: ") + dlerror() +
-            "; expected it where clrt was built or installed. It is built where libcpp-httplib-dev is there");
-    return *reinterpret_cast<HttpLibraryEntry*>(entry)();
-}
-
-} // namespace
-
 const HttpLibrary& http_library() {
-    static const HttpLibrary& library = load_http();
+    static const HttpLibrary& library = load_own_library<HttpLibrary>(
+        CLRT_HTTP_LIBRARY, HTTP_LIBRARY_ENTRY, "the HTTP server",
+        "; expected it where clrt was built or installed. It is built where libcpp-httplib-dev is there");
     return library;
 }
 

@@ -2,29 +2,24 @@
 #include "images/image_library.h"
 
 #include "console/address_space.h"
+#include "own_library.h"
 
-#include <dlfcn.h>
 #include <stdexcept>
 
 namespace clrt {
 
 namespace {
 
-/// Loads CLRT_IMAGE_LIBRARY, a file that is looked for in the folders of the program's run path. It stays
-/// loaded: OpenImageIO's threads run until the end.
+/// Stays loaded, which OpenImageIO needs: its threads run until the end.
 const ImageLibrary& load() {
     const std::string obstacle =
         address_space_obstacle(IMAGE_LIBRARY_BYTES, "loading the library of picture formats");
     if (!obstacle.empty())
         throw std::runtime_error(obstacle);
-    void* const library = dlopen(CLRT_IMAGE_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
-    void* const entry = library ? dlsym(library, IMAGE_LIBRARY_ENTRY) : nullptr;
-    if (!entry)
-        throw std::runtime_error(
-            std::string("the library of picture formats cannot be loaded: ") + dlerror() +
-            "; expected it where clrt was built or installed. Pictures in .png and .pfm are "
-            "written without it");
-    return *reinterpret_cast<ImageLibraryEntry*>(entry)();
+    return load_own_library<ImageLibrary>(CLRT_IMAGE_LIBRARY, IMAGE_LIBRARY_ENTRY,
+                                          "the library of picture formats",
+                                          "; expected it where clrt was built or installed. Pictures in .png "
+                                          "and .pfm are written without it");
 }
 
 } // namespace
