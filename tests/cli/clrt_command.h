@@ -54,6 +54,14 @@ protected:
         EXPECT_EQ(result.signal, 0) << "clrt crashed or hung:\n" << result.err;
         return result;
     }
+    /// lamp.obj: a floor below a lamp, with its camera.
+    void write_lamp() const {
+        folder.write("lamp.mtl", "newmtl white\nKd 0.7 0.7 0.7\nnewmtl lamp\nKd 0 0 0\nKe 9 8 6\n");
+        folder.write("lamp.obj", "mtllib lamp.mtl\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\n"
+                                 "v -.5 1 -.5\nv .5 1 -.5\nv .5 1 .5\nv -.5 1 .5\n"
+                                 "usemtl white\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n");
+        folder.write("lamp.clrt", "--eye 0,3,0.1\n--at 0,0,0\n--size 32x24\n");
+    }
     std::string path() const { return std::filesystem::path(folder.file("x")).parent_path().string(); }
 
     /// A file of these names is there.

@@ -13,13 +13,7 @@ namespace {
 
 class DevicesCommand : public ClrtCommand {
 protected:
-    DevicesCommand() {
-        folder.write("lamp.mtl", "newmtl white\nKd 0.7 0.7 0.7\nnewmtl lamp\nKd 0 0 0\nKe 9 8 6\n");
-        folder.write("lamp.obj", "mtllib lamp.mtl\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\n"
-                                 "v -.5 1 -.5\nv .5 1 -.5\nv .5 1 .5\nv -.5 1 .5\n"
-                                 "usemtl white\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n");
-        folder.write("lamp.clrt", "--eye 0,3,0.1\n--at 0,0,0\n--size 32x24\n");
-    }
+    DevicesCommand() { write_lamp(); }
 
     /// The test device twice: it is opened twice.
     static std::string two_devices() { return test_device_name() + "," + test_device_name(); }

@@ -14,13 +14,7 @@ namespace {
 
 class FilmCommand : public ClrtCommand {
 protected:
-    FilmCommand() {
-        folder.write("lamp.mtl", "newmtl white\nKd 0.7 0.7 0.7\nnewmtl lamp\nKd 0 0 0\nKe 9 8 6\n");
-        folder.write("lamp.obj", "mtllib lamp.mtl\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\n"
-                                 "v -.5 1 -.5\nv .5 1 -.5\nv .5 1 .5\nv -.5 1 .5\n"
-                                 "usemtl white\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n");
-        folder.write("lamp.clrt", "--eye 0,3,0.1\n--at 0,0,0\n--size 32x24\n");
-    }
+    FilmCommand() { write_lamp(); }
     /// Renders samples first .. first + count - 1 into NAME.film and, unless told otherwise, NAME.exr.
     void render_part(const std::string& name, int first, int count,
                      std::vector<std::string> further = {}) const {
