@@ -11,7 +11,7 @@
 #ifndef CLRT_PATH_GUIDE_GAIN_H
 #define CLRT_PATH_GUIDE_GAIN_H
 
-#include "numerics/real.h"
+#include "roulette.h"
 
 /* What a path carries for it. Contributions are sums of channels. */
 typedef struct {
@@ -52,9 +52,9 @@ static inline void gain_leave(real ratio, GuideGain* gain)
 
 /* The path has survived Russian roulette with a probability that is not what it would have been without the
    guide, where its weight is larger by the ratio; `size`: what plain roulette goes by. */
-static inline void gain_survive(real survival, real size, real smallest, GuideGain* gain)
+static inline void gain_survive(real survival, real size, GuideGain* gain)
 {
-    gain->next_ratio *= survival / clamp(size * gain->next_ratio, smallest, REAL(1.0));
+    gain->next_ratio *= survival / roulette_survival(size * gain->next_ratio);
 }
 
 #endif

@@ -130,10 +130,10 @@ static inline void guide_leave(const Guide* guide, GuidePath* path)
 }
 
 /* The path has survived Russian roulette; without the guide it would have gone by `size`. */
-static inline void guide_survive(real survival, real size, real smallest, GuidePath* path)
+static inline void guide_survive(real survival, real size, GuidePath* path)
 {
 #if PATH_GUIDE
-    gain_survive(survival, size, smallest, &path->gain);
+    gain_survive(survival, size, &path->gain);
 #endif
 }
 

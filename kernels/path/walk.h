@@ -7,10 +7,8 @@
 #include "guide_learn.h"
 #include "layers.h"
 #include "numbers.h"
+#include "roulette.h"
 #include "vertex.h"
-
-/* Russian roulette never continues with less than this: a weight grows at most twentyfold. */
-#define PATH_SMALLEST_SURVIVAL REAL(0.05)
 
 /* A path on its way. */
 typedef struct {
@@ -127,14 +125,14 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
     if (segment < params->roulette_depth)
         return true;
     const real size = vector_max_component(path->throughput) / path->eta_squared;
-    const real survival = clamp(worth > REAL(0.0) ? worth : size, PATH_SMALLEST_SURVIVAL, REAL(1.0));
+    const real survival = roulette_survival(worth > REAL(0.0) ? worth : size);
     const bool survives = !(sampler_number(sampler, segment, SAMPLE_ROULETTE) >= survival);
     TRACE_NUMBER(scene, TRACE_SURVIVAL, survival);
     TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
     if (!survives)
         return false;
     path->throughput /= survival;
-    guide_survive(survival, size, PATH_SMALLEST_SURVIVAL, &path->guided);
+    guide_survive(survival, size, &path->guided);
     return true;
 }
 

@@ -143,6 +143,20 @@ TEST(Furnace, RouletteEndsPathsWithoutChangingTheMean) {
     }
 }
 
+TEST(Furnace, RouletteLeavesPathsAloneThatWeighAQuarter) {
+    // Half of the light is lost at every vertex: after the second a quarter is left, after the third less.
+    ClosedFurnace scene(0.5, 0.5);
+    scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    for (const int depth : {3, 4}) {
+        scene.options.transport.max_depth = depth;
+        scene.options.transport.roulette_depth = NO_ROULETTE;
+        const Estimate whole = film_estimate(scene.render().film);
+        scene.options.transport.roulette_depth = 1;
+        const Estimate ended = film_estimate(scene.render().film);
+        EXPECT_EQ(ended.mean == whole.mean, depth == 3) << ended.mean << " " << whole.mean;
+    }
+}
+
 TEST(Furnace, RouletteIsIndependentOfTheChoiceOfLobe) {
     // A matte lobe that is reddish and a mirror that is bluish: each channel's sum is Ke / (1 - Kd - Ks).
     TestScene scene;

@@ -50,7 +50,7 @@ FAULTS = [
     ("directions of the BSDF as if nothing were guided", "path/guide.h", "    next.weight /= guide->ratio;\n", "", "guide_test"),
     ("a guide's gain without its directions", "path/guide_gain.h", "gain->ratio * ratio;", "gain->ratio;", "guide_test"),
     ("a guide's gain without its roulette", "path/guide_gain.h",
-     "    gain->next_ratio *= survival / clamp(size * gain->next_ratio, smallest, REAL(1.0));\n", "", "guide_test"),
+     "    gain->next_ratio *= survival / roulette_survival(size * gain->next_ratio);\n", "", "guide_test"),
     ("missing eta^2, smooth glass", "scattering/bsdf_dielectric.h", "bsdf->transmission * bsdf_cross(bsdf, REAL(1.0))",
      "bsdf->transmission", "furnace_test"),
     ("missing eta^2, whitted", "integrators/tree.h", "bsdf_cross(bsdf, REAL(1.0) - f)", "(REAL(1.0) - f)", "glass_test"),
