@@ -11,10 +11,8 @@
 #include "film/moments.h"
 #include "film/splat.h"
 #include "light_vertices.h"
+#include "roulette.h"
 #include "splat_weight.h"
-
-/* Russian roulette never continues with less than this. */
-#define LIGHT_SMALLEST_SURVIVAL REAL(0.05)
 
 /* First segment that it may end where inner vertices are connected, if it is not asked for before: a light
    path costs as much as one from the eye, and its late vertices add little that others do not. */
@@ -167,14 +165,16 @@ static inline void light_path_splat(const Scene* scene, const RenderParams* para
 #endif
 }
 
-/* Ends paths of small throughput without bias. */
+/* Ends paths of small throughput without bias, all that weigh less than at first: with the threshold of paths
+   from the eye, bdpt traces a fifth more rays and errs no less. */
 static inline bool light_path_survives(const Scene* scene, const RenderParams* params, uint segment,
                                        LightPath* path)
 {
     const uint latest = INNER_CONNECTIONS ? LIGHT_CONNECTED_ROULETTE_DEPTH : params->roulette_depth;
     if (segment < min(params->roulette_depth, latest))
         return true;
-    const real survival = clamp(vector_max_component(path->throughput), LIGHT_SMALLEST_SURVIVAL, REAL(1.0));
+    const real size = vector_max_component(path->throughput);
+    const real survival = clamp(size, ROULETTE_SMALLEST_SURVIVAL, REAL(1.0));
     const bool survives = !(sampler_number(&path->sampler, segment, SAMPLE_ROULETTE) >= survival);
     TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
     path->throughput /= survival;

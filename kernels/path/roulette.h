@@ -14,8 +14,8 @@
 /* Nothing survives with less than this: a weight grows at most twentyfold. */
 #define ROULETTE_SMALLEST_SURVIVAL REAL(0.05)
 
-/* The probability with which a path of this weight survives. `weight`: of what it may still find, over that of
-   what it could find when it set out. */
+/* The probability with which a path of this weight survives. `weight`: of what it may still find, over that
+   of what it could find when it set out. */
 static inline real roulette_survival(real weight)
 {
     return clamp(weight / ROULETTE_THRESHOLD, ROULETTE_SMALLEST_SURVIVAL, REAL(1.0));
