@@ -12,6 +12,7 @@
 #include "film/splat.h"
 #include "light_vertices.h"
 #include "splat_weight.h"
+#include "strategies.h"
 
 /* Russian roulette never continues with less than this. */
 #define LIGHT_SMALLEST_SURVIVAL REAL(0.05)
@@ -162,6 +163,8 @@ static inline void light_path_splat(const Scene* scene, const RenderParams* para
                                   splat.radiance);
     if (fault != COUNT_WORDS)
         sink->fault = fault;
+    else
+        strategies_splat(params, sink->film, &path->sampler, segment, splat.film, splat.radiance);
 #if FILM_MOMENTS
     moments_add_splat(params, sink->film, splat.slot, &path->sampler, segment, splat.radiance, splat.excess);
 #endif

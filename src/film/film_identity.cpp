@@ -5,6 +5,7 @@
 #include "film/whole_numbers.h"
 #include "kernels/shared/scene_arrays.h"
 #include "options/integrators.h"
+#include "options/summed_layers.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -155,7 +156,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["background"] = background_identity(scene, options);
     identity["paths"] = options.transport.paths;
     identity["layers"] = FilmIdentity::array();
-    for (const PathLayerOption& layer : options.output.path_layers)
+    for (const PathLayerOption& layer : summed_layers(options))
         identity["layers"].push_back({{"name", layer.name}, {"expression", layer.expression}});
     identity["quantum"] = scale.quantum;
     identity["largest"] = scale.largest;
