@@ -176,6 +176,14 @@ std::optional<ErrorMeasure> film_measure(const FilmIdentity& identity) {
     return find_named<ErrorMeasure>(adaptive->get<std::string>());
 }
 
+Integrator film_integrator(const FilmIdentity& identity) {
+    const auto name = identity.find("integrator");
+    const auto found = name != identity.end() && name->is_string()
+                           ? find_named<Integrator>(name->get<std::string>())
+                           : std::nullopt;
+    return found.value_or(Integrator::PATH);
+}
+
 std::vector<std::string> film_layer_names(const FilmIdentity& identity) {
     std::vector<std::string> names;
     for (const auto& layer : identity.value("layers", FilmIdentity::array()))

@@ -4,6 +4,7 @@
 #include "error.h"
 #include "film/film_buffers.h"
 #include "film/film_capacity.h"
+#include "film/film_error.h"
 #include "options/summed_layers.h"
 #include "render/prepared_scene.h"
 
@@ -37,6 +38,7 @@ RenderParams begin_film(const PlannedScene& planned, const std::vector<const Dev
     RenderParams params = launch_params(planned);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
+    film.block = error_block(options.transport.integrator);
     int fitting = int(params.replicates);
     for (const Device* device : devices)
         fitting = std::min(fitting, fitting_replicates(*device, params, summed_layers(options).size()));
