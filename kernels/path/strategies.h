@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers of strategies: the picture of a bidirectional path tracer taken apart by how paths were found. Strategy
-// (s, t) joins s vertices of a path from a light to t of one from the eye, the light's and the eye's own ones
-// included, and finds paths of s + t - 1 segments:
+// Layers of strategies: the picture of a bidirectional path tracer taken apart by how paths were found.
+// Strategy (s, t) joins s vertices of a path from a light to t of one from the eye, the light's and the eye's
+// own ones included, and finds paths of s + t - 1 segments:
 //     s = 0  the path from the eye meets the light (a hit)
 //     s = 1  its last vertex is connected to a point on the light (next-event estimation)
 //     t = 1  the last vertex of the path from the light is connected to the eye (a splat)
@@ -12,8 +12,8 @@
 //
 // The layers sum to the picture to the last quantum. A splat is rounded once, and that number is added to
 // both. What a path from the eye gathers is rounded as a whole: r(x_n), x_i being the sum after contribution
-// i. Contribution i is booked as r(x_i) - r(x_{i-1}), all rounded by the same random number: without bias, not
-// negative, and the sum is r(x_n).
+// i. Contribution i is booked as r(x_i) - r(x_{i-1}), all rounded by the same random number: without bias,
+// not negative, and the sum is r(x_n).
 #ifndef CLRT_PATH_STRATEGIES_H
 #define CLRT_PATH_STRATEGIES_H
 
@@ -26,7 +26,8 @@
 
 #if STRATEGY_SEGMENTS > 0
 
-/* Layers before those of so many segments: paths of one are only ever met, of others s is 0 to their number. */
+/* Layers before those of so many segments: paths of one are only ever met, of others s is 0 to their
+   number. */
 #define STRATEGIES_BELOW(segments) ((segments) < 2u ? 0u : (segments) * ((segments) + 1u) / 2u - 2u)
 #define STRATEGY_LAYERS (STRATEGIES_BELOW(STRATEGY_SEGMENTS + 1u) + 1u)
 
