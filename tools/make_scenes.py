@@ -21,6 +21,7 @@ from scene_exposure import depth_of_field, motion_blur
 from scene_head import add_head
 from scene_kit import Obj, add, png, png_pixels, polygon_normal, scale, subtract, unit
 from scene_rooms import door_ajar, hall_of_lamps
+from scene_sky import ambient_occlusion, glazed_room, pool
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 SPHERE_LEVEL = 4  # 5120 triangles with vertex normals: the outline errs by less than 0.1 % of the radius
@@ -335,7 +336,8 @@ def all_files():
     for scene in (cornell_box, spheres_over_plane, mirror_glass_depth10, colour_bleeding, caustic, furnace,
                   glossy_plates, textured_interior, every_effect, still_life, plates_far_lamp):
         made.update(scene())
-    for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency, depth_of_field):
+    for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency, depth_of_field, pool, glazed_room,
+                  ambient_occlusion):
         made.update(files(scene.__name__, scene()))
     made.update(files("motion_blur", motion_blur(0)))
     made["motion_blur/end/motion_blur.obj"] = motion_blur(1).text("../motion_blur.mtl").encode()

@@ -92,14 +92,27 @@ static inline global long* film_sums(const RenderParams* params, global long* fi
     return film_plane_sums(params, film, slot, kept);
 }
 
+/* A good radiance in quanta, rounded by a random word. */
+static inline long3 film_quanta(const RenderParams* params, uint word, real3 radiance)
+{
+    const real3 quanta = radiance * (real)params->inverse_quantum;
+    return (long3)(film_round(quanta.x, word), film_round(quanta.y, word * 0x9e3779b9u),
+                   film_round(quanta.z, word * 0x85ebca6bu));
+}
+
+/* Adds to the three sums of a pixel. False where one is full. */
+static inline bool film_add_quanta(global long* sums, long3 quanta)
+{
+    const bool red = sum_add(sums, quanta.x);
+    const bool green = sum_add(sums + 1, quanta.y);
+    const bool blue = sum_add(sums + 2, quanta.z);
+    return red && green && blue;
+}
+
 /* Adds a good radiance, rounded by a random word. False where a sum is full. */
 static inline bool film_add_rounded(const RenderParams* params, global long* sums, uint word, real3 radiance)
 {
-    const real3 quanta = radiance * (real)params->inverse_quantum;
-    const bool red = sum_add(sums, film_round(quanta.x, word));
-    const bool green = sum_add(sums + 1, film_round(quanta.y, word * 0x9e3779b9u));
-    const bool blue = sum_add(sums + 2, film_round(quanta.z, word * 0x85ebca6bu));
-    return red && green && blue;
+    return film_add_quanta(sums, film_quanta(params, word, radiance));
 }
 
 /* Adds the radiance that a sample has gathered, where it is good. False where a sum is full. */

@@ -12,6 +12,12 @@
 #include "path/cut.h"
 #include "splat_escape.h"
 
+/* Books what strategy (s, t) has just added to the sample (path/strategies.h). */
+static inline void bdpt_book(const RenderParams* params, uint s, uint t, CameraSample* sample)
+{
+    strategies_book(params, &sample->sampler, s, t, sample->radiance, &sample->strategies);
+}
+
 /* Connects the vertex at the end of a segment to one of the light path's, within max_depth segments. */
 static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* params, uint segment,
                                        const EyeVertex* eye, const LightVertices* kept, real3 throughput,
@@ -27,6 +33,7 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
     ++rays->shadow;
     const real3 share = (real)count * visible_share(scene, params, &connection.shadow);
     vertex_add(scene, throughput * connection.light * share, &sample->radiance);
+    bdpt_book(params, kept->at[chosen].segment + 1u, segment + 1u, sample);
 #if FILM_MOMENTS
     moments_connect(throughput * connection.light * (share / (real)count), (real)count, connection.excess,
                     &sample->moments);
@@ -45,6 +52,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     if (path->hit.triangle == NO_INDEX) {
         path_absorb(scene, 0, path);
         splat_add_escape(scene, params, segment, path, weights, sample, rays);
+        bdpt_book(params, 0u, segment + 1u, sample);
         return;
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
@@ -53,6 +61,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
+        bdpt_book(params, 0u, segment + 1u, sample);
 #if FILM_MOMENTS
         alone_emission(scene, params, &surface, path, wo, emitted, &sample->moments);
 #endif
@@ -101,6 +110,7 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
             continue;
         const real3 share = visible_share(scene, params, &path.shadow);
         path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
+        bdpt_book(params, 1u, segment + 1u, sample);
 #if FILM_MOMENTS
         moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);
 #endif

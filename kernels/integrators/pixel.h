@@ -13,11 +13,13 @@
 #include "film/tile.h"
 #include "geometry/scene.h"
 #include "path/layers.h"
+#include "path/strategies.h"
 
 /* One sample of a pixel: what an integrator gets and gives. */
 typedef struct {
     Sampler sampler;
     LayerSums layers;
+    StrategySums strategies;
     Ray ray;
     real3 radiance;
 #if PATH_GUIDE
@@ -43,6 +45,7 @@ static CLRT_NOINLINE void pixel_aim(const RenderParams* params, global long* fil
         samples[k].ray = camera_ray(params, &samples[k].sampler, x, y);
         samples[k].radiance = (real3)(REAL(0.0));
         layers_begin(&samples[k].layers);
+        strategies_begin(&samples[k].strategies);
 #if FILM_SPLATS
         samples[k].film = film;
         samples[k].place = (y - params->crop_y) * params->crop_width + (x - params->crop_x);
@@ -109,6 +112,7 @@ static CLRT_NOINLINE void pixel_add(const RenderParams* params, TilePixel place,
             if (layers_film_add(params, film, place.slot, &samples[k].sampler, &samples[k].layers) != 0u ||
                 !fits)
                 fault = COUNT_OVERFLOW;
+            strategies_film_add(params, film, place.slot, &samples[k].strategies);
         }
 #if FILM_MOMENTS
         moments_add_sample(params, film, place.slot, &samples[k].sampler, samples[k].radiance,

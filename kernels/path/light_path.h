@@ -13,6 +13,7 @@
 #include "light_vertices.h"
 #include "roulette.h"
 #include "splat_weight.h"
+#include "strategies.h"
 
 /* First segment that it may end where inner vertices are connected, if it is not asked for before: a light
    path costs as much as one from the eye, and its late vertices add little that others do not. */
@@ -160,6 +161,8 @@ static inline void light_path_splat(const Scene* scene, const RenderParams* para
                                   splat.radiance);
     if (fault != COUNT_WORDS)
         sink->fault = fault;
+    else
+        strategies_splat(params, sink->film, &path->sampler, segment, splat.film, splat.radiance);
 #if FILM_MOMENTS
     moments_add_splat(params, sink->film, splat.slot, &path->sampler, segment, splat.radiance, splat.excess);
 #endif

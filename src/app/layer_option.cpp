@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "kernels/shared/path_types.h"
+#include "options/summed_layers.h"
 #include "paths/path_expression.h"
 #include "render/layer_table.h"
 
@@ -35,6 +36,26 @@ void add_path_layer(Options& o, const OptionValue& v, const std::string& name,
     o.output.path_layers.push_back({name, expression});
 }
 
+/// The layers of strategies, "strategies" or "strategies:K".
+const std::string STRATEGIES = "strategies";
+
+bool is_of_strategies(const std::string& layer) {
+    return layer == STRATEGIES || layer.rfind(STRATEGIES + ":", 0) == 0;
+}
+
+void add_strategies(Options& o, const OptionValue& v, const std::string& layer) {
+    int segments = USUAL_STRATEGY_SEGMENTS;
+    if (layer != STRATEGIES) {
+        const std::string text = layer.substr(STRATEGIES.size() + 1);
+        segments = text.size() == 1 && text[0] >= '1' && text[0] <= '9' ? text[0] - '0' : 0;
+        static_assert(LARGEST_STRATEGY_SEGMENTS < 10, "one digit");
+    }
+    if (segments < 1 || segments > LARGEST_STRATEGY_SEGMENTS || o.output.strategies)
+        reject_value(v, "strategies or strategies:K once, K path segments from 1 to " +
+                            std::to_string(LARGEST_STRATEGY_SEGMENTS));
+    o.output.strategies = segments;
+}
+
 } // namespace
 
 void check_paths(const OptionValue& v, const std::string& expression) {
@@ -56,11 +77,15 @@ void apply_aov(Options& o, const OptionValue& v) {
             add_path_layer(o, v, layer.substr(0, equals), layer.substr(equals + 1));
             continue;
         }
+        if (is_of_strategies(layer)) {
+            add_strategies(o, v, layer);
+            continue;
+        }
         const bool repeated =
             std::find(o.output.aovs->begin(), o.output.aovs->end(), layer) != o.output.aovs->end();
         if (!find_layer(layer) || repeated)
             reject_value(v, "none or a list such as albedo,N of different layers out of " +
-                                layer_names(", ") + ", and NAME=EXPR");
+                                layer_names(", ") + ", strategies, and NAME=EXPR");
         o.output.aovs->push_back(layer);
     }
 }

@@ -285,6 +285,10 @@ void check_view(const Options& options) {
                                 ": expected one of them, found both; there is no picture to be seen");
 }
 
+bool has_layered_output(const Options& options) {
+    return std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
+}
+
 /// Not every integrator can tell paths apart.
 void check_paths(const Options& options) {
     const IntegratorRow& integrator = integrator_row(options.transport.integrator);
@@ -296,12 +300,27 @@ void check_paths(const Options& options) {
                             (integrator.film == FilmAccess::SPLAT
                                  ? ", whose light paths are not told apart"
                                  : std::string(", which simulates '") + integrator.paths.all + "' alone"));
-    const bool has_exr =
-        std::any_of(options.output.files.begin(), options.output.files.end(), is_layered_output);
-    if (!options.output.path_layers.empty() && !has_exr && options.run.explain == Explain::NO &&
-        !options.run.pixel)
+    if (!options.output.path_layers.empty() && !has_layered_output(options) &&
+        options.run.explain == Explain::NO && !options.run.pixel)
         reject(options, "option --aov: expected an output that ends in .exr for the layer '" +
                             options.output.path_layers.front().name + "', found none; add -o FILE.exr");
+}
+
+/// Strategies are those of paths from both ends.
+void check_strategies(const Options& options) {
+    if (!options.output.strategies)
+        return;
+    const std::string found =
+        options.transport.choose ? CHOSEN_INTEGRATOR : name_of(options.transport.integrator);
+    if (options.transport.integrator != Integrator::BDPT)
+        reject(options, std::string("option --aov strategies: expected --integrator ") +
+                            name_of(Integrator::BDPT) + ", found " + found +
+                            (walks_chains(options.transport.integrator)
+                                 ? ", whose chains choose among strategies by their light"
+                                 : ", which has no strategies of vertices from both ends"));
+    if (!has_layered_output(options) && options.run.explain == Explain::NO && !options.run.pixel)
+        reject(options, "option --aov strategies: expected an output that ends in .exr, found none; add "
+                        "-o FILE.exr");
 }
 
 void check_depth(const Options& options) {
@@ -331,6 +350,7 @@ void check_combinations(const Options& options) {
     check_save_every(options);
     check_view(options);
     check_paths(options);
+    check_strategies(options);
     check_replay(options);
     check_depth(options);
 }

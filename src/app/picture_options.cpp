@@ -54,7 +54,10 @@ void apply_output(Options& o, const OptionValue& v) {
 std::vector<OptionSpec> picture_options() {
     static const std::string aov_help =
         "layers of EXR files, such as albedo,N or none: " + layer_names(" ") +
-        ", and NAME=EXPR for the light of some paths, such as 'caustics=LS+DE'; repeatable (default: all but "
+        ", NAME=EXPR for the light of some paths, such as 'caustics=LS+DE', and, of bdpt, strategies[:K] for "
+        "the light of each strategy: layers strategy.sS.tT join S vertices from a light to T from the eye, "
+        "for paths of up to K segments (5; at most 8), strategy.longer has the rest, and all of them add up "
+        "to the picture; repeatable (default: all but "
         "alpha, denoisingAlbedo and denoisingNormal, which are means over misses too, and the mattes "
         "cryptoObject and cryptoMaterial; badSamples where there are any; what is seen first by a pixel's "
         "first "

@@ -48,6 +48,7 @@ using TileSamples = std::array<std::vector<std::uint32_t>, 2>;
 struct Film {
     int width = 0, height = 0;
     int replicates = 1; ///< kept apart
+    int block = 1;      ///< side of the squares of pixels whose errors may go together (film_error.h)
     FilmScale scale;
     std::vector<SampleRange>
         ranges; ///< the samples inside: in order, disjoint, not empty; merged films can have gaps

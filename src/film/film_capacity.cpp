@@ -2,6 +2,7 @@
 #include "film/film_capacity.h"
 
 #include "error.h"
+#include "options/summed_layers.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,8 +10,7 @@
 namespace clrt {
 
 std::uint64_t film_capacity(const Film& film, const Options& options) {
-    return FILM_SAMPLES_PER_REPLICATE *
-           std::uint64_t(options.output.path_layers.empty() ? film.replicates : 1);
+    return FILM_SAMPLES_PER_REPLICATE * std::uint64_t(summed_layers(options).empty() ? film.replicates : 1);
 }
 
 std::uint64_t film_limit(const Film& film, const Options& options) {
@@ -24,7 +24,7 @@ void check_film_capacity(const Options& options, const Film& film) {
         throw UsageError(fmt::format("--spp {}: the film holds at most {} samples a pixel with {}; "
                                      "render disjoint ranges with --first-sample",
                                      *options.sampling.spp, most,
-                                     options.output.path_layers.empty()
+                                     summed_layers(options).empty()
                                          ? fmt::format("{} replicates", film.replicates)
                                          : "layers of paths"));
 }

@@ -16,6 +16,7 @@ namespace {
 constexpr size_t FEWEST_FOR_INTERVAL = 4; ///< replicates
 constexpr size_t PIXELS_AT_ONCE =
     1u << 13;                     ///< of a parallel sum: its order, and so its bits, follow from this
+constexpr int CHAIN_BLOCK = 8;    ///< pixels; a chain's steps stay nearer than this, most of them
 constexpr double OUTSIDE = 0.025; ///< probability on either side of an interval of 95 %
 /// The width of 0.5 % that it leaves to an interval is less than what a reader makes of it.
 constexpr double MOST_DEGREES = 1e5;
@@ -158,6 +159,10 @@ double degrees_of(double squared, double covariances, double n) {
 
 } // namespace
 
+int error_block(Integrator integrator) {
+    return walks_chains(integrator) ? CHAIN_BLOCK : 1;
+}
+
 std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels, int block,
                                                ErrorMeasure measure) {
     const ReplicateMeans replicates(film);
@@ -181,10 +186,11 @@ std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pix
     SquaredError error{film_samples(film), sums.squared / values, sums.mean / values, sums.without};
     for (double& squared : error.without)
         squared /= values;
+    const int side = std::max(block, film.block);
     if (!sums.without.empty())
         error.degrees = degrees_of(sums.squared,
-                                   block > 1 ? block_covariances(film, replicates, choice, weights, block)
-                                             : sums.covariances,
+                                   side > 1 ? block_covariances(film, replicates, choice, weights, side)
+                                            : sums.covariances,
                                    double(count));
     return error;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film_header.h"
 
+#include "film/film_error.h"
 #include "film/guide_header.h"
 #include "film/whole_numbers.h"
 
@@ -149,6 +150,7 @@ FilmFile film_of_header(const FilmHeader& json) {
     sums.height = window.y1 - window.y0;
     sums.scale = {film.identity.at("quantum"), film.identity.at("largest")};
     sums.replicates = whole<int>(json.at("replicates"));
+    sums.block = error_block(film_integrator(film.identity));
     sums.ranges = read_ranges(json);
     if (const std::optional<ErrorMeasure> measure = film_measure(film.identity))
         film.render.round = read_round(json.at("round"), sums, *measure);

@@ -5,6 +5,7 @@
 #include "film/whole_numbers.h"
 #include "kernels/shared/scene_arrays.h"
 #include "options/integrators.h"
+#include "options/summed_layers.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -155,7 +156,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["background"] = background_identity(scene, options);
     identity["paths"] = options.transport.paths;
     identity["layers"] = FilmIdentity::array();
-    for (const PathLayerOption& layer : options.output.path_layers)
+    for (const PathLayerOption& layer : summed_layers(options))
         identity["layers"].push_back({{"name", layer.name}, {"expression", layer.expression}});
     identity["quantum"] = scale.quantum;
     identity["largest"] = scale.largest;
@@ -173,6 +174,14 @@ std::optional<ErrorMeasure> film_measure(const FilmIdentity& identity) {
     if (adaptive == identity.end() || !adaptive->is_string())
         return std::nullopt;
     return find_named<ErrorMeasure>(adaptive->get<std::string>());
+}
+
+Integrator film_integrator(const FilmIdentity& identity) {
+    const auto name = identity.find("integrator");
+    const auto found = name != identity.end() && name->is_string()
+                           ? find_named<Integrator>(name->get<std::string>())
+                           : std::nullopt;
+    return found.value_or(Integrator::PATH);
 }
 
 std::vector<std::string> film_layer_names(const FilmIdentity& identity) {

@@ -39,6 +39,9 @@ inline constexpr const char* TRANSPARENT_BACKGROUND = "transparent";
 /// The error that an adaptive identity's film makes least; none of one that is not adaptive.
 std::optional<ErrorMeasure> film_measure(const FilmIdentity& identity);
 
+/// The integrator of an identity's film; path where none is known by its name.
+Integrator film_integrator(const FilmIdentity& identity);
+
 /// Names of the layers of paths of an identity's film.
 std::vector<std::string> film_layer_names(const FilmIdentity& identity);
 

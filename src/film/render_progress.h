@@ -34,7 +34,7 @@ struct RenderCounts {
 struct RenderProgress {
     Film film;
     RenderCounts counts;
-    std::vector<Film> path_layers;     ///< light of each layer NAME=EXPR in one replicate
+    std::vector<Film> path_layers;     ///< of each of summed_layers() in one replicate
     std::vector<SquaredError> history; ///< errors at doublings, for the slope
     AdaptiveRound round;               ///< of an adaptive render: the present one
     GuideProgress guide;               ///< of a render that may guide paths

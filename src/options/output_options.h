@@ -39,6 +39,7 @@ struct OutputOptions {
     Tonemap tonemap = Tonemap::NONE;
     std::optional<std::vector<std::string>> aovs; ///< EXR layers; absent: all, empty: none
     std::vector<PathLayerOption> path_layers;     ///< further EXR layers, made from the picture's light
+    std::optional<int> strategies; ///< further EXR layers by how paths of up to so many segments are found
     ExrNames exr_names = ExrNames::CLRT;
     std::string stats_path;                   ///< JSON; empty: none
     std::optional<double> save_every_seconds; ///< between two pictures so far

@@ -3,6 +3,7 @@
 
 #include "render/error_report.h"
 #include "render/layer_table.h"
+#include "render/layers_that_sum.h"
 
 #include <fmt/format.h>
 
@@ -31,10 +32,7 @@ Picture film_picture(const FilmFile& file) {
     picture.full_height = window.size.y;
     picture.layers.push_back(make_radiance_layer(film_mean(film)));
     picture.is_transparent = file.identity.value("background", FilmIdentity()) == TRANSPARENT_BACKGROUND;
-    const std::vector<std::string> layer_names = film_layer_names(file.identity);
-    for (size_t i = 0; i < layer_names.size(); ++i)
-        picture.layers.push_back(
-            {layer_names[i], {"R", "G", "B"}, film_mean(file.render.path_layers[i]), false});
+    add_summed_layers(film_layer_names(file.identity), file.render.path_layers, picture);
     if (std::vector<float> variance = film_variance(film); !variance.empty())
         picture.layers.push_back(make_layer(*find_layer("variance"), std::move(variance)));
     picture.layers.push_back(make_layer(*find_layer("samples"), film_pixel_samples(film)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film_worker.h"
 
+#include "options/summed_layers.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ void add_full_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64
 
 FilmWorker::FilmWorker(const PreparedScene& prepared, const RenderParams& params, RenderProgress& shared)
     : prepared_(prepared), shared_(shared),
-      buffers_(prepared.device, params, prepared.planned->effects.paths.layers.size()),
+      buffers_(prepared.device, params, summed_layers(prepared.planned->options).size()),
       launcher_(prepared.device, prepared.programs->picture,
                 integrator_kernel(prepared.planned->options.transport.integrator), params, prepared.buffers),
       launch_size_(prepared.device.info.compute_units), tile_count_(params.tile_count) {

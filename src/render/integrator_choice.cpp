@@ -166,21 +166,12 @@ std::optional<PilotSize> size_of_pilots(const std::vector<Candidate>& candidates
     return PilotSize{std::max(int(width * scale), 1), std::max(int(height * scale), 1), PILOT_SPP};
 }
 
-/// The integrator of the film that is gone on with.
-Integrator integrator_of_film(const std::string& path) {
-    const FilmIdentity identity = read_film_content(path).identity;
-    const auto name = identity.find("integrator");
-    const auto found = name != identity.end() && name->is_string()
-                           ? find_named<Integrator>(name->get<std::string>())
-                           : std::nullopt;
-    return found.value_or(Integrator::PATH);
-}
-
 /// Decides by what the options and the scene say; false where pilots must, whose size is set.
 bool decide_by_facts(const PlannedScene& planned, const std::vector<Candidate>& candidates,
                      IntegratorChoice& choice) {
     if (!planned.options.film_file.resume_path.empty()) {
-        choice.integrator = integrator_of_film(planned.options.film_file.resume_path);
+        choice.integrator =
+            film_integrator(read_film_content(planned.options.film_file.resume_path).identity);
         choice.reason = "as the film that is gone on with";
     } else if (const auto reason = reason_for_path(planned.options)) {
         choice.reason = *reason;

@@ -4,6 +4,7 @@
 #include "denoise/denoise.h"
 #include "device/kernel_source.h"
 #include "film/film_buffers.h"
+#include "options/summed_layers.h"
 #include "output/image.h"
 #include "render/layer_table.h"
 
@@ -52,8 +53,9 @@ ProgramRequest launched_request(const Device& device, const KernelFiles& files, 
                                 const Options& options, u32 effects, BvhLayout layout,
                                 const std::vector<std::string>& defines) {
     ProgramRequest request = make_request(files, name, options, effects, layout);
-    // A CPU's core fills the waits of one with the others, a GPU has other work-items for that.
-    if (device.info.type != "CPU")
+    // A CPU's core fills the waits of one with the others, a GPU has other work-items for that; sums of
+    // strategies are large.
+    if (device.info.type != "CPU" || strategy_segments(options) > 0)
         request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     append(request.defines, defines);
     return request;
@@ -72,6 +74,7 @@ std::vector<std::string> picture_defines(const Device& device, const Options& op
     std::vector<std::string> defines = path_defines(paths);
     append(defines, branch_defines(options.transport));
     append(defines, vertex_defines(options.transport));
+    append(defines, strategy_defines(options));
     append(defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
     return defines;
 }
@@ -99,6 +102,13 @@ std::vector<std::string> vertex_defines(const TransportOptions& transport) {
         return {};
     // A path has the segments to both vertices of a connection, and the connection.
     return {fmt::format("BDPT_VERTICES={}", std::max(effective_max_depth(transport) - 2, 1))};
+}
+
+std::vector<std::string> strategy_defines(const Options& options) {
+    const int segments = strategy_segments(options);
+    if (segments == 0)
+        return {};
+    return {fmt::format("STRATEGY_SEGMENTS={}u", segments)};
 }
 
 BvhLayout choose_layout(std::optional<BvhLayout> choice, const DeviceInfo& device) {

@@ -42,6 +42,10 @@ std::vector<std::string> branch_defines(const TransportOptions& transport);
 /// Literal of the vertices that are kept of a light path (kernels/path/light_vertices.h); none where none is.
 std::vector<std::string> vertex_defines(const TransportOptions& transport);
 
+/// Literal of the segments up to which strategies are told apart (kernels/path/strategies.h); none where they
+/// are not.
+std::vector<std::string> strategy_defines(const Options& options);
+
 /// What --dump-kernels may write, a replay included; empty without it.
 std::vector<std::string> dumped_files(const Options& options);
 

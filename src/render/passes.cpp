@@ -6,6 +6,7 @@
 #include "film/film_capacity.h"
 #include "film/sample_ranges.h"
 #include "options/guide_refusal.h"
+#include "options/summed_layers.h"
 #include "render/error_text.h"
 #include "render/good_counts.h"
 #include "render/outlook.h"
@@ -30,7 +31,7 @@ constexpr double SMALL_CHECK_SECONDS = 0.2;
 Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progress& progress,
                const RenderHooks& hooks, Render& result)
     : prepared_(prepared), options_(prepared.planned->options), params_(params), progress_(progress),
-      result_(result), film_buffers_(prepared.device, params, prepared.planned->effects.paths.layers.size()),
+      result_(result), film_buffers_(prepared.device, params, summed_layers(options_).size()),
       launcher_(prepared.device, prepared.programs->picture, integrator_kernel(options_.transport.integrator),
                 params, prepared.buffers),
       rules_(options_.sampling, film_limit(result.film, options_)), beside_(options_, hooks),
@@ -79,7 +80,7 @@ void Passes::go_to_next_sample() {
 void Passes::take_host_memory() {
     Film& film = result_.film;
     film.sums.resize(size_t(film.replicates) * film_plane(film));
-    result_.path_layers.resize(prepared_.planned->effects.paths.layers.size());
+    result_.path_layers.resize(summed_layers(options_).size());
     for (Film& layer : result_.path_layers)
         layer.sums.resize(film_plane(film));
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/picture.h"
 
+#include "options/summed_layers.h"
 #include "render/layer_table.h"
+#include "render/layers_that_sum.h"
 #include "render/render_params.h"
 
 #include <algorithm>
@@ -47,9 +49,10 @@ Picture make_plain_picture(const Render& render, const Options& options) {
 
 Picture make_picture(const Render& render, const Scene& scene, const Options& options) {
     Picture picture = make_plain_picture(render, options);
-    for (size_t i = 0; i < render.path_layers.size(); ++i)
-        picture.layers.push_back(
-            {options.output.path_layers[i].name, {"R", "G", "B"}, film_mean(render.path_layers[i]), false});
+    std::vector<std::string> summed;
+    for (const PathLayerOption& layer : summed_layers(options))
+        summed.push_back(layer.name);
+    add_summed_layers(summed, render.path_layers, picture);
     add_denoised_layers(render, options, picture);
     for (const LayerRow& row : layer_table()) {
         if (!is_wanted(row, render, options) && !(picture.is_transparent && row.name == ALPHA_LAYER))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render.h"
 
+#include "options/summed_layers.h"
 #include "render/begin_film.h"
 #include "render/passes.h"
 #include "render/render_params.h"
@@ -25,7 +26,7 @@ Render render_nothing(const PlannedScene& planned) {
     film.width = window.x1 - window.x0;
     film.height = window.y1 - window.y0;
     film.sums.resize(film_plane(film));
-    result.path_layers.assign(options.output.path_layers.size(), film);
+    result.path_layers.assign(summed_layers(options).size(), film);
     result.stop_text = "no path of the scene is asked for";
     return result;
 }

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "film/film_capacity.h"
 #include "film/sample_ranges.h"
+#include "options/summed_layers.h"
 #include "render/begin_film.h"
 #include "render/beside.h"
 #include "render/crew.h"
@@ -111,7 +112,7 @@ SharedRender::SharedRender(const Prepared& prepared, const RenderParams& params,
     // What is read from devices is added up here.
     Film& film = result_.film;
     film.sums.resize(size_t(film.replicates) * film_plane(film));
-    result_.path_layers.resize(prepared[0]->planned->effects.paths.layers.size(), film_layer(film));
+    result_.path_layers.resize(summed_layers(options_).size(), film_layer(film));
     for (Film& layer : result_.path_layers)
         layer.sums.resize(film_plane(film));
 }

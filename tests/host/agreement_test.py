@@ -33,6 +33,14 @@ class Agreement(unittest.TestCase):
         found = verdicts(a=sample(1), b=sample(2), c=sample(3, bias=0.03))
         self.assertEqual(found, {("a", "b"): "equivalent", ("a", "c"): "different", ("b", "c"): "different"})
 
+    def test_what_a_scene_keeps_apart_is_not_compared(self):
+        for text, effects, reason in (("light", ("matte", "normal and bump maps"), "normal and bump maps"),
+                                      ("whitted --min-contribution 0", ("coat", "glossy"), "glossy"),
+                                      ("raycast", ("matte", "refraction"), None), ("path", ("glossy", "coat"), None)):
+            self.assertEqual(agreement.Participant(text).apart(effects), reason, text)
+        for integrator in agreement.APART:
+            self.assertIn(integrator, [text.split()[0] for group in agreement.GROUPS for text in group])
+
     def test_error_bars_are_judged_by_the_other_pictures(self):
         for told, held in ((1.0, SEEDS), (0.8, 0), (1.25, 0)):
             found = agreement.calibrate(sample(4, told=told))
@@ -48,6 +56,8 @@ class Agreement(unittest.TestCase):
     def test_pictures_without_error_or_light_are_not_judged(self):
         silent = sample(6)
         silent.errors = [None] * SEEDS
+        self.assertIsNone(agreement.calibrate(silent))
+        silent.errors = [(0.1, None, None)] * SEEDS  # of too few samples for an interval
         self.assertIsNone(agreement.calibrate(silent))
         black = sample(6)
         for picture in black.pictures:

@@ -135,6 +135,11 @@ TEST(CommandLine, BadValuesNameOptionValueAndExpectation) {
         {"--aov", "N,none"},
         {"--aov", ""},
         {"--aov", "N=LDE"},
+        {"--aov", "strategies:0"},
+        {"--aov", "strategies:9"},
+        {"--aov", "strategies:12"},
+        {"--aov", "strategies:x"},
+        {"--aov", "strategies,strategies:3"},
         {"--eye", "1,2"},
         {"--eye", "1,2,x"},
         {"--eye", "1,2,nan"},
@@ -279,6 +284,14 @@ TEST(CommandLine, ContradictionsAreNamed) {
            "option --adaptive: expected no --aov NAME=EXPR, found the "
            "layer 'c'");
     expect({"--adaptive", "--ledger"}, "option --adaptive: expected no --ledger");
+    for (const std::string name : {"path", "path+light", "light", "whitted", "auto"})
+        expect({"-i", name, "--aov", "strategies", "-o", "a.exr"},
+               "option --aov strategies: expected --integrator bdpt, found " + name +
+                   ", which has no strategies");
+    expect({"-i", "mlt", "--aov", "strategies:3", "-o", "a.exr"},
+           "option --aov strategies: expected --integrator bdpt, found mlt, whose chains choose");
+    expect({"-i", "bdpt", "--aov", "strategies"},
+           "option --aov strategies: expected an output that ends in .exr, found none");
     expect({"-i", "mlt", "--pixel", "1,2"},
            "options --pixel and --integrator mlt: expected one of them, found both; a step of a chain needs");
     expect({"-i", "mlt", "--ledger"},

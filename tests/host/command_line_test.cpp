@@ -102,6 +102,8 @@ TEST(CommandLine, PictureOptionsArrive) {
     EXPECT_EQ(o.output.tonemap, Tonemap::REINHARD);
     EXPECT_EQ(o.output.aovs, (std::vector<std::string>{"N", "Z"}));
     EXPECT_TRUE(parse({"--aov", "none"}).output.aovs->empty());
+    EXPECT_EQ(parse({"-i", "bdpt", "-o", "a.exr", "--aov", "N,strategies"}).output.strategies, 5);
+    EXPECT_EQ(parse({"-i", "bdpt", "-o", "a.exr", "--aov", "strategies:8"}).output.strategies, 8);
     EXPECT_EQ(parse({}).output.exr_names, ExrNames::CLRT);
     EXPECT_EQ(parse({"--exr-names", "blender"}).output.exr_names, ExrNames::BLENDER);
     EXPECT_FALSE(o.output.auto_exposure);

@@ -201,6 +201,18 @@ TEST(OwnErrorOfSplats, BlocksOfOnePixelAreThePixels) {
                 1, 1e-9);
 }
 
+TEST(OwnErrorOfSplats, TakesTheBlocksOfItsFilm) {
+    std::mt19937 random(5);
+    Film film = splatted_film(8, 3, random);
+    const double pixels = film_squared_error(film)->degrees;
+    film.block = 6;
+    const double blocks = film_squared_error(film)->degrees;
+    EXPECT_LT(blocks, 0.6 * pixels);
+    EXPECT_EQ(blocks, film_squared_error(film, ErrorPixels::SCENE, 6)->degrees);
+    EXPECT_EQ(error_block(Integrator::MLT), 8);
+    EXPECT_EQ(error_block(Integrator::BDPT), 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Replicates, OwnError, testing::Values(4, 8, 32),
                          [](const auto& test) { return std::to_string(test.param); });
 

@@ -413,4 +413,24 @@ TEST(Paths, WhittedIsItsLanguage) {
     }
 }
 
+TEST(Paths, OpenSkyOnClayIsAmbientOcclusion) {
+    // At the distance d from an endless wall of the height h the floor sees (1 + d / sqrt(d^2 + h^2)) / 2 of
+    // the sky, by the cosine; lamps and what they light have no part in it.
+    for (const double height : {0.5, 2.0, 1e4})
+        for (const double distance : {0.4, 1.0}) {
+            TestScene scene;
+            scene.build.material("red", "Kd 0.7 0.1 0.1").material("lamp", "Kd 0 0 0\nKe 9 9 9");
+            scene.build.use("red").floor(1e5);
+            scene.build.polygon({{-1e5, 0, 0}, {1e5, 0, 0}, {1e5, height, 0}, {-1e5, height, 0}});
+            scene.build.use("lamp").polygon({{2, 0, 3}, {3, 0, 3}, {3, 0.01, 3}, {2, 0.01, 3}});
+            scene.options.scene.material_override = MaterialOverride::CLAY;
+            scene.options.light.environment = glm::dvec3(1.25); // over the reflectance of clay
+            scene.look_at_point({0, 3, distance + 3}, {0, 0, distance});
+            const double open = 0.5 + 0.5 * distance / std::hypot(distance, height);
+            for (int channel = 0; channel < 3; ++channel)
+                EXPECT_TRUE(agrees(estimate_paths(scene, "LeDE", channel), open, 5e-3))
+                    << height << ", " << distance;
+        }
+}
+
 } // namespace clrt

@@ -26,6 +26,11 @@ GROUPS = (("path", "path+light", "bdpt", "mlt"),
           ("distribution --min-contribution 0", "path --paths LD?(G|S)*E"),
           ("whitted --min-contribution 0", "path --paths LD?S*E"),
           ("raycast", "path --paths LD?E"))
+# Effects of a scene under which an integrator's paths are others than those of `path`, or its light is: light paths take the
+# normals of maps from one side alone, and the two classics give highlights where `path` follows rays.
+APART = {"light": ("normal and bump maps",),
+         "whitted": ("glossy", "rough refraction", "coat", "sheen"),
+         "raycast": ("glossy", "rough refraction", "coat", "sheen")}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,6 +42,10 @@ class Participant:
         """The part of clrt's command line that says so."""
         return ["-i", *shlex.split(self.text)]
 
+    def apart(self, effects):
+        """The first of a scene's effects under which it cannot be compared; None: there is none."""
+        return next((name for name in APART.get(shlex.split(self.text)[0], ()) if name in effects), None)
+
     def __str__(self):
         return self.text
 
@@ -46,6 +55,7 @@ class Sample:
     """The pictures of a method, and what clrt says of the error of each over all pixels: (rel. RMSE, low, high), or None."""
     pictures: list
     errors: list
+    effects: tuple = ()  # of the scene, by name
 
     def joined(self):
         """Their mean; they are its replicates."""
@@ -79,7 +89,8 @@ def render(runner, participant, seeds, spp, name):
     runs = [runner.run(f"{name}-{seed}", Point(participant, spp, seed)) for seed in seeds]
     errors = [(run.stats.get("error") or {}).get("whole_picture") for run in runs]
     return Sample([picture_file.read_picture(run.picture) for run in runs],
-                  [error and (error["rel_rmse"], error["low"], error["high"]) for error in errors])
+                  [error and (error["rel_rmse"], error["low"], error["high"]) for error in errors],
+                  tuple(effect["name"] for effect in runs[0].stats.get("effects") or () if effect["present"]))
 
 
 def compare_pairs(samples, tile, alpha, margin):
@@ -98,7 +109,8 @@ def true_error(values, index):
 
 def calibrate(sample):
     """Of a method's error bars; None where it has none."""
-    told = [(i, error) for i, error in enumerate(sample.errors) if error and sample.pictures[i].mean.mean() > 0]
+    told = [(i, error) for i, error in enumerate(sample.errors)
+            if error and error[1] is not None and sample.pictures[i].mean.mean() > 0]
     if not told:
         return None
     values = [picture.mean for picture in sample.pictures]

@@ -32,13 +32,13 @@ void write_texture(const std::string& path, int width, int height, int channels,
 /// The programs of a plan, compiled once a device.
 std::shared_ptr<const RenderPrograms> programs_for(const ProbeDevice& device, const PlannedScene& planned) {
     const Options& options = planned.options;
-    const std::string key =
-        fmt::format("render: {} {} {} {:#x} {} {} {} {} {} {} {}", int(options.transport.integrator),
-                    int(options.device.precision), int(options.sampling.sampler), planned.effects.mask,
-                    int(choose_layout(options.bvh.layout, device.info)), wants_layers(options),
-                    wants_mattes(options), fmt::join(path_defines(planned.effects.paths), " "),
-                    fmt::join(branch_defines(options.transport), " "),
-                    fmt::join(vertex_defines(options.transport), " "), options.device.kernels_folder);
+    const std::string key = fmt::format(
+        "render: {} {} {} {:#x} {} {} {} {} {} {} {} {}", int(options.transport.integrator),
+        int(options.device.precision), int(options.sampling.sampler), planned.effects.mask,
+        int(choose_layout(options.bvh.layout, device.info)), wants_layers(options), wants_mattes(options),
+        fmt::join(path_defines(planned.effects.paths), " "),
+        fmt::join(branch_defines(options.transport), " "), fmt::join(vertex_defines(options.transport), " "),
+        fmt::join(strategy_defines(options), " "), options.device.kernels_folder);
     return device.once<std::shared_ptr<const RenderPrograms>>(key,
                                                               [&] { return plan_programs(device, planned); });
 }
