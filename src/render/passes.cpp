@@ -50,6 +50,8 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
         launcher_.set_epoch(guiding_->epoch());
     }
 
+    if (options_.sampling.denoised_error)
+        denoised_target_.emplace(options_);
     if (walks_chains(options_.transport.integrator))
         metropolis_.emplace(prepared, params_, film_buffers_, result_);
 
@@ -335,12 +337,25 @@ bool Passes::is_worth_measuring() const {
     return is_doubling(samples_, options_.sampling.replicates) && result_.check_seconds <= affordable;
 }
 
+/// Denoises the picture so far for --denoised-error, where it is time to: at any number of samples of the
+/// film that the render goes on from.
+void Passes::look_at_denoised() {
+    const bool is_resumed = samples_ > 0 && result_.passes == 0;
+    if (samples_ == 0 ||
+        (!is_resumed && !denoised_target_->is_due(result_.film, [&] { return counts().rays(); })))
+        return;
+    read_back();
+    denoised_target_->look(prepared_.device, progress_, result_);
+}
+
 /// Where the render stands, with the error where it is time to measure it.
 RenderState Passes::measured_state() {
     if (is_worth_measuring()) {
         measurements_.measure_film(film_buffers_, earlier_samples_, result_);
         note_error(measurements_, result_, options_.sampling, samples_, seconds());
     }
+    if (denoised_target_)
+        look_at_denoised();
     RenderState state;
     state.samples = samples_;
     state.seconds = seconds();
@@ -348,6 +363,7 @@ RenderState Passes::measured_state() {
     state.signal = stop_signal();
     if (const std::optional<SquaredError>& error = measurements_.error(); error && error->samples == samples_)
         state.error = relative_error(*error);
+    state.is_denoised_enough = denoised_target_ && denoised_target_->reached(result_);
     return state;
 }
 

@@ -4,6 +4,7 @@
 #include "denoise/oidn.h"
 #include "error.h"
 #include "options/options.h"
+#include "render/denoised_target.h"
 #include "render/error_text.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
-#include <stdexcept>
 
 namespace clrt {
 
@@ -42,7 +42,7 @@ void check_denoiser(const Options& options) {
     if (options.denoise.denoiser == Denoiser::OIDN)
         try {
             const Oidn oidn(options.denoise.oidn_path);
-        } catch (const std::runtime_error& error) {
+        } catch (const DeviceError& error) {
             throw UsageError(fmt::format("option --denoise=oidn: {}", error.what()));
         }
     const std::vector<std::string>& files = options.output.files;
@@ -61,14 +61,12 @@ void denoise_render(const Device& device, const Options& options, Progress& prog
     };
     if (const std::optional<std::string> obstacle = denoise_obstacle(render.film, render.hits))
         return give_up(*obstacle);
+    if (render.denoised && render.denoised->samples == film_samples(render.film))
+        return; // the last look of --denoised-error
+    render.denoised.reset();
     progress.update({"denoise", -1, 0, -1, -1});
     try {
-        render.denoised = denoise(device, render.film, render.hits,
-                                  {options.denoise,
-                                   options.sampling.measure(),
-                                   options.device.kernels_folder,
-                                   options.device.dump_folder,
-                                   {options.device.cache, options.device.cache_folder}});
+        render.denoised = FilmDenoiser(device, denoise_request(options)).denoise(render.film, render.hits);
     } catch (const DeviceError& error) {
         give_up(error.what());
     } catch (const std::bad_alloc&) {
@@ -92,6 +90,13 @@ std::string format_denoised(const Render& render, bool is_untrusted) {
     text += fmt::format(
         "         by {} in {:.1f} s; {} of the picture is left as it was, where smoothing does harm\n",
         denoised.method, denoised.seconds, percent_text(denoised.noisy_share));
+    if (!render.looks.empty()) {
+        double seconds = 0;
+        for (const DenoisedLook& look : render.looks)
+            seconds += look.seconds;
+        text += fmt::format("         --denoised-error looked {} times, first at {} spp; {:.1f} s in all\n",
+                            render.looks.size(), render.looks.front().samples, seconds);
+    }
     return text;
 }
 
@@ -110,6 +115,12 @@ nlohmann::ordered_json denoised_json(const Render& render) {
     }
     json["noisy_share"] = denoised.noisy_share;
     json["seconds"] = denoised.seconds;
+    json["looks"] = nlohmann::ordered_json::array();
+    for (const DenoisedLook& look : render.looks) {
+        json["looks"].push_back(error_json(look.error));
+        json["looks"].back()["at_spp"] = look.samples;
+        json["looks"].back()["seconds"] = look.seconds;
+    }
     return json;
 }
 
