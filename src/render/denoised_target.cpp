@@ -28,14 +28,20 @@ bool denoised_error_reached(const Film& film, const std::optional<Denoised>& den
     return !spread || spread->usable();
 }
 
-bool DenoisedTarget::is_due(const Film& film, const std::function<std::uint64_t()>& rays) const {
+bool DenoisedTarget::is_due(const Film& film, const std::optional<FilmError>& error,
+                            const std::function<std::uint64_t()>& rays) {
     const std::uint64_t samples = film_samples(film), pixels = film_plane(film) / 3;
     const int replicates = options_.sampling.replicates;
-    if (has_failed_ || !is_good_count(samples, replicates))
+    if (has_failed_ || !is_good_count(samples, replicates) ||
+        samples < FEWEST_OF_A_REPLICATE * std::uint64_t(replicates))
         return false;
+    const double target = *options_.sampling.denoised_error;
     const double high = last_high_ * double(last_samples_) / double(samples); // no error falls faster
-    return (is_doubling(samples, replicates) || high <= *options_.sampling.denoised_error) &&
-           rays() >= RAYS_BEFORE_LOOKS * pixels;
+    const bool is_due =
+        (is_first_due_ && error && error->high && *error->high <= target) ||
+        ((is_doubling(samples, replicates) || high <= target) && rays() >= RAYS_BEFORE_LOOKS * pixels);
+    is_first_due_ = is_first_due_ && !is_due;
+    return is_due;
 }
 
 void DenoisedTarget::look(const Device& device, Progress& progress, Render& render) {

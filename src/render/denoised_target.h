@@ -31,10 +31,12 @@ class DenoisedTarget {
 public:
     explicit DenoisedTarget(const Options& options) : options_(options) {}
 
-    /// Whether it is worth looking at a film, for which rays() rays were traced, which is asked last: at good
-    /// counts (good_counts.h) from RAYS_BEFORE_LOOKS a pixel on; between doublings only where the error may
-    /// have come down to the target since the last look.
-    bool is_due(const Film& film, const std::function<std::uint64_t()>& rays) const;
+    /// Whether it is worth looking at a film of this error, for which rays() rays were traced, which is asked
+    /// last: at good counts (good_counts.h) from RAYS_BEFORE_LOOKS a pixel on; between doublings only where
+    /// the denoised error may have come down to the target since the last look. Once before, where the error
+    /// as it is rendered is at the target.
+    bool is_due(const Film& film, const std::optional<FilmError>& error,
+                const std::function<std::uint64_t()>& rays);
     /// Denoises the film of a render into Render::denoised and notes it in Render::looks. A film that cannot
     /// be denoised yet is left alone. What fails is said, and then there is no further look.
     void look(const Device& device, Progress& progress, Render& render);
@@ -50,7 +52,7 @@ private:
     const Options& options_;
     std::optional<FilmDenoiser> denoiser_;
     const Device* device_ = nullptr; ///< of the denoiser
-    bool has_failed_ = false;
+    bool has_failed_ = false, is_first_due_ = true;
     double last_high_ = 0;           ///< upper end of the interval at the last look,
     std::uint64_t last_samples_ = 0; ///< and the samples a pixel there
 };

@@ -329,7 +329,7 @@ bool Passes::run_launches(std::uint32_t samples) {
 /// Whether the error is measured now: where it may end the render, and where it tells how the error falls, if
 /// that does not take long.
 bool Passes::is_worth_measuring() const {
-    if (options_.sampling.error) {
+    if (options_.sampling.has_target()) {
         const bool is_resumed = samples_ > 0 && result_.passes == 0;
         return is_resumed || rules_.is_check(samples_, measurements_.error());
     }
@@ -339,13 +339,13 @@ bool Passes::is_worth_measuring() const {
 
 /// Denoises the picture so far for --denoised-error, where it is time to: at any number of samples of the
 /// film that the render goes on from.
-void Passes::look_at_denoised() {
+void Passes::look_at_denoised(RenderState& state) {
     const bool is_resumed = samples_ > 0 && result_.passes == 0;
-    if (samples_ == 0 ||
-        (!is_resumed && !denoised_target_->is_due(result_.film, [&] { return counts().rays(); })))
+    if (!is_resumed && !denoised_target_->is_due(result_.film, state.error, [&] { return counts().rays(); }))
         return;
     read_back();
     denoised_target_->look(prepared_.device, progress_, result_);
+    state.is_denoised_enough = denoised_target_->reached(result_);
 }
 
 /// Where the render stands, with the error where it is time to measure it.
@@ -354,8 +354,6 @@ RenderState Passes::measured_state() {
         measurements_.measure_film(film_buffers_, earlier_samples_, result_);
         note_error(measurements_, result_, options_.sampling, samples_, seconds());
     }
-    if (denoised_target_)
-        look_at_denoised();
     RenderState state;
     state.samples = samples_;
     state.seconds = seconds();
@@ -363,7 +361,8 @@ RenderState Passes::measured_state() {
     state.signal = stop_signal();
     if (const std::optional<SquaredError>& error = measurements_.error(); error && error->samples == samples_)
         state.error = relative_error(*error);
-    state.is_denoised_enough = denoised_target_ && denoised_target_->reached(result_);
+    if (denoised_target_)
+        look_at_denoised(state);
     return state;
 }
 

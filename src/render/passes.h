@@ -36,7 +36,7 @@ private:
     StopRule run_until_stopped();
     RenderState measured_state();
     bool is_worth_measuring() const;
-    void look_at_denoised();
+    void look_at_denoised(RenderState& state);
     std::uint32_t next_samples(const RenderState& state) const;
     bool run_launches(std::uint32_t samples);
     template <class Launch>

@@ -172,10 +172,6 @@ RenderState SharedRender::measured_state() {
         measurements_.judge_film(result_.counts, earlier_samples_, result_);
         note_error(measurements_, result_, options_.sampling, samples, seconds());
     }
-    const bool is_resumed = samples > 0 && result_.passes == 0;
-    if (denoised_target_ && hit_layers_ &&
-        (is_resumed || denoised_target_->is_due(result_.film, [&] { return result_.counts.rays(); })))
-        denoised_target_->look(workers_[hit_worker_]->prepared().device, progress_, result_);
     RenderState state;
     state.samples = samples;
     state.seconds = seconds();
@@ -183,7 +179,13 @@ RenderState SharedRender::measured_state() {
     state.signal = stop_signal();
     if (const std::optional<SquaredError>& error = measurements_.error(); error && error->samples == samples)
         state.error = relative_error(*error);
-    state.is_denoised_enough = denoised_target_ && denoised_target_->reached(result_);
+    const bool is_resumed = samples > 0 && result_.passes == 0;
+    if (denoised_target_ && hit_layers_ &&
+        (is_resumed ||
+         denoised_target_->is_due(result_.film, state.error, [&] { return result_.counts.rays(); }))) {
+        denoised_target_->look(workers_[hit_worker_]->prepared().device, progress_, result_);
+        state.is_denoised_enough = denoised_target_->reached(result_);
+    }
     return state;
 }
 

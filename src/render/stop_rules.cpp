@@ -77,8 +77,10 @@ std::uint64_t StopRules::next_check(std::uint64_t samples) const {
 bool StopRules::is_check(std::uint64_t samples, const std::optional<SquaredError>& last) const {
     if (is_doubling(samples, options_.replicates))
         return true;
-    if (!options_.error || !is_good_count(samples, options_.replicates))
+    if (!options_.has_target() || !is_good_count(samples, options_.replicates))
         return false;
+    if (options_.denoised_error)
+        return true;
     const std::optional<FilmError> error = last ? relative_error(*last) : std::nullopt;
     return !error ||
            error->relative_rmse * std::pow(double(samples) / double(last->samples), STEEPEST_SLOPE) <=

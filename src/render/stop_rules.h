@@ -55,8 +55,8 @@ public:
     /// The next number of samples above `samples` at which an error may be measured: a doubling, with a
     /// target any good count.
     std::uint64_t next_check(std::uint64_t samples) const;
-    /// Whether the error is measured at this number of samples for --error, `last` being the last
-    /// measurement. Between doublings only if it may have come down to the target since.
+    /// Whether the error is measured at this number of samples for a target, `last` being the last
+    /// measurement. Between doublings with --error only if it may have come down to the target since.
     bool is_check(std::uint64_t samples, const std::optional<SquaredError>& last) const;
     /// Whether this error satisfies --error.
     bool reached(const std::optional<FilmError>& error) const;

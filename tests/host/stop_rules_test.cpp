@@ -89,6 +89,8 @@ TEST(StopRules, ADenoisedPictureThatIsGoodEnoughEndsTheRender) {
     const StopRules rules(options, FILM_LIMIT);
     EXPECT_EQ(rules.last_samples(), 65536u);
     EXPECT_EQ(rules.next_check(64), 96u) << "any good count";
+    EXPECT_TRUE(rules.is_check(96, std::nullopt)) << "whatever the clock says";
+    EXPECT_FALSE(rules.is_check(80, std::nullopt));
     RenderState looked = state(64, 0, 0.1, 0.001);
     EXPECT_FALSE(rules.ended(looked)) << "the raw picture's error is not what is asked for";
     looked.is_denoised_enough = true;

@@ -96,16 +96,19 @@ TEST_F(DenoiseRender, AnAdaptiveFilmIsDenoisedToo) {
 TEST_F(DenoiseRender, LooksAreRareAndFollowFromSamplesAlone) {
     const std::uint64_t enough = DenoisedTarget::RAYS_BEFORE_LOOKS * 4; // of four pixels
     scene_.options.sampling.denoised_error = 0.05;
-    DenoisedTarget target(scene_.options);
-    const auto is_due = [&](std::uint64_t samples, std::uint64_t rays) {
+    const auto is_due = [&](std::uint64_t samples, std::uint64_t rays, double high = 1) {
+        DenoisedTarget target(scene_.options);
         Film film;
         film.width = film.height = 2;
         film.ranges = {{0, samples}};
-        return target.is_due(film, [&] { return rays; });
+        return target.is_due(film, FilmError{0.9 * high, 0.8 * high, high}, [&] { return rays; });
     };
     EXPECT_TRUE(is_due(64, enough));
     EXPECT_FALSE(is_due(64, enough - 1)) << "denoising would cost more than a tenth";
     EXPECT_FALSE(is_due(80, 10 * enough)) << "samples are not even";
+    EXPECT_TRUE(is_due(8, 0, 0.05)) << "as rendered it is good enough";
+    EXPECT_FALSE(is_due(8, 0, 0.051));
+    EXPECT_FALSE(is_due(4, 0, 0.05)) << "one sample in every replicate";
 }
 
 TEST_F(DenoiseRender, EndsWhereTheDenoisedErrorIsReachedAndIsHonest) {
