@@ -130,9 +130,9 @@ TEST(DenoiseFilter, BrightNoiseDoesNotSpreadToWhatIsDark) {
     const Pixels filtered = filter().candidates(half)[0].half;
     double error = 0;
     for (int y = 0; y < HEIGHT; ++y)
-        for (int x = 26; x < 32; ++x)
+        for (int x = 20; x < 32; ++x)
             error = std::max(error, std::abs(double(filtered[size_t(3 * (y * WIDTH + x))]) - 1));
-    EXPECT_LT(error, 0.1);
+    EXPECT_LT(error, 0.05) << "0.12 by the larger noise of two pixels";
 }
 
 TEST(DenoiseFilter, SurfacesAtOtherDepthsAreOthers) {
@@ -142,7 +142,7 @@ TEST(DenoiseFilter, SurfacesAtOtherDepthsAreOthers) {
         half.position[3 * i + 2] = i % WIDTH < 20 ? 0 : -0.5f;
     const auto colour = [](int x, int, int) { return x < 20 ? 2 - 0.05 * x : 1 + 0.05 * (x - 20); };
     shine(half, 0.3, colour);
-    EXPECT_LT(error_of(filter().candidates(half)[1].half, colour), 0.055);
+    EXPECT_LT(error_of(filter().candidates(half)[1].half, colour), 0.03) << "0.038 with one model for both";
 }
 
 TEST(DenoiseFilter, AQuarterIsMadeOfItsOwnColours) {
