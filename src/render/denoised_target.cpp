@@ -35,11 +35,12 @@ bool DenoisedTarget::is_due(const Film& film, const std::optional<FilmError>& er
     if (has_failed_ || !is_good_count(samples, replicates) ||
         samples < FEWEST_OF_A_REPLICATE * std::uint64_t(replicates))
         return false;
+    const bool is_filter = options_.denoise.denoiser == Denoiser::FILTER;
+    const std::uint64_t before = is_filter ? RAYS_BEFORE_LOOKS : RAYS_BEFORE_OIDN;
     const double target = *options_.sampling.denoised_error;
     const double high = last_high_ * double(last_samples_) / double(samples); // no error falls faster
-    const bool is_due =
-        (is_first_due_ && error && error->high && *error->high <= target) ||
-        ((is_doubling(samples, replicates) || high <= target) && rays() >= RAYS_BEFORE_LOOKS * pixels);
+    const bool is_due = (is_first_due_ && error && error->high && *error->high <= target) ||
+                        ((is_doubling(samples, replicates) || high <= target) && rays() >= before * pixels);
     is_first_due_ = is_first_due_ && !is_due;
     return is_due;
 }

@@ -32,7 +32,7 @@ public:
     explicit DenoisedTarget(const Options& options) : options_(options) {}
 
     /// Whether it is worth looking at a film of this error, for which rays() rays were traced, which is asked
-    /// last: at good counts (good_counts.h) from RAYS_BEFORE_LOOKS a pixel on; between doublings only where
+    /// last: at good counts (good_counts.h) from so many rays a pixel on; between doublings only where
     /// the denoised error may have come down to the target since the last look. Once before, where the error
     /// as it is rendered is at the target.
     bool is_due(const Film& film, const std::optional<FilmError>& error,
@@ -43,10 +43,10 @@ public:
     /// Whether the last look was at this film, and what it saw satisfies the target.
     bool reached(const Render& render) const;
 
-    /// Denoising takes as long as this many rays a pixel, roughly (PoCL: filter 150 to 250, Open Image
-    /// Denoise 40 to 80), and doublings follow: what is denoised before the last look, which is the
-    /// picture's, costs a tenth of the render at most.
-    static constexpr std::uint64_t RAYS_BEFORE_LOOKS = 800;
+    /// Denoising takes as long as a quarter of so many rays a pixel (Cornell box, PoCL: the filter 190, Open
+    /// Image Denoise 460), and doublings follow: what is denoised before the last look, which is the
+    /// picture's, costs about a tenth of the render.
+    static constexpr std::uint64_t RAYS_BEFORE_LOOKS = 800, RAYS_BEFORE_OIDN = 2000;
 
 private:
     const Options& options_;

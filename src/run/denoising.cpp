@@ -18,8 +18,11 @@ namespace clrt {
 namespace {
 
 /// What denoising does to an error, as far as its interval tells.
-std::string change_text(const DenoisedError& error) {
+std::string change_text(const DenoisedError& error, bool is_untrusted) {
     const std::string raw = percent_text(error.raw), high = percent_text(error.high);
+    if (is_untrusted) // the interval knows nothing of light that is still to come
+        return fmt::format("the error of {} is {} after denoising, or more", raw,
+                           percent_text(error.denoised));
     if (error.high >= error.raw)
         return fmt::format("the error of {} is {} at most after denoising: these samples cannot tell whether "
                            "it is lower",
@@ -82,11 +85,12 @@ std::string format_denoised(const Render& render, bool is_untrusted) {
     if (!denoised.errors)
         return fmt::format("denoised by {}; its error is not known\n", denoised.method);
     const DenoisedErrors& errors = *denoised.errors;
-    std::string text = fmt::format("denoised {}\n", change_text(errors.all));
+    std::string text = fmt::format("denoised {}\n", change_text(errors.all, is_untrusted));
     if (is_untrusted)
-        text += "         as far as can be told: a few bright samples decide it\n";
+        text += "         how much more is not known: a few bright samples decide it, and more are still to "
+                "come\n";
     text += fmt::format("         without the worst {:g} % of the pixels: {}\n", 100 * WORST_SHARE,
-                        change_text(errors.without_worst));
+                        change_text(errors.without_worst, is_untrusted));
     text += fmt::format(
         "         by {} in {:.1f} s; {} of the picture is left as it was, where smoothing does harm\n",
         denoised.method, denoised.seconds, percent_text(denoised.noisy_share));
@@ -100,7 +104,7 @@ std::string format_denoised(const Render& render, bool is_untrusted) {
     return text;
 }
 
-nlohmann::ordered_json denoised_json(const Render& render) {
+nlohmann::ordered_json denoised_json(const Render& render, bool is_untrusted) {
     if (!render.denoised)
         return nullptr;
     const Denoised& denoised = *render.denoised;
@@ -113,6 +117,7 @@ nlohmann::ordered_json denoised_json(const Render& render) {
         json["without_worst"] = error_json(denoised.errors->without_worst);
         json["without_worst"]["pixels"] = denoised.errors->worst.size();
     }
+    json["interval_trusted"] = !is_untrusted;
     json["noisy_share"] = denoised.noisy_share;
     json["seconds"] = denoised.seconds;
     json["looks"] = nlohmann::ordered_json::array();

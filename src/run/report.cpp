@@ -251,7 +251,7 @@ std::string report_json(const Report& report) {
     json["rays_per_second"] = rays_per_second(render);
     json["peak_memory_bytes"] = peak_memory_bytes();
     json["error"] = error_report_json(report.error);
-    json["denoised"] = denoised_json(render);
+    json["denoised"] = denoised_json(render, verdict_on(report.error) == Verdict::UNTRUSTED);
     json["cut"] = cut_json(report.error.cut);
     json["blind_spots"] = blind_spots_json(report.error.blind_spots);
     json["stop"] = stop_json(report);

@@ -96,6 +96,7 @@ TEST_F(DenoiseRender, AnAdaptiveFilmIsDenoisedToo) {
 TEST_F(DenoiseRender, LooksAreRareAndFollowFromSamplesAlone) {
     const std::uint64_t enough = DenoisedTarget::RAYS_BEFORE_LOOKS * 4; // of four pixels
     scene_.options.sampling.denoised_error = 0.05;
+    scene_.options.denoise.denoiser = Denoiser::FILTER;
     const auto is_due = [&](std::uint64_t samples, std::uint64_t rays, double high = 1) {
         DenoisedTarget target(scene_.options);
         Film film;

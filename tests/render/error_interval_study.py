@@ -82,17 +82,19 @@ def study(clrt, scene, arguments, folder):
     held = []
     for spp in arguments.spp:
         estimated = realised = lengths = untrusted = low = 0
+        before = len(held)
         for seed in range(arguments.seeds):
             rendered = Rendered(clrt, scene, seed, spp, folder, arguments.denoise)
             squared, error = rendered.squared_error(references), rendered.error
             own = math.sqrt(max(squared, 0)) / rendered.mean
-            held.append(error["low"] <= own <= error["high"])
-            low += own > error["high"]
+            if rendered.is_trusted or not arguments.denoise:  # else clrt says no interval of a denoised error
+                held.append(error["low"] <= own <= error["high"])
+                low += own > error["high"]
             estimated += (error["rel_rmse"] * rendered.mean) ** 2
             realised += squared
             lengths += error["high"] / own if own > 0 else 0
             untrusted += not rendered.is_trusted
-        print(f"{scene.stem:22} {spp:3} spp: held {sum(held[-arguments.seeds:]):3} of {arguments.seeds}, above {low}, stated over "
+        print(f"{scene.stem:22} {spp:3} spp: held {sum(held[before:]):3} of {len(held) - before}, above {low}, stated over "
               f"true {math.sqrt(estimated / realised):.3f}, upper end over true {lengths / arguments.seeds:.2f}, "
               f"untrusted {untrusted}", flush=True)
     return held
@@ -112,7 +114,7 @@ def main():
     scenes = arguments.scenes or [FOLDER / name / f"{name}.obj" for name in (DENOISED if arguments.denoise else SCENES)]
     with tempfile.TemporaryDirectory() as folder:
         held = [study(arguments.clrt, scene, arguments, folder) for scene in scenes]
-    shares = [sum(each) / len(each) for each in held]
+    shares = [sum(each) / len(each) for each in held if each]
     pooled = sum(shares) / len(shares)
     print(f"all: {100 * pooled:.1f} %, the scene with the fewest {100 * min(shares):.1f} %")
     return 0 if LEAST <= pooled <= MOST and min(shares) >= LEAST_OF_A_SCENE else 1
