@@ -67,7 +67,8 @@ REPORT = [
                  "without those that are expected to be the worst. The replicates are two halves; each is denoised by itself "
                  "and judged by the other, so that nothing is judged by the noise that it was made of. 'At most' is said where "
                  "the noise of these samples is larger than the error. What is left as it was are the pixels in which "
-                 "smoothing would do more harm than good. The line error stays that of the picture as it was rendered."),
+                 "smoothing would do more harm than good. The line error stays that of the picture as it was rendered. "
+                 "With --denoised-error, how often the picture was denoised on the way, and how long that took."),
     ("price", "What half the error takes: the number of samples, seconds of rendering more, and the error that is reached "
               "there, as a rule within 15 %. Samples are counted where they are even: the replicates times a power of two, "
               "or 3/2 of that. In between a picture can be worse than with fewer samples, since Sobol points fill the unit "
@@ -78,7 +79,7 @@ REPORT = [
                  "are not in the scene are proved absent and change nothing: -v names them, --explain says why."),
     ("bad, cause", "Samples that were not finite, negative or too large count as black and are replayed: the cause is the first "
                    "quantity that went wrong, with the command that shows it."),
-    ("missed", "--error was given and is not reached; the exit code is 5."),
+    ("missed", "--error or --denoised-error was given and is not reached; the exit code is 5."),
     ("slope (-v)", "How the error falls: a straight line through log error over log samples. Independent samples have -0.5, four "
                    "times the samples for half the error; Sobol points are steeper where light has few edges."),
     ("worst, tails (-v)", "Where the error sits: the worst tile, the share of the noisiest thousandth of the pixels, and what one "

@@ -67,13 +67,15 @@ bool overruled(const GivenOption& from_file, const std::vector<GivenOption>& com
     return is_given(command_line, name);
 }
 
-/// Whether any of the options that end a render is given.
-bool has_budget(const std::vector<GivenOption>& options) {
-    return is_given(options, "--spp") || is_given(options, "--time") || is_given(options, "--error");
+/// Whether it is one of the options that end a render.
+bool is_budget(const std::string& name) {
+    return name == "--spp" || name == "--time" || name == "--error" || name == "--denoised-error";
 }
 
-bool is_budget(const std::string& name) {
-    return name == "--spp" || name == "--time" || name == "--error";
+/// Whether any of the options that end a render is given.
+bool has_budget(const std::vector<GivenOption>& options) {
+    return std::any_of(options.begin(), options.end(),
+                       [](const GivenOption& option) { return is_budget(option.value.option); });
 }
 
 /// Whether an option is about one run alone: how it talks, who sees it, what it may replace and where it

@@ -53,7 +53,8 @@ const std::vector<std::pair<ExitCode, const char*>>& exit_codes() {
         {EXIT_USAGE, "wrong command line or options file"},
         {EXIT_DEVICE, "no such device, its compiler failed, or it lacks memory or fp64"},
         {EXIT_CHECK, "--check strict found samples that are not finite; the picture is written"},
-        {EXIT_ERROR_NOT_REACHED, "--error was not reached within --spp and --time; the picture is written"},
+        {EXIT_ERROR_NOT_REACHED,
+         "--error or --denoised-error was not reached within --spp and --time; the picture is written"},
         {EXIT_INTERRUPTED, "stopped by Ctrl-C or from the page of --serve; the picture so far is written if "
                            "one pass was complete"},
         {EXIT_TERMINATED, "stopped by SIGTERM; likewise. A second signal stops at once, without a picture"},

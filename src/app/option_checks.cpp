@@ -89,7 +89,7 @@ void check_camera(const Options& options) {
 void check_samples(const Options& options) {
     const std::uint64_t end =
         std::uint64_t(options.sampling.first_sample) +
-        options.sampling.spp.value_or(options.sampling.error ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
+        options.sampling.spp.value_or(options.sampling.has_target() ? DEFAULT_SPP_WITH_ERROR : DEFAULT_SPP);
     if (end >= SAMPLE_LIMIT)
         reject(options, "options --first-sample and --spp: expected a sum below " +
                             std::to_string(SAMPLE_LIMIT) + ", found " + std::to_string(end));

@@ -31,6 +31,7 @@ const std::vector<std::pair<std::string, std::string>>& exclusive_options() {
     static const std::vector<std::pair<std::string, std::string>> pairs = {
         {"--quiet", "--verbose"},
         {"--cache", "--no-cache"},
+        {"--error", "--denoised-error"},
         {"--fov", "--focal-length"},
         {"--fov", "--film-width"},
         {"--pixel", "--explain"},

@@ -19,6 +19,14 @@ void apply_text(std::string& target, const OptionValue& v) {
     target = v.text;
 }
 
+/// Above 0, which no number of samples reaches.
+double parse_error_target(const OptionValue& v) {
+    const double error = parse_fraction(v);
+    if (!(error > 0))
+        reject_value(v, "an error above 0 such as 0.02 or 2%");
+    return error;
+}
+
 int parse_branch(const OptionValue& v) {
     return static_cast<int>(parse_whole(v, 1, LARGEST_BRANCH));
 }
@@ -77,7 +85,9 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue&) { o.run.list_devices = true; }, Repeat::NO, COMMAND_LINE_ONLY},
         {group, "i", "--integrator", "NAME", integrator_choices(), apply_integrator},
         {group, "s", "--spp", "N",
-         "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error)",
+         "samples a pixel, those of --resume included (default 64; no limit with --time, 65536 with --error "
+         "or "
+         "--denoised-error)",
          [](Options& o, const OptionValue& v) {
              o.sampling.spp = static_cast<std::uint32_t>(parse_whole(v, 1, LARGEST_U32));
          }},
@@ -90,10 +100,16 @@ std::vector<OptionSpec> work_options() {
          "the scene, is at most 0.02 or 2% (with --adaptive=relative the error relative to every pixel's "
          "brightness), looked at where samples are even: --replicates times 2^k or "
          "3/2 2^k; whichever of -s, -t and -e comes first ends the render (default: no target)",
+         [](Options& o, const OptionValue& v) { o.sampling.error = parse_error_target(v); }},
+        {group, "", "--denoised-error", "X",
+         "render until the denoised picture's error, by the same measure as --error, is at most 0.05 or 5% "
+         "with 95 % confidence, and the noise can be trusted to be seen; looked at where samples are even, "
+         "as rarely as keeps denoising in between below a tenth of the render; brings --denoise (not with "
+         "--error; default: no target)",
          [](Options& o, const OptionValue& v) {
-             o.sampling.error = parse_fraction(v);
-             if (!(*o.sampling.error > 0)) // which no number of samples reaches
-                 reject_value(v, "an error above 0 such as 0.02 or 2%");
+             o.sampling.denoised_error = parse_error_target(v);
+             if (!o.denoise.denoiser)
+                 o.denoise.denoiser = Denoiser::AUTO;
          }},
         {group, "", "--max-depth", "N",
          fmt::format("longest path in segments; 1 sees emitters, 2 adds direct light ({}); what it cuts is "

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <numeric>
 #include <spdlog/spdlog.h>
-#include <stdexcept>
 
 namespace clrt {
 
@@ -21,53 +20,48 @@ std::unique_ptr<Oidn> open_oidn(const DenoiseOptions& options) {
         return nullptr;
     try {
         return std::make_unique<Oidn>(options.oidn_path);
-    } catch (const std::runtime_error& error) {
+    } catch (const DeviceError& error) {
         if (options.denoiser == Denoiser::OIDN)
-            throw DeviceError(error.what());
+            throw;
         spdlog::debug("{}", error.what());
         return nullptr;
     }
 }
 
-/// Both halves, one after the other, as `candidates_of` smoothes them.
-template <class Candidates>
-std::array<DenoisedHalf, 2> denoise_halves(const Film& film, const HitSums& hits,
-                                           Candidates&& candidates_of) {
+} // namespace
+
+FilmDenoiser::FilmDenoiser(const Device& device, const DenoiseRequest& request)
+    : measure_(request.measure), oidn_(open_oidn(request.options)) {
+    if (!oidn_)
+        filter_ = std::make_unique<FeatureFilter>(device, request);
+}
+
+FilmDenoiser::~FilmDenoiser() = default;
+
+/// Both halves, one after the other.
+std::array<DenoisedHalf, 2> FilmDenoiser::halves(const Film& film, const HitSums& hits) {
     std::array<DenoisedHalf, 2> halves;
     for (size_t i = 0; i < 2; ++i) {
         const HalfPicture half = half_picture(film, hits, i);
-        halves[i] = choose_candidates(half, candidates_of(half));
+        halves[i] = choose_candidates(half, oidn_ ? std::vector<DenoiseCandidate>{oidn_->candidate(half)}
+                                                  : filter_->candidates(half));
     }
     return halves;
 }
 
-} // namespace
-
-Denoised denoise(const Device& device, const Film& film, const HitSums& hits, const DenoiseRequest& request) {
+Denoised FilmDenoiser::denoise(const Film& film, const HitSums& hits) {
     const auto start = std::chrono::steady_clock::now();
+    const std::array<DenoisedHalf, 2> halves = this->halves(film, hits);
     Denoised result;
-    std::array<DenoisedHalf, 2> halves;
-    if (const std::unique_ptr<Oidn> oidn = open_oidn(request.options)) {
-        result.method = "oidn " + oidn->version();
-        try {
-            halves = denoise_halves(film, hits, [&](const HalfPicture& half) {
-                return std::vector<DenoiseCandidate>{oidn->candidate(half)};
-            });
-        } catch (const std::runtime_error& error) {
-            throw DeviceError(error.what());
-        }
-    } else {
-        result.method = name_of(Denoiser::FILTER);
-        FeatureFilter filter(device, request);
-        halves = denoise_halves(film, hits, [&](const HalfPicture& half) { return filter.candidates(half); });
-    }
+    result.method = oidn_ ? "oidn " + oidn_->version() : name_of(Denoiser::FILTER);
+    result.samples = film_samples(film);
     result.radiance.resize(film_plane(film));
     for (size_t i = 0; i < result.radiance.size(); ++i)
         result.radiance[i] = 0.5f * (halves[0].radiance[i] + halves[1].radiance[i]);
     for (const DenoisedHalf& half : halves)
         result.noisy_share +=
             std::accumulate(half.noisy.begin(), half.noisy.end(), 0.0) / double(2 * half.noisy.size());
-    result.errors = denoised_errors(film, halves, request.measure);
+    result.errors = denoised_errors(film, halves, measure_);
     result.seconds = seconds_since(start);
     return result;
 }

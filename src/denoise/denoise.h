@@ -7,6 +7,8 @@
 #include "device/program.h"
 #include "options/denoise_options.h"
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,7 @@ struct Denoised {
     Pixels radiance;                      ///< r, g, b: the mean of the denoised halves
     std::optional<DenoisedErrors> errors; ///< none where the picture is black
     std::string method;                   ///< what did it: "filter", "oidn"
+    std::uint64_t samples = 0;            ///< a pixel, of the film
     double noisy_share = 0; ///< of the picture, on average: where denoising does not pay it stays noisy
     double seconds = 0;
 };
@@ -33,7 +36,25 @@ struct DenoiseRequest {
 /// The program of the filter, for messages and dumped files.
 inline constexpr const char* DENOISE_PROGRAM = "denoise";
 
-/// Denoises a film without an obstacle (denoise_obstacle). Throws DeviceError and KernelBuildError.
-Denoised denoise(const Device& device, const Film& film, const HitSums& hits, const DenoiseRequest& request);
+class FeatureFilter;
+class Oidn;
+
+/// A denoiser that is compiled or loaded, for one film after the other. Refers to the device.
+class FilmDenoiser {
+public:
+    /// Throws DeviceError and KernelBuildError.
+    FilmDenoiser(const Device& device, const DenoiseRequest& request);
+    ~FilmDenoiser();
+
+    /// Denoises a film without an obstacle (denoise_obstacle). Throws DeviceError.
+    Denoised denoise(const Film& film, const HitSums& hits);
+
+private:
+    std::array<DenoisedHalf, 2> halves(const Film& film, const HitSums& hits);
+
+    ErrorMeasure measure_;
+    std::unique_ptr<Oidn> oidn_; ///< null: the filter
+    std::unique_ptr<FeatureFilter> filter_;
+};
 
 } // namespace clrt

@@ -3,6 +3,7 @@
 
 #include "denoise/smooth.h"
 #include "film/error_spread.h"
+#include "film/f_distribution.h"
 #include "film/film_error.h"
 
 #include <algorithm>
@@ -14,8 +15,8 @@ namespace clrt {
 
 namespace {
 
-/// Standard errors on either side of an interval of 95 %.
-constexpr double STANDARD_ERRORS = 1.96;
+/// More effective pixels change the interval no more.
+constexpr double MOST_DEGREES = 1e5;
 /// Pixels around each one by which it is told whether it is among the worst.
 constexpr int RANKING_RADIUS = 3;
 
@@ -97,16 +98,29 @@ double relative_root(double sum, double values, double mean) {
     return std::sqrt(std::max(sum / values, 0.0)) / mean;
 }
 
+/// How far a sum reaches to either side with 95 %, whose terms are off their mean by squares of these sums:
+/// Student's quantile of as many degrees of freedom as terms decide (Satterthwaite 1946).
+double reach_of(double squares, double fourths) {
+    if (!(squares > 0))
+        return 0;
+    const double degrees = std::clamp(squares * squares / fourths, 1.0, MOST_DEGREES);
+    return std::sqrt(f_quantile(0.95, 1, degrees) * squares);
+}
+
 /// The errors over the pixels of `chosen`, places in the lists of `errors`.
 DenoisedError errors_over(const SquaredErrors& errors, const std::vector<size_t>& chosen, double mean) {
-    double raw = 0, sum = 0, squares = 0;
+    double raw = 0, sum = 0, squares = 0, fourths = 0;
     for (const size_t n : chosen) {
         raw += errors.raw[n];
         sum += errors.denoised[n];
-        squares += errors.denoised[n] * errors.denoised[n];
     }
     const double count = double(chosen.size()), values = 3 * count;
-    const double reach = STANDARD_ERRORS * std::sqrt(std::max(squares - sum * sum / count, 0.0));
+    for (const size_t n : chosen) {
+        const double square = std::pow(errors.denoised[n] - sum / count, 2);
+        squares += square;
+        fourths += square * square;
+    }
+    const double reach = reach_of(squares, fourths);
     return {relative_root(raw, values, mean), relative_root(sum, values, mean),
             relative_root(sum - reach, values, mean), relative_root(sum + reach, values, mean)};
 }

@@ -10,10 +10,13 @@
 //     |m - t|^2 = (|f_A - t|^2 + |f_B - t|^2) / 2 - |f_A - f_B|^2 / 4,
 //
 // of which the last term is known: the estimate has no bias. |f_A - f_B| alone sees what noise is left, not
-// what is smeared. The pixels' estimates are taken as a sample, which gives the interval of their mean: 95 %
-// by a normal distribution. It is wider than it would have to be where the error itself differs from pixel to
-// pixel, and, as that of the raw picture's error, too narrow where pixels' noise is not independent (film/
-// film_error.h).
+// what is smeared. The pixels' estimates are taken as a sample, which gives the interval of their mean, 95 %
+// by Student's distribution. Few pixels often decide, such as the rim of a lamp: the degrees of freedom are
+// those of the sum of squared deviations, (sum of squares)^2 / sum of fourth powers (Satterthwaite 1946), 2
+// to 5 on pictures of 64 x 48 pixels of the Cornell box and a caustic, where 1.96 standard errors hold 87 %
+// of the errors and the interval holds 94 %. It is wider than it would have to be where the error itself
+// differs from pixel to pixel, and, as that of the raw picture's error, too narrow where pixels' noise is not
+// independent (film/film_error.h) or light was not seen yet (ErrorSpread::usable).
 #pragma once
 
 #include "denoise/choice.h"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "denoise/oidn.h"
 
+#include "error.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <stdexcept>
 
 namespace clrt {
 
@@ -77,7 +78,7 @@ struct OidnFunctions {
     }
 
     [[noreturn]] static void fail(const LibraryName& name, const std::string& why) {
-        throw std::runtime_error(fmt::format(
+        throw DeviceError(fmt::format(
             "expected Open Image Denoise 2 in '{}', {}, found none: {}. `pip install pyoidn` brings {}: name "
             "it by --oidn FILE or CLRT_OIDN; --denoise=filter needs no library",
             name.file, name.origin, why, FILE_NAME));
@@ -110,7 +111,7 @@ std::string Oidn::version() const {
 void Oidn::check(const char* doing) {
     const char* message = nullptr;
     if (functions_->get_device_error(device_, &message) != 0)
-        throw std::runtime_error(
+        throw DeviceError(
             fmt::format("Open Image Denoise, {}: {}", doing, message ? message : "it does not say why"));
 }
 

@@ -17,7 +17,7 @@ struct OidnFunctions;
 class Oidn {
 public:
     /// Loads the library: `path` (a file, or the folder that it is in), else the variable CLRT_OIDN, else
-    /// where the system's loader looks. Throws std::runtime_error that says what was looked for, what is
+    /// where the system's loader looks. Throws DeviceError that says what was looked for, what is
     /// wrong with it, and what to do. It stays loaded.
     explicit Oidn(const std::string& path);
     ~Oidn();
@@ -28,7 +28,7 @@ public:
     std::string version() const;
 
     /// What it makes of a half and of its quarters, guided by albedo and normal that it has smoothed first.
-    /// Throws std::runtime_error with its message.
+    /// Throws DeviceError with its message.
     DenoiseCandidate candidate(const HalfPicture& half);
 
 private:

@@ -35,7 +35,8 @@ double predicted_seconds(const Options& options, size_t triangles) {
                  (options.film.crop->y1 - options.film.crop->y0);
     const double ray_ns = RAY_NS_A_LEVEL * std::log2(double(triangles) + 2);
     const double seconds =
-        pixels * options.sampling.spp.value_or(options.sampling.error ? SPP_FOR_AN_ERROR : DEFAULT_SPP) *
+        pixels *
+        options.sampling.spp.value_or(options.sampling.has_target() ? SPP_FOR_AN_ERROR : DEFAULT_SPP) *
         rays_per_sample(options) * ray_ns * 1e-9;
     if (!options.sampling.time_seconds)
         return seconds;

@@ -89,7 +89,8 @@ double pilot_work(const std::vector<Candidate>& candidates, const Options& optio
 
 /// Squared error by the relative measure, or by that which --error judges by.
 double error_of(const SquaredErrors& errors, const Options& options) {
-    return errors[size_t(options.sampling.error ? options.sampling.measure() : ErrorMeasure::RELATIVE)];
+    return errors[size_t(options.sampling.has_target() ? options.sampling.measure()
+                                                       : ErrorMeasure::RELATIVE)];
 }
 
 /// What a candidate's pilot says of it. Its errors are compared with those that the same samples tell of

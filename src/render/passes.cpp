@@ -51,6 +51,8 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
         launcher_.set_epoch(guiding_->epoch());
     }
 
+    if (options_.sampling.denoised_error)
+        denoised_target_.emplace(options_);
     if (walks_chains(options_.transport.integrator))
         metropolis_.emplace(prepared, params_, film_buffers_, result_);
 
@@ -328,12 +330,23 @@ bool Passes::run_launches(std::uint32_t samples) {
 /// Whether the error is measured now: where it may end the render, and where it tells how the error falls, if
 /// that does not take long.
 bool Passes::is_worth_measuring() const {
-    if (options_.sampling.error) {
+    if (options_.sampling.has_target()) {
         const bool is_resumed = samples_ > 0 && result_.passes == 0;
         return is_resumed || rules_.is_check(samples_, measurements_.error());
     }
     const double affordable = std::max(SMALL_CHECK_SECONDS, LARGEST_CHECK_SHARE * seconds());
     return is_doubling(samples_, options_.sampling.replicates) && result_.check_seconds <= affordable;
+}
+
+/// Denoises the picture so far for --denoised-error, where it is time to: at any number of samples of the
+/// film that the render goes on from.
+void Passes::look_at_denoised(RenderState& state) {
+    const bool is_resumed = samples_ > 0 && result_.passes == 0;
+    if (!is_resumed && !denoised_target_->is_due(result_.film, state.error, [&] { return counts().rays(); }))
+        return;
+    read_back();
+    denoised_target_->look(prepared_.device, progress_, result_);
+    state.is_denoised_enough = denoised_target_->reached(result_);
 }
 
 /// Where the render stands, with the error where it is time to measure it.
@@ -349,6 +362,8 @@ RenderState Passes::measured_state() {
     state.signal = stop_signal();
     if (const std::optional<SquaredError>& error = measurements_.error(); error && error->samples == samples_)
         state.error = relative_error(*error);
+    if (denoised_target_)
+        look_at_denoised(state);
     return state;
 }
 

@@ -4,6 +4,7 @@
 
 #include "film/film_buffers.h"
 #include "render/beside.h"
+#include "render/denoised_target.h"
 #include "render/guiding.h"
 #include "render/hit_layers.h"
 #include "render/launch_size.h"
@@ -35,6 +36,7 @@ private:
     StopRule run_until_stopped();
     RenderState measured_state();
     bool is_worth_measuring() const;
+    void look_at_denoised(RenderState& state);
     std::uint32_t next_samples(const RenderState& state) const;
     bool run_launches(std::uint32_t samples);
     template <class Launch>
@@ -73,6 +75,7 @@ private:
     std::optional<HitLayers> hit_layers_;
     StopRules rules_;
     Measurements measurements_;
+    std::optional<DenoisedTarget> denoised_target_;
     Beside beside_;
     Clock::time_point start_;
     RenderCounts earlier_counts_;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace clrt {
 
@@ -22,6 +23,13 @@ struct RenderForecast {
     std::uint64_t samples = 0; ///< a pixel, when it was made,
     double seconds = 0;        ///< and seconds of this run
     ErrorPrice price;          ///< beyond them
+};
+
+/// What a look at the denoised picture for --denoised-error saw.
+struct DenoisedLook {
+    std::uint64_t samples = 0; ///< a pixel
+    double seconds = 0;        ///< of denoising
+    DenoisedError error;
 };
 
 /// Steps of Markov chains (kernels/integrators/mlt.h), and how many of them were taken.
@@ -40,6 +48,7 @@ struct Render : RenderProgress {
     HitSums hits;                     ///< empty if no file wants layers of them
     std::string hits_error;           ///< why they had to be given up, else empty
     std::optional<Denoised> denoised; ///< of the film as it is in the end, where that is asked for
+    std::vector<DenoisedLook> looks;  ///< for --denoised-error, in this run
     std::string denoise_error;        ///< why it could not be done, else empty
     std::uint64_t passes = 0;         ///< samples a pixel in this run
     ChainCounts chains;               ///< of this run; none but with `mlt`

@@ -9,6 +9,7 @@
 #include "render/begin_film.h"
 #include "render/beside.h"
 #include "render/crew.h"
+#include "render/denoised_target.h"
 #include "render/film_worker.h"
 #include "render/good_counts.h"
 #include "render/hit_layers.h"
@@ -94,6 +95,7 @@ private:
     StopRules rules_;
     Measurements measurements_;
     Beside beside_;
+    std::optional<DenoisedTarget> denoised_target_;
     std::optional<HitLayers> hit_layers_;
     size_t hit_worker_ = 0;                   ///< whose device makes the layers of hits
     double hit_seconds_ = 0;                  ///< of making them
@@ -109,6 +111,8 @@ SharedRender::SharedRender(const Prepared& prepared, const RenderParams& params,
       workers_(make_workers(prepared, params, result)),
       crew_(members_of(workers_), crew_hooks(), first_samples_ > 0),
       rules_(options_.sampling, film_limit(result.film, options_)), beside_(options_, hooks) {
+    if (options_.sampling.denoised_error)
+        denoised_target_.emplace(options_);
     // What is read from devices is added up here.
     Film& film = result_.film;
     film.sums.resize(size_t(film.replicates) * film_plane(film));
@@ -176,6 +180,13 @@ RenderState SharedRender::measured_state() {
     state.signal = stop_signal();
     if (const std::optional<SquaredError>& error = measurements_.error(); error && error->samples == samples)
         state.error = relative_error(*error);
+    const bool is_resumed = samples > 0 && result_.passes == 0;
+    if (denoised_target_ && hit_layers_ &&
+        (is_resumed ||
+         denoised_target_->is_due(result_.film, state.error, [&] { return result_.counts.rays(); }))) {
+        denoised_target_->look(workers_[hit_worker_]->prepared().device, progress_, result_);
+        state.is_denoised_enough = denoised_target_->reached(result_);
+    }
     return state;
 }
 
@@ -254,6 +265,8 @@ StopRule SharedRender::run_until_stopped() {
 void SharedRender::run() {
     beside_.begin(workers_.front()->prepared());
     start_ = Clock::now();
+    if (denoised_target_ && first_samples_ > 0 && !has_gaps())
+        advance_hits(); // of the film that the render goes on from
     result_.stop = run_until_stopped();
     const double stop_seconds = seconds();
     const std::uint64_t samples = film_samples(result_.film);

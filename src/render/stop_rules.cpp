@@ -21,7 +21,7 @@ constexpr double WORTH_SAYING = 0.05;
 std::uint64_t samples_of_options(const SamplingOptions& options) {
     if (options.spp)
         return *options.spp;
-    if (options.error)
+    if (options.has_target())
         return DEFAULT_SPP_WITH_ERROR;
     return options.time_seconds ? UINT64_MAX : DEFAULT_SPP;
 }
@@ -36,6 +36,8 @@ const char* stop_rule_name(StopRule rule) {
         return "time";
     case StopRule::ERROR:
         return "error";
+    case StopRule::DENOISED_ERROR:
+        return "denoised_error";
     case StopRule::FILM_FULL:
         return "film";
     case StopRule::SIGNAL:
@@ -51,8 +53,12 @@ StopRules::StopRules(const SamplingOptions& options, std::uint64_t film_limit)
 std::optional<StopRule> StopRules::ended(const RenderState& state) const {
     if (state.samples == 0)
         return std::nullopt;
-    if (state.samples >= FEWEST_OF_A_REPLICATE * std::uint64_t(options_.replicates) && reached(state.error))
-        return StopRule::ERROR;
+    if (state.samples >= FEWEST_OF_A_REPLICATE * std::uint64_t(options_.replicates)) {
+        if (reached(state.error))
+            return StopRule::ERROR;
+        if (state.is_denoised_enough)
+            return StopRule::DENOISED_ERROR;
+    }
     if (state.samples >= last_samples_)
         return last_samples_ == samples_of_options(options_) ? StopRule::SPP : StopRule::FILM_FULL;
     if (options_.time_seconds &&
@@ -64,15 +70,17 @@ std::optional<StopRule> StopRules::ended(const RenderState& state) const {
 }
 
 std::uint64_t StopRules::next_check(std::uint64_t samples) const {
-    return options_.error ? next_good_count(samples, options_.replicates)
-                          : next_doubling(samples, options_.replicates);
+    return options_.has_target() ? next_good_count(samples, options_.replicates)
+                                 : next_doubling(samples, options_.replicates);
 }
 
 bool StopRules::is_check(std::uint64_t samples, const std::optional<SquaredError>& last) const {
     if (is_doubling(samples, options_.replicates))
         return true;
-    if (!options_.error || !is_good_count(samples, options_.replicates))
+    if (!options_.has_target() || !is_good_count(samples, options_.replicates))
         return false;
+    if (options_.denoised_error)
+        return true;
     const std::optional<FilmError> error = last ? relative_error(*last) : std::nullopt;
     return !error ||
            error->relative_rmse * std::pow(double(samples) / double(last->samples), STEEPEST_SLOPE) <=
@@ -122,6 +130,8 @@ std::string StopRules::describe(StopRule rule, const StopMoment& moment) const {
         return describe_time(moment);
     case StopRule::ERROR:
         return fmt::format("--error {:g} % is reached", 100 * *options_.error);
+    case StopRule::DENOISED_ERROR:
+        return fmt::format("--denoised-error {:g} % is reached", 100 * *options_.denoised_error);
     case StopRule::FILM_FULL:
         return fmt::format("the film is full with {} samples a pixel; more --replicates hold more",
                            film_limit_);

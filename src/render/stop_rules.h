@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a render ends: --spp, --time, --error, a full film or a signal, whichever comes first. No OpenCL here.
+// When a render ends: --spp, --time, --error, --denoised-error, a full film or a signal, whichever comes
+// first. No OpenCL here.
 #pragma once
 
 #include "film/film_error.h"
@@ -11,18 +12,19 @@
 
 namespace clrt {
 
-enum class StopRule { SPP, TIME, ERROR, FILM_FULL, SIGNAL };
+enum class StopRule { SPP, TIME, ERROR, DENOISED_ERROR, FILM_FULL, SIGNAL };
 
-/// Its name in the JSON: "spp", "time", "error", "film", "signal".
+/// Its name in the JSON: "spp", "time", "error", "denoised_error", "film", "signal".
 const char* stop_rule_name(StopRule rule);
 
 /// How far a render is.
 struct RenderState {
-    std::uint64_t samples = 0;      ///< a pixel, those of earlier runs included
-    double seconds = 0;             ///< of this run's render stage
-    double pass_seconds = 0;        ///< of one more pass; 0: not known yet
-    std::optional<FilmError> error; ///< as measured at `samples`; none between measurements
-    int signal = 0;                 ///< that came, or 0
+    std::uint64_t samples = 0;       ///< a pixel, those of earlier runs included
+    double seconds = 0;              ///< of this run's render stage
+    double pass_seconds = 0;         ///< of one more pass; 0: not known yet
+    std::optional<FilmError> error;  ///< as measured at `samples`; none between measurements
+    bool is_denoised_enough = false; ///< --denoised-error is reached, as looked at at `samples`
+    int signal = 0;                  ///< that came, or 0
 };
 
 /// How a render ended.
@@ -50,11 +52,11 @@ public:
 
     /// Samples a pixel after which the render ends in any case.
     std::uint64_t last_samples() const { return last_samples_; }
-    /// The next number of samples above `samples` at which an error may be measured: a doubling, with --error
-    /// any good count.
+    /// The next number of samples above `samples` at which an error may be measured: a doubling, with a
+    /// target any good count.
     std::uint64_t next_check(std::uint64_t samples) const;
-    /// Whether the error is measured at this number of samples for --error, `last` being the last
-    /// measurement. Between doublings only if it may have come down to the target since.
+    /// Whether the error is measured at this number of samples for a target, `last` being the last
+    /// measurement. Between doublings with --error only if it may have come down to the target since.
     bool is_check(std::uint64_t samples, const std::optional<SquaredError>& last) const;
     /// Whether this error satisfies --error.
     bool reached(const std::optional<FilmError>& error) const;

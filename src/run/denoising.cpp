@@ -4,6 +4,7 @@
 #include "denoise/oidn.h"
 #include "error.h"
 #include "options/options.h"
+#include "render/denoised_target.h"
 #include "render/error_text.h"
 
 #include <algorithm>
@@ -11,15 +12,17 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
-#include <stdexcept>
 
 namespace clrt {
 
 namespace {
 
 /// What denoising does to an error, as far as its interval tells.
-std::string change_text(const DenoisedError& error) {
+std::string change_text(const DenoisedError& error, bool is_untrusted) {
     const std::string raw = percent_text(error.raw), high = percent_text(error.high);
+    if (is_untrusted) // the interval knows nothing of light that is still to come
+        return fmt::format("the error of {} is {} after denoising, or more", raw,
+                           percent_text(error.denoised));
     if (error.high >= error.raw)
         return fmt::format("the error of {} is {} at most after denoising: these samples cannot tell whether "
                            "it is lower",
@@ -42,7 +45,7 @@ void check_denoiser(const Options& options) {
     if (options.denoise.denoiser == Denoiser::OIDN)
         try {
             const Oidn oidn(options.denoise.oidn_path);
-        } catch (const std::runtime_error& error) {
+        } catch (const DeviceError& error) {
             throw UsageError(fmt::format("option --denoise=oidn: {}", error.what()));
         }
     const std::vector<std::string>& files = options.output.files;
@@ -61,14 +64,12 @@ void denoise_render(const Device& device, const Options& options, Progress& prog
     };
     if (const std::optional<std::string> obstacle = denoise_obstacle(render.film, render.hits))
         return give_up(*obstacle);
+    if (render.denoised && render.denoised->samples == film_samples(render.film))
+        return; // the last look of --denoised-error
+    render.denoised.reset();
     progress.update({"denoise", -1, 0, -1, -1});
     try {
-        render.denoised = denoise(device, render.film, render.hits,
-                                  {options.denoise,
-                                   options.sampling.measure(),
-                                   options.device.kernels_folder,
-                                   options.device.dump_folder,
-                                   {options.device.cache, options.device.cache_folder}});
+        render.denoised = FilmDenoiser(device, denoise_request(options)).denoise(render.film, render.hits);
     } catch (const DeviceError& error) {
         give_up(error.what());
     } catch (const std::bad_alloc&) {
@@ -84,18 +85,26 @@ std::string format_denoised(const Render& render, bool is_untrusted) {
     if (!denoised.errors)
         return fmt::format("denoised by {}; its error is not known\n", denoised.method);
     const DenoisedErrors& errors = *denoised.errors;
-    std::string text = fmt::format("denoised {}\n", change_text(errors.all));
+    std::string text = fmt::format("denoised {}\n", change_text(errors.all, is_untrusted));
     if (is_untrusted)
-        text += "         as far as can be told: a few bright samples decide it\n";
+        text += "         how much more is not known: a few bright samples decide it, and more are still to "
+                "come\n";
     text += fmt::format("         without the worst {:g} % of the pixels: {}\n", 100 * WORST_SHARE,
-                        change_text(errors.without_worst));
+                        change_text(errors.without_worst, is_untrusted));
     text += fmt::format(
         "         by {} in {:.1f} s; {} of the picture is left as it was, where smoothing does harm\n",
         denoised.method, denoised.seconds, percent_text(denoised.noisy_share));
+    if (!render.looks.empty()) {
+        double seconds = 0;
+        for (const DenoisedLook& look : render.looks)
+            seconds += look.seconds;
+        text += fmt::format("         --denoised-error looked {} times, first at {} spp; {:.1f} s in all\n",
+                            render.looks.size(), render.looks.front().samples, seconds);
+    }
     return text;
 }
 
-nlohmann::ordered_json denoised_json(const Render& render) {
+nlohmann::ordered_json denoised_json(const Render& render, bool is_untrusted) {
     if (!render.denoised)
         return nullptr;
     const Denoised& denoised = *render.denoised;
@@ -108,8 +117,15 @@ nlohmann::ordered_json denoised_json(const Render& render) {
         json["without_worst"] = error_json(denoised.errors->without_worst);
         json["without_worst"]["pixels"] = denoised.errors->worst.size();
     }
+    json["interval_trusted"] = !is_untrusted;
     json["noisy_share"] = denoised.noisy_share;
     json["seconds"] = denoised.seconds;
+    json["looks"] = nlohmann::ordered_json::array();
+    for (const DenoisedLook& look : render.looks) {
+        json["looks"].push_back(error_json(look.error));
+        json["looks"].back()["at_spp"] = look.samples;
+        json["looks"].back()["seconds"] = look.seconds;
+    }
     return json;
 }
 

@@ -21,11 +21,12 @@ void check_denoiser(const Options& options);
 void denoise_render(const Device& device, const Options& options, Progress& progress, Render& render);
 
 /// "denoised denoising lowers the error from 21.0 % to 6.0 %; ..." in lines; empty where nothing is denoised.
-/// `is_untrusted`: the error of the raw picture is not to be trusted, and so neither is this one.
+/// `is_untrusted`: the error of the raw picture is not to be trusted, and so neither is this one; no interval
+/// is said then.
 std::string format_denoised(const Render& render, bool is_untrusted);
 
 /// The JSON's "denoised"; null where nothing is.
-nlohmann::ordered_json denoised_json(const Render& render);
+nlohmann::ordered_json denoised_json(const Render& render, bool is_untrusted);
 
 /// The same facts as metadata.
 void add_denoised_metadata(const Render& render, Metadata& metadata);

@@ -50,10 +50,10 @@ int finish(const Report& report) {
         return EXIT_DEVICE;
     }
     spdlog::info("ended after {} spp: {}", film_samples(render.film), render.stop_text);
-    const bool missed =
-        report.options.sampling.error && film_samples(render.film) > 0 && !error_reached(report);
+    const std::optional<ErrorTarget> target = error_target(report);
+    const bool missed = target && film_samples(render.film) > 0 && !target->reached;
     if (missed)
-        spdlog::warn("--error {:g} % is not reached", 100 * *report.options.sampling.error);
+        spdlog::warn("{}", missed_text(*target));
     if (report.options.run.check == Check::STRICT && render.counts.bad() > 0)
         return EXIT_CHECK;
     return missed ? EXIT_ERROR_NOT_REACHED : EXIT_DONE;

@@ -2,6 +2,7 @@
 #include "run/report.h"
 
 #include "paths/path_report.h"
+#include "render/denoised_target.h"
 #include "run/denoising.h"
 #include "run/report_facts.h"
 #include "scene/ground.h"
@@ -28,11 +29,12 @@ std::string command_text(const Options& options) {
     return text;
 }
 
-/// What ended the render; whether --error is reached, null without it.
+/// What ended the render; whether the error that is asked for is reached, null without one.
 Json stop_json(const Report& report) {
     Json json{{"rule", stop_rule_name(report.render.stop)},
               {"error_target", nullptr},
               {"error_reached", nullptr},
+              {"error_of", nullptr},
               {"overrun_seconds", report.render.overrun_seconds},
               {"dropped_seconds", report.render.dropped_seconds}};
     json["forecasts"] = Json::array();
@@ -41,9 +43,10 @@ Json stop_json(const Report& report) {
         json["forecasts"].back()["at_spp"] = forecast.samples;
         json["forecasts"].back()["at_seconds"] = forecast.seconds;
     }
-    if (report.options.sampling.error) {
-        json["error_target"] = *report.options.sampling.error;
-        json["error_reached"] = error_reached(report);
+    if (const std::optional<ErrorTarget> target = error_target(report)) {
+        json["error_target"] = target->value;
+        json["error_reached"] = target->reached;
+        json["error_of"] = report.options.sampling.error ? "raw" : "denoised";
     }
     return json;
 }
@@ -190,9 +193,20 @@ void add_paths(const PathPlan& paths, Metadata& metadata) {
 
 } // namespace
 
-bool error_reached(const Report& report) {
+std::optional<ErrorTarget> error_target(const Report& report) {
+    const SamplingOptions& sampling = report.options.sampling;
     const std::optional<FilmError>& error = report.error.error;
-    return report.options.sampling.error && error && error->relative_rmse <= *report.options.sampling.error;
+    if (sampling.error)
+        return ErrorTarget{"--error", *sampling.error, error && error->relative_rmse <= *sampling.error};
+    if (sampling.denoised_error)
+        return ErrorTarget{"--denoised-error", *sampling.denoised_error,
+                           denoised_error_reached(report.render.film, report.render.denoised,
+                                                  sampling.measure(), *sampling.denoised_error)};
+    return std::nullopt;
+}
+
+std::string missed_text(const ErrorTarget& target) {
+    return fmt::format("{} {:g} % is not reached", target.option, 100 * target.value);
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -237,7 +251,7 @@ std::string report_json(const Report& report) {
     json["rays_per_second"] = rays_per_second(render);
     json["peak_memory_bytes"] = peak_memory_bytes();
     json["error"] = error_report_json(report.error);
-    json["denoised"] = denoised_json(render);
+    json["denoised"] = denoised_json(render, verdict_on(report.error) == Verdict::UNTRUSTED);
     json["cut"] = cut_json(report.error.cut);
     json["blind_spots"] = blind_spots_json(report.error.blind_spots);
     json["stop"] = stop_json(report);

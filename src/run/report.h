@@ -34,8 +34,17 @@ struct Report {
     std::optional<std::string> empty_picture = {}; ///< why the picture shows nothing, where it does not
 };
 
-/// Whether --error is given and the picture satisfies it.
-bool error_reached(const Report& report);
+/// The error that the command names, and whether the picture satisfies it.
+struct ErrorTarget {
+    const char* option = ""; ///< "--error" or "--denoised-error"
+    double value = 0;
+    bool reached = false;
+};
+
+/// None where no error is asked for.
+std::optional<ErrorTarget> error_target(const Report& report);
+/// "--error 2 % is not reached"
+std::string missed_text(const ErrorTarget& target);
 
 /// Largest resident memory of this process so far, bytes.
 std::uint64_t peak_memory_bytes();

@@ -103,9 +103,8 @@ std::string bad_lines(const Report& report) {
 }
 
 std::string missed_line(const Report& report) {
-    if (!report.options.sampling.error || error_reached(report))
-        return "";
-    return fmt::format("missed   --error {:g} % is not reached\n", 100 * *report.options.sampling.error);
+    const std::optional<ErrorTarget> target = error_target(report);
+    return !target || target->reached ? "" : fmt::format("missed   {}\n", missed_text(*target));
 }
 
 /// How the work was done.

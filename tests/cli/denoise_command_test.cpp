@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --denoise: layers, statistics, what PNGs show, and what is said where it cannot be done.
 #include "clrt_command.h"
+#include "render/good_counts.h"
 
 #include <cmath>
 #include <fstream>
@@ -16,8 +17,12 @@ protected:
     DenoiseCommand() { write_square("scene"); }
 
     CommandResult render(std::vector<std::string> further) const {
+        further.insert(further.end(), {"-s", "8"});
+        return render_until(further);
+    }
+    CommandResult render_until(std::vector<std::string> further) const {
         for (const char* word : {"scene.obj", "-r", "40x34", "--eye", "1,1,2", "--at", "0,0,0", "--env",
-                                 "1,1,1", "--ground", "0.5,0.5,0.5", "-s", "8"})
+                                 "1,1,1", "--ground", "0.5,0.5,0.5"})
             further.emplace_back(word);
         return clrt(further);
     }
@@ -87,6 +92,53 @@ TEST_F(DenoiseCommand, AResumedFilmIsDenoisedAsIfItHadBeenAtOnce) {
     for (int y = 0; y < 34; ++y)
         for (int x = 0; x < 40; ++x)
             ASSERT_EQ(a.at(x, y, "denoised.G"), b.at(x, y, "denoised.G"));
+}
+
+TEST_F(DenoiseCommand, ATargetEndsTheRenderWhereItIsReached) {
+    const std::vector<std::string> target = {
+        "--denoise=filter", "--denoised-error", "6%", "--stats", "a.json", "-o", "a.exr"};
+    const CommandResult result = render_until(target);
+    ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+    EXPECT_TRUE(holds(result.err, {"--denoised-error 6 % is reached"}));
+    EXPECT_TRUE(holds(result.out, {"--denoised-error looked "}));
+    const nlohmann::json json = statistics();
+    EXPECT_EQ(json["stop"]["rule"], "denoised_error");
+    EXPECT_EQ(json["stop"]["error_target"], 0.06);
+    EXPECT_EQ(json["stop"]["error_reached"], true);
+    EXPECT_EQ(json["stop"]["error_of"], "denoised");
+    EXPECT_LE(json["denoised"]["error"]["high"], 0.06);
+    const auto spp = json["spp"].get<unsigned>();
+    EXPECT_TRUE(is_good_count(spp, 4)) << spp;
+    const nlohmann::json& looks = json["denoised"]["looks"];
+    EXPECT_EQ(looks.back()["at_spp"], spp);
+    EXPECT_EQ(looks.back()["high"], json["denoised"]["error"]["high"]);
+    for (size_t i = 0; i + 1 < looks.size(); ++i)
+        EXPECT_GT(looks[i]["high"], 0.06);
+    // Looking changes no bit: a plain render of as many samples is the same.
+    ASSERT_EQ(render_until({"--denoise=filter", "-s", std::to_string(spp), "-o", "b.exr"}).exit_code, 0);
+    const ReadPicture a(folder.file("a.exr")), b(folder.file("b.exr"));
+    for (const char* channel : {"G", "denoised.G"})
+        for (int y = 0; y < 34; ++y)
+            for (int x = 0; x < 40; ++x)
+                ASSERT_EQ(a.at(x, y, channel), b.at(x, y, channel));
+    // And so does going on from fewer.
+    ASSERT_EQ(
+        render_until({"--denoise=filter", "-s", "4", "--checkpoint", "a.film", "-o", "c.png"}).exit_code, 0);
+    std::vector<std::string> resumed = target;
+    resumed.insert(resumed.end(), {"--resume", "a.film"});
+    ASSERT_EQ(render_until(resumed).exit_code, 0);
+    EXPECT_EQ(statistics()["spp"], spp);
+}
+
+TEST_F(DenoiseCommand, AMissedTargetEndsWithFiveAndThePicture) {
+    const CommandResult result =
+        render({"--denoised-error", "0.001%", "--denoise=filter", "-o", "a.exr", "--stats", "a.json"});
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_TRUE(holds(result.err, {"--denoised-error 0.001 % is not reached"}));
+    EXPECT_TRUE(holds(result.out, {"missed   --denoised-error 0.001 % is not reached\n"}));
+    EXPECT_EQ(statistics()["stop"]["rule"], "spp");
+    EXPECT_EQ(statistics()["stop"]["error_reached"], false);
+    EXPECT_GE(ReadPicture(folder.file("a.exr")).spec.channelindex("denoised.R"), 0);
 }
 
 TEST_F(DenoiseCommand, ALibraryThatIsNotThereIsNamed) {

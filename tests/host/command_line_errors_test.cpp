@@ -267,6 +267,10 @@ TEST(CommandLine, ContradictionsAreNamed) {
     expect({"--first-sample", "4294967295", "--spp", "1"}, "expected a sum below 4294967296");
     expect({"--first-sample", "4294901760", "--error", "1%"}, "expected a sum below 4294967296");
     expect({"--error", "1%", "--replicates", "3"}, "option --error: expected --replicates 4 or more");
+    expect({"--error", "1%", "--denoised-error", "5%"}, "options --error and --denoised-error");
+    expect({"--denoised-error", "5%", "--replicates", "2"},
+           "option --denoise: expected an even number of --replicates from 4, found 2");
+    expect({"--first-sample", "4294901760", "--denoised-error", "1%"}, "expected a sum below 4294967296");
     expect({"--denoise", "--replicates", "2"},
            "option --denoise: expected an even number of --replicates from 4, found 2");
     expect({"--denoise", "--spp", "3"},

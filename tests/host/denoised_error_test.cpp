@@ -131,6 +131,29 @@ TEST(DenoisedError, IsRightOnAverageWhatEverTheFilterSmears) {
         }
 }
 
+TEST(DenoisedError, HoldsWhereFewPixelsDecide) {
+    // Eight pixels have a hundred times the noise of the others, as the rim of a lamp has.
+    NoisyPictures pictures(4);
+    std::mt19937 random(5);
+    std::exponential_distribution<double> noise(1);
+    int held = 0;
+    for (int trial = 0; trial < 2 * TRIALS; ++trial) {
+        pictures.fill();
+        for (size_t i = 0; i < pictures.film.sums.size(); ++i)
+            if (const size_t value = i % pictures.truth.size(); value / 3 % 170 == 0)
+                pictures.film.sums[i] = std::llround(pictures.truth[value] * (100 * noise(random) - 99) /
+                                                     pictures.film.scale.quantum);
+        const std::array halves = {pictures.smoothed_half(0, 0), pictures.smoothed_half(1, 0)};
+        const DenoisedError error = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
+        const double mean = film_squared_error(pictures.film)->mean_radiance;
+        const double own =
+            std::sqrt(true_square(pictures, halves)) * std::abs(mean_of(pictures.truth) / mean);
+        held += error.low <= own && own <= error.high;
+    }
+    std::printf("held %d of %d\n", held, 2 * TRIALS);
+    EXPECT_GE(held, 0.9 * 2 * TRIALS) << "1.96 standard errors hold 0.86";
+}
+
 TEST(DenoisedError, TheHalvesDifferenceAloneSeesNoSmear) {
     const Calibration result = calibrate(8, 6);
     EXPECT_LT(result.naive_mean, 0.5 * result.true_mean) << "else the scene does not show the difference";

@@ -22,6 +22,7 @@ const std::map<std::string, std::string>& samples() {
         {"--spp", "16"},
         {"--time", "5m"},
         {"--error", "2%"},
+        {"--denoised-error", "5%"},
         {"--max-depth", "12"},
         {"--guide", "auto"},
         {"--roulette-depth", "9"},

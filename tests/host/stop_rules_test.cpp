@@ -83,6 +83,23 @@ TEST(StopRules, TheErrorEndsTheRenderWhereItIsMeasured) {
     EXPECT_FALSE(StopRules(options, FILM_LIMIT).ended(state(32, 0, 0.1, 0))) << "no target";
 }
 
+TEST(StopRules, ADenoisedPictureThatIsGoodEnoughEndsTheRender) {
+    SamplingOptions options;
+    options.denoised_error = 0.05;
+    const StopRules rules(options, FILM_LIMIT);
+    EXPECT_EQ(rules.last_samples(), 65536u);
+    EXPECT_EQ(rules.next_check(64), 96u) << "any good count";
+    EXPECT_TRUE(rules.is_check(96, std::nullopt)) << "whatever the clock says";
+    EXPECT_FALSE(rules.is_check(80, std::nullopt));
+    RenderState looked = state(64, 0, 0.1, 0.001);
+    EXPECT_FALSE(rules.ended(looked)) << "the raw picture's error is not what is asked for";
+    looked.is_denoised_enough = true;
+    EXPECT_EQ(rules.ended(looked), StopRule::DENOISED_ERROR);
+    EXPECT_EQ(rules.describe(StopRule::DENOISED_ERROR), "--denoised-error 5 % is reached");
+    looked.samples = 4;
+    EXPECT_FALSE(rules.ended(looked)) << "one sample in every replicate";
+}
+
 TEST(StopRules, TheFirstRuleThatHoldsIsNamed) {
     SamplingOptions options;
     options.spp = 64;

@@ -4,6 +4,7 @@
 
 #include "support/test_device.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -114,6 +115,56 @@ TEST(DenoiseFilter, ColoursKeepTheEdgesOfShadows) {
     const auto colour = [](int x, int, int) { return x < 20 ? 4.0 : 1.0; };
     shine(half, 0.1, colour);
     EXPECT_LT(error_of(filter().candidates(half)[0].half, colour), 0.2);
+}
+
+TEST(DenoiseFilter, BrightNoiseDoesNotSpreadToWhatIsDark) {
+    HalfPicture half = wall();
+    const auto colour = [](int x, int, int) { return x < 20 ? 3.0 : 1.0; };
+    shine(half, 0.01, colour);
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, 1.5);
+    for (Pixels& quarter : half.quarter)
+        for (size_t i = 0; i < quarter.size(); ++i)
+            if (i / 3 % WIDTH < 20)
+                quarter[i] += float(noise(random));
+    const Pixels filtered = filter().candidates(half)[0].half;
+    double error = 0;
+    for (int y = 0; y < HEIGHT; ++y)
+        for (int x = 20; x < 32; ++x)
+            error = std::max(error, std::abs(double(filtered[size_t(3 * (y * WIDTH + x))]) - 1));
+    EXPECT_LT(error, 0.05) << "0.12 by the larger noise of two pixels";
+}
+
+TEST(DenoiseFilter, SurfacesAtOtherDepthsAreOthers) {
+    // Each is darker from left to right, so that one model with a step does not fit both.
+    HalfPicture half = wall();
+    for (size_t i = 0; i < WIDTH * HEIGHT; ++i)
+        half.position[3 * i + 2] = i % WIDTH < 20 ? 0 : -0.5f;
+    const auto colour = [](int x, int, int) { return x < 20 ? 2 - 0.05 * x : 1 + 0.05 * (x - 20); };
+    shine(half, 0.3, colour);
+    EXPECT_LT(error_of(filter().candidates(half)[1].half, colour), 0.03) << "0.038 with one model for both";
+}
+
+TEST(DenoiseFilter, AQuarterIsMadeOfItsOwnColours) {
+    HalfPicture half = wall();
+    shine(half, 0, [](int, int, int) { return 1.0; });
+    for (float& value : half.quarter[1])
+        value = 2;
+    for (const DenoiseCandidate& candidate : filter().candidates(half)) {
+        EXPECT_LT(error_of(candidate.quarter[0], [](int, int, int) { return 1.0; }), 1e-3);
+        EXPECT_LT(error_of(candidate.quarter[1], [](int, int, int) { return 2.0; }), 1e-3);
+    }
+}
+
+TEST(DenoiseFilter, NoPixelStaysBrightAloneNorBecomesNegative) {
+    HalfPicture half = wall();
+    shine(half, 0.05, [](int x, int, int) { return x < 20 ? 0.5 * (20 - x) : 0.0; });
+    const size_t speck = size_t(3 * (17 * WIDTH + 35));
+    half.quarter[0][speck] = 100;
+    for (const DenoiseCandidate& candidate : filter().candidates(half)) {
+        EXPECT_GE(*std::min_element(candidate.half.begin(), candidate.half.end()), 0);
+        EXPECT_LT(candidate.quarter[0][speck], 4) << "of a hundred, among 289 pixels";
+    }
 }
 
 TEST(DenoiseFilter, AQuarterIsFilteredByWhatTheOtherLooksLike) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Denoised renders: the film keeps its bits, both halves see what they sampled, and the stated error is the
 // error of the picture.
-#include "denoise/denoise.h"
+#include "render/denoised_target.h"
 
 #include "support/render_scene.h"
 
@@ -42,12 +42,12 @@ protected:
         return render_loaded(loaded_, scene_.options);
     }
     Denoised denoised(const Render& render) const {
-        return denoise(test_device(), render.film, render.hits,
-                       {{Denoiser::FILTER, "", PngFrom::RAW},
-                        scene_.options.sampling.measure(),
-                        test_device().kernels_folder(),
-                        "",
-                        {}});
+        const DenoiseRequest request{{Denoiser::FILTER, "", PngFrom::RAW},
+                                     scene_.options.sampling.measure(),
+                                     test_device().kernels_folder(),
+                                     "",
+                                     {}};
+        return FilmDenoiser(test_device(), request).denoise(render.film, render.hits);
     }
 
     TestScene scene_;
@@ -91,6 +91,55 @@ TEST_F(DenoiseRender, AnAdaptiveFilmIsDenoisedToo) {
     const Denoised result = denoised(render);
     EXPECT_NEAR(result.errors->all.raw, render.error->relative_rmse, 1e-9);
     EXPECT_LT(result.errors->all.high, result.errors->all.raw);
+}
+
+TEST_F(DenoiseRender, LooksAreRareAndFollowFromSamplesAlone) {
+    const std::uint64_t enough = DenoisedTarget::RAYS_BEFORE_LOOKS * 4; // of four pixels
+    scene_.options.sampling.denoised_error = 0.05;
+    scene_.options.denoise.denoiser = Denoiser::FILTER;
+    const auto is_due = [&](std::uint64_t samples, std::uint64_t rays, double high = 1) {
+        DenoisedTarget target(scene_.options);
+        Film film;
+        film.width = film.height = 2;
+        film.ranges = {{0, samples}};
+        return target.is_due(film, FilmError{0.9 * high, 0.8 * high, high}, [&] { return rays; });
+    };
+    EXPECT_TRUE(is_due(64, enough));
+    EXPECT_FALSE(is_due(64, enough - 1)) << "denoising would cost more than a tenth";
+    EXPECT_FALSE(is_due(80, 10 * enough)) << "samples are not even";
+    EXPECT_TRUE(is_due(8, 0, 0.05)) << "as rendered it is good enough";
+    EXPECT_FALSE(is_due(8, 0, 0.051));
+    EXPECT_FALSE(is_due(4, 0, 0.05)) << "one sample in every replicate";
+}
+
+TEST_F(DenoiseRender, EndsWhereTheDenoisedErrorIsReachedAndIsHonest) {
+    scene_.options.film.size = {80, 64};
+    const std::vector<float> a = film_mean(render(REFERENCE_SEED, REFERENCE_SPP, std::nullopt).film),
+                             b = film_mean(render(REFERENCE_SEED + 1, REFERENCE_SPP, std::nullopt).film);
+    constexpr double TARGET = 0.03;
+    scene_.options.sampling.denoised_error = TARGET;
+    int early = 0;
+    for (std::uint32_t seed = 0; seed < 4; ++seed) {
+        const Render picture = render(seed, 1024, Denoiser::FILTER);
+        ASSERT_EQ(picture.stop, StopRule::DENOISED_ERROR);
+        ASSERT_TRUE(picture.denoised);
+        EXPECT_EQ(picture.denoised->samples, film_samples(picture.film));
+        ASSERT_FALSE(picture.looks.empty());
+        EXPECT_LE(picture.looks.back().error.high, TARGET);
+        double square = 0, mean = 0;
+        for (size_t i = 0; i < a.size(); ++i) {
+            square += (double(picture.denoised->radiance[i]) - double(a[i])) *
+                      (double(picture.denoised->radiance[i]) - double(b[i])) / double(a.size());
+            mean += double(a[i]) / double(a.size());
+        }
+        std::printf("%llu spp, %zu looks, stated %.4f to %.4f, true %.4f\n",
+                    (unsigned long long)picture.denoised->samples, picture.looks.size(),
+                    picture.looks.back().error.denoised, picture.looks.back().error.high,
+                    std::sqrt(square) / mean);
+        early += std::sqrt(square) / mean > TARGET;
+        EXPECT_EQ(denoised(picture).radiance, picture.denoised->radiance) << "of the film that is left";
+    }
+    EXPECT_EQ(early, 0);
 }
 
 TEST_F(DenoiseRender, StatesItsError) {
