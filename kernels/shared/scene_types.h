@@ -172,7 +172,7 @@ typedef struct {
     u32 alias, threshold; /* as in Emitter */
     float probability;    /* of choosing this tile */
     u32 unused0;
-    u32 shares[4];        /* of each row's texels, a byte each from the lowest; all 0, or their sum SKY_SHARES */
+    u32 shares[4];        /* of each row's texels, a byte each from the lowest; none, or SKY_SHARES in all */
 } SkyTile;
 ASSERT_SIZE(SkyTile, 32);
 
