@@ -13,6 +13,7 @@
 #include "camera_motion.h"
 #include "camera_orthographic.h"
 #include "camera_perspective.h"
+#include "geometry/ray_cone.h"
 #include "numerics/real_functions.h"
 #include "numerics/sampler.h"
 #include "shared/effects.h"
@@ -125,6 +126,24 @@ static inline uint camera_pixel(const RenderParams* params, real2 film)
     return is_inside ? (uint)corner.y * params->width + (uint)corner.x : NO_INDEX;
 }
 
+/* A ray with its cone: the sample's share of a pixel, as a pinhole sees it. Parallel rays stand for parts of
+   the film instead. */
+static inline Ray camera_cone_ray(const RenderParams* params, const Sampler* sampler,
+                                  const CameraParams* camera, real2 film, real2 lens, real time)
+{
+    Ray ray = camera_generate(camera, film, lens, time);
+#if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
+    if (ray_cone_is_wanted(params)) {
+        const CameraPdf pdf = camera_pdf(camera, ray.direction);
+        if (camera->projection == PROJECTION_ORTHOGRAPHIC)
+            ray.width = real_sqrt(ray_cone_share(params, sampler, pdf.pdf_a));
+        else
+            ray_cone_begin(params, sampler, pdf.pdf_w, &ray);
+    }
+#endif
+    return ray;
+}
+
 /* The ray of a sample through pixel (x, y) of the whole picture; `u` chooses the point in the pixel's
    filter. */
 static inline Ray camera_ray_at(const RenderParams* params, const Sampler* sampler, uint x, uint y, real2 u)
@@ -134,9 +153,9 @@ static inline Ray camera_ray_at(const RenderParams* params, const Sampler* sampl
     const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
     const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_pair(sampler, 0u, SAMPLE_TIME).x : REAL(0.0);
     if (!camera_moves(&params->camera))
-        return camera_generate(&params->camera, film, lens, time);
+        return camera_cone_ray(params, sampler, &params->camera, film, lens, time);
     const CameraParams camera = camera_at(&params->camera, time);
-    return camera_generate(&camera, film, lens, time);
+    return camera_cone_ray(params, sampler, &camera, film, lens, time);
 }
 
 /* The same at the sample's own point. */

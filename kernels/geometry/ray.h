@@ -14,6 +14,10 @@ typedef struct {
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     real time;       /* ray_time */
 #endif
+#if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
+    real width;      /* of the cone that it stands for, at the origin */
+    real spread;     /* and the cone's solid angle (ray_cone.h) */
+#endif
 } Ray;
 
 /* A point on a triangle: distance and the barycentric weights of its corners 1 and 2. */
@@ -35,6 +39,9 @@ static inline Ray ray_make(real3 origin, real3 direction, real time)
     ray.t_max = REAL_FAR;
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     ray.time = time;
+#endif
+#if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
+    ray.width = ray.spread = REAL(0.0);
 #endif
     return ray;
 }

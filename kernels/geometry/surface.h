@@ -27,6 +27,11 @@ typedef struct {
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     real time;        /* of the ray that has hit it */
 #endif
+#if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
+    real width;       /* of the ray's cone here, across the ray, */
+    real spread;      /* and its solid angle (ray_cone.h) */
+    float uv_area;    /* of its footprint, in texture coordinates; surface_uv_area */
+#endif
 } Surface;
 
 /* A position or a normal at a time of the shutter's opening; `moves` has its way until it closes. */
@@ -232,6 +237,41 @@ static inline bool surface_winding_is_reversed(const Scene* scene, global const 
     return vector_dot(n[0] + n[1] + n[2], normal) < REAL(0.0);
 }
 
+/* The area of the footprint of the ray's cone, in texture coordinates: 0 where lookups are not filtered. */
+static inline float surface_uv_area(const Surface* surface)
+{
+#if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
+    return surface->uv_area;
+#else
+    return 0.0f;
+#endif
+}
+
+/* Below this a surface is seen edge-on: footprints grow no longer. */
+#define SURFACE_SMALLEST_FOOTPRINT_COS REAL(1e-3)
+
+/* Where the cone of a ray that has come to a distance t meets the triangle; `across`: the length of
+   surface_cross. */
+static inline void surface_set_footprint(const Scene* scene, global const Triangle* triangle, const Ray* ray,
+                                         real t, real across, Surface* surface)
+{
+#if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
+    surface->spread = ray->spread;
+    surface->width = ray->width + real_sqrt(ray->spread) * t;
+    surface->uv_area = 0.0f;
+    if (surface->width == REAL(0.0) || triangle->t0 == NO_INDEX || !(across > REAL(0.0)))
+        return;
+    const float2 t0 = scene->uvs[triangle->t0];
+    const float2 d1 = scene->uvs[triangle->t1] - t0;
+    const float2 d2 = scene->uvs[triangle->t2] - t0;
+    const real density = fabs(real_difference_of_products(d1.x, d2.y, d1.y, d2.x)) *
+                         (SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE) / across;
+    const real cosine = fmax(fabs(vector_dot(surface->normal_g, ray->direction)),
+                             SURFACE_SMALLEST_FOOTPRINT_COS);
+    surface->uv_area = (float)(surface->width * surface->width * density / cosine);
+#endif
+}
+
 /* Reconstructs the surface where a ray has hit it; wo points back along the ray. The position comes from the
    barycentric weights, not from the distance, so its error depends on the triangle's size and place alone. */
 CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const Ray* ray)
@@ -281,6 +321,7 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
     if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL))
         surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
     surface_smooth(scene, triangle, instance, time, p, hit->b1, hit->b2, &surface);
+    surface_set_footprint(scene, triangle, ray, hit->t, across, &surface);
     return surface;
 }
 
@@ -337,10 +378,15 @@ static inline real surface_time(const Surface* surface)
 #endif
 }
 
-/* The ray that goes on from the surface to either side, at the same time. */
+/* The ray that goes on from the surface to either side, at the same time and with the same cone. */
 static inline Ray surface_ray(const Surface* surface, bool reflects, real3 direction)
 {
-    return ray_make(surface_origin(surface, reflects), direction, surface_time(surface));
+    Ray ray = ray_make(surface_origin(surface, reflects), direction, surface_time(surface));
+#if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
+    ray.width = surface->width;
+    ray.spread = surface->spread;
+#endif
+    return ray;
 }
 
 #endif

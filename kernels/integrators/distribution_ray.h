@@ -225,6 +225,7 @@ static inline uint distribution_spawn_one(const Scene* scene, const RenderParams
     child.pdf_w = next.pdf_w * ((real)count / (real)vertex->shadow_rays);
     child.index = path->index * count + which;
     child.share = path->share * count;
+    ray_cone_scatter(params, &vertex->sampler, next.pdf_w, &child.ray);
     return distribution_push(scene, params, &vertex->sampler, child, stack, top);
 }
 

@@ -47,6 +47,49 @@ static inline real environment_texel_solid_angle(const RenderParams* params, uin
     return REAL(2.0) * REAL_PI * band / (real)params->environment_width;
 }
 
+/* Tiles in a row of them, and in all. */
+static inline uint environment_tiles_across(const RenderParams* params)
+{
+    return (params->environment_width + (SKY_TILE_SIZE - 1u)) / SKY_TILE_SIZE;
+}
+
+static inline uint environment_tile_count(const RenderParams* params)
+{
+    return environment_tiles_across(params) *
+           ((params->environment_height + (SKY_TILE_SIZE - 1u)) / SKY_TILE_SIZE);
+}
+
+/* The number of the tile that a texel is in. */
+static inline uint environment_tile_at(const RenderParams* params, uint column, uint row)
+{
+    return row / SKY_TILE_SIZE * environment_tiles_across(params) + column / SKY_TILE_SIZE;
+}
+
+/* Three halves that are not negative, by integers: devices may lose small ones otherwise. */
+static inline float3 environment_from_halves(uint3 halves)
+{
+    const float3 normal = as_float3((halves + (uint3)(112u << 10)) << (uint3)(13u));
+    const float3 small = convert_float3(halves) * 0x1p-24f;
+    return select(normal, small, halves < (uint3)(1u << 10));
+}
+
+/* Radiance of a texel, without the map's factor. */
+static inline real3 environment_texel(const Scene* scene, const RenderParams* params, int column, int row)
+{
+    const uint within = (uint)row % SKY_TILE_SIZE * SKY_TILE_SIZE + (uint)column % SKY_TILE_SIZE;
+    const uint i = environment_tile_at(params, (uint)column, (uint)row) * SKY_TILE_TEXELS + within;
+    if (params->environment_format == SKY_TEXEL_RGBE) {
+        const uint word = scene->sky_texels[i];
+        const uint3 bytes = (uint3)(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u);
+        return convert_real3(convert_float3(bytes) * as_float(((word >> 24) - 9u) << 23));
+    }
+    if (params->environment_format == SKY_TEXEL_HALF) {
+        const ushort3 halves = vload3(i, (global const ushort*)scene->sky_texels);
+        return convert_real3(environment_from_halves(convert_uint3(halves)));
+    }
+    return convert_real3(vload3(i, (global const float*)scene->sky_texels));
+}
+
 /* Radiance of the map at map coordinates, bilinear; wraps around, ends at the poles. */
 static CLRT_NOINLINE real3 environment_map_lookup(const Scene* scene, const RenderParams* params, real2 uv)
 {
@@ -62,10 +105,10 @@ static CLRT_NOINLINE real3 environment_map_lookup(const Scene* scene, const Rend
     const int x1 = x0 + 1 == width ? 0 : x0 + 1;
     const int y0 = clamp(row, 0, height - 1);
     const int y1 = clamp(row + 1, 0, height - 1);
-    const real3 a = vector_from(scene->environment[y0 * width + x0].radiance);
-    const real3 b = vector_from(scene->environment[y0 * width + x1].radiance);
-    const real3 c = vector_from(scene->environment[y1 * width + x0].radiance);
-    const real3 d = vector_from(scene->environment[y1 * width + x1].radiance);
+    const real3 a = environment_texel(scene, params, x0, y0);
+    const real3 b = environment_texel(scene, params, x1, y0);
+    const real3 c = environment_texel(scene, params, x0, y1);
+    const real3 d = environment_texel(scene, params, x1, y1);
     return vector_mix(vector_mix(a, b, fx), vector_mix(c, d, fx), fy);
 }
 
@@ -81,13 +124,13 @@ static inline real3 environment_eval(const Scene* scene, const RenderParams* par
 /* The slot of the alias table that a word stands for. */
 static inline uint environment_slot(const RenderParams* params, uint word)
 {
-    return warp_index(word, params->environment_width * params->environment_height);
+    return warp_index(word, environment_tile_count(params));
 }
 
-/* The texel that a slot and another word choose. */
-static inline uint environment_texel(const Scene* scene, uint slot, uint alias_word)
+/* The tile that a slot and another word choose. */
+static inline uint environment_tile(const Scene* scene, uint slot, uint alias_word)
 {
-    return alias_word < scene->environment[slot].threshold ? slot : scene->environment[slot].alias;
+    return alias_word < scene->sky_tiles[slot].threshold ? slot : scene->sky_tiles[slot].alias;
 }
 
 /* True where light sampling may look at a map's texels. */
@@ -104,13 +147,13 @@ static inline uint environment_word(const RenderParams* params, uint2 words)
     return HAS(EFFECT_LIGHT_TREE) && LIGHT_TREE_IS_USED(*params) != 0.0f ? words.y : words.x;
 }
 
-/* Starts to load the texel that environment_map_sample will choose for these words, and those above and below
-   for the lookup. A map is larger than caches are, and these are all over it. environment_prefetch_slot comes
-   first: by the time of the second call the slot has arrived. */
+/* Starts to load the tile that environment_map_sample will choose for these words, and its texels. A map is
+   larger than caches are, and these are all over it. environment_prefetch_slot comes first: by the time of
+   the second call the slot has arrived. */
 static inline void environment_prefetch_slot(const Scene* scene, const RenderParams* params, uint2 words)
 {
     if (environment_is_searched(params))
-        CLRT_PREFETCH(scene->environment + environment_slot(params, environment_word(params, words)));
+        CLRT_PREFETCH(scene->sky_tiles + environment_slot(params, environment_word(params, words)));
 }
 
 static inline void environment_prefetch_texel(const Scene* scene, const RenderParams* params, uint2 words,
@@ -119,24 +162,78 @@ static inline void environment_prefetch_texel(const Scene* scene, const RenderPa
     if (!environment_is_searched(params))
         return;
     const uint slot = environment_slot(params, environment_word(params, words));
-    const uint chosen = environment_texel(scene, slot, alias_word);
-    const ulong texel = (ulong)(scene->environment + chosen);
-    const ulong row = sizeof(EnvironmentTexel) * params->environment_width;
-    CLRT_PREFETCH(texel - row);
-    CLRT_PREFETCH(texel);
-    CLRT_PREFETCH(texel + row);
+    const uint tile = environment_tile(scene, slot, alias_word);
+    const ulong bytes = SKY_TILE_TEXELS * (params->environment_format == SKY_TEXEL_RGBE   ? 4u
+                                           : params->environment_format == SKY_TEXEL_HALF ? 6u
+                                                                                          : 12u);
+    const ulong texels = (ulong)scene->sky_texels + bytes * tile;
+    CLRT_PREFETCH(scene->sky_tiles + tile);
+    CLRT_PREFETCH(texels);
+    CLRT_PREFETCH(texels + bytes / 2u);
+    CLRT_PREFETCH(texels + bytes - 1u);
 }
 
-/* Chooses a texel by the alias table and a direction uniformly within it. */
+/* The share of a row's texel. */
+static inline uint environment_share(uint row_shares, uint column)
+{
+    return (row_shares >> (8u * column)) & 255u;
+}
+
+static inline uint environment_pick(uint4 of, uint place)
+{
+    return place == 0u ? of.x : place == 1u ? of.y : place == 2u ? of.z : of.w;
+}
+
+/* Chooses among four shares, not all 0, by a number in [0, 1): returns the place of one that is not 0, and in
+   *u how far the number is between the ends of its share. A number below 1 times the sum of the shares stays
+   below the sum when it is rounded. */
+static inline uint environment_choose_share(uint4 shares, real* u)
+{
+    const uint3 ends = (uint3)(shares.x, shares.x + shares.y, shares.x + shares.y + shares.z);
+    const real at = *u * (real)(ends.z + shares.w);
+    const uint place =
+        (at >= (real)ends.x ? 1u : 0u) + (at >= (real)ends.y ? 1u : 0u) + (at >= (real)ends.z ? 1u : 0u);
+    const uint begin = place == 0u ? 0u : place == 1u ? ends.x : place == 2u ? ends.y : ends.z;
+    *u = (at - (real)begin) / (real)environment_pick(shares, place);
+    return place;
+}
+
+/* Density of a texel of a tile: it is chosen with its share of the tile's probability, and filled evenly. */
+static inline real environment_texel_pdf_w(const Scene* scene, const RenderParams* params, uint column,
+                                           uint row)
+{
+    global const SkyTile* tile = scene->sky_tiles + environment_tile_at(params, column, row);
+    const uint share = environment_share(tile->shares[row % SKY_TILE_SIZE], column % SKY_TILE_SIZE);
+    return (real)tile->probability * (real)share /
+           ((real)SKY_SHARES * environment_texel_solid_angle(params, row));
+}
+
+/* Chooses a texel by the table, in *row and *column, and the place u within it. */
+static inline real2 environment_choose_texel(const Scene* scene, const RenderParams* params, uint word,
+                                             uint alias_word, real v, uint* column, uint* row)
+{
+    const uint across = environment_tiles_across(params);
+    const uint tile = environment_tile(scene, environment_slot(params, word), alias_word);
+    const uint4 shares = vload4(0, scene->sky_tiles[tile].shares);
+    real across_u = warp_rest(word, environment_tile_count(params), alias_word);
+    real down_u = v;
+    /* The sum of a word's bytes, which fits one, comes out on top of this product. */
+    const uint below = environment_choose_share((shares * 0x01010101u) >> 24, &down_u);
+    const uint of_row = environment_pick(shares, below);
+    const uint4 of_texels = (uint4)(of_row & 255u, (of_row >> 8) & 255u, (of_row >> 16) & 255u, of_row >> 24);
+    const uint beside = environment_choose_share(of_texels, &across_u);
+    *row = tile / across * SKY_TILE_SIZE + below;
+    *column = tile % across * SKY_TILE_SIZE + beside;
+    return (real2)(across_u, down_u);
+}
+
+/* Chooses a texel and a direction uniformly within it. */
 static inline LightSample environment_map_sample(const Scene* scene, const RenderParams* params, uint word,
                                                  uint alias_word, real v)
 {
     const uint width = params->environment_width;
-    const uint count = width * params->environment_height;
-    const real2 u = (real2)(warp_rest(word, count, alias_word), v);
-    const uint texel = environment_texel(scene, environment_slot(params, word), alias_word);
-    const uint row = texel / width;
-    const uint column = texel - row * width;
+    uint row, column;
+    const real2 u = environment_choose_texel(scene, params, word, alias_word, v, &column, &row);
     /* 1 - cos is uniform between the row's edges, measured from the nearer pole: so no digits are lost next
        to it. */
     const bool upper = 2u * row < params->environment_height;
@@ -152,8 +249,7 @@ static inline LightSample environment_map_sample(const Scene* scene, const Rende
     const real3 d = vector_make(r * sc.y, y, r * sc.x);
     LightSample sample = light_sample_none();
     sample.wi = environment_to_world(params, d);
-    sample.pdf_w =
-        (real)TEXEL_PROBABILITY(scene->environment[texel]) / environment_texel_solid_angle(params, row);
+    sample.pdf_w = environment_texel_pdf_w(scene, params, column, row);
     sample.radiance =
         vector_from(params->environment) *
         environment_map_lookup(scene, params, (real2)(map_u, real_atan2(r, y) * REAL_INVERSE_PI));
@@ -184,8 +280,7 @@ static inline real environment_map_pdf_w(const Scene* scene, const RenderParams*
     const real2 uv = environment_uv(environment_to_map(params, wi));
     const uint column = min((uint)(uv.x * (real)params->environment_width), params->environment_width - 1u);
     const uint row = min((uint)(uv.y * (real)params->environment_height), params->environment_height - 1u);
-    return (real)TEXEL_PROBABILITY(scene->environment[row * params->environment_width + column]) /
-           environment_texel_solid_angle(params, row);
+    return environment_texel_pdf_w(scene, params, column, row);
 }
 
 #endif

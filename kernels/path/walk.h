@@ -4,6 +4,7 @@
 #define CLRT_PATH_WALK_H
 
 #include "filter.h"
+#include "geometry/ray_cone.h"
 #include "guide_learn.h"
 #include "layers.h"
 #include "numbers.h"
@@ -153,6 +154,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     guide_leave(guide, &path->guided);
     path->is_alive = path_survives(scene, params, sampler, segment, worth, path);
     path->ray = surface_ray(surface, next->reflects, next->wi);
+    ray_cone_scatter(params, sampler, next->pdf_w, &path->ray);
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
     path->has_crossed_curved = surface->is_curved && !next->reflects;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION

@@ -19,7 +19,7 @@ static inline real material_coverage(const Scene* scene, global const Material* 
 {
     real coverage = (real)MATERIAL_COVERAGE(*material);
     if (HAS(EFFECT_TEXTURES) && material->map_coverage != NO_INDEX)
-        coverage *= texture_scalar(scene, material->map_coverage, uv);
+        coverage *= texture_scalar(scene, material->map_coverage, uv, 0.0f);
     return real_unit(coverage);
 }
 
@@ -43,9 +43,9 @@ static inline real3 material_bump_normal(const Scene* scene, global const Materi
     const float dv =
         1.0f / ((float)texture->height * fmax(fabs(texture->scale_v), MATERIAL_SMALLEST_MAP_SCALE));
     const float2 uv = surface->uv;
-    const real height = texture_scalar(scene, material->map_bump, uv);
-    const real along_u = texture_scalar(scene, material->map_bump, (float2)(uv.x + du, uv.y));
-    const real along_v = texture_scalar(scene, material->map_bump, (float2)(uv.x, uv.y + dv));
+    const real height = texture_scalar(scene, material->map_bump, uv, 0.0f);
+    const real along_u = texture_scalar(scene, material->map_bump, (float2)(uv.x + du, uv.y), 0.0f);
+    const real along_v = texture_scalar(scene, material->map_bump, (float2)(uv.x, uv.y + dv), 0.0f);
     const real scale = (real)material->bump_scale;
     /* Displaced tangents; their cross product is the new normal. */
     const real3 tu = surface->tangent + n * (scale * (along_u - height) / (real)du);
@@ -63,7 +63,7 @@ static inline real3 material_bump_normal(const Scene* scene, global const Materi
 static inline real3 material_mapped_normal(const Scene* scene, global const Material* material,
                                            const Surface* surface, real3 n)
 {
-    const real3 rgb = convert_real3(texture_lookup(scene, material->map_normal, surface->uv).xyz);
+    const real3 rgb = convert_real3(texture_lookup(scene, material->map_normal, surface->uv, 0.0f).xyz);
     const real3 m = REAL(2.0) * rgb - (real3)(REAL(1.0));
     const Frame frame = frame_make_tangent(n, surface->tangent);
     /* Green grows with v, also where the texture coordinates are mirrored. */
@@ -103,7 +103,7 @@ static inline real3 material_reflectance(const Scene* scene, uint map, const Sur
     global const Texture* texture = scene->textures + map;
     real3 color = (real3)(REAL(1.0));
     if (texture->format != TEXEL_VERTEX) {
-        color = texture_color(scene, map, surface->uv);
+        color = texture_color(scene, map, surface->uv, surface_uv_area(surface));
         color = color > (real3)(REAL(1.0)) ? (real3)(REAL(1.0)) : color;
     }
     if (texture->vertex_word != 0u)
@@ -115,7 +115,7 @@ static inline real3 material_reflectance(const Scene* scene, uint map, const Sur
 static inline real material_scaled(const Scene* scene, float constant_part, uint map, float2 uv)
 {
     const real value = (real)constant_part;
-    return HAS(EFFECT_TEXTURES) && map != NO_INDEX ? value * real_unit(texture_scalar(scene, map, uv))
+    return HAS(EFFECT_TEXTURES) && map != NO_INDEX ? value * real_unit(texture_scalar(scene, map, uv, 0.0f))
                                                    : value;
 }
 
@@ -185,14 +185,15 @@ static inline void material_parameters(const Scene* scene, global const Material
     real metallic = (real)MATERIAL_METALLIC(*material);
     real roughness = REAL(1.0);
     if (HAS(EFFECT_TEXTURES)) {
+        const float uv_area = surface_uv_area(surface);
         if (material->map_matte != NO_INDEX)
             bsdf->matte *= material_reflectance(scene, material->map_matte, surface);
         if (material->map_specular != NO_INDEX)
             bsdf->specular *= material_reflectance(scene, material->map_specular, surface);
         if (material->map_metallic != NO_INDEX)
-            metallic *= real_unit(texture_scalar(scene, material->map_metallic, surface->uv));
+            metallic *= real_unit(texture_scalar(scene, material->map_metallic, surface->uv, uv_area));
         if (material->map_roughness != NO_INDEX)
-            roughness = real_unit(texture_scalar(scene, material->map_roughness, surface->uv));
+            roughness = real_unit(texture_scalar(scene, material->map_roughness, surface->uv, uv_area));
     }
     if (HAS(EFFECT_PART_GLASS) && (material->flags & MATERIAL_PART_GLASS))
         metallic = material_part_glass(scene, material, surface, metallic, bsdf);
@@ -219,7 +220,7 @@ static inline real3 material_emission(const Scene* scene, uint index, float2 uv,
     global const Material* material = scene->materials + index;
     real3 emission = vector_from(material->emission);
     if (HAS(EFFECT_TEXTURES) && material->map_emission != NO_INDEX)
-        emission *= texture_color(scene, material->map_emission, uv);
+        emission *= texture_color(scene, material->map_emission, uv, 0.0f);
     if (HAS(EFFECT_COAT) && (material->lobes & LOBE_COAT)) {
         const real2 coat = material_coat(scene, index, uv);
         const real cosine = fmin(fabs(cos_o), REAL(1.0));

@@ -32,7 +32,9 @@
 #define EFFECT_INSTANCES 0x10000000u   /* copies that share one mesh (geometry/instance.h) */
 #define EFFECT_THIN_WALL 0x20000000u   /* panes without an inside */
 #define EFFECT_ROTATION 0x40000000u    /* highlights stretched askew to the texture coordinates */
-#define EFFECT_ALL (0xffffffu | EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_ROTATION)
+#define EFFECT_TEXTURE_FILTER 0x80000000u /* lookups over the ray's footprint (geometry/ray_cone.h) */
+#define EFFECT_ALL                                                                                           \
+    (0xffffffu | EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_ROTATION | EFFECT_TEXTURE_FILTER)
 
 /* Effects that read the array of material extensions. */
 #define EFFECTS_EXTENSION                                                                                    \

@@ -62,7 +62,9 @@ typedef struct {
     u32 caster_count;           /* spheres at which emission is aimed, */
     float caster_squares;       /* and the sum of their squared radii */
     u32 light_path_count;       /* of a pass over the whole picture */
-    u32 unused0, unused1, unused2;
+    u32 environment_format;     /* SKY_TEXEL_* */
+    u32 texture_filter;         /* 1: lookups are filtered over the ray's footprint */
+    u32 unused0;
 } RenderParams;
 ASSERT_SIZE(RenderParams, 416);
 

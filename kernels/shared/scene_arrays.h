@@ -33,7 +33,8 @@
     ROW(Emitter, emitters, emitters)                                                                         \
     ROW(Light, lights, lights)                                                                               \
     ROW(vec4, casters, casters)                                                                              \
-    ROW(EnvironmentTexel, environment, environment.texels)                                                   \
+    ROW(SkyTile, sky_tiles, environment.tiles)                                                               \
+    ROW(u32, sky_texels, environment.texels)                                                                 \
     ROW(LightNode, light_nodes, light_tree.nodes)                                                            \
     ROW(LightPlace, light_places, light_tree.places)
 

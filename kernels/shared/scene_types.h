@@ -98,6 +98,11 @@ ASSERT_SIZE(MaterialExtension, 80);
 #define TEXEL_LINEAR8 1u /* the same, all four linear */
 #define TEXEL_FLOAT 2u   /* four words: r, g, b, a as floats */
 #define TEXEL_VERTEX 3u  /* no picture, but the colours of vertices alone */
+#define TEXEL_GREY_SRGB8 4u   /* a byte, four to a word from the lowest: r = g = b, opaque */
+#define TEXEL_GREY_LINEAR8 5u
+
+/* Where lookups are filtered, the words of a picture's smaller levels follow its own, down to one texel: the
+   size of each is half the size before, rounded down, at least 1. */
 
 /* What is beside the picture, along each axis. */
 #define WRAP_REPEAT 0u
@@ -156,17 +161,27 @@ ASSERT_SIZE(Light, 64);
    centre, and as w its radius. */
 #define CASTER_RADIUS(sphere) ((sphere).w)
 
-/* A texel of a lat-long environment map, rows from +Y down. The choice is piecewise constant over texels,
-   the lookup bilinear. */
-typedef struct {
-    vec4 radiance; /* rgb; w: TEXEL_PROBABILITY */
-    u32 alias, threshold;
-    u32 unused0, unused1;
-} EnvironmentTexel;
-ASSERT_SIZE(EnvironmentTexel, 32);
+/* A lat-long environment map lies in tiles of 4 x 4 texels: tiles row by row, rows from +Y down, and so the
+   texels of a tile. What sticks out of the map at the right and at the bottom is black and never chosen.
+   Light sampling chooses a tile by the alias table, then a row of it and a texel of the row by their shares:
+   the choice is piecewise constant over texels, the lookup bilinear. */
+#define SKY_TILE_SIZE 4u
+#define SKY_TILE_TEXELS 16u
 
-/* Of choosing the texel. */
-#define TEXEL_PROBABILITY(texel) ((texel).radiance.w)
+typedef struct {
+    u32 alias, threshold; /* as in Emitter */
+    float probability;    /* of choosing this tile */
+    u32 unused0;
+    u32 shares[4];        /* of each row's texels, a byte each from the lowest; none, or SKY_SHARES in all */
+} SkyTile;
+ASSERT_SIZE(SkyTile, 32);
+
+#define SKY_SHARES 240u /* 15 for each of 16 equal texels */
+
+/* How texels of the map are stored, in words tile by tile. */
+#define SKY_TEXEL_RGBE 0u  /* one word: bytes r, g, b, e from the lowest; a channel is byte 2^(e - 136) */
+#define SKY_TEXEL_HALF 1u  /* three halves, not negative */
+#define SKY_TEXEL_FLOAT 2u /* three floats */
 
 /* Children of a node of the light tree: as many as AVX has lanes. */
 #define LIGHT_NODE_WIDTH 8

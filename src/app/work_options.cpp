@@ -200,6 +200,12 @@ std::vector<OptionSpec> work_options() {
          "repair "
          "is said) or plain (word by word) (default auto)",
          [](Options& o, const OptionValue& v) { o.scene.mtl = parse_choice<MtlReading>(v); }},
+        {group, "", "--texture-filter", "NAME",
+         takers(TAKES_TEXTURE_FILTER) +
+             "colours, metal and roughness of textures are read at a point (none) or averaged over what the "
+             "ray's cone covers (footprint): less noise in few samples, biased by a blur that narrows with "
+             "their number; a third more memory (default none)",
+         [](Options& o, const OptionValue& v) { o.scene.texture_filter = parse_choice<TextureFilter>(v); }},
         {group, "", "--instances", "auto|on|off",
          fmt::format(
              "meshes that a glTF file uses several times: kept once and shared (on), copied (off), or "

@@ -56,6 +56,8 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_THIN_WALL, "thin walls", 0, 0, "thin walls of glass are black and opaque"},
         {EFFECT_ROTATION, "rotated highlights", 0, EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL,
          "stretched highlights lie along the texture coordinates"},
+        {EFFECT_TEXTURE_FILTER, "texture filter", EFFECT_TEXTURES, 0,
+         "textures are read at a point, as by --texture-filter none"},
     };
     return table;
 }

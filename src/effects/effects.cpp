@@ -210,6 +210,23 @@ void find_material_effects(const Scene& scene, const Options& options, EffectFin
     });
 }
 
+/// Pictures alone have levels; what lies between vertices is as smooth as it looks.
+void find_texture_filter(const Scene& scene, const Options& options, EffectFinder& finder) {
+    const char* const option = "--texture-filter";
+    const Integrator integrator = options.transport.integrator;
+    const bool wanted = options.scene.texture_filter == TextureFilter::FOOTPRINT;
+    const bool taken = takes_option(integrator, TAKES_TEXTURE_FILTER);
+    const bool has_picture =
+        std::any_of(scene.textures.begin(), scene.textures.end(),
+                    [](const Texture& texture) { return texture.format != TEXEL_VERTEX; });
+    finder.fact(EFFECT_TEXTURE_FILTER, wanted && taken && has_picture,
+                !wanted        ? "no --texture-filter footprint"
+                : !taken       ? fmt::format("{} reads textures at a point", name_of(integrator))
+                : !has_picture ? "no material has a picture"
+                               : describe_option(options, option) + " footprint",
+                wanted ? place_of(options, option) : SourcePlace{});
+}
+
 void find_smooth_normals(const Scene& scene, EffectFinder& finder) {
     size_t first = 0;
     while (first < scene.triangles.size() && scene.triangles[first].n0 == NO_INDEX)
@@ -349,6 +366,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_conductors(finder);
     find_instances(scene, options, finder);
     find_interreflection(scene, options, finder);
+    find_texture_filter(scene, options, finder);
 
     effects.list = finder.take();
     for (const Effect& effect : effects.list)

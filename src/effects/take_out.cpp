@@ -5,6 +5,7 @@
 #include "scene/conductors.h"
 #include "scene/emission.h"
 #include "scene/lobes.h"
+#include "scene/sky_texels.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ glm::dvec3 mean_of_map(const Environment& sky) {
     for (int y = 0; y < sky.height; ++y) {
         const double weight = std::sin(PI * (y + 0.5) / sky.height);
         for (int x = 0; x < sky.width; ++x)
-            sum += weight * to_dvec3(sky.texels[size_t(y) * size_t(sky.width) + size_t(x)].radiance);
+            sum += weight * glm::dvec3(sky_texel(sky, x, y));
         weights += weight * sky.width;
     }
     return sky.radiance * sum / weights;
@@ -45,6 +46,7 @@ glm::dvec3 mean_of_map(const Environment& sky) {
 void set_sky(Environment& sky, const glm::dvec3& radiance) {
     sky.radiance = radiance;
     sky.texels.clear();
+    sky.tiles.clear();
     sky.width = sky.height = 0;
 }
 
@@ -223,6 +225,8 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
     }
     if ((effects & EFFECT_LIGHT_TREE) && options.sampling.light_sampler == LightSampler::TREE)
         options.sampling.light_sampler = LightSampler::MIXTURE;
+    if (effects & EFFECT_TEXTURE_FILTER)
+        options.scene.texture_filter = TextureFilter::NONE;
     if (effects & EFFECT_INSTANCES)
         take_out_instances(scene);
     if (effects & EFFECT_MOTION_BLUR)

@@ -67,15 +67,17 @@ public:
         vector(up);
     }
     void add(const Environment& environment) {
-        const auto& [radiance, width, height, texels, rotation_degrees, mean_radiance, sampling,
-                     tabulated_share] = environment;
-        (void)texels;        // one of SCENE_ARRAYS
+        const auto& [radiance, width, height, texel_format, texels, tiles, rotation_degrees, mean_radiance,
+                     sampling, tabulated_share] = environment;
+        (void)texels; // of SCENE_ARRAYS
+        (void)tiles;
         (void)mean_radiance; // of the others
-        (void)sampling;      // the texels tell
+        (void)sampling;      // the tiles tell
         (void)tabulated_share;
         vector(radiance);
         number(width);
         number(height);
+        number(texel_format);
         number(rotation_degrees);
     }
     void add(const Normalisation& normalisation) {
@@ -147,6 +149,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["replicates"] = params.replicates;
     identity["filter"] = name_of(options.film.filter);
     identity["filter_radius"] = params.filter_radius;
+    identity["texture_filter"] = params.texture_filter != 0;
     identity["max_depth"] = params.max_depth;
     identity["roulette_depth"] = params.roulette_depth;
     identity["min_contribution"] = params.min_contribution;

@@ -24,6 +24,7 @@ enum IntegratorOption : unsigned {
     TAKES_GLOSS_RAYS = 32,
     TAKES_TRANSLUCENT_RAYS = 64,
     TAKES_GUIDE = 128,
+    TAKES_TEXTURE_FILTER = 256,
 };
 
 template <>
@@ -35,7 +36,8 @@ inline constexpr Named<IntegratorOption> NAMES<IntegratorOption>[] = {
     {TAKES_SHADOW_RAYS, "--shadow-rays"},
     {TAKES_GLOSS_RAYS, "--gloss-rays"},
     {TAKES_TRANSLUCENT_RAYS, "--translucent-rays"},
-    {TAKES_GUIDE, "--guide"}};
+    {TAKES_GUIDE, "--guide"},
+    {TAKES_TEXTURE_FILTER, "--texture-filter"}};
 
 /// Paths in path notation (paths/path_expression.h): those that an integrator simulates, and those that its
 /// techniques find. What is simulated and not found is a blind spot (paths/blind_spots.h).
@@ -106,7 +108,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::EVERY_LIGHT,
      FilmAccess::GATHER,
-     0},
+     TAKES_TEXTURE_FILTER},
     {Integrator::WHITTED,
      "whitted",
      "mirrors, glass, shadows",
@@ -116,7 +118,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::EVERY_LIGHT,
      FilmAccess::GATHER,
-     TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION},
+     TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION | TAKES_TEXTURE_FILTER},
     {Integrator::DISTRIBUTION,
      "distribution",
      "soft shadows, gloss, translucency",
@@ -127,7 +129,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      Connections::EVERY_LIGHT_BY_TREE,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_MIN_CONTRIBUTION | TAKES_PATHS | TAKES_SHADOW_RAYS | TAKES_GLOSS_RAYS |
-         TAKES_TRANSLUCENT_RAYS},
+         TAKES_TRANSLUCENT_RAYS | TAKES_TEXTURE_FILTER},
     {Integrator::LIGHT,
      "light",
      "light paths splatted on the film",
@@ -147,7 +149,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE_AND_BSDF,
      Connections::ONE_LIGHT,
      FilmAccess::GATHER,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE | TAKES_TEXTURE_FILTER},
     {Integrator::PATH_LIGHT,
      "path+light",
      "global illumination, caustics by light paths",

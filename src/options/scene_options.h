@@ -33,6 +33,16 @@ template <>
 inline constexpr Named<GltfLights> NAMES<GltfLights>[] = {{GltfLights::BLENDER, "blender"},
                                                           {GltfLights::RAW, "raw"}};
 
+/// Over what a ray's lookup of a texture is averaged.
+enum class TextureFilter {
+    NONE,     ///< one point: exact in the limit of many samples
+    FOOTPRINT ///< what the ray's cone covers (kernels/geometry/ray_cone.h)
+};
+
+template <>
+inline constexpr Named<TextureFilter> NAMES<TextureFilter>[] = {{TextureFilter::NONE, "none"},
+                                                                {TextureFilter::FOOTPRINT, "footprint"}};
+
 /// Where copies of a mesh are at least so many triangles, one copy and a second tree take less memory and are
 /// built sooner; and the ray's way through two trees is no longer than through one that fills no cache.
 constexpr size_t LEAST_COPIED_TRIANGLES = 1000000;
@@ -49,6 +59,7 @@ struct SceneOptions {
     MaterialOverride material_override = MaterialOverride::NONE;
     Toggle instances = Toggle::AUTO; ///< meshes that are used several times are shared, not copied
     GltfReading gltf{};
+    TextureFilter texture_filter = TextureFilter::NONE;
 };
 
 } // namespace clrt

@@ -30,6 +30,7 @@ void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) 
         BACKGROUND_IS_SEEN(params) = 1;
     }
     params.environment_width = sky.texels.empty() ? 0 : u32(sky.width);
+    params.environment_format = sky.texel_format;
     params.environment_height = sky.texels.empty() ? 0 : u32(sky.height);
     params.environment_cos = float(std::cos(sky.rotation_degrees * RADIANS));
     params.environment_sin = float(std::sin(sky.rotation_degrees * RADIANS));
@@ -118,6 +119,8 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     params.min_contribution = float(options.transport.min_contribution);
     params.roulette_depth =
         integrator.takes & TAKES_ROULETTE_DEPTH ? u32(options.transport.roulette_depth) : NO_ROULETTE;
+    params.texture_filter =
+        options.scene.texture_filter == TextureFilter::FOOTPRINT && (integrator.takes & TAKES_TEXTURE_FILTER);
     params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);

@@ -235,6 +235,9 @@ std::string report_json(const Report& report) {
     json["guide"] = guide_json(render.guide);
     json["chains"] = chains_json(render.chains);
     json["sampler"] = name_of(report.options.sampling.sampler);
+    json["texture_filter"] = name_of(report.effects.needed & ~report.effects.left_out & EFFECT_TEXTURE_FILTER
+                                         ? TextureFilter::FOOTPRINT
+                                         : TextureFilter::NONE);
     json["light_sampler"] = name_of(report.options.sampling.light_sampler);
     json["seed"] = report.options.sampling.seed;
     json["replicates"] = render.film.replicates;

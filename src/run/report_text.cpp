@@ -10,6 +10,8 @@
 #include "run/report.h"
 #include "run/report_facts.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace clrt {
@@ -92,6 +94,18 @@ std::string left_out_lines(const Report& report) {
                                      : "left out nothing but what the lines above name\n";
 }
 
+/// What the error of the picture does not show.
+std::string bias_line(const Report& report) {
+    if (!(report.effects.needed & ~report.effects.left_out & EFFECT_TEXTURE_FILTER))
+        return "";
+    const double last = std::max(1.0, double(film_samples(report.render.film)) -
+                                          double(report.options.sampling.replicates) + 1);
+    return fmt::format(
+        "biased   textures are averaged over a pixel in the first samples, over 1/{:.3g} of its "
+        "width in the last: the error does not count it\n",
+        std::sqrt(last));
+}
+
 /// Samples that were not fit to be added, and why.
 std::string bad_lines(const Report& report) {
     const RenderCounts& counts = report.render.counts;
@@ -142,7 +156,7 @@ std::string format_report(const Report& report) {
         chain_line(report) + time_line(report) + share_lines(report) + format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
-        left_out_lines(report) + bad_lines(report);
+        bias_line(report) + left_out_lines(report) + bad_lines(report);
     if (report.options.run.verbosity > 0)
         text += work_lines(report) + format_error_details(report.error) + proof_lines(report);
     return text;

@@ -4,10 +4,11 @@
 #include "colour.h"
 #include "kernels/shared/path_types.h"
 #include "scene/placed_box.h"
+#include "scene/sky_texels.h"
+#include "scene/texture_levels.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
-#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -20,36 +21,19 @@ double largest_of(const vec4& v) {
     return std::max({double(v.x), double(v.y), double(v.z)});
 }
 
-float as_float(u32 word) {
-    float value = 0;
-    std::memcpy(&value, &word, sizeof value);
-    return value;
-}
-
 /// Smallest and largest r, g or b of a texture's image, linear, without base and gain.
 std::pair<double, double> texel_range(const Scene& scene, const Texture& texture) {
     if (texture.format == TEXEL_VERTEX)
         return {0, 1}; // the range of vertex colours
     const u32* words = &scene.texel_words[texture.first_word];
     const size_t texels = size_t(texture.width) * texture.height;
-    if (texture.format == TEXEL_FLOAT) {
-        double low = std::numeric_limits<double>::max(), high = 0;
-        for (size_t i = 0; i < 4 * texels; ++i)
-            if (i % 4 != 3) {
-                low = std::min(low, double(as_float(words[i])));
-                high = std::max(high, double(as_float(words[i])));
-            }
-        return {low, high};
+    double low = std::numeric_limits<double>::max(), high = 0;
+    for (size_t i = 0; i < texels; ++i) {
+        const vec4 t = decode_texel(texture.format, words, i, scene.texel_words.data());
+        low = std::min({low, double(t.x), double(t.y), double(t.z)});
+        high = std::max({high, double(t.x), double(t.y), double(t.z)});
     }
-    u32 low = 255, high = 0;
-    for (size_t i = 0; i < texels; ++i)
-        for (const u32 byte : {words[i] & 255u, words[i] >> 8 & 255u, words[i] >> 16 & 255u}) {
-            low = std::min(low, byte);
-            high = std::max(high, byte);
-        }
-    if (texture.format == TEXEL_LINEAR8)
-        return {low / 255.0, high / 255.0};
-    return {as_float(scene.texel_words[low]), as_float(scene.texel_words[high])}; // the sRGB curve
+    return {low, high};
 }
 
 /// The largest value of a map that multiplies a reflectance, at most 1 as in kernels/scattering/material.h; 1
@@ -84,9 +68,7 @@ double largest_emission(const Scene& scene) {
 }
 
 double largest_sky(const Environment& sky) {
-    double texel = sky.texels.empty() ? 1 : 0;
-    for (const EnvironmentTexel& t : sky.texels)
-        texel = std::max(texel, largest_of(t.radiance));
+    const double texel = sky.texels.empty() ? 1 : largest_sky_texel(sky);
     return texel * std::max({sky.radiance.x, sky.radiance.y, sky.radiance.z});
 }
 

@@ -3,13 +3,14 @@
 
 #include "colour.h"
 #include "error.h"
-#include "scene/read_image.h"
+#include "images/image_library.h"
 #include "scene/sky_table.h"
+#include "scene/sky_texels.h"
 #include "scene/vectors.h"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
+#include <tbb/parallel_for.h>
 
 namespace clrt {
 namespace {
@@ -38,13 +39,21 @@ void check_factor(double factor, double rotation_degrees) {
 } // namespace
 
 EnvironmentImage read_environment(const std::string& path) {
-    const FloatImage pixels = read_float_image(path, ImageEncoding::COLOUR);
+    const StoredImage stored = image_library().read(path, nullptr);
+    const bool decodes = !stored.is_floating_point, is_grey = stored.channels <= 2;
+    const auto channel = [&](size_t i) {
+        const float value = stored.bytes.empty() ? stored.floats[i] : float(stored.bytes[i]) / 255.f;
+        return decodes ? float(srgb_to_linear(double(value))) : value;
+    };
     EnvironmentImage image;
-    image.width = pixels.width;
-    image.height = pixels.height;
-    image.texels.resize(pixels.rgba.size());
-    for (size_t i = 0; i < pixels.rgba.size(); ++i)
-        image.texels[i] = glm::vec3(pixels.rgba[i].x, pixels.rgba[i].y, pixels.rgba[i].z);
+    image.width = stored.width;
+    image.height = stored.height;
+    image.texels.resize(size_t(stored.width) * size_t(stored.height));
+    tbb::parallel_for(size_t(0), image.texels.size(), [&](size_t i) {
+        const size_t first = i * size_t(stored.channels);
+        image.texels[i] = is_grey ? glm::vec3(channel(first))
+                                  : glm::vec3(channel(first), channel(first + 1), channel(first + 2));
+    });
     return image;
 }
 
@@ -75,19 +84,19 @@ Environment map_environment(const EnvironmentImage& image, double factor, double
                             NoticeList& notices) {
     check_factor(factor, rotation_degrees);
     Environment environment;
-    environment.radiance = glm::dvec3(factor);
-    environment.width = image.width;
-    environment.height = image.height;
     environment.rotation_degrees = rotation_degrees;
-    for (const glm::vec3& texel : image.texels)
-        environment.texels.push_back({{texel.x, texel.y, texel.z, 0}, 0, 0, 0, 0});
-    const std::vector<double> weights = texel_weights(environment);
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    if (!(sum > 0)) {
+    const double of_texels = store_sky_texels(image, environment);
+    if (of_texels != 1)
+        notices.add(fmt::format("the environment map of {} x {} texels is kept in halves: each channel is "
+                                "rounded by 1/4096 of itself at most",
+                                image.width, image.height));
+    environment.radiance = glm::dvec3(factor * of_texels);
+    const double light = light_of_map(environment);
+    if (!(light > 0)) {
         notices.add("the environment map is black: it gives no light");
         return {};
     }
-    environment.mean_radiance = factor * sum / (4 * PI);
+    environment.mean_radiance = factor * of_texels * light / (4 * PI);
     return environment;
 }
 

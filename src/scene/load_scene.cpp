@@ -51,12 +51,20 @@ private:
 /// The pictures of a scene, and the time that they take.
 class Pictures {
 public:
-    Pictures(NoticeList& notices, double& seconds) : notices_(notices), seconds_(seconds) {}
+    Pictures(TextureFilter filter, NoticeList& notices, double& seconds)
+        : store_(filter), notices_(notices), seconds_(seconds) {}
 
     TextureStore& store() { return store_; }
 
     u32 add(const TextureUse& use, TextureRole role) {
         return timed([&] { return store_.add(use, role, notices_); });
+    }
+
+    void read_ahead(const std::vector<std::pair<TextureUse, TextureRole>>& uses) {
+        timed([&] {
+            store_.read_ahead(uses, notices_);
+            return 0;
+        });
     }
 
     PictureFacts facts() {
@@ -127,6 +135,19 @@ void note_remarks(const std::vector<Remark>& remarks, NoticeList& notices) {
         notices.add(remark.text, remark.place);
 }
 
+/// All uses of pictures by materials.
+std::vector<std::pair<TextureUse, TextureRole>> uses_of(const std::vector<MaterialDescription>& descriptions,
+                                                        const MaterialContext& context) {
+    std::vector<std::pair<TextureUse, TextureRole>> uses;
+    const LoadMap note = [&](const TextureUse& use, TextureRole role) {
+        uses.emplace_back(use, role);
+        return 0u;
+    };
+    for (const MaterialDescription& description : descriptions)
+        build_extension(description, build_material(description, context, note), context, note);
+    return uses;
+}
+
 /// Builds the described materials. Returns what each emits: luminance, mean over its map, times coverage,
 /// doubled where both sides shine.
 std::vector<double> build_materials(const std::vector<MaterialDescription>& descriptions, bool two_sided,
@@ -135,6 +156,8 @@ std::vector<double> build_materials(const std::vector<MaterialDescription>& desc
     const MaterialContext context{scene.normalisation.scale, two_sided};
     const LoadMap load_map = [&](const TextureUse& use, TextureRole role) { return pictures.add(use, role); };
     std::vector<double> exitance;
+    progress.update({"textures", 0});
+    pictures.read_ahead(uses_of(descriptions, context));
     for (const MaterialDescription& description : descriptions) {
         progress.update({"textures", double(exitance.size()) / double(descriptions.size())});
         note_remarks(description.surface_remarks, notices);
@@ -228,7 +251,7 @@ void add_end_frame(const SceneRequest& request, Progress& progress, Mesh& mesh, 
 Scene load_all(SceneRequest request, Progress& progress) {
     Scene scene;
     NoticeList notices;
-    Pictures pictures(notices, scene.statistics.texture_seconds);
+    Pictures pictures(request.scene.texture_filter, notices, scene.statistics.texture_seconds);
     const std::string path = input_name(request.scene.path);
 
     SceneDescription description = read_scene(request.scene, progress, pictures, scene.statistics, notices);

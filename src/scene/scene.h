@@ -46,10 +46,12 @@ struct Camera {
 struct Environment {
     glm::dvec3 radiance{0}; ///< constant radiance, or the factor of the map
     int width = 0, height = 0;
-    std::vector<EnvironmentTexel> texels;
-    double rotation_degrees = 0; ///< about +Y
-    double mean_radiance = 0;    ///< over the sphere, luminance, factor included
-    /// What the table in the texels is made for (scene/sky_table.h); none: there is none yet.
+    u32 texel_format = SKY_TEXEL_FLOAT; ///< SKY_TEXEL_* (scene/sky_texels.h)
+    std::vector<u32> texels;            ///< words, in tiles
+    std::vector<SkyTile> tiles;         ///< the table for light sampling (scene/sky_table.h)
+    double rotation_degrees = 0;        ///< about +Y
+    double mean_radiance = 0;           ///< over the sphere, luminance, factor included
+    /// What the table is made for; none: there is none yet.
     std::optional<SkySampling> sampling;
     double tabulated_share = 1; ///< of the map's light: what the table is in proportion to
 };

@@ -3,9 +3,11 @@
 
 #include "colour.h"
 #include "scene/alias_table.h"
+#include "scene/sky_texels.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <tbb/parallel_for.h>
@@ -17,49 +19,99 @@ namespace {
 /// rounding.
 constexpr double SMALLEST_EXCESS = 1e-6;
 
-double luminance_at(const Environment& sky, int x, int y) {
-    return luminance(to_dvec3(sky.texels[size_t(y) * size_t(sky.width) + size_t(x)].radiance));
+/// Weights of a tile's texels, row by row.
+using TileWeights = std::array<double, SKY_TILE_TEXELS>;
+
+double tile_sum(const TileWeights& weights) {
+    return std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
-/// MIS compensation of weights that are luminance times solid angle and add up to `sum`: leaves of each what
-/// exceeds the mean over the sphere, and returns what share of all that is. Where next to nothing does, they
-/// stay as they are.
-double keep_above_mean(std::vector<double>& weights, int width, int height, double sum) {
-    const auto above_mean = [&](int x, int y) {
-        const double share = texel_solid_angle(y, width, height) / (4 * PI);
-        return std::fmax(weights[size_t(y) * size_t(width) + size_t(x)] - sum * share, 0.0);
-    };
-    double excess = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            excess += above_mean(x, y);
-    if (!(excess > SMALLEST_EXCESS * sum))
-        return 1;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            weights[size_t(y) * size_t(width) + size_t(x)] = above_mean(x, y);
-    return excess / sum;
+/// The light of each texel less `radiance` times its solid angle, not below 0; of a row of tiles.
+std::vector<TileWeights> tile_weights(const Environment& sky, int tile_row, double radiance) {
+    std::vector<TileWeights> weights(size_t(sky_tiles(sky.width)), TileWeights{});
+    const int first = tile_row * SKY_TILE, end = std::min(first + SKY_TILE, sky.height);
+    const std::vector<double> light = cell_luminance(sky, first, end);
+    for (int y = first; y < end; ++y) {
+        const double solid_angle = texel_solid_angle(y, sky.width, sky.height);
+        const double* row = &light[size_t(y - first) * size_t(sky.width)];
+        for (int x = 0; x < sky.width; ++x)
+            weights[size_t(x / SKY_TILE)][size_t((y - first) * SKY_TILE + x % SKY_TILE)] =
+                std::fmax(row[x] - radiance, 0.0) * solid_angle;
+    }
+    return weights;
+}
+
+/// Whole shares of SKY_SHARES in proportion to weights that are not all 0, which differ from that by less
+/// than 1 or, since each positive weight gets a share, are 1 more than that. The largest deviations give way.
+std::array<u32, SKY_TILE_TEXELS> shares_of(const TileWeights& weights) {
+    const double factor = SKY_SHARES / tile_sum(weights);
+    std::array<u32, SKY_TILE_TEXELS> shares{};
+    int left = int(SKY_SHARES);
+    for (size_t i = 0; i < shares.size(); ++i) {
+        shares[i] = weights[i] > 0 ? u32(std::fmax(std::floor(weights[i] * factor), 1.0)) : 0;
+        left -= int(shares[i]);
+    }
+    for (; left != 0; left += left < 0 ? 1 : -1) {
+        const int step = left < 0 ? -1 : 1;
+        size_t best = shares.size();
+        double deviation = 0;
+        for (size_t i = 0; i < shares.size(); ++i) {
+            const double d = step * (weights[i] * factor - double(shares[i]));
+            if (shares[i] > (step < 0 ? 1u : 0u) && (best == shares.size() || d > deviation)) {
+                best = i;
+                deviation = d;
+            }
+        }
+        shares[best] = u32(int(shares[best]) + step);
+    }
+    return shares;
+}
+
+/// Fills in the shares of all tiles; returns the tiles' weights.
+std::vector<double> share_tiles(Environment& sky, double radiance) {
+    const int across = sky_tiles(sky.width), down = sky_tiles(sky.height);
+    std::vector<double> sums(size_t(across) * size_t(down));
+    sky.tiles.assign(sums.size(), SkyTile{});
+    tbb::parallel_for(0, down, [&](int tile_row) {
+        size_t i = size_t(tile_row) * size_t(across);
+        for (const TileWeights& weights : tile_weights(sky, tile_row, radiance)) {
+            sums[i] = tile_sum(weights);
+            if (sums[i] > 0) {
+                const auto shares = shares_of(weights);
+                for (size_t k = 0; k < shares.size(); ++k)
+                    sky.tiles[i].shares[k / SKY_TILE] |= shares[k] << (k % SKY_TILE * 8);
+            }
+            ++i;
+        }
+    });
+    return sums;
 }
 
 } // namespace
 
-std::vector<double> cell_luminance(const Environment& sky) {
-    const int width = sky.width, height = sky.height;
-    std::vector<double> result(sky.texels.size());
-    tbb::parallel_for(0, height, [&](int y) {
+std::vector<double> cell_luminance(const Environment& sky, int first, int end) {
+    const size_t width = size_t(sky.width);
+    const auto inside = [&](int y) { return std::clamp(y, 0, sky.height - 1); };
+    const auto luminances = [&](int y) {
+        std::vector<double> row(width);
+        for (int x = 0; x < sky.width; ++x)
+            row[size_t(x)] = luminance(glm::dvec3(sky_texel(sky, x, y)));
+        return row;
+    };
+    std::vector<double> above = luminances(inside(first - 1)), here = luminances(first), column(width),
+                        result;
+    result.reserve(width * size_t(end - first));
+    for (int y = first; y < end; ++y) {
+        std::vector<double> below = luminances(inside(y + 1));
         // Over its own cell a bilinear tent has the mean 6/8, over each neighbour's 1/8.
-        const int rows[3] = {std::max(y - 1, 0), y, std::min(y + 1, height - 1)};
-        std::vector<double> column(static_cast<size_t>(width));
-        for (int x = 0; x < width; ++x)
-            column[size_t(x)] = 0.125 * luminance_at(sky, x, rows[0]) + 0.75 * luminance_at(sky, x, rows[1]) +
-                                0.125 * luminance_at(sky, x, rows[2]);
-        for (int x = 0; x < width; ++x) {
-            const double left = column[size_t(x == 0 ? width - 1 : x - 1)];
-            const double right = column[size_t(x == width - 1 ? 0 : x + 1)];
-            result[size_t(y) * size_t(width) + size_t(x)] =
-                0.125 * left + 0.75 * column[size_t(x)] + 0.125 * right;
-        }
-    });
+        for (size_t x = 0; x < width; ++x)
+            column[x] = 0.125 * above[x] + 0.75 * here[x] + 0.125 * below[x];
+        for (size_t x = 0; x < width; ++x)
+            result.push_back(0.125 * column[x == 0 ? width - 1 : x - 1] + 0.75 * column[x] +
+                             0.125 * column[x == width - 1 ? 0 : x + 1]);
+        above = std::move(here);
+        here = std::move(below);
+    }
     return result;
 }
 
@@ -69,31 +121,43 @@ double texel_solid_angle(int row, int width, int height) {
     return 2 * PI / width * 2 * std::sin(middle) * std::sin(half);
 }
 
-std::vector<double> texel_weights(const Environment& sky) {
-    std::vector<double> weights = cell_luminance(sky);
-    for (int y = 0; y < sky.height; ++y) {
-        const double solid_angle = texel_solid_angle(y, sky.width, sky.height);
-        for (int x = 0; x < sky.width; ++x)
-            weights[size_t(y) * size_t(sky.width) + size_t(x)] *= solid_angle;
-    }
-    return weights;
+double light_of_map(const Environment& sky) {
+    std::vector<double> sums(size_t(sky_tiles(sky.height)));
+    tbb::parallel_for(size_t(0), sums.size(), [&](size_t row) {
+        for (const TileWeights& weights : tile_weights(sky, int(row), 0))
+            sums[row] += tile_sum(weights);
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 void tabulate_sky(Environment& sky, SkySampling sampling) {
     if (sky.texels.empty() || sky.sampling == sampling)
         return;
-    std::vector<double> weights = texel_weights(sky);
     sky.tabulated_share = 1;
-    if (sampling == SkySampling::BY_TABLE_AND_BSDF)
-        sky.tabulated_share = keep_above_mean(weights, sky.width, sky.height,
-                                              std::accumulate(weights.begin(), weights.end(), 0.0));
+    std::vector<double> weights;
+    if (sampling == SkySampling::BY_TABLE_AND_BSDF) {
+        const double light = light_of_map(sky);
+        weights = share_tiles(sky, light / (4 * PI));
+        sky.tabulated_share = std::accumulate(weights.begin(), weights.end(), 0.0) / light;
+    }
+    if (weights.empty() || !(sky.tabulated_share > SMALLEST_EXCESS)) {
+        weights = share_tiles(sky, 0);
+        sky.tabulated_share = 1;
+    }
     const AliasTable table = build_alias_table(weights);
-    tbb::parallel_for(size_t(0), sky.texels.size(), [&](size_t i) {
-        TEXEL_PROBABILITY(sky.texels[i]) = float(table.probability[i]);
-        sky.texels[i].alias = table.entries[i].alias;
-        sky.texels[i].threshold = table.entries[i].threshold;
-    });
+    for (size_t i = 0; i < sky.tiles.size(); ++i) {
+        sky.tiles[i].probability = float(table.probability[i]);
+        sky.tiles[i].alias = table.entries[i].alias;
+        sky.tiles[i].threshold = table.entries[i].threshold;
+    }
     sky.sampling = sampling;
+}
+
+double texel_probability(const Environment& sky, int x, int y) {
+    const SkyTile& tile =
+        sky.tiles[size_t(y / SKY_TILE) * size_t(sky_tiles(sky.width)) + size_t(x / SKY_TILE)];
+    const u32 share = tile.shares[y % SKY_TILE] >> (x % SKY_TILE * 8) & 255;
+    return double(tile.probability) * share / SKY_SHARES;
 }
 
 } // namespace clrt

@@ -5,11 +5,14 @@
 #include "error.h"
 #include "scene/find_file.h"
 #include "scene/text_scanner.h"
+#include "scene/texture_levels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <tbb/parallel_for.h>
 
 namespace clrt {
 namespace {
@@ -28,19 +31,24 @@ u32 float_bits(float value) {
     return bits;
 }
 
-float bits_float(u32 bits) {
-    float value;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 ImageEncoding encoding_of(TextureRole role) {
     return role == TextureRole::COLOUR ? ImageEncoding::COLOUR : ImageEncoding::DATA;
 }
 
+/// By what a picture is known; nothing for a file that is not there.
+std::optional<std::string> path_of_picture(const TextureUse& use) {
+    if (use.bytes)
+        return use.place.file + ": " + use.file;
+    const auto found = find_file(use.file, use.place.file);
+    return found ? std::optional<std::string>(*found) : std::nullopt;
+}
+
+/// Pictures that are decoded at once: their memory is needed beside that of their texels.
+constexpr size_t PICTURES_AT_ONCE = 4;
+
 } // namespace
 
-TextureStore::TextureStore() {
+TextureStore::TextureStore(TextureFilter filter) : filter_(filter) {
     words_.resize(SRGB_TABLE_WORDS);
     for (u32 i = 0; i < SRGB_TABLE_WORDS; ++i)
         words_[i] = float_bits(float(srgb_to_linear(i / 255.0)));
@@ -91,7 +99,7 @@ u32 TextureStore::add(const TextureUse& use, TextureRole role, NoticeList& notic
 
 TextureStore::StoredImage* TextureStore::find_or_read(const TextureUse& use, TextureRole role,
                                                       NoticeList& notices) {
-    const auto path = use.bytes ? use.place.file + ": " + use.file : find_file(use.file, use.place.file);
+    const auto path = path_of_picture(use);
     if (!path) {
         notices.add(fmt::format("no file {} found, the map is ignored", clrt::quoted(use.file)), use.place);
         return nullptr;
@@ -176,48 +184,100 @@ bool TextureStore::has_unit_vectors(const StoredImage& image) const {
 
 TextureStore::StoredImage TextureStore::store(const Image& image, ImageEncoding encoding,
                                               const std::string& path, NoticeList& notices) {
-    const bool is_float = image.bytes.empty();
-    const size_t pixels = size_t(image.width) * size_t(image.height);
-    const size_t needed = pixels * (is_float ? 4 : 1);
+    const bool is_float = image.bytes.empty(), is_colour = encoding == ImageEncoding::COLOUR;
+    const bool is_grey = image.is_grey && !image.has_alpha;
+    const u32 format = is_float  ? TEXEL_FLOAT
+                       : is_grey ? (is_colour ? TEXEL_GREY_SRGB8 : TEXEL_GREY_LINEAR8)
+                                 : (is_colour ? TEXEL_SRGB8 : TEXEL_LINEAR8);
+    const size_t own = texel_words(format, size_t(image.width) * size_t(image.height));
+    // Levels take less than all of it again: each is at most half the one before.
+    const size_t needed = filter_ == TextureFilter::FOOTPRINT ? 2 * own : own;
     if (words_.size() + needed > NO_INDEX)
         throw SceneError(path, 0,
                          "the textures need more than 2^32 words of texels: expected smaller or fewer "
                          "pictures");
-    StoredImage stored{u32(words_.size()), u32(image.width), u32(image.height),
-                       TEXEL_FLOAT,        image.has_alpha,  image.is_grey};
-    words_.resize(words_.size() + needed);
-    u32* word = &words_[stored.first_word];
-    if (is_float) {
-        size_t non_finite = 0;
-        for (const vec4& texel : image.floats)
-            for (float value : {texel.x, texel.y, texel.z, texel.w}) {
-                non_finite += !std::isfinite(value);
-                *word++ = float_bits(std::isfinite(value) ? value : 0.f);
-            }
-        if (non_finite)
-            notices.add(fmt::format("{} values are NaN or infinite and became 0", non_finite), {path, 0});
-        return stored;
-    }
-    stored.format = encoding == ImageEncoding::COLOUR ? TEXEL_SRGB8 : TEXEL_LINEAR8;
-    for (size_t i = 0; i < pixels; ++i) {
-        const std::uint8_t* byte = &image.bytes[4 * i];
-        *word++ = u32(byte[0]) | u32(byte[1]) << 8 | u32(byte[2]) << 16 | u32(byte[3]) << 24;
-    }
+    const StoredImage stored{u32(words_.size()), u32(image.width), u32(image.height), format,
+                             image.has_alpha,    image.is_grey};
+    if (is_float)
+        store_floats(image, path, notices);
+    else
+        store_bytes(image, format);
+    if (filter_ == TextureFilter::FOOTPRINT)
+        append_levels(format, stored.width, stored.height, words_);
     return stored;
 }
 
-vec4 TextureStore::texel(const Texture& texture, u32 x, u32 y) const {
-    const size_t pixel = size_t(y) * texture.width + x;
-    if (texture.format == TEXEL_FLOAT) {
-        const u32* word = &words_[texture.first_word + 4 * pixel];
-        return {bits_float(word[0]), bits_float(word[1]), bits_float(word[2]), bits_float(word[3])};
+void TextureStore::store_floats(const Image& image, const std::string& path, NoticeList& notices) {
+    const size_t first = words_.size();
+    words_.resize(first + 4 * image.floats.size());
+    u32* word = &words_[first];
+    size_t non_finite = 0;
+    for (const vec4& texel : image.floats)
+        for (float value : {texel.x, texel.y, texel.z, texel.w}) {
+            non_finite += !std::isfinite(value);
+            *word++ = float_bits(std::isfinite(value) ? value : 0.f);
+        }
+    if (non_finite)
+        notices.add(fmt::format("{} values are NaN or infinite and became 0", non_finite), {path, 0});
+}
+
+void TextureStore::store_bytes(const Image& image, u32 format) {
+    const size_t first = words_.size(), pixels = image.bytes.size() / 4;
+    words_.resize(first + texel_words(format, pixels), 0);
+    const bool is_grey = format == TEXEL_GREY_SRGB8 || format == TEXEL_GREY_LINEAR8;
+    for (size_t i = 0; i < pixels; ++i) {
+        const std::uint8_t* byte = &image.bytes[4 * i];
+        if (is_grey)
+            words_[first + i / 4] |= u32(byte[0]) << (i % 4 * 8);
+        else
+            words_[first + i] = u32(byte[0]) | u32(byte[1]) << 8 | u32(byte[2]) << 16 | u32(byte[3]) << 24;
     }
-    const u32 word = words_[texture.first_word + pixel];
-    const auto value = [&](u32 shift) {
-        const u32 byte = word >> shift & 0xff;
-        return texture.format == TEXEL_SRGB8 ? bits_float(words_[byte]) : float(byte) / 255.f;
+}
+
+void TextureStore::read_ahead(const std::vector<std::pair<TextureUse, TextureRole>>& uses,
+                              NoticeList& notices) {
+    struct Picture {
+        const TextureUse* use;
+        std::pair<std::string, ImageEncoding> key;
+        std::optional<Image> image = std::nullopt;
     };
-    return {value(0), value(8), value(16), float(word >> 24) / 255.f};
+    std::vector<Picture> pictures;
+    std::set<std::pair<std::string, ImageEncoding>> known;
+    for (const auto& [use, role] : uses) {
+        if (use.by_vertex || role == TextureRole::COVERAGE)
+            continue;
+        const auto path = path_of_picture(use);
+        if (path && !images_.count({*path, encoding_of(role)}) &&
+            known.insert({*path, encoding_of(role)}).second)
+            pictures.push_back({&use, {*path, encoding_of(role)}});
+    }
+    for (size_t begin = 0; begin < pictures.size(); begin += PICTURES_AT_ONCE) {
+        const size_t end = std::min(begin + PICTURES_AT_ONCE, pictures.size());
+        tbb::parallel_for(begin, end, [&](size_t i) {
+            Picture& picture = pictures[i];
+            try {
+                picture.image = read_image(picture.use->bytes ? picture.use->file : picture.key.first,
+                                           picture.key.second, picture.use->bytes.get());
+            } catch (const SceneError&) {
+                picture.image.reset(); // add() says why
+            }
+        });
+        for (size_t i = begin; i < end; ++i) {
+            Picture& picture = pictures[i];
+            if (!picture.image)
+                continue;
+            if (!picture.use->bytes)
+                files_.insert(picture.key.first);
+            images_.emplace(picture.key,
+                            store(*picture.image, picture.key.second, picture.key.first, notices));
+            picture.image.reset();
+        }
+    }
+}
+
+vec4 TextureStore::texel(const Texture& texture, u32 x, u32 y) const {
+    return decode_texel(texture.format, &words_[texture.first_word], size_t(y) * texture.width + x,
+                        words_.data());
 }
 
 template <class Action>

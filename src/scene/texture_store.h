@@ -2,6 +2,7 @@
 // Image files -> texel words and Texture records; every file is read once for each way of storing it.
 #pragma once
 
+#include "options/scene_options.h"
 #include "scene/notices.h"
 #include "scene/read_image.h"
 #include "scene/texture_use.h"
@@ -24,12 +25,16 @@ constexpr u32 VERTEX_WORD_TO_COME = NO_INDEX;
 
 class TextureStore {
 public:
-    TextureStore();
+    explicit TextureStore(TextureFilter filter = TextureFilter::NONE); ///< with levels for FOOTPRINT
 
     /// Adds a use of a map and returns its index; NO_INDEX, with one notice per file, if it cannot be read.
     /// The file is looked for relative to the file that names it (find_file.h). Throws SceneError if the
     /// texels exceed 2^32 words. The texels of a use by_vertex are added later (store_vertex_colours).
     u32 add(const TextureUse& use, TextureRole role, NoticeList& notices);
+
+    /// Reads the pictures of these uses, several at once, and stores them in this order, so that add() finds
+    /// them. What cannot be read is left to add(), and what another use may share its texels with.
+    void read_ahead(const std::vector<std::pair<TextureUse, TextureRole>>& uses, NoticeList& notices);
 
     /// Whether a map can be read. Where not, add() says why.
     bool is_readable(const TextureUse& use, TextureRole role, NoticeList& notices);
@@ -77,6 +82,10 @@ private:
     bool has_unit_vectors(const StoredImage& image) const;
     StoredImage store(const Image& image, ImageEncoding encoding, const std::string& path,
                       NoticeList& notices);
+    void store_floats(const Image& image, const std::string& path, NoticeList& notices);
+    void store_bytes(const Image& image, u32 format);
+
+    TextureFilter filter_;
 
     std::vector<Texture> textures_;
     std::vector<std::string> names_;

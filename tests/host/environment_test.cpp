@@ -4,6 +4,7 @@
 #include "colour.h"
 #include "error.h"
 #include "scene/sky_table.h"
+#include "scene/sky_texels.h"
 #include "scene_support.h"
 
 #include <cmath>
@@ -47,7 +48,7 @@ TEST(Environment, CellLuminanceIsTheMeanOfTheBilinearLookup) {
         for (glm::vec3& texel : image.texels)
             texel = glm::vec3(uniform(random), uniform(random), uniform(random));
         NoticeList notices;
-        const std::vector<double> cells = cell_luminance(map_environment(image, 1, 0, notices));
+        const std::vector<double> cells = cell_luminance(map_environment(image, 1, 0, notices), 0, size.y);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 // Midpoints on a grid with even n integrate each linear half exactly in x and y.
@@ -71,7 +72,7 @@ TEST(Environment, ProbabilityIsPositiveExactlyWhereTheLookupIs) {
     for (int y = 0; y < 6; ++y)
         for (int x = 0; x < 8; ++x) {
             const bool lit = y <= 1 && (x <= 1 || x == 7);
-            const double p = double(environment.texels[size_t(y * 8 + x)].radiance.w);
+            const double p = texel_probability(environment, x, y);
             EXPECT_EQ(p > 0, lit) << x << "," << y;
             sum += p;
         }
@@ -87,7 +88,7 @@ TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
     NoticeList notices;
     Environment environment = map_environment(image, 3, 0, notices);
     tabulate_sky(environment, SkySampling::BY_TABLE_AND_BSDF);
-    const std::vector<double> cells = cell_luminance(environment);
+    const std::vector<double> cells = cell_luminance(environment, 0, 8);
     double mean = 0, sum = 0;
     for (size_t i = 0; i < cells.size(); ++i)
         mean += cells[i] * texel_solid_angle(int(i) / 12, 12, 8) / (4 * PI);
@@ -98,8 +99,9 @@ TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
         sum += weight(i);
     size_t dim = 0;
     for (size_t i = 0; i < cells.size(); ++i) {
-        const double p = double(environment.texels[i].radiance.w);
-        EXPECT_NEAR(p, weight(i) / sum, 1e-7) << i;
+        const double p = texel_probability(environment, int(i) % 12, int(i) / 12);
+        const SkyTile& tile = environment.tiles[i / 48 * 3 + i % 12 / 4];
+        EXPECT_NEAR(p, weight(i) / sum, double(tile.probability) / SKY_SHARES + 1e-7) << i;
         EXPECT_EQ(p > 0, cells[i] > mean) << i;
         dim += p == 0;
     }
@@ -128,10 +130,9 @@ TEST(Environment, ATableIsMadeAnewForAnotherSampling) {
     tabulate_sky(turned, SkySampling::BY_TABLE);
     tabulate_sky(straight, SkySampling::BY_TABLE);
     EXPECT_EQ(straight.sampling, SkySampling::BY_TABLE);
-    ASSERT_EQ(turned.texels.size(), straight.texels.size());
-    EXPECT_EQ(std::memcmp(turned.texels.data(), straight.texels.data(),
-                          straight.texels.size() * sizeof(EnvironmentTexel)),
-              0);
+    ASSERT_EQ(turned.tiles.size(), straight.tiles.size());
+    EXPECT_EQ(
+        std::memcmp(turned.tiles.data(), straight.tiles.data(), straight.tiles.size() * sizeof(SkyTile)), 0);
 }
 
 TEST(Environment, SolidAnglesSumToTheSphere) {
@@ -151,13 +152,13 @@ TEST(Environment, AConstantMapIsChosenBySolidAngle) {
         NoticeList notices;
         Environment environment = map_environment(image, 3, 25, notices);
         tabulate_sky(environment, sampling);
-        for (int y = 0; y < 5; ++y)
-            EXPECT_NEAR(environment.texels[size_t(y * 6)].radiance.w, texel_solid_angle(y, 6, 5) / (4 * PI),
-                        1e-7);
+        for (int y = 0; y < 5; ++y) // a share is a part of a tile's light, at most all but the last row
+            EXPECT_NEAR(texel_probability(environment, 0, y), texel_solid_angle(y, 6, 5) / (4 * PI),
+                        0.7 / SKY_SHARES);
         EXPECT_NEAR(environment.mean_radiance, 1.5, 1e-12);
         EXPECT_EQ(environment.radiance, glm::dvec3(3));
         EXPECT_EQ(environment.rotation_degrees, 25);
-        EXPECT_EQ(environment.texels[0].radiance.x, 0.5f) << "the factor is not in the texels";
+        EXPECT_EQ(sky_texel(environment, 0, 0).x, 0.5f) << "the factor is not in the texels";
     }
 }
 

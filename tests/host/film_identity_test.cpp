@@ -71,6 +71,8 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
         [](Scene& s) { s.emitters[0].pdf_a *= 2; },
         [](Scene& s) { s.lights.emplace_back(); },
         [](Scene& s) { s.environment.texels.emplace_back(); },
+        [](Scene& s) { s.environment.tiles.emplace_back(); },
+        [](Scene& s) { s.environment.texel_format ^= 1; },
         [](Scene& s) { s.environment.radiance.y += 1; },
         [](Scene& s) { s.environment.rotation_degrees = 1; },
         [](Scene& s) { s.camera.eye.z += 1; },
@@ -107,6 +109,7 @@ TEST_F(FilmIdentityTest, OptionsThatChangeThePictureAreFields) {
     EXPECT_EQ(field([](Options& o) { o.film.crop = Crop{0, 0, 8, 8}; }), "window");
     EXPECT_EQ(field([](Options& o) { o.film.filter = Filter::TENT; }), "filter");
     EXPECT_EQ(field([](Options& o) { o.film.filter_radius = 0.7; }), "filter_radius");
+    EXPECT_EQ(field([](Options& o) { o.scene.texture_filter = TextureFilter::FOOTPRINT; }), "texture_filter");
     EXPECT_EQ(field([](Options& o) { o.transport.max_depth = 5; }), "max_depth");
     EXPECT_EQ(field([](Options& o) { o.transport.roulette_depth = 9; }), "roulette_depth");
     for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})

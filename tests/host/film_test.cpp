@@ -3,6 +3,7 @@
 #include "film/film_error.h"
 
 #include "probes/statistics.h"
+#include "scene/sky_texels.h"
 #include "support/noise_film.h"
 
 #include <cmath>
@@ -184,8 +185,7 @@ TEST(FilmScale, AFullFilmHoldsTheBrightestSurfaceAndTheBrightestTexel) {
     EXPECT_GT(film_scale(scene).sustained, 0x1p30) << "all samples of it are less than 2^63";
 
     scene = shining(2, 0);
-    scene.environment.texels.resize(2);
-    scene.environment.texels[1].radiance = {0, 5e8f, 0, 0};
+    store_sky_texels({2, 1, {glm::vec3(0), glm::vec3(0, 5e8f, 0)}}, scene.environment);
     scene.environment.mean_radiance = 1e-3;
     EXPECT_GE(film_scale(scene).sustained, 1e9) << "the map's factor counts";
 }

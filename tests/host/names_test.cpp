@@ -47,6 +47,7 @@ TEST(Names, EveryValueHasOneThatItsOptionTakes) {
     expect_counted_names("--mtl", MtlReading::PLAIN);
     expect_counted_names("--gltf-lights", GltfLights::RAW);
     expect_counted_names("--material", MaterialOverride::CLAY);
+    expect_counted_names("--texture-filter", TextureFilter::FOOTPRINT);
     expect_counted_names("--filter", Filter::GAUSSIAN);
     expect_counted_names("--tonemap", Tonemap::AGX);
     expect_counted_names("--view", View::ISO);

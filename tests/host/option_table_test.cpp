@@ -34,6 +34,7 @@ const std::map<std::string, std::string>& samples() {
         {"--oidn", "libOpenImageDenoise.so.2"},
         {"--png-from", "raw"},
         {"--instances", "on"},
+        {"--texture-filter", "footprint"},
         {"--seed", "4294967295"},
         {"--first-sample", "32"},
         {"--replicates", "8"},

@@ -129,7 +129,7 @@ TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
 TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
     // The frames of all functions together, as they lie in memory where registers do not hold them. That of a
     // tree's rays is as large as the depth and the branches that are asked for.
-    u32 effects = EFFECT_ALL & ~u32(EFFECT_INSTANCES | EFFECT_THIN_WALL);
+    u32 effects = EFFECT_ALL & ~u32(EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_TEXTURE_FILTER);
     const auto bytes = [&](const std::string& integrator, const std::vector<std::string>& defines) {
         const std::string file = folder.write("kernels.cl", include({"integrators/" + integrator + ".cl"}));
         const std::string code = folder.file("kernels.ptx");

@@ -131,6 +131,7 @@ struct Everything {
         params.environment = {1, 1, 1, 0};
         params.environment_width = 8;
         params.environment_height = 4;
+        params.environment_format = scene.environment.texel_format;
         params.environment_cos = 1;
         params.emitter_count = 1;
         params.light_count = 3;

@@ -6,6 +6,7 @@
 #include "probes/statistics.h"
 #include "scene/environment.h"
 #include "scene/sky_table.h"
+#include "scene/sky_texels.h"
 #include "support/test_device.h"
 
 #include <algorithm>
@@ -26,6 +27,8 @@ SceneProbe& probe() {
         made.add("eval", "first = probe_vec4(environment_eval(scene, params, vector_from(a)), REAL(0.0));"
                          "first.w = params->environment_width ? environment_map_pdf_w(scene, params, "
                          "vector_from(a)) : 0;");
+        made.add("texel", "first = probe_vec4(environment_texel(scene, params, as_int(a.x), as_int(a.y)), "
+                          "REAL(0.0));");
         made.add("solid_angle", "first.x = environment_texel_solid_angle(params, as_uint(a.x));");
         // a: words and the second number; b: shading normal
         made.add(
@@ -45,6 +48,7 @@ RenderParams params_of(const Environment& environment) {
     RenderParams params{};
     params.environment = to_vec4(environment.radiance);
     params.environment_width = environment.texels.empty() ? 0 : u32(environment.width);
+    params.environment_format = environment.texel_format;
     params.environment_height = environment.texels.empty() ? 0 : u32(environment.height);
     params.environment_cos = float(std::cos(environment.rotation_degrees * PI / 180));
     params.environment_sin = float(std::sin(environment.rotation_degrees * PI / 180));
@@ -96,8 +100,7 @@ dvec3 reference_eval(const Environment& environment, const dvec3& d) {
             const double fx = x - std::floor(x), fy = y - std::floor(y);
             const int column = (int(std::floor(x)) + dx + environment.width) % environment.width;
             const int row = std::clamp(int(std::floor(y)) + dy, 0, environment.height - 1);
-            sum += (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy) *
-                   to_dvec3(environment.texels[size_t(row * environment.width + column)].radiance);
+            sum += (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy) * dvec3(sky_texel(environment, column, row));
         }
     return sum * environment.radiance;
 }
@@ -131,10 +134,12 @@ void expect_stored_probabilities(const Environment& map) {
     constexpr size_t SAMPLES = 400000;
     constexpr int PARTS = 3; // of a texel along each side
     const std::vector<vec4> got = run("sample", map, random_numbers(SAMPLES, 3)).first;
-    std::vector<double> counts(map.texels.size() * PARTS * PARTS), expected;
-    for (const EnvironmentTexel& texel : map.texels)
-        for (int i = 0; i < PARTS * PARTS; ++i)
-            expected.push_back(SAMPLES * double(texel.radiance.w) / (PARTS * PARTS));
+    std::vector<double> counts(size_t(map.width * map.height * PARTS * PARTS)), expected;
+    for (int i = 0; i < map.width * map.height * PARTS * PARTS; ++i) {
+        const int texel = i / (PARTS * PARTS);
+        expected.push_back(SAMPLES * texel_probability(map, texel % map.width, texel / map.width) /
+                           (PARTS * PARTS));
+    }
     for (const vec4& sample : got) {
         const dvec3 d = to_dvec3(sample);
         ASSERT_NEAR(glm::length(d), 1, 8 * FLOAT_U);
@@ -235,14 +240,45 @@ TEST(EnvironmentMap, LookupsAreBilinear) {
     }
 }
 
+TEST(EnvironmentMap, TexelsReadTheSameInEveryForm) {
+    // Bytes times a power of two, halves down to the smallest, and floats.
+    for (const u32 format : {SKY_TEXEL_RGBE, SKY_TEXEL_HALF, SKY_TEXEL_FLOAT}) {
+        Random random(format + 1);
+        EnvironmentImage image{13, 7, {}};
+        const auto channel = [&](double scale) {
+            if (format == SKY_TEXEL_FLOAT)
+                return float(scale * random.unit());
+            return float(std::floor(random.unit() * (format == SKY_TEXEL_HALF ? 2048 : 256)) * scale);
+        };
+        for (int i = 0; i < 13 * 7; ++i) {
+            const double scale = std::ldexp(1.0, i % 29 - 24);
+            image.texels.emplace_back(channel(scale), channel(scale), channel(scale));
+        }
+        image.texels[3] = glm::vec3(0);
+        const Environment map = map_of(image);
+        ASSERT_EQ(map.texel_format, format);
+        std::vector<vec4> places;
+        for (int i = 0; i < 13 * 7; ++i)
+            places.push_back({bits_to_float(u32(i % 13)), bits_to_float(u32(i / 13)), 0, 0});
+        const std::vector<vec4> got = run("texel", map, places).first;
+        for (size_t i = 0; i < places.size(); ++i) {
+            const glm::vec3& expected = image.texels[i];
+            EXPECT_TRUE(got[i].x == expected.x && got[i].y == expected.y && got[i].z == expected.z)
+                << format << ": " << i;
+            EXPECT_EQ(sky_texel(map, int(i) % 13, int(i) / 13), expected) << format << ": " << i;
+        }
+    }
+}
+
 TEST(EnvironmentMap, SampledTexelsHaveTheirProbabilityAndAreFilledUniformly) {
     expect_stored_probabilities(map_of(random_image(12, 6), 1, 40));
     const Environment bright = map_of(random_image(12, 6), 1, 40, SkySampling::BY_TABLE_AND_BSDF);
     expect_stored_probabilities(bright);
-    EXPECT_GT(std::count_if(bright.texels.begin(), bright.texels.end(),
-                            [](const EnvironmentTexel& texel) { return texel.radiance.w == 0; }),
-              20)
-        << "dim texels are never chosen";
+    int dim = 0;
+    for (int i = 0; i < 12 * 6; ++i)
+        dim += texel_probability(bright, i % 12, i / 12) == 0;
+    EXPECT_GT(dim, 20) << "dim texels are never chosen";
+    expect_stored_probabilities(map_of(random_image(13, 7), 1, 40)); // tiles that stick out
 }
 
 TEST(EnvironmentMap, SamplesCarryThePdfAndTheRadianceOfTheirDirection) {

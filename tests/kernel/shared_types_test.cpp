@@ -81,11 +81,11 @@ const Layout LIGHT = {
     {M(vector), M(emission), M(kind), M(probability), M(alias), M(threshold), M(one_minus_cos), M(axis_x),
      M(axis_y), M(axis_z)}};
 #undef M
-#define M(name) MEMBER(EnvironmentTexel, name)
-const Layout ENVIRONMENT_TEXEL = {
-    "EnvironmentTexel",
-    sizeof(EnvironmentTexel),
-    {M(radiance), M(alias), M(threshold), M(unused0), M(unused1)}};
+#define M(name) MEMBER(SkyTile, name)
+const Layout SKY_TILE_LAYOUT = {
+    "SkyTile",
+    sizeof(SkyTile),
+    {M(alias), M(threshold), M(probability), M(unused0), M(shares)}};
 #undef M
 #define M(name) MEMBER(LightNode, name)
 const Layout LIGHT_NODE = {
@@ -138,7 +138,7 @@ const Layout RENDER_PARAMS = {
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(emit_emitter), M(emit_environment), M(emit_light), M(emission_radius), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
      M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(caster_count), M(caster_squares), M(light_path_count),
-     M(unused0), M(unused1), M(unused2)}};
+     M(environment_format), M(texture_filter), M(unused0)}};
 #undef M
 #define M(name) MEMBER(ArrayPlace, name)
 const Layout ARRAY_PLACE_LAYOUT = {
@@ -156,7 +156,7 @@ const Layout ARRAY_PLACES = {
 
 const std::vector<Layout> LAYOUTS = {
     TRIANGLE,      MATERIAL,      MATERIAL_EXTENSION, TEXTURE,      EMITTER,
-    INSTANCE,      LIGHT,         ENVIRONMENT_TEXEL,  LIGHT_NODE,   LIGHT_PLACE,
+    INSTANCE,      LIGHT,         SKY_TILE_LAYOUT,    LIGHT_NODE,   LIGHT_PLACE,
     CAMERA_PARAMS, RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL,
     CHAIN,         CHAIN_LAUNCH};
 

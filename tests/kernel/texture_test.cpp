@@ -2,6 +2,7 @@
 // geometry/texture.h: texel formats, bilinear lookup with wrapping and clamping, orientation, channels.
 #include "probes/random_inputs.h"
 #include "probes/scene_probe.h"
+#include "scene/texture_levels.h"
 #include "support/test_device.h"
 
 #include <array>
@@ -20,9 +21,10 @@ using Texel = std::array<double, 4>;
 SceneProbe& probe() {
     static SceneProbe instance = [] {
         SceneProbe made(test_device(), {"geometry/texture.h"});
-        made.add("lookup", "first = texture_lookup(scene, 0u, (float2)(a.x, a.y));"
-                           "second = probe_vec4(texture_color(scene, 0u, (float2)(a.x, a.y)), REAL(0.0));"
-                           "third.x = texture_scalar(scene, 0u, (float2)(a.x, a.y));");
+        made.add("lookup",
+                 "first = texture_lookup(scene, 0u, (float2)(a.x, a.y), a.z);"
+                 "second = probe_vec4(texture_color(scene, 0u, (float2)(a.x, a.y), a.z), REAL(0.0));"
+                 "third.x = texture_scalar(scene, 0u, (float2)(a.x, a.y), a.z);");
         return made;
     }();
     return instance;
@@ -310,4 +312,114 @@ TEST(Texture, CoordinatesOfAnySizeReadSomeTexel) {
             uv.push_back({u, v, 0, 0});
     for (const vec4& value : picture.lookup(uv).first)
         EXPECT_TRUE(value.x >= 0 && value.x <= 1 && value.w >= 0 && value.w <= 1);
+}
+
+namespace {
+
+/// The same picture as if level k were all there is.
+Picture level_alone(const Picture& picture, u32 k) {
+    Picture level = picture;
+    Texture& t = level.use();
+    for (; k > 0 && t.width * t.height > 1; --k) {
+        t.first_word += u32(texel_words(t.format, size_t(t.width) * t.height));
+        t.width = std::max(t.width / 2, 1u);
+        t.height = std::max(t.height / 2, 1u);
+    }
+    return level;
+}
+
+/// uv with the area of a footprint of so many texels.
+std::vector<vec4> with_footprint(std::vector<vec4> uv, const Picture& picture, double texels) {
+    const Texture& t = picture.scene.textures[0];
+    for (vec4& at : uv)
+        at.z = float(texels / (double(t.width) * t.height));
+    return uv;
+}
+
+std::vector<vec4> random_uv(size_t count) {
+    Random random(9);
+    std::vector<vec4> uv;
+    for (size_t i = 0; i < count; ++i)
+        uv.push_back({float(random.between(-2, 2)), float(random.between(-2, 2)), 0, 0});
+    return uv;
+}
+
+bool same_values(const vec4& a, const vec4& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+}
+
+} // namespace
+
+TEST(TextureFilter, AFootprintBelowATexelReadsThePictureItself) {
+    for (const u32 format : {TEXEL_SRGB8, TEXEL_FLOAT, TEXEL_GREY_SRGB8}) {
+        Picture picture = random_picture(16, 8, format);
+        append_levels(format, 16, 8, picture.scene.texel_words);
+        const std::vector<vec4> uv = random_uv(500);
+        const std::vector<vec4> point = picture.lookup(uv).first,
+                                filtered = picture.lookup(with_footprint(uv, picture, 0.99)).first;
+        for (size_t i = 0; i < uv.size(); ++i)
+            EXPECT_TRUE(same_values(point[i], filtered[i])) << format << ": " << i;
+    }
+}
+
+TEST(TextureFilter, AFootprintOfFourToTheKReadsLevelK) {
+    for (const u32 format : {TEXEL_SRGB8, TEXEL_LINEAR8, TEXEL_FLOAT, TEXEL_GREY_SRGB8, TEXEL_GREY_LINEAR8}) {
+        Picture picture = random_picture(16, 8, format);
+        append_levels(format, 16, 8, picture.scene.texel_words);
+        const std::vector<vec4> uv = random_uv(200);
+        for (const u32 k : {1u, 2u, 3u, 4u, 7u}) {
+            const std::vector<vec4> filtered =
+                picture.lookup(with_footprint(uv, picture, std::ldexp(1.0, 2 * int(k)))).first;
+            const std::vector<vec4> level = level_alone(picture, k).lookup(uv).first;
+            for (size_t i = 0; i < uv.size(); ++i)
+                EXPECT_TRUE(same_values(level[i], filtered[i])) << format << ", level " << k << ": " << i;
+        }
+    }
+}
+
+TEST(TextureFilter, LevelsAreMixedInBetweenWithoutAStep) {
+    Picture picture = random_picture(32, 32, TEXEL_FLOAT);
+    append_levels(TEXEL_FLOAT, 32, 32, picture.scene.texel_words);
+    const std::vector<vec4> uv = random_uv(200);
+    const std::vector<vec4> low = level_alone(picture, 1).lookup(uv).first,
+                            high = level_alone(picture, 2).lookup(uv).first;
+    // log2 is taken as linear between powers of two: of 6 texels it is 2 + 1/2 for 2.585.
+    const std::vector<vec4> got = picture.lookup(with_footprint(uv, picture, 6)).first;
+    for (size_t i = 0; i < uv.size(); ++i)
+        EXPECT_NEAR(got[i].y, low[i].y + 0.25 * (high[i].y - low[i].y), 1e-2) << i;
+}
+
+TEST(TextureFilter, AnEvenPictureHasOneColourAtAnyFootprint) {
+    Picture picture(13, 6, TEXEL_SRGB8);
+    for (int i = 0; i < 13 * 6; ++i)
+        picture.add_bytes(10, 100, 200, 255);
+    append_levels(TEXEL_SRGB8, 13, 6, picture.scene.texel_words);
+    const std::vector<vec4> uv = random_uv(100);
+    const vec4 expected = picture.lookup(uv).first[0];
+    for (const double texels : {0.0, 1.5, 7.0, 60.0, 1e4, 1e30})
+        for (const vec4& got : picture.lookup(with_footprint(uv, picture, texels)).first)
+            EXPECT_TRUE(same_values(got, expected)) << texels;
+}
+
+TEST(TextureLookup, GreyBytesAreColoursOfEqualChannels) {
+    for (const bool is_srgb : {true, false}) {
+        Picture colour(7, 3, is_srgb ? TEXEL_SRGB8 : TEXEL_LINEAR8),
+            grey(7, 3, is_srgb ? TEXEL_GREY_SRGB8 : TEXEL_GREY_LINEAR8);
+        Random random(4);
+        std::vector<u32> bytes;
+        for (int i = 0; i < 21; ++i) {
+            bytes.push_back(random.word() & 255u);
+            colour.add_bytes(bytes.back(), bytes.back(), bytes.back(), 255);
+        }
+        for (size_t i = 0; i < 24; i += 4) {
+            u32 word = 0;
+            for (size_t k = 0; k < 4 && i + k < bytes.size(); ++k)
+                word |= bytes[i + k] << (8 * k);
+            grey.scene.texel_words.push_back(word);
+        }
+        const std::vector<vec4> uv = random_uv(300);
+        const std::vector<vec4> a = colour.lookup(uv).first, b = grey.lookup(uv).first;
+        for (size_t i = 0; i < uv.size(); ++i)
+            EXPECT_TRUE(same_values(a[i], b[i])) << i;
+    }
 }

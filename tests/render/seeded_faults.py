@@ -177,7 +177,7 @@ FAULTS = [
      "light_origin_test"),
     ("cut-out lamps shine in full", "lights/emitter.h", "sample.radiance *= material_coverage(scene, material, uv);", "",
      "cut_out_test"),
-    ("textures upside down", "geometry/texture.h", "(1.0f - v) * (float)texture->height", "v * (float)texture->height",
+    ("textures upside down", "geometry/texture.h", "(1.0f - v) * (float)level->height", "v * (float)level->height",
      "textured_picture_test"),
     ("vertex colours by the wrong weights", "geometry/surface.h", "surface->b1 * (c1 - c0)", "surface->b2 * (c1 - c0)",
      "vertex_colour_test"),

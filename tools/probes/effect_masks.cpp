@@ -140,6 +140,8 @@ SceneOfEffects::SceneOfEffects(u32 effects) : effects_(effects) {
         options.camera.end_eye = glm::dvec3(0.3, 1.7, 2.9);
     if (has(EFFECT_DEPTH_OF_FIELD))
         options.camera.aperture = 0.1;
+    if (has(EFFECT_TEXTURE_FILTER))
+        options.scene.texture_filter = TextureFilter::FOOTPRINT;
 }
 
 void SceneOfEffects::add_materials() {

@@ -9,6 +9,7 @@
 #include "probes/sphere_cells.h"
 #include "scene/environment.h"
 #include "scene/sky_table.h"
+#include "scene/sky_texels.h"
 
 #include <fmt/format.h>
 #include <limits>
@@ -112,8 +113,10 @@ void broken_texels(CaseRun& run) {
     NoticeList notices;
     clean_environment(broken, "sky.exr", notices);
     const Environment a = map_of(broken), b = map_of(clean);
-    for (size_t i = 0; i < a.texels.size(); ++i)
-        different[Build::SINGLE].count(std::memcmp(&a.texels[i], &b.texels[i], sizeof(EnvironmentTexel)) != 0,
+    for (int i = 0; i < 32 * 16; ++i)
+        different[Build::SINGLE].count(sky_texel(a, i % 32, i / 32) != sky_texel(b, i % 32, i / 32) ||
+                                           texel_probability(a, i % 32, i / 32) !=
+                                               texel_probability(b, i % 32, i / 32),
                                        [&] { return fmt::format("texel {}", i); });
     std::string said;
     for (const std::string& line : notices.lines())
@@ -124,7 +127,8 @@ void broken_texels(CaseRun& run) {
 }
 
 void poles(CaseRun& run) {
-    Figure& density = run.figure("|4 pi density - 1| of a map of ones", 16 * FLOAT_U);
+    // Of a tile's 16 texels at a pole those of the first row get 3 or 4 shares where 3.75 are due.
+    Figure& density = run.figure("|4 pi density - 1| of a map of ones", 0.25);
     Figure& radiance = run.figure("radiances of it that are not 1", 0);
     Figure& bad = run.figure("densities at the poles that are no finite number > 0", 0);
     auto& probe = run.device.once<SceneProbe>("sky", [&] {
@@ -146,6 +150,7 @@ void poles(CaseRun& run) {
         params.environment = {1, 1, 1, 0};
         params.environment_width = u32(2 * height);
         params.environment_height = u32(height);
+        params.environment_format = scene.environment.texel_format;
         params.environment_cos = 1;
         Random random(2);
         std::vector<vec4> numbers, directions;
