@@ -133,10 +133,14 @@ static inline Ray camera_ray_at(const RenderParams* params, const Sampler* sampl
     const real2 film = camera_pixel_centre(params, x, y) + offset;
     const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
     const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_pair(sampler, 0u, SAMPLE_TIME).x : REAL(0.0);
-    if (!camera_moves(&params->camera))
-        return camera_generate(&params->camera, film, lens, time);
-    const CameraParams camera = camera_at(&params->camera, time);
-    return camera_generate(&camera, film, lens, time);
+    Ray ray;
+    if (camera_moves(&params->camera)) {
+        const CameraParams camera = camera_at(&params->camera, time);
+        ray = camera_generate(&camera, film, lens, time);
+    } else
+        ray = camera_generate(&params->camera, film, lens, time);
+    ray_set_wave(ray_sampled_wave(sampler), &ray);
+    return ray;
 }
 
 /* The same at the sample's own point. */
