@@ -71,6 +71,27 @@ public:
     }
 };
 
+/// A floor seen through smooth flint below a lamp behind rough flint: most connections join one colour to
+/// one.
+class FlintPanes : public TestScene {
+public:
+    FlintPanes() {
+        build.material("smooth", "Ni 1.6\nillum 7\nabbe 10")
+            .material("rough", "Ni 1.5\nillum 7\nPr 0.6\nabbe 10");
+        build.material("floor", "Kd 0.8 0.8 0.8").material("lamp", "Kd 0 0 0\nKe 6 6 6");
+        build.use("smooth")
+            .box({-2, 0.5, 1}, {2, 2.5, 1.2})
+            .use("rough")
+            .box({-1.4, 1.3, -1.4}, {1.4, 1.5, 0.8});
+        build.use("floor").floor(1.5).use("lamp").polygon(
+            {{-1, 1.7, -1}, {1, 1.7, -1}, {1, 1.7, 0.5}, {-1, 1.7, 0.5}});
+        look({0, 1.6, 2}, {0, 0, -0.2}, 25);
+        options.transport.max_depth = 8;
+        options.sampling.spp = 1024;
+        options.light.environment = glm::dvec3(0);
+    }
+};
+
 } // namespace
 
 TEST(Dispersion, EveryColourLeavesASlabWhereItsIndexSays) {
@@ -133,6 +154,19 @@ TEST(Dispersion, PathsFromBothEndsAgreeOnEveryColour) {
             EXPECT_NEAR(a.mean, b.mean, 5 * std::hypot(a.error, b.error))
                 << name_of(integrator) << ", channel " << channel;
         }
+    }
+}
+
+TEST(Dispersion, BothEndsOfAConnectionHaveOneColour) {
+    FlintPanes scene;
+    const Film path = scene.render().film;
+    scene.options.transport.integrator = Integrator::BDPT;
+    const Film bdpt = scene.render().film;
+    for (int channel = 0; channel < 3; ++channel) {
+        const Estimate a = film_estimate(path, channel), b = film_estimate(bdpt, channel);
+        const double error = std::hypot(a.error, b.error);
+        EXPECT_NEAR(a.mean, b.mean, 5 * error) << "channel " << channel;
+        EXPECT_LT(error, 0.02 * a.mean) << "or the test could not tell";
     }
 }
 
