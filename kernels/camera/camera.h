@@ -126,12 +126,13 @@ static inline uint camera_pixel(const RenderParams* params, real2 film)
     return is_inside ? (uint)corner.y * params->width + (uint)corner.x : NO_INDEX;
 }
 
-/* A ray with its cone: the sample's share of a pixel, as a pinhole sees it. Parallel rays stand for parts of
+/* A ray with its wave and its cone: the sample's share of a pixel, as a pinhole sees it. Parallel rays stand for parts of
    the film instead. */
 static inline Ray camera_cone_ray(const RenderParams* params, const Sampler* sampler,
                                   const CameraParams* camera, real2 film, real2 lens, real time)
 {
     Ray ray = camera_generate(camera, film, lens, time);
+    ray_set_wave(ray_sampled_wave(sampler), &ray);
 #if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
     if (ray_cone_is_wanted(params)) {
         const CameraPdf pdf = camera_pdf(camera, ray.direction);

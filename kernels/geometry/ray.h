@@ -3,6 +3,7 @@
 #ifndef CLRT_GEOMETRY_RAY_H
 #define CLRT_GEOMETRY_RAY_H
 
+#include "numerics/sampler.h"
 #include "numerics/vector.h"
 #include "shared/effects.h"
 #include "shared/types.h"
@@ -18,7 +19,19 @@ typedef struct {
     real width;      /* of the cone that it stands for, at the origin */
     real spread;     /* and the cone's solid angle (ray_cone.h) */
 #endif
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    uint wave;       /* ray_wave */
+#endif
+#if CLRT_EFFECTS & EFFECT_NESTED
+    uint4 nest;      /* solids that it is in (nest.h) */
+#endif
 } Ray;
+
+/* Of a ray's path: the colour that decides how glass bends it, from 1 (red) to 3 (blue), 0: none does, and
+   glass bends all alike; and whether it carries that colour alone (scattering/dispersion.h). */
+#define WAVE_NONE 0u
+#define WAVE_COLOR 3u
+#define WAVE_ALONE 4u
 
 /* A point on a triangle: distance and the barycentric weights of its corners 1 and 2. */
 typedef struct {
@@ -43,6 +56,12 @@ static inline Ray ray_make(real3 origin, real3 direction, real time)
 #if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
     ray.width = ray.spread = REAL(0.0);
 #endif
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    ray.wave = WAVE_NONE;
+#endif
+#if CLRT_EFFECTS & EFFECT_NESTED
+    ray.nest = (uint4)(NO_INDEX);
+#endif
     return ray;
 }
 
@@ -54,6 +73,31 @@ static inline real ray_time(const Ray* ray)
 #else
     return REAL(0.0);
 #endif
+}
+
+static inline uint ray_wave(const Ray* ray)
+{
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    return ray->wave;
+#else
+    return WAVE_NONE;
+#endif
+}
+
+static inline void ray_set_wave(uint wave, Ray* ray)
+{
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    ray->wave = wave;
+#endif
+}
+
+/* A path's first wave: any of the colours, beside others, by the number that a sampler has for it: what the
+   shutter's time leaves of its pair. */
+static inline uint ray_sampled_wave(const Sampler* sampler)
+{
+    if (!HAS(EFFECT_DISPERSION))
+        return WAVE_NONE;
+    return 1u + min((uint)(REAL(3.0) * sampler_pair(sampler, 0u, SAMPLE_TIME).y), 2u);
 }
 
 /* Before the first hit: traversal looks for hits after (0, none) and not beyond t_max. */

@@ -4,6 +4,7 @@
 #define CLRT_GEOMETRY_SURFACE_H
 
 #include "instance.h"
+#include "nest.h"
 #include "ray.h"
 #include "scene.h"
 
@@ -31,6 +32,12 @@ typedef struct {
     real width;       /* of the ray's cone here, across the ray, */
     real spread;      /* and its solid angle (ray_cone.h) */
     float uv_area;    /* of its footprint, in texture coordinates; surface_uv_area */
+#endif
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    uint wave;        /* of that ray */
+#endif
+#if CLRT_EFFECTS & EFFECT_NESTED
+    Nest inside, beyond; /* solids on the ray's side, and on the other */
 #endif
 } Surface;
 
@@ -316,8 +323,15 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     surface.time = ray->time;
 #endif
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    surface.wave = ray->wave;
+#endif
     surface.front =
         (side > REAL(0.0)) != surface_winding_is_reversed(scene, triangle, instance, time, normal);
+#if CLRT_EFFECTS & EFFECT_NESTED
+    surface.inside = ray->nest;
+    surface.beyond = nest_beyond(scene, ray->nest, surface.material, surface.front);
+#endif
     if (HAS(EFFECT_TEXTURES | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL))
         surface_uv(scene, triangle, hit->b1, hit->b2, e1, e2, &surface);
     surface_smooth(scene, triangle, instance, time, p, hit->b1, hit->b2, &surface);
@@ -378,10 +392,35 @@ static inline real surface_time(const Surface* surface)
 #endif
 }
 
-/* The ray that goes on from the surface to either side, at the same time and with the same cone. */
+/* The wave of the ray that has hit the surface (ray_wave). */
+static inline uint surface_wave(const Surface* surface)
+{
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    return surface->wave;
+#else
+    return WAVE_NONE;
+#endif
+}
+
+/* The solids on one side of the surface. */
+static inline Nest surface_nest(const Surface* surface, bool reflects)
+{
+#if CLRT_EFFECTS & EFFECT_NESTED
+    return reflects ? surface->inside : surface->beyond;
+#else
+    return nest_empty();
+#endif
+}
+
+/* The ray that goes on from the surface to either side, at the same time, as the same wave
+   and with the same cone. */
 static inline Ray surface_ray(const Surface* surface, bool reflects, real3 direction)
 {
     Ray ray = ray_make(surface_origin(surface, reflects), direction, surface_time(surface));
+    ray_set_wave(surface_wave(surface), &ray);
+#if CLRT_EFFECTS & EFFECT_NESTED
+    ray.nest = surface_nest(surface, reflects);
+#endif
 #if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
     ray.width = surface->width;
     ray.spread = surface->spread;

@@ -46,7 +46,9 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
                                      SampleCounter counter, AovSums* sums, global uint* mattes)
 {
     const Sampler sampler = tile_sampler(params, x, y, counter);
-    const Ray ray = camera_ray(params, &sampler, x, y);
+    Ray ray = camera_ray(params, &sampler, x, y);
+    if (HAS(EFFECT_NESTED))
+        visible_find_nest(scene, params, &ray);
     real3 carried = (real3)(REAL(1.0));
     Hit hit = visible_hit(scene, params, &sampler, 1u, &ray, &carried);
     if (hit.triangle == NO_INDEX)

@@ -108,6 +108,7 @@ static inline TreeRay distribution_child(const Scene* scene, const TreeVertex* v
 {
     TreeRay child = *vertex->path;
     child.ray = surface_ray(vertex->surface, reflects, wi);
+    dispersion_leave(dispersion_splits(vertex->bsdf, reflects), &child.ray);
     child.weight *= weight;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     child.solid = solid_beside(scene, vertex->surface, reflects);

@@ -39,7 +39,8 @@ static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* p
     for (uint i = 0; i < range.count; i += SAMPLES_AT_ONCE) {
         const uint count = min((uint)SAMPLES_AT_ONCE, range.count - i);
         CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));
-        pixel_aim(params, film, params->crop_x + place.x, params->crop_y + place.y, counter, samples, count);
+        pixel_aim(scene, params, film, params->crop_x + place.x, params->crop_y + place.y, counter, samples,
+                  count);
         INTEGRATOR_RADIANCE(scene, params, samples, count, &rays);
 #if PATH_GUIDE
         pixel_add_gain(scene, place.slot, samples, count);

@@ -14,6 +14,7 @@
 #include "geometry/scene.h"
 #include "path/layers.h"
 #include "path/strategies.h"
+#include "path/visibility.h"
 
 /* One sample of a pixel: what an integrator gets and gives. */
 typedef struct {
@@ -37,12 +38,14 @@ typedef struct {
 } CameraSample;
 
 /* Aims `count` samples of the pixel (x, y) from the counter on; `film` takes their splats. */
-static CLRT_NOINLINE void pixel_aim(const RenderParams* params, global long* film, uint x, uint y,
-                                    SampleCounter counter, CameraSample* samples, uint count)
+static CLRT_NOINLINE void pixel_aim(const Scene* scene, const RenderParams* params, global long* film, uint x,
+                                    uint y, SampleCounter counter, CameraSample* samples, uint count)
 {
     for (uint k = 0; k < count; ++k, sample_counter_next(params, &counter)) {
         samples[k].sampler = tile_sampler(params, x, y, counter);
         samples[k].ray = camera_ray(params, &samples[k].sampler, x, y);
+        if (HAS(EFFECT_NESTED))
+            visible_find_nest(scene, params, &samples[k].ray);
         samples[k].radiance = (real3)(REAL(0.0));
         layers_begin(&samples[k].layers);
         strategies_begin(&samples[k].strategies);

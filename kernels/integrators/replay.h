@@ -47,8 +47,8 @@ static CLRT_NOINLINE void replay_sample(const Scene* scene, const RenderParams* 
 {
     CameraSample sample;
     PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
-    pixel_aim(params, 0, pixel % params->width, pixel / params->width, trace_counter(params, number), &sample,
-              1u);
+    pixel_aim(scene, params, 0, pixel % params->width, pixel / params->width, trace_counter(params, number),
+              &sample, 1u);
     INTEGRATOR_RADIANCE(scene, params, &sample, 1u, &rays);
     trace_finish(scene, &sample);
     head[TRACE_HEAD_FAULT] = trace_film(params, &sample, (global long*)(head + TRACE_HEAD_FILM));

@@ -43,6 +43,8 @@ static inline SmoothRays tree_smooth_rays(const Surface* surface, const Bsdf* bs
     rays.reflected = REAL(2.0) * cos_o * n - wo_world;
     rays.reflects = surface_reflects(surface, rays.reflected);
     rays.reflected_color = dielectric ? bsdf_glass_color(bsdf) * f : bsdf_reflection_color(bsdf, cos_o);
+    if (HAS(EFFECT_DISPERSION) && dielectric)
+        rays.reflected_color *= dispersion_smooth_factor(bsdf, true, cos_o);
     if (dielectric && (bsdf->lobes & LOBE_MIRROR)) /* both reflections go the same way */
         rays.reflected_color += bsdf_reflection_color(bsdf, cos_o);
     if (bsdf_is_covered(bsdf))
@@ -54,6 +56,8 @@ static inline SmoothRays tree_smooth_rays(const Surface* surface, const Bsdf* bs
     rays.refracted = fresnel_refract(wo_world, n, cos_o, cos_t, bsdf->eta);
     rays.refracts = !surface_reflects(surface, rays.refracted);
     rays.refracted_color = bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
+    if (HAS(EFFECT_DISPERSION))
+        rays.refracted_color *= dispersion_smooth_factor(bsdf, false, cos_o);
     if (bsdf_is_covered(bsdf))
         rays.refracted_color *= cover_factors(bsdf, frame_to_local(&bsdf->frame, rays.refracted)).other;
     return rays;

@@ -21,10 +21,11 @@ typedef struct {
 
 /* The reflected (which = 0) or refracted (1) child of a ray: same tree, one segment on. */
 static inline WhittedRay whitted_child(const Scene* scene, const WhittedRay* parent, const Surface* surface,
-                                       real3 wi, real3 weight, uint which)
+                                       const Bsdf* bsdf, real3 wi, real3 weight, uint which)
 {
     WhittedRay child;
     child.ray = surface_ray(surface, which == 0u, wi);
+    dispersion_leave(which == 1u && dispersion_of(bsdf) != WAVE_NONE, &child.ray);
     child.weight = weight;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     child.solid = solid_beside(scene, surface, which == 0u);
@@ -75,13 +76,13 @@ static inline uint whitted_spawn_children(const Scene* scene, const RenderParams
     }
     if (rays.reflects) {
         const real3 weight = parent->weight * rays.reflected_color;
-        top = whitted_push(params, whitted_child(scene, parent, surface, rays.reflected, weight, 0u), stack,
-                           top);
+        top = whitted_push(params, whitted_child(scene, parent, surface, bsdf, rays.reflected, weight, 0u),
+                           stack, top);
     }
     if (rays.refracts) {
         const real3 weight = parent->weight * rays.refracted_color;
-        top = whitted_push(params, whitted_child(scene, parent, surface, rays.refracted, weight, 1u), stack,
-                           top);
+        top = whitted_push(params, whitted_child(scene, parent, surface, bsdf, rays.refracted, weight, 1u),
+                           stack, top);
     }
     return top;
 }
@@ -98,7 +99,7 @@ static inline uint whitted_spawn(const Scene* scene, const RenderParams* params,
 
 /* Finds where a ray of the tree ends. */
 static inline Hit whitted_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                              const WhittedRay* current, real3* radiance)
+                              WhittedRay* current, real3* radiance)
 {
     const Hit hit = vertex_hit(scene, params, sampler, current->segment, current->node, &current->ray, 0);
     TRACE_VECTOR(scene, TRACE_THROUGHPUT, current->weight);

@@ -34,7 +34,7 @@ static inline void bdpt_light_vertex(const Scene* scene, const KeptVertex* kept,
                                      LightVertex* vertex)
 {
     const Hit hit = light_vertices_hit(kept);
-    const Ray ray = ray_make((real3)(REAL(0.0)), -vload3(0, kept->wo), time);
+    const Ray ray = light_vertices_ray(kept, time);
     vertex->surface = surface_at(scene, &hit, &ray);
     light_vertex_complete(scene, -ray.direction, vertex);
 }
@@ -59,6 +59,12 @@ static inline real bdpt_others(const EyeVertex* eye, const LightVertex* light, c
         others += to_eye * splat_cosine(eye->surface->normal_g, wi) *
                   splat_weights_at(eye->bsdf, wi, &eye->weights);
     return others;
+}
+
+/* True if a path that comes to a vertex and leaves it along w carries one colour alone. */
+static inline bool bdpt_is_alone(const Surface* surface, const Bsdf* bsdf, real3 w)
+{
+    return (surface_wave(surface) & WAVE_ALONE) || dispersion_splits(bsdf, surface_reflects(surface, w));
 }
 
 /* The weighted connection of two vertices, over the eye path's throughput; false where nothing can arrive. A
@@ -94,6 +100,10 @@ static CLRT_NOINLINE bool bdpt_join(const Scene* scene, const EyeVertex* eye, co
         if (solid != NO_INDEX)
             connection->light *= solid_passes(scene, solid, real_sqrt(square));
     }
+    /* Where both paths have dropped two colours for three times the third, one counts too often. */
+    if (HAS(EFFECT_DISPERSION) && bdpt_is_alone(eye->surface, eye->bsdf, wi) &&
+        bdpt_is_alone(&light.surface, &light.bsdf, -wi))
+        connection->light /= REAL(3.0);
     connection->shadow = bdpt_shadow_ray(eye->surface, &light.surface, wi);
 #if FILM_MOMENTS
     connection->excess = (square + others) / (to_light.pdf_w * splat_cosine(light.surface.normal_g, wi) *

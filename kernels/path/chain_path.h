@@ -84,7 +84,9 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
 {
     Path path;
     SplatWeights weights = {REAL(0.0), REAL(0.0)};
-    const Ray ray = chain_camera_ray(params, sampler, &found->film);
+    Ray ray = chain_camera_ray(params, sampler, &found->film);
+    if (HAS(EFFECT_NESTED))
+        visible_find_nest(scene, params, &ray);
     path_begin(&path, &ray);
     for (uint segment = 1u;; ++segment) {
         path.numbers = numbers_make(sampler, segment, 0u);

@@ -50,13 +50,21 @@ static inline Sampler light_path_sampler(const RenderParams* params, uint replic
     return sampler_make(params->seed, 0xffffffffu - (uint)(number >> 32), replicate, (uint)number);
 }
 
-/* The time of the pixel's sample whose path from the eye light path `number` is connected to. */
-static inline real light_path_eye_time(const RenderParams* params, uint replicate, ulong number)
+/* The sampler of the pixel's sample whose path from the eye light path `number` is connected to. */
+static inline Sampler light_path_eye_sampler(const RenderParams* params, uint replicate, ulong number)
 {
     const ulong of_pass = (ulong)params->width * params->height;
     const uint pixel = (uint)(number % of_pass);
-    const Sampler eye = sampler_make(params->seed, pixel, replicate, (uint)(number / of_pass));
-    return sampler_pair(&eye, 0u, SAMPLE_TIME).x;
+    return sampler_make(params->seed, pixel, replicate, (uint)(number / of_pass));
+}
+
+/* Gives a path the time and the wave of a sample. */
+static inline void light_path_join(const Sampler* sampler, LightPath* path)
+{
+#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
+    path->ray.time = sampler_pair(sampler, 0u, SAMPLE_TIME).x;
+#endif
+    ray_set_wave(ray_sampled_wave(sampler), &path->ray);
 }
 
 /* Starts a path; false where no light has been found. */
@@ -65,9 +73,9 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     const EmissionNumbers numbers = emission_numbers(&path->sampler);
     path->emission = emission_sample(scene, params, &numbers);
     path->ray = path->emission.ray;
-#if CLRT_EFFECTS & EFFECT_MOTION_BLUR
-    path->ray.time = sampler_pair(&path->sampler, 0u, SAMPLE_TIME).x;
-#endif
+    light_path_join(&path->sampler, path);
+    if (HAS(EFFECT_NESTED) && !path->emission.is_distant)
+        visible_find_nest(scene, params, &path->ray);
     path->throughput = (real3)(REAL(1.0));
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = NO_INDEX;
@@ -250,6 +258,7 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     path->alone.open = REAL(0.0);
 #endif
     path->ray = surface_ray(&vertex->surface, next.reflects, next.wi);
+    dispersion_leave(dispersion_splits(bsdf, next.reflects), &path->ray);
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = solid_beside(scene, &vertex->surface, next.reflects);
 #endif
@@ -265,8 +274,8 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
         return false;
     if (bsdf_has_smooth_lobe(&vertex.bsdf) && !light_path_is_at_caster(segment)) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
-        light_vertices_keep(segment, hit, -path->ray.direction, path->emission.power * path->throughput,
-                            &path->weights, sink->kept);
+        light_vertices_keep(segment, hit, &path->ray, path->emission.power * path->throughput, &path->weights,
+                            sink->kept);
 #if FILM_MOMENTS
         light_vertices_keep_alone(&path->alone, sink->kept);
 #endif
@@ -282,8 +291,9 @@ static CLRT_NOINLINE void light_path_trace(const Scene* scene, const RenderParam
     path.sampler = light_path_sampler(params, sink->replicate, number);
     if (!light_path_begin(scene, params, &path))
         return;
-#if INNER_CONNECTIONS && (CLRT_EFFECTS & EFFECT_MOTION_BLUR)
-    path.ray.time = light_path_eye_time(params, sink->replicate, number);
+#if INNER_CONNECTIONS && (CLRT_EFFECTS & (EFFECT_MOTION_BLUR | EFFECT_DISPERSION))
+    const Sampler eye = light_path_eye_sampler(params, sink->replicate, number);
+    light_path_join(&eye, &path);
 #endif
     for (uint segment = 1u; segment < params->max_depth; ++segment) {
         Hit hit = vertex_hit(scene, params, &path.sampler, segment, 0u, &path.ray, &path.throughput);

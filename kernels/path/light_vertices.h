@@ -12,13 +12,19 @@
 #define BDPT_VERTICES 62
 #endif
 
+/* The first bit of a kept vertex's wave, above all segments. */
+#define KEPT_WAVE 24u
+
 /* A vertex that scatters other than as a delta function. */
 typedef struct {
     uint triangle;
 #if CLRT_EFFECTS & EFFECT_INSTANCES
     uint instance;
 #endif
-    uint segment;         /* of the light path up to the vertex, from 1 */
+#if CLRT_EFFECTS & EFFECT_NESTED
+    Nest nest;            /* of the ray that has met it */
+#endif
+    uint segment;         /* of the light path up to the vertex, from 1; from KEPT_WAVE on, that ray's wave */
     real b1, b2;          /* barycentric weights of corners 1 and 2 */
     real wo[3];           /* unit, to where the light has come from */
     real power[3];        /* that arrives: emitted, times the throughput */
@@ -34,8 +40,8 @@ typedef struct {
     uint count;
 } LightVertices;
 
-/* Keeps a vertex; `kept` may be 0. */
-static inline void light_vertices_keep(uint segment, const Hit* hit, real3 wo, real3 power,
+/* Keeps the vertex at the end of a ray; `kept` may be 0. */
+static inline void light_vertices_keep(uint segment, const Hit* hit, const Ray* ray, real3 power,
                                        const SplatWeights* weights, LightVertices* kept)
 {
     if (!INNER_CONNECTIONS || kept == 0 || kept->count >= BDPT_VERTICES)
@@ -45,10 +51,13 @@ static inline void light_vertices_keep(uint segment, const Hit* hit, real3 wo, r
 #if CLRT_EFFECTS & EFFECT_INSTANCES
     vertex->instance = hit->instance;
 #endif
-    vertex->segment = segment;
+#if CLRT_EFFECTS & EFFECT_NESTED
+    vertex->nest = ray->nest;
+#endif
+    vertex->segment = segment | ray_wave(ray) << KEPT_WAVE;
     vertex->b1 = hit->b1;
     vertex->b2 = hit->b2;
-    vstore3(wo, 0, vertex->wo);
+    vstore3(-ray->direction, 0, vertex->wo);
     vstore3(power, 0, vertex->power);
     vertex->weights = *weights;
 }
@@ -62,11 +71,22 @@ static inline void light_vertices_keep_alone(const SplatWeights* alone, LightVer
 }
 #endif
 
+/* The ray that has met a kept vertex, but for its origin. */
+static inline Ray light_vertices_ray(const KeptVertex* kept, real time)
+{
+    Ray ray = ray_make((real3)(REAL(0.0)), -vload3(0, kept->wo), time);
+    ray_set_wave(kept->segment >> KEPT_WAVE, &ray);
+#if CLRT_EFFECTS & EFFECT_NESTED
+    ray.nest = kept->nest;
+#endif
+    return ray;
+}
+
 /* How many vertices are at most `segments` segments from the light. */
 static inline uint light_vertices_within(const LightVertices* kept, uint segments)
 {
     uint count = kept->count;
-    while (count > 0u && kept->at[count - 1u].segment > segments)
+    while (count > 0u && (kept->at[count - 1u].segment & ((1u << KEPT_WAVE) - 1u)) > segments)
         --count;
     return count;
 }

@@ -2,7 +2,7 @@
 // Solids that absorb on the way through them (Beer and Lambert). A segment lies in a solid where it begins or
 // ends on the inner side of the solid's surface, which both ends can tell without knowing the path before:
 // so every way to find a path weighs it alike. Between two things that are both inside, as ice in a drink,
-// nothing is absorbed.
+// nothing is absorbed; where solids have priorities (geometry/nest.h), what is there absorbs.
 #ifndef CLRT_PATH_SOLID_H
 #define CLRT_PATH_SOLID_H
 
@@ -15,9 +15,12 @@
    `reflects`: the side that the surface is seen from. */
 static inline uint solid_beside(const Scene* scene, const Surface* surface, bool reflects)
 {
-    if (!HAS(EFFECT_ATTENUATION) || surface->front == reflects)
+    if (!HAS(EFFECT_ATTENUATION))
         return NO_INDEX;
-    return (scene->materials[surface->material].flags & MATERIAL_ATTENUATES) ? surface->material : NO_INDEX;
+    uint solid = HAS(EFFECT_NESTED) ? nest_top(scene, surface_nest(surface, reflects)) : NO_INDEX;
+    if (solid == NO_INDEX)
+        solid = surface->front == reflects ? NO_INDEX : surface->material;
+    return solid != NO_INDEX && (scene->materials[solid].flags & MATERIAL_ATTENUATES) ? solid : NO_INDEX;
 }
 
 static inline real solid_share(real absorption, real distance)

@@ -13,7 +13,7 @@
    The random numbers of cut-outs and panes are addressed by the node, on a path by the segment. `carried`: as
    in visible_hit. */
 static inline Hit vertex_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                             uint segment, uint node, const Ray* ray, real3* carried)
+                             uint segment, uint node, Ray* ray, real3* carried)
 {
     const Hit hit = visible_hit(scene, params, sampler, node != 0u ? node : segment, ray, carried);
     TRACE_CHOICES(scene, TRACE_VERTEX, segment, node);

@@ -33,6 +33,33 @@ static inline bool visibility_is_pane(const Scene* scene, const Hit* hit)
     return HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE) && material->alpha_x == 0.0f;
 }
 
+/* True if a hit is on no surface, because the same solid is there on both sides. */
+static CLRT_NOINLINE bool visibility_is_within(const Scene* scene, const Hit* hit, const Ray* ray, Nest* nest)
+{
+#if CLRT_EFFECTS & EFFECT_NESTED
+    const uint material = scene->triangles[hit->triangle].material;
+    if (!nest_takes(scene, material))
+        return false;
+    const Surface surface = surface_at(scene, hit, ray);
+    *nest = surface.beyond;
+    return nest_is_alike(scene, surface.inside, material, surface.front);
+#else
+    return false;
+#endif
+}
+
+/* Lets a ray pass a hit that is on no surface; false where it is on one. */
+static inline bool visibility_goes_on(const Scene* scene, const Hit* hit, Ray* ray)
+{
+    Nest nest;
+    if (!HAS(EFFECT_NESTED) || !visibility_is_within(scene, hit, ray, &nest))
+        return false;
+#if CLRT_EFFECTS & EFFECT_NESTED
+    ray->nest = nest;
+#endif
+    return true;
+}
+
 /* How a ray goes on at a hit. */
 typedef struct {
     real3 share;   /* of the light along it that passes */
@@ -78,15 +105,21 @@ static inline Crossing visibility_crossing(const Scene* scene, const Hit* hit, c
 /* The first hit that is not passed: a surface of coverage c is passed with probability 1 - c, a pane with
    that of its glass (bsdf_pane_passing), and `carried` weighs that; 0: panes stop the ray. The search goes on
    behind the passed hit in the order of hits, so no layer is missed or met twice. Where a coverage is a NaN,
-   so is the distance of the miss that it gives. */
+   so is the distance of the miss that it gives. Surfaces within a solid are passed by all, and the ray knows
+   of them (Ray.nest). */
 static inline Hit visible_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                              uint bounce, const Ray* ray, real3* carried)
+                              uint bounce, Ray* ray, real3* carried)
 {
     Hit after = hit_none(REAL(0.0));
     Hit hit = scene_closest_hit(scene, params, ray, &after);
     if (!HAS(EFFECTS_PASSED))
         return hit;
     for (uint layer = 0; hit.triangle != NO_INDEX; ++layer) {
+        if (visibility_goes_on(scene, &hit, ray)) {
+            after = hit;
+            hit = scene_closest_hit(scene, params, ray, &after);
+            continue;
+        }
         const Crossing crossing = visibility_crossing(scene, &hit, ray, carried != 0);
         if (crossing.stop >= REAL(1.0))
             break;
@@ -122,6 +155,9 @@ static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderPara
         return false;
     if (HAS(EFFECT_CUT_OUT) && visibility_coverage(scene, &nearer) < REAL(1.0))
         return false;
+    Nest unused;
+    if (HAS(EFFECT_NESTED) && visibility_is_within(scene, &nearer, ray, &unused))
+        return false;
     if (visibility_is_pane(scene, &nearer))
         return false;
     hit_set_triangle(hit_instance(&nearer), nearer.triangle, hit);
@@ -155,14 +191,45 @@ static inline real3 visible_share_of_layers(const Scene* scene, const RenderPara
 {
     real3 share = (real3)(REAL(1.0));
     Hit after = hit_none(REAL(0.0));
+    Ray going = *ray;
     while (vector_max_component(share) > REAL(0.0)) {
         const Hit hit = scene_closest_hit(scene, params, ray, &after);
         if (hit.triangle == NO_INDEX)
             break;
-        share *= visibility_crossing(scene, &hit, ray, true).share;
+        if (!visibility_goes_on(scene, &hit, &going))
+            share *= visibility_crossing(scene, &hit, ray, true).share;
         after = hit;
     }
     return share;
+}
+
+/* A direction along no axis and no diagonal, of unit length. */
+#define VISIBLE_ASKEW vector_make(REAL(0.36), REAL(0.80), REAL(0.48))
+
+/* Finds the solids that a ray begins in: those whose surfaces are left on the way out, by any way, without
+   having been entered on it. */
+static CLRT_NOINLINE void visible_find_nest(const Scene* scene, const RenderParams* params, Ray* ray)
+{
+#if CLRT_EFFECTS & EFFECT_NESTED
+    const Ray probe = ray_make(ray->origin, VISIBLE_ASKEW, ray_time(ray));
+    Nest ahead = nest_empty();
+    Hit hit = hit_none(REAL(0.0));
+    for (;;) {
+        const Hit after = hit;
+        hit = scene_closest_hit(scene, params, &probe, &after);
+        if (hit.triangle == NO_INDEX)
+            return;
+        const Surface surface = surface_at(scene, &hit, &probe);
+        if (!nest_takes(scene, surface.material))
+            continue;
+        if (surface.front)
+            ahead = nest_entered(ahead, surface.material);
+        else if (nest_has(ahead, surface.material))
+            ahead = nest_left(ahead, surface.material);
+        else
+            ray->nest = nest_entered(ray->nest, surface.material);
+    }
+#endif
 }
 
 /* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs and panes let pass;

@@ -155,6 +155,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     path->is_alive = path_survives(scene, params, sampler, segment, worth, path);
     path->ray = surface_ray(surface, next->reflects, next->wi);
     ray_cone_scatter(params, sampler, next->pdf_w, &path->ray);
+    dispersion_leave(dispersion_splits(bsdf, next->reflects), &path->ray);
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
     path->has_crossed_curved = surface->is_curved && !next->reflects;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION

@@ -109,7 +109,11 @@ static CLRT_NOINLINE BsdfValue bsdf_eval_covered(const Bsdf* bsdf, uint lobes, r
 /* Sum of some of the lobes and their share of the mixture's density; wi local, sides already compared. */
 static inline BsdfValue bsdf_eval_lobes(const Bsdf* bsdf, uint lobes, real3 wi)
 {
-    return bsdf_is_covered(bsdf) ? bsdf_eval_covered(bsdf, lobes, wi) : bsdf_eval_uncovered(bsdf, lobes, wi);
+    BsdfValue sum =
+        bsdf_is_covered(bsdf) ? bsdf_eval_covered(bsdf, lobes, wi) : bsdf_eval_uncovered(bsdf, lobes, wi);
+    if (HAS(EFFECT_DISPERSION))
+        sum.value *= dispersion_is_rough(bsdf) ? dispersion_hue(dispersion_of(bsdf)) : (real3)(REAL(1.0));
+    return sum;
 }
 
 /* What a shading normal that is not the surface's makes of importance (Veach 1997, sec. 5.3): cosines to the

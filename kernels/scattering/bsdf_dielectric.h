@@ -5,6 +5,7 @@
 #define CLRT_SCATTERING_BSDF_DIELECTRIC_H
 
 #include "bsdf_energy.h"
+#include "dispersion.h"
 #include "microfacet.h"
 
 /* True if light is only reflected as by a mirror and refracted straight: no roughness, or nothing to refract
@@ -165,6 +166,8 @@ static inline real3 bsdf_dielectric_sample_single(const Bsdf* bsdf, real u_way, 
         return wi;
     sample->weight = reflects ? bsdf_glass_color(bsdf) : bsdf->transmission * bsdf_cross(bsdf, REAL(1.0));
     sample->weight *= facet.forced;
+    if (HAS(EFFECT_DISPERSION))
+        sample->weight *= dispersion_factor(bsdf, reflects, facet.cos_o);
     if (!smooth) {
         sample->weight *= microfacet_g2(wo, wi, bsdf->alpha_x, bsdf->alpha_y) /
                           microfacet_g1(wo, bsdf->alpha_x, bsdf->alpha_y);

@@ -25,6 +25,9 @@
 #define BSDF_COVERED 0x100000u
 #define BSDF_INSIDE 0x200000u
 
+/* Where the surface disperses, the wave of the ray that has hit it (geometry/ray.h), from this bit on. */
+#define BSDF_WAVE_SHIFT 22u
+
 /* What lies above the lobes of the surface (bsdf_cover.h). */
 typedef struct {
     real3 sheen;          /* colour */
@@ -65,6 +68,9 @@ typedef struct {
     real choose_multiple;    /* the part of the rough lobe's that goes to the light of more than one facet */
 #if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
     BsdfCover cover;         /* where the flag is BSDF_COVERED */
+#endif
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    real3 etas;              /* of the colours, as `eta`; where the surface disperses */
 #endif
 } Bsdf;
 

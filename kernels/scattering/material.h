@@ -178,6 +178,57 @@ static inline real3 material_tangent(const Scene* scene, global const Material* 
     return (real)extension->turn_cos * frame.x + (handed * (real)extension->turn_sin) * frame.y;
 }
 
+/* Indices of a solid for the colours; all the same where it does not disperse. */
+static inline real3 material_indices(const Scene* scene, uint material)
+{
+    const real index = (real)MATERIAL_INDEX(scene->materials[material]);
+    return scene->materials[material].flags & MATERIAL_DISPERSES
+               ? dispersion_indices(index, (real)scene->extensions[material].spread)
+               : (real3)(index);
+}
+
+/* The solid that is there outside that whose surface it is; NO_INDEX: air. */
+static inline uint material_outside(const Scene* scene, const Surface* surface)
+{
+    return nest_takes(scene, surface->material)
+               ? nest_top(scene, surface_nest(surface, surface->front))
+               : NO_INDEX;
+}
+
+/* Sets the index ratios of the colours, and that of the wave among them, where they differ. */
+static CLRT_NOINLINE void material_disperse(const Scene* scene, const Surface* surface, uint outside,
+                                            Bsdf* bsdf)
+{
+#if CLRT_EFFECTS & EFFECT_DISPERSION
+    const uint wave = surface_wave(surface);
+    const bool disperses =
+        (scene->materials[surface->material].flags & MATERIAL_DISPERSES) ||
+        (outside != NO_INDEX && (scene->materials[outside].flags & MATERIAL_DISPERSES));
+    if (!disperses || wave == WAVE_NONE)
+        return;
+    const real3 indices = material_indices(scene, surface->material);
+    const real3 others = outside == NO_INDEX ? (real3)(REAL(1.0)) : material_indices(scene, outside);
+    bsdf->etas = surface->front ? others / indices : indices / others;
+    bsdf->eta = dispersion_component(wave, bsdf->etas);
+    bsdf->flags |= wave << BSDF_WAVE_SHIFT;
+#endif
+}
+
+/* Sets the index ratio. */
+static inline void material_refraction(const Scene* scene, global const Material* material,
+                                       const Surface* surface, Bsdf* bsdf)
+{
+    const real index = (real)MATERIAL_INDEX(*material);
+    const bool is_pane = HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE);
+    const bool from_air = is_pane || (HAS(EFFECT_REFRACTION) && surface->front);
+    const uint outside = material_outside(scene, surface);
+    const real other =
+        outside == NO_INDEX ? REAL(1.0) : (real)MATERIAL_INDEX(scene->materials[outside]);
+    bsdf->eta = from_air ? other / index : index / other;
+    if (HAS(EFFECT_DISPERSION) && (material->lobes & LOBE_DIELECTRIC))
+        material_disperse(scene, surface, outside, bsdf);
+}
+
 /* Reads colours and roughness, maps included. */
 static inline void material_parameters(const Scene* scene, global const Material* material,
                                        const Surface* surface, Bsdf* bsdf)
@@ -258,10 +309,7 @@ CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surf
     bsdf->normal_g = surface->normal_g;
     bsdf->normal_s = surface->normal_s;
     bsdf->is_curved = surface->is_curved;
-    const real index = (real)MATERIAL_INDEX(*material);
-    const bool is_pane = HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE);
-    const bool from_air = is_pane || (HAS(EFFECT_REFRACTION) && surface->front);
-    bsdf->eta = from_air ? REAL(1.0) / index : index;
+    material_refraction(scene, material, surface, bsdf);
     material_parameters(scene, material, surface, bsdf);
     if (HAS(EFFECT_COAT | EFFECT_SHEEN) && (material->lobes & (LOBE_COAT | LOBE_SHEEN))) {
         material_cover(scene, material, surface, bsdf);

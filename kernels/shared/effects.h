@@ -29,19 +29,23 @@
 #define EFFECT_SHEEN 0x200000u         /* fibres that reflect towards grazing angles */
 #define EFFECT_SPOT 0x400000u          /* point lights that shine within a cone */
 #define EFFECT_CONDUCTOR 0x800000u     /* reflection by a complex index of refraction */
+#define EFFECT_DISPERSION 0x2000000u   /* glass that bends colours apart */
+#define EFFECT_NESTED 0x4000000u       /* solids within each other, by priority (geometry/nest.h) */
 #define EFFECT_INSTANCES 0x10000000u   /* copies that share one mesh (geometry/instance.h) */
 #define EFFECT_THIN_WALL 0x20000000u   /* panes without an inside */
 #define EFFECT_ROTATION 0x40000000u    /* highlights stretched askew to the texture coordinates */
 #define EFFECT_TEXTURE_FILTER 0x80000000u /* lookups over the ray's footprint (geometry/ray_cone.h) */
 #define EFFECT_ALL                                                                                           \
-    (0xffffffu | EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_ROTATION | EFFECT_TEXTURE_FILTER)
+    (0xffffffu | EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_ROTATION | \
+     EFFECT_TEXTURE_FILTER)
 
 /* Effects that read the array of material extensions. */
 #define EFFECTS_EXTENSION                                                                                    \
-    (EFFECT_PART_GLASS | EFFECT_ATTENUATION | EFFECT_COAT | EFFECT_SHEEN | EFFECT_ROTATION)
+    (EFFECT_PART_GLASS | EFFECT_ATTENUATION | EFFECT_COAT | EFFECT_SHEEN | EFFECT_ROTATION |                \
+     EFFECT_DISPERSION | EFFECT_NESTED)
 
 /* Effects of surfaces behind which the same ray goes on (path/visibility.h). */
-#define EFFECTS_PASSED (EFFECT_CUT_OUT | EFFECT_THIN_WALL)
+#define EFFECTS_PASSED (EFFECT_CUT_OUT | EFFECT_THIN_WALL | EFFECT_NESTED)
 
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS

@@ -52,6 +52,8 @@ ASSERT_SIZE(Instance, 112);
 #define MATERIAL_PART_GLASS 16u    /* with MATERIAL_METALLIC_ROUGHNESS: part of what is no metal is glass */
 #define MATERIAL_ATTENUATES 32u    /* the solid behind the surface absorbs on the way */
 #define MATERIAL_TURNED 64u        /* the stretched highlight is turned against the texture coordinates */
+#define MATERIAL_DISPERSES 128u    /* the index of refraction depends on the colour */
+#define MATERIAL_NESTED 256u       /* a solid that others may lie in, or overlap */
 
 typedef struct {
     vec4 matte;        /* rgb: Kd in [0,1]; w: MATERIAL_COVERAGE */
@@ -86,7 +88,9 @@ typedef struct {
     float turn_cos, turn_sin; /* of the highlight's x axis against the direction of growing u */
     u32 map_transmission, map_coat, map_sheen; /* multiply the constants; NO_INDEX: none */
     u32 map_coat_roughness, map_sheen_roughness; /* alpha = constant (map)^2 */
-    u32 unused0, unused1, unused2;
+    float spread; /* of the index between Fraunhofer's lines C and F (scattering/dispersion.h) */
+    float priority; /* of the solid: of two in one place the greater is there (geometry/nest.h) */
+    u32 unused0;
 } MaterialExtension;
 ASSERT_SIZE(MaterialExtension, 80);
 

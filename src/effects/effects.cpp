@@ -200,6 +200,8 @@ void find_material_effects(const Scene& scene, const Options& options, EffectFin
     };
     flagged(EFFECT_PART_GLASS, MATERIAL_PART_GLASS, "no material is partly glass");
     flagged(EFFECT_ATTENUATION, MATERIAL_ATTENUATES, "no solid absorbs on the way through it");
+    flagged(EFFECT_DISPERSION, MATERIAL_DISPERSES, "no glass has an Abbe number");
+    flagged(EFFECT_NESTED, MATERIAL_NESTED, "no solid has a priority");
     flagged(EFFECT_ROTATION, MATERIAL_TURNED, "no stretched highlight is turned");
     finder.material(EFFECT_ROUGH_REFRACTION, "no dielectric is rough" + by, [](const Material& m) {
         return (m.lobes & LOBE_DIELECTRIC) && m.alpha_x > 0 && MATERIAL_INDEX(m) != 1.0f;

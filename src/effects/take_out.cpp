@@ -17,6 +17,9 @@ namespace clrt {
 
 namespace {
 
+/// What materials have that are solid glass.
+constexpr u32 FLAGS_OF_SOLIDS = MATERIAL_ATTENUATES | MATERIAL_DISPERSES | MATERIAL_NESTED;
+
 void take_out_area_lights(Scene& scene) {
     scene.emitters.clear();
     for (Triangle& triangle : scene.triangles)
@@ -56,7 +59,7 @@ void take_out_lobe(u32 lobe, Scene& scene) {
         if (lobe == LOBE_GLOSSY)
             MATERIAL_EXPONENT(material) = 0;
         if (!(material.lobes & LOBE_DIELECTRIC))
-            material.flags &= ~MATERIAL_ATTENUATES;
+            material.flags &= ~FLAGS_OF_SOLIDS;
         if (!(material.lobes & LOBES_GLASS))
             material.flags &= ~MATERIAL_PART_GLASS;
         if (!(material.lobes & LOBES_ROUGH))
@@ -70,7 +73,7 @@ void take_out_lobe(u32 lobe, Scene& scene) {
 void take_out_part_glass(Scene& scene) {
     for (Material& material : scene.materials)
         if (material.flags & MATERIAL_PART_GLASS) {
-            material.flags &= ~(MATERIAL_PART_GLASS | MATERIAL_ATTENUATES);
+            material.flags &= ~(MATERIAL_PART_GLASS | FLAGS_OF_SOLIDS);
             material.lobes &= ~LOBES_GLASS;
         }
 }
@@ -197,6 +200,10 @@ void take_out_lobes(u32 effects, Scene& scene) {
         take_out_part_glass(scene);
     if (effects & EFFECT_ATTENUATION)
         take_out_flag(MATERIAL_ATTENUATES, scene);
+    if (effects & EFFECT_DISPERSION)
+        take_out_flag(MATERIAL_DISPERSES, scene);
+    if (effects & EFFECT_NESTED)
+        take_out_flag(MATERIAL_NESTED, scene);
     if (effects & EFFECT_ROTATION)
         take_out_flag(MATERIAL_TURNED, scene);
 }

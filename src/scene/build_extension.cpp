@@ -63,6 +63,10 @@ BuiltExtension build_extension(const MaterialDescription& from, const Material& 
     if (material.flags & MATERIAL_ATTENUATES)
         e.attenuation =
             to_vec4(absorption(from.attenuation_colour, from.attenuation_distance * context.unit));
+    if (material.flags & MATERIAL_DISPERSES)
+        e.spread = float((from.ior - 1) / std::max(from.abbe, SMALLEST_ABBE));
+    if (material.flags & MATERIAL_NESTED)
+        e.priority = float(from.priority.value_or(0));
     if (material.flags & MATERIAL_PART_GLASS)
         EXTENSION_TRANSMISSION(e) =
             float(load(from.transmission_weight, TextureRole::SCALAR, load_map, e.map_transmission));
@@ -83,7 +87,8 @@ BuiltExtension build_extension(const MaterialDescription& from, const Material& 
             load(from.sheen_roughness, TextureRole::SCALAR, load_map, e.map_sheen_roughness);
         e.sheen = to_vec4(colour, std::max(squared(roughness), SMALLEST_SHEEN_ALPHA));
     }
-    const u32 flags = MATERIAL_ATTENUATES | MATERIAL_PART_GLASS | MATERIAL_TURNED;
+    const u32 flags =
+        MATERIAL_ATTENUATES | MATERIAL_PART_GLASS | MATERIAL_TURNED | MATERIAL_DISPERSES | MATERIAL_NESTED;
     built.is_needed = (material.flags & flags) || (material.lobes & (LOBE_COAT | LOBE_SHEEN));
     return built;
 }

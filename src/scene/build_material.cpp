@@ -182,6 +182,10 @@ private:
         if (is_solid && is_dark && from_.attenuation_distance > 0 &&
             from_.attenuation_colour != glm::dvec3(1))
             m_.flags |= MATERIAL_ATTENUATES;
+        if (is_solid && context_.nested)
+            m_.flags |= MATERIAL_NESTED;
+        if (is_solid && from_.abbe > 0 && MATERIAL_INDEX(m_) > 1)
+            m_.flags |= MATERIAL_DISPERSES;
         if (m_.alpha_x != m_.alpha_y && from_.anisotropy_rotation != 0)
             m_.flags |= MATERIAL_TURNED;
         if (from_.coat_weight.value > 0)

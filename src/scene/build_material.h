@@ -30,6 +30,7 @@ using LoadMap = std::function<u32(const TextureUse&, TextureRole)>;
 struct MaterialContext {
     double unit = 1;        ///< one scene unit in the normalised frame, for bump heights
     bool two_sided = false; ///< --two-sided-lights
+    bool nested = false;    ///< some material of the scene has a priority
 };
 
 /// Makes the material. Only the maps that can have an effect are loaded.

@@ -28,6 +28,7 @@
 #include "scene/vertex_colours.h"
 #include "scene/view_frame.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -153,7 +154,10 @@ std::vector<std::pair<TextureUse, TextureRole>> uses_of(const std::vector<Materi
 std::vector<double> build_materials(const std::vector<MaterialDescription>& descriptions, bool two_sided,
                                     Progress& progress, Pictures& pictures, Scene& scene,
                                     NoticeList& notices) {
-    const MaterialContext context{scene.normalisation.scale, two_sided};
+    const bool nested =
+        std::any_of(descriptions.begin(), descriptions.end(),
+                    [](const MaterialDescription& each) { return each.priority.has_value(); });
+    const MaterialContext context{scene.normalisation.scale, two_sided, nested};
     const LoadMap load_map = [&](const TextureUse& use, TextureRole role) { return pictures.add(use, role); };
     std::vector<double> exitance;
     progress.update({"textures", 0});

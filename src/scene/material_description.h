@@ -21,6 +21,9 @@ constexpr double DIELECTRIC_F0 = 0.04;
 /// The index of refraction of glass, where nothing else is said.
 constexpr double DEFAULT_IOR = 1.5;
 
+/// Glass disperses no more than this Abbe number says: the index of every colour stays above 1.
+constexpr double SMALLEST_ABBE = 1;
+
 /// A quantity: a constant, and the picture that multiplies it.
 template <typename T>
 struct Mapped {
@@ -69,8 +72,12 @@ struct MaterialDescription {
     double anisotropy_rotation = 0;       ///< turns of the stretched highlight, from growing u to growing v
     glm::dvec3 specular_tint{1};          ///< of METALLIC: factor of dielectric_f0
     double ior = DEFAULT_IOR;             ///< of DIELECTRIC and transmission_weight, above 0
-    ConductorIndex conductor;             ///< of CONDUCTOR, from 0
-    glm::dvec3 transmission{1};           ///< of DIELECTRIC: tint of each crossing
+    double abbe = 0;                      ///< Abbe number of the glass, from SMALLEST_ABBE; 0: no dispersion
+    /// Of solid glass: of two solids in one place the one of greater priority is there. Where no material of
+    /// a scene has one, surfaces are what they are alone.
+    std::optional<double> priority;
+    ConductorIndex conductor;   ///< of CONDUCTOR, from 0
+    glm::dvec3 transmission{1}; ///< of DIELECTRIC: tint of each crossing
 
     /// Of METALLIC, in [0,1]: the share of what is no metal that is glass of index `ior`. It is tinted by the
     /// root of the base at each crossing of a solid, by the base where the wall is thin.

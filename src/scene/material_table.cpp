@@ -40,6 +40,10 @@ std::string glass(const Material& m, const MaterialExtension& e) {
         text += " " + roughness(m);
     if (m.flags & MATERIAL_ATTENUATES)
         text += fmt::format(" absorbing {}", colour(e.attenuation));
+    if (m.flags & MATERIAL_NESTED)
+        text += fmt::format(" priority {:.4g}", e.priority);
+    if (m.flags & MATERIAL_DISPERSES)
+        text += fmt::format(" Abbe {:.4g}", (MATERIAL_INDEX(m) - 1) / e.spread);
     return text;
 }
 

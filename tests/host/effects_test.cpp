@@ -216,9 +216,10 @@ TEST(Effects, AListIsCompiledAndWhatItLacksIsLeftOut) {
     EXPECT_EQ(without.left_out, u32(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION));
 
     scene.options.effects.all = true;
-    EXPECT_EQ(scene.effects().mask,
-              u32(EFFECT_ALL & ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR |
-                                 EFFECT_PART_GLASS | EFFECT_ATTENUATION)));
+    EXPECT_EQ(
+        scene.effects().mask,
+        u32(EFFECT_ALL & ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR | EFFECT_PART_GLASS |
+                           EFFECT_ATTENUATION | EFFECT_DISPERSION | EFFECT_NESTED)));
     scene.options.effects.off = 0;
     EXPECT_EQ(scene.effects().left_out, 0u);
     EXPECT_TRUE(describe_left_out(scene.effects()).empty());

@@ -156,7 +156,12 @@ TEST(GltfMaterials, TransmissionIsAThinWallUnlessItHasAVolume) {
     EXPECT_FALSE(solid.is_thin);
     EXPECT_EQ(solid.attenuation_distance, 2);
     EXPECT_EQ(solid.attenuation_colour, glm::dvec3(0.5, 1, 0));
+    EXPECT_EQ(solid.abbe, 0);
     EXPECT_TRUE(described("{\"extensions\": {" + glass + ", \"KHR_materials_volume\": {}}}").is_thin);
+    EXPECT_EQ(described("{\"extensions\": {" + glass + R"(, "KHR_materials_volume": {"thicknessFactor": 1},
+                        "KHR_materials_dispersion": {"dispersion": 0.5}}})")
+                  .abbe,
+              40);
 }
 
 TEST(GltfMaterials, ReflectanceHeadOnIsColouredAndNotAboveOne) {

@@ -400,8 +400,26 @@ TEST(MaterialRules, PanesAndSolidsThatAbsorb) {
     EXPECT_FALSE(Ruled("illum 1\nattenuation 0.5 0.5 0.5\n").m.flags & MATERIAL_ATTENUATES) << "no glass";
 }
 
+TEST(MaterialRules, SolidGlassWithAnAbbeNumberDisperses) {
+    const Ruled flint("illum 7\nNi 1.6\nabbe 30\n");
+    EXPECT_TRUE(flint.notices.empty());
+    EXPECT_TRUE(flint.m.flags & MATERIAL_DISPERSES);
+    for (const char* const keys : {"illum 7\nNi 1.6\nabbe 0\n", "illum 7\nNi 1\nabbe 30\n",
+                                   "illum 2\nabbe 30\n", "illum 7\nthin_walled 1\nabbe 30\n"})
+        EXPECT_FALSE(Ruled(keys).m.flags & MATERIAL_DISPERSES) << keys;
+}
+
+TEST(MaterialRules, SolidsAreNestedWhereAnyHasAPriority) {
+    const MaterialContext nested{1, false, true};
+    EXPECT_TRUE(Ruled("illum 7\n", nested).m.flags & MATERIAL_NESTED);
+    EXPECT_FALSE(Ruled("illum 7\n").m.flags & MATERIAL_NESTED);
+    for (const char* const keys : {"illum 2\n", "illum 7\nthin_walled 1\n"})
+        EXPECT_FALSE(Ruled(keys, nested).m.flags & MATERIAL_NESTED) << keys << " has no inside";
+}
+
 TEST(MaterialRules, TheExtensionIsInUnitsOfTheKernels) {
     MaterialDescription d;
+    d.abbe = 25;
     d.reflection = Reflection::METALLIC;
     d.base.value = glm::dvec3(0.5);
     d.transmission_weight.value = 0.25;
@@ -418,6 +436,7 @@ TEST(MaterialRules, TheExtensionIsInUnitsOfTheKernels) {
     EXPECT_EQ(e.attenuation.y, 0);
     EXPECT_TRUE(std::isfinite(e.attenuation.z));
     EXPECT_EQ(EXTENSION_TRANSMISSION(e), 0.25f);
+    EXPECT_EQ(e.spread, 0.02f) << "an index of 1.5";
     EXPECT_NEAR(e.turn_cos, 0, 1e-7);
     EXPECT_EQ(e.turn_sin, 1);
     EXPECT_EQ(e.coat, 0.75f);

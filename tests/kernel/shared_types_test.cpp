@@ -52,8 +52,8 @@ const Layout MATERIAL_EXTENSION = {
     "MaterialExtension",
     sizeof(MaterialExtension),
     {M(attenuation), M(sheen), M(coat), M(coat_alpha), M(turn_cos), M(turn_sin), M(map_transmission),
-     M(map_coat), M(map_sheen), M(map_coat_roughness), M(map_sheen_roughness), M(unused0), M(unused1),
-     M(unused2)}};
+     M(map_coat), M(map_sheen), M(map_coat_roughness), M(map_sheen_roughness), M(spread), M(priority),
+     M(unused0)}};
 #undef M
 #define M(name) MEMBER(Texture, name)
 const Layout TEXTURE = {

@@ -75,9 +75,11 @@ void make_covers(TestScene& scene) {
         {"lacquer", "Kd 0.6 0.1 0.1\nPm 0\nPr 0.4\nPc 0.9\nPcr 0.2"},
         {"velvet", "Kd 0.2 0.1 0.4\nPm 0\nPr 0.9\nPs 0.8"},
         {"honey", "Ni 1.4\nillum 7\nattenuation 0.9 0.6 0.2\nattenuation_distance 0.3"},
+        {"flint", "Ni 1.7\nillum 7\nabbe 20"},
+        {"ice", "Ni 1.3\nillum 7\npriority 1"},
         {"stained", "Kd 0.3 0.7 0.4\nPm 0\nPr 0.3\nNi 1.5\nTf 0.6"},
         {"brushed", "Kd 0.8 0.7 0.6\nPm 1\nPr 0.4\naniso 0.7\nanisor 0.2"}};
-    double x = -1.2;
+    double x = -1.8;
     for (const auto& [name, keys] : balls) {
         scene.build.material(name, keys).use(name).icosphere({x, 0.3, 0}, 0.25, 1);
         x += 0.6;

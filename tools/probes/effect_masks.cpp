@@ -173,6 +173,8 @@ void SceneOfEffects::add_materials() {
     build.material("frosted", "Ni 1.4\nillum 7\nPr 0.5" + map("map_Pr"));
     const std::string turned = "\nPr 0.4\naniso 0.7\nanisor 0.2";
     build.material("honey", "Ni 1.4\nillum 7\nattenuation 0.3 0.6 0.9");
+    build.material("flint", "Ni 1.6\nillum 7\nabbe 15");
+    build.material("ice", "Ni 1.3\nillum 7\npriority 1");
     build.material("stained",
                    tint + "Pm 0\nTf 0.6" + (has(EFFECT_MIRROR) ? "\nPr 0\nNi 1.5" : "\nPr 0.4\nNi 1"));
     build.material("lacquer", tint + "Pc 0.9\nPcr 0.2");
@@ -220,6 +222,10 @@ void SceneOfEffects::add_bodies() {
 void SceneOfEffects::add_rare_bodies() {
     if (has(EFFECT_ATTENUATION))
         build.use("honey").icosphere({1.2, 1.3, -0.3}, 0.25, 1);
+    if (has(EFFECT_DISPERSION))
+        build.use("flint").icosphere({-0.9, 0.9, 0.3}, 0.2, 1);
+    if (has(EFFECT_NESTED))
+        build.use("ice").icosphere({0.2, 0.7, 0.5}, 0.15, 1);
     if (has(EFFECT_PART_GLASS))
         build.use("stained").icosphere({-1.2, 1.4, -0.3}, 0.25, 1);
     if (has(EFFECT_COAT))

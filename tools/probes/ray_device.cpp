@@ -154,7 +154,7 @@ CLRT_KERNEL void {}(const RenderParams params, SCENE_PARAMS, global const float4
     if (i >= count)
         return;
     const Scene scene = SCENE_MAKE;
-    const Ray ray = load_ray(rays, i);{}
+    Ray ray = load_ray(rays, i);{}
 }}
 )",
                             entry.name, entry.more_parameters, entry.out_type, entry.body);

@@ -17,15 +17,25 @@ bool is_read(const std::string& name) {
 
 const std::vector<std::string>& gltf_extensions() {
     static const std::vector<std::string> names = {
-        "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
-        "EXT_texture_webp",           "KHR_draco_mesh_compression",
-        "KHR_lights_punctual",        "KHR_materials_anisotropy",
-        "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-        "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
-        "KHR_materials_sheen",        "KHR_materials_specular",
-        "KHR_materials_transmission", "KHR_materials_unlit",
-        "KHR_materials_volume",       "KHR_mesh_quantization",
-        "KHR_meshopt_compression",    "KHR_texture_transform",
+        "EXT_mesh_gpu_instancing",
+        "EXT_meshopt_compression",
+        "EXT_texture_webp",
+        "KHR_draco_mesh_compression",
+        "KHR_lights_punctual",
+        "KHR_materials_anisotropy",
+        "KHR_materials_clearcoat",
+        "KHR_materials_dispersion",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_pbrSpecularGlossiness",
+        "KHR_materials_sheen",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_materials_unlit",
+        "KHR_materials_volume",
+        "KHR_mesh_quantization",
+        "KHR_meshopt_compression",
+        "KHR_texture_transform",
     };
     return names;
 }

@@ -18,6 +18,9 @@ double reflectance_of_index(double ior) {
     return ior > 0 ? root * root : 1;
 }
 
+/// KHR_materials_dispersion stores this over the Abbe number.
+constexpr double DISPERSION_TIMES_ABBE = 20;
+
 /// The least a / b of GGX roughnesses across and along that `anisotropy` makes.
 constexpr double LEAST_ASPECT = 0.1;
 
@@ -75,6 +78,9 @@ void GltfMaterialReader::read_volume() {
     const JsonValue volume = *extension("KHR_materials_volume");
     m_.attenuation_colour = gltf_colour(volume, "attenuationColor", 1);
     m_.attenuation_distance = std::max(volume.number("attenuationDistance", 0), 0.0);
+    const std::optional<JsonValue> dispersion = extension("KHR_materials_dispersion");
+    const double amount = dispersion ? dispersion->number("dispersion", 0) : 0;
+    m_.abbe = amount > 0 ? DISPERSION_TIMES_ABBE / amount : 0;
 }
 
 void GltfMaterialReader::read_coat() {

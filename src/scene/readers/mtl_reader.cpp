@@ -53,6 +53,8 @@ constexpr NumberKey NUMBER_KEYS[] = {
     {"anisor", &MtlMaterial::anisor, UNLIMITED},
     {"attenuation_distance", &MtlMaterial::attenuation_distance, UNLIMITED},
     {"thin_walled", &MtlMaterial::thin_walled, 1},
+    {"abbe", &MtlMaterial::abbe, UNLIMITED},
+    {"priority", &MtlMaterial::priority, UNLIMITED},
 };
 
 struct MapKey {

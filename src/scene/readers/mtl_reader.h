@@ -22,8 +22,9 @@ struct MtlTexture : TextureUse {
 
 /// A newmtl block. Colours are linear; a colour with one component given is grey. Values are inside their
 /// ranges: Ka Kd Ks Tf d Tr Pr Pm Ps Pcr aniso attenuation thin_walled in [0,1], Ke,
-/// Ns, Pc, anisor, eta, k and attenuation_distance not below 0, Ni above 0. attenuation, attenuation_distance
-/// and thin_walled are our own, named as in glTF.
+/// Ns, Pc, anisor, eta, k, abbe, priority and attenuation_distance not below 0, Ni above 0. attenuation,
+/// attenuation_distance and thin_walled are our own, named as in glTF, abbe is the number of glass lists, and
+/// priority that of solids which overlap.
 struct MtlMaterial {
     std::string name;
     SourcePlace place;
@@ -32,7 +33,7 @@ struct MtlMaterial {
     std::optional<glm::dvec3> ka, kd, ks, ke, tf, attenuation;
     std::optional<glm::dvec3> eta, k; ///< complex index of refraction; `conductor` gives both by a name
     std::optional<double> ns, ni, d, tr, pr, pm, ps, pc, pcr, aniso, anisor;
-    std::optional<double> attenuation_distance, thin_walled;
+    std::optional<double> attenuation_distance, thin_walled, abbe, priority;
     std::optional<int> illum; ///< 0..9
     std::optional<MtlTexture> map_kd, map_ks, map_ke, map_d, map_pr, map_pm, map_ps, map_normal, map_bump;
     std::optional<MtlTexture> map_ns, map_refl; ///< of Ns, and of what is reflected

@@ -254,6 +254,8 @@ private:
         to_.is_thin = mtl_.thin_walled.value_or(0) > 0;
         to_.attenuation_colour = mtl_.attenuation.value_or(glm::dvec3(1));
         to_.attenuation_distance = mtl_.attenuation ? mtl_.attenuation_distance.value_or(1) : 0;
+        to_.abbe = mtl_.abbe.value_or(0);
+        to_.priority = mtl_.priority;
     }
 
     /// Pc is the coat's weight, Pcr its roughness; Ps the sheen of white fibres, for whose roughness there
