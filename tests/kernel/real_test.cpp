@@ -134,6 +134,11 @@ TEST(SoftwareFma, IsRoundedOnceLikeThatOfTheProcessor) {
         const double far = std::ldexp(1, int(random.word() % 80) - 40);
         add(x, y, i % 2 ? random.signed_log(1e-3, 1e3) * x * y * far : -x * y * (1 + (i % 17 - 8) * FLOAT_U));
     }
+    // Just beside a tie, by less than any sum of two floats holds.
+    for (int n = 1; n < 4000; ++n) {
+        const double part = n * 2 * FLOAT_U, odd = 1 + (random.word() >> 9 | 1u) * 2 * FLOAT_U;
+        add(FLOAT_U * (1 - part), n % 2 ? 1 + part : -1 - part, odd);
+    }
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double x : {0.0, -0.0, 1.0, -3e38, 1e-38, 2e-45, infinity})
         for (const double y : {0.0, -0.0, -1.0, 2e38, 1e-38, -infinity})
