@@ -10,6 +10,12 @@
    fma is written where it is wanted. */
 #pragma OPENCL FP_CONTRACT OFF
 
+/* The host says where the driver's own fma makes kernels too large to be compiled. */
+#ifdef CLRT_SOFTWARE_FMA
+#include "software_fma.h"
+#define fma software_fma
+#endif
+
 #ifdef REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double real;

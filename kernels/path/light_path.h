@@ -176,8 +176,8 @@ static inline void light_path_splat(const Scene* scene, const RenderParams* para
 #endif
 }
 
-/* Ends paths of small throughput without bias, all that weigh less than at first: with the threshold of paths
-   from the eye, bdpt traces a fifth more rays and errs no less. */
+/* Ends paths of small throughput without bias. Where inner vertices are connected, those that weigh less than
+   at first may be ended at once: with the threshold bdpt traces a fifth more rays and errs no less. */
 static inline bool light_path_survives(const Scene* scene, const RenderParams* params, uint segment,
                                        LightPath* path)
 {
@@ -185,7 +185,7 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
     if (segment < min(params->roulette_depth, latest))
         return true;
     const real size = vector_max_component(path->throughput);
-    const real survival = clamp(size, ROULETTE_SMALLEST_SURVIVAL, REAL(1.0));
+    const real survival = roulette_survival(INNER_CONNECTIONS ? size * ROULETTE_THRESHOLD : size);
     const bool survives = !(sampler_number(&path->sampler, segment, SAMPLE_ROULETTE) >= survival);
     TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
     path->throughput /= survival;

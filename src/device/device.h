@@ -43,6 +43,10 @@ void set_driver_environment(const DeviceOptions& options);
 /// True if the device's driver keeps compiled programs on disk by itself, so that a cache of ours only costs.
 bool driver_caches_programs(const DeviceInfo& device);
 
+/// True if every fma of a kernel becomes a long routine in its driver, so that clrt brings its own
+/// (kernels/numerics/software_fma.h).
+bool driver_inlines_slow_fma(const DeviceInfo& device);
+
 /// True for a platform that may list no device because its driver has no place for its cache.
 bool may_lack_cache_folder(const PlatformInfo& platform);
 

@@ -46,6 +46,12 @@ bool driver_caches_programs(const DeviceInfo& device) {
            std::end(CACHING_DRIVERS);
 }
 
+bool driver_inlines_slow_fma(const DeviceInfo& device) {
+    // Mesa's llvmpipe has no fma, and rusticl puts its integer routine wherever there is one: a kernel with
+    // 500 of them took 27 seconds of the processor before its own compiler began, against 1.3.
+    return device.platform == "rusticl" && device.name.rfind("llvmpipe", 0) == 0;
+}
+
 bool may_lack_cache_folder(const PlatformInfo& platform) {
     // PoCL makes its cache folder before it lists a device, and lists none where it cannot. PoCL 3.1 looks
     // for a place again when it is asked again.

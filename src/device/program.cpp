@@ -184,6 +184,8 @@ std::string build_options(const DeviceInfo& device, Precision precision) {
                             "not have. Choose a device with fp64 (--list-devices), such as the CPU.",
                             device.platform_index, device.device_index, device.name));
         options += " -DREAL_IS_DOUBLE=1";
+    } else if (driver_inlines_slow_fma(device)) {
+        options += " -DCLRT_SOFTWARE_FMA=1";
     }
     return options;
 }

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
 #include <utility>
 
 namespace clrt {
@@ -24,12 +26,25 @@ using Clock = std::chrono::steady_clock;
 constexpr double LARGEST_PART = 0.5;
 /// Between two looks at the work, seconds.
 constexpr double LOOK_SECONDS = 0.1;
+/// Seconds between two looks that count as silence. Where there were more, all of the process stood still.
+constexpr double LONGEST_LOOK = 1;
+
+/// Has exit() end the process at once, with its exit code: what drivers clean up at their end may wait for a
+/// thread that hangs in them.
+void exit_without_drivers() {
+    on_exit(
+        [](int code, void*) {
+            std::fflush(nullptr);
+            std::_Exit(code);
+        },
+        nullptr);
+}
 
 } // namespace
 
-Crew::Crew(const std::vector<CrewMember*>& members, CrewHooks hooks, bool has_picture)
-    : members_(members), hooks_(std::move(hooks)), shares_(members.size()), benches_(members.size()),
-      has_picture_(has_picture) {}
+Crew::Crew(std::vector<std::shared_ptr<CrewMember>> members, CrewHooks hooks, bool has_picture)
+    : members_(std::move(members)), hooks_(std::move(hooks)), shares_(members_.size()),
+      benches_(members_.size()), has_picture_(has_picture) {}
 
 size_t Crew::count_left() const {
     return size_t(std::count_if(shares_.begin(), shares_.end(),
@@ -64,20 +79,59 @@ std::vector<SampleRange> Crew::run(const std::vector<SampleRange>& work) {
 
 /// Sets all members to work and waits until none finds more to do.
 void Crew::round() {
-    std::vector<std::thread> threads;
     busy_ = count_left();
+    threads_ = std::vector<std::thread>(members_.size());
     for (size_t member = 0; member < members_.size(); ++member)
         if (is_left(member)) // none changes this before it is at work
-            threads.emplace_back([this, member] { work(member); });
+            threads_[member] = std::thread([self = shared_from_this(), member] { self->work(member); });
     const auto is_done = [&] { return busy_ == 0; };
+    auto last = Clock::now();
     for (bool done = false; !done;) {
         std::unique_lock lock(mutex_);
         done = changed_.wait_for(lock, std::chrono::duration<double>(LOOK_SECONDS), is_done);
+        find_hung(std::min(seconds_since(last), LONGEST_LOOK));
+        last = Clock::now();
         lock.unlock();
         look();
     }
-    for (std::thread& thread : threads)
-        thread.join();
+    for (std::thread& thread : threads_)
+        if (thread.joinable())
+            thread.join();
+}
+
+/// Leaves out the members that have told nothing for too long. So many seconds have passed since the last
+/// time.
+void Crew::find_hung(double seconds) {
+    for (size_t member = 0; member < benches_.size(); ++member) {
+        Bench& bench = benches_[member];
+        bench.silence += seconds;
+        if (!bench.is_waiting || bench.silence <= longest_silence(bench))
+            continue;
+        leave(member, fmt::format("it has told nothing for {:.0f} seconds", bench.silence));
+        threads_[member].detach();
+        exit_without_drivers();
+    }
+}
+
+/// Seconds for which a member may tell nothing: what its samples take by the slowest pace that is known, its
+/// own included, and much more.
+double Crew::longest_silence(const Bench& bench) const {
+    double slowest = 0;
+    for (size_t member = 0; member < benches_.size(); ++member)
+        if (is_left(member))
+            slowest = std::max(slowest, benches_[member].pass_seconds);
+    if (slowest == 0)
+        return HUGE_VAL;
+    const double samples = std::max(double(bench.range.end - bench.range.first), 1.0);
+    return std::max(hooks_.shortest_hang, LARGEST_LATENESS * slowest * samples);
+}
+
+/// The member's thread begins or ends to wait for its device; false: the member was left out.
+bool Crew::set_waiting(size_t member, bool is_waiting) {
+    const std::lock_guard lock(mutex_);
+    benches_[member].is_waiting = is_waiting;
+    benches_[member].silence = 0;
+    return is_left(member);
 }
 
 /// Tells the hooks how far the work is and who has failed.
@@ -112,10 +166,14 @@ void Crew::work(size_t member) {
         failure = error.what();
     } catch (...) {
         const std::lock_guard lock(mutex_);
-        error_ = std::current_exception();
-        is_stopped_ = true;
+        if (is_left(member)) {
+            error_ = std::current_exception();
+            is_stopped_ = true;
+        }
     }
-    leave(member, failure);
+    const std::lock_guard lock(mutex_);
+    if (is_left(member))
+        leave(member, failure);
 }
 
 /// Takes the member's next range out of the work; false: there is none for it.
@@ -165,19 +223,25 @@ bool Crew::may_be_dropped(const Bench& bench) const {
     return has_picture_ && (seconds > LONGEST_WAIT || LARGEST_SLOWDOWN * seconds > hooks_.seconds_left());
 }
 
-/// Renders the range that the member has taken; false: it was dropped.
+/// Renders the range that the member has taken; false: it was dropped, or the member left out.
 bool Crew::render(size_t member) {
     Bench& bench = benches_[member];
     // Nothing but this range is lost where it may have to be dropped.
-    if (!bench.held.empty() && may_be_dropped(bench))
-        deliver(member);
+    if (!bench.held.empty() && may_be_dropped(bench) && !deliver(member))
+        return false;
+    set_waiting(member, true);
     const auto start = Clock::now();
     const bool is_done = members_[member]->render(bench.range, [&](double done) {
         const std::lock_guard lock(mutex_);
+        if (!is_left(member))
+            return false;
+        bench.silence = 0;
         bench.done = done;
         return !(bench.held.empty() && has_picture_ && done < 1 &&
                  hooks_.is_too_long(seconds_since(start) * (1 - done) / done));
     });
+    if (!set_waiting(member, false))
+        return false;
     const std::lock_guard lock(mutex_);
     const double seconds = seconds_since(start);
     shares_[member].seconds += seconds;
@@ -195,23 +259,29 @@ bool Crew::render(size_t member) {
     return true;
 }
 
-/// Has the member add to the film what it holds.
-void Crew::deliver(size_t member) {
-    if (benches_[member].held.empty())
-        return;
+/// Has the member add to the film what it holds; false: it was left out.
+bool Crew::deliver(size_t member) {
+    Bench& bench = benches_[member];
+    if (bench.held.empty())
+        return true;
+    set_waiting(member, true);
+    members_[member]->fetch();
+    if (!set_waiting(member, false))
+        return false;
     const std::lock_guard film_lock(film_mutex_);
-    members_[member]->deliver();
+    members_[member]->add();
     const std::lock_guard lock(mutex_);
-    for (const SampleRange& range : std::exchange(benches_[member].held, {})) {
+    for (const SampleRange& range : std::exchange(bench.held, {})) {
         shares_[member].samples += range.end - range.first;
         add_range(delivered_, range);
     }
+    return true;
 }
 
 /// Ends the member's work of this round. What it holds or works on is given back to the others.
 void Crew::leave(size_t member, const std::string& failure) {
-    const std::lock_guard lock(mutex_);
     Bench& bench = benches_[member];
+    bench.is_waiting = false;
     std::vector<SampleRange> lost = std::exchange(bench.held, {});
     for (const SampleRange& range : lost)
         finished_ -= double(range.end - range.first);

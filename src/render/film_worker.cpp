@@ -21,11 +21,14 @@ void add_full_sums(std::vector<std::int64_t>& sums, const std::vector<std::int64
 } // namespace
 
 FilmWorker::FilmWorker(const PreparedScene& prepared, const RenderParams& params, RenderProgress& shared)
-    : prepared_(prepared), shared_(shared),
-      buffers_(prepared.device, params, summed_layers(prepared.planned->options).size()),
-      launcher_(prepared.device, prepared.programs->picture,
+    : prepared_(prepared), device_(prepared.device), shared_(shared),
+      buffers_(device_, params, summed_layers(prepared.planned->options).size()),
+      launcher_(device_, prepared.programs->picture,
                 integrator_kernel(prepared.planned->options.transport.integrator), params, prepared.buffers),
       launch_size_(prepared.device.info.compute_units), tile_count_(params.tile_count) {
+    fetched_.film = film_layer(shared.film);
+    fetched_.film.replicates = shared.film.replicates;
+    fetched_.film.shown.resize(shared.film.shown.size());
     buffers_.bind(launcher_.kernel());
     launcher_.run(0, 0, 0, 0);
 }
@@ -46,22 +49,21 @@ bool FilmWorker::render(const SampleRange& range, const std::function<bool(doubl
     return true;
 }
 
-void FilmWorker::deliver() {
-    // Everything that the device may fail at comes first.
-    RenderProgress own;
-    own.film = film_layer(shared_.film);
-    own.film.replicates = shared_.film.replicates;
-    own.film.shown = shared_.film.shown;
-    buffers_.read_sums(own);
-    buffers_.read_shown(own.film);
-    RenderCounts counts = buffers_.read_counts();
+void FilmWorker::fetch() {
+    buffers_.read_sums(fetched_);
+    buffers_.read_shown(fetched_.film);
+    fetched_.counts = buffers_.read_counts();
     buffers_.clear_sums();
+}
 
-    add_full_sums(shared_.film.sums, own.film.sums);
-    for (size_t i = 0; i < own.path_layers.size(); ++i)
-        add_full_sums(shared_.path_layers[i].sums, own.path_layers[i].sums);
-    shared_.film.shown = std::move(own.film.shown);
-    counts_ = std::move(counts);
+void FilmWorker::add() {
+    add_full_sums(shared_.film.sums, std::exchange(fetched_.film.sums, {}));
+    for (size_t i = 0; i < fetched_.path_layers.size(); ++i)
+        add_full_sums(shared_.path_layers[i].sums, fetched_.path_layers[i].sums);
+    fetched_.path_layers.clear();
+    for (size_t i = 0; i < fetched_.film.shown.size(); ++i)
+        shared_.film.shown[i] |= fetched_.film.shown[i];
+    counts_ = fetched_.counts;
 }
 
 } // namespace clrt

@@ -11,7 +11,7 @@
 
 namespace clrt {
 
-/// Refers to the arguments of its constructor.
+/// Refers to the arguments of its constructor, which may go when it will not be asked to add anything more.
 class FilmWorker : public CrewMember {
 public:
     /// Takes the device's memory and lets its driver finish its compilation. `shared` has the size and the
@@ -19,8 +19,9 @@ public:
     FilmWorker(const PreparedScene& prepared, const RenderParams& params, RenderProgress& shared);
 
     bool render(const SampleRange& range, const std::function<bool(double)>& goes_on) override;
+    void fetch() override;
     /// Besides sums and marks of pixels in the film, its counts grow.
-    void deliver() override;
+    void add() override;
 
     /// Of what was delivered; primary rays are the caller's to count.
     const RenderCounts& counts() const { return counts_; }
@@ -30,7 +31,9 @@ public:
 
 private:
     const PreparedScene& prepared_;
+    const Device device_; ///< its own handles: whoever prepared the scene may go while the device hangs
     RenderProgress& shared_;
+    RenderProgress fetched_; ///< with sums only between fetch() and add()
     FilmBuffers buffers_;
     Launcher launcher_;
     LaunchSize launch_size_;

@@ -14,5 +14,9 @@ inline constexpr double LARGEST_SLOWDOWN = 4;
 /// Samples are begun when the time that is left is this part of what those before them took: they differ by
 /// about as much, and those that are not done in time can be dropped.
 inline constexpr double WORTH_BEGINNING = 0.8;
+/// One of several devices hangs that tells nothing for so many seconds, and for so many times as long as its
+/// samples should take. It tells something after every launch, of half a second where it can choose; what
+/// lets the processor wait for longer is said in seconds, what makes launches long in times.
+inline constexpr double SHORTEST_HANG = 30, LARGEST_LATENESS = 20;
 
 } // namespace clrt

@@ -32,26 +32,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Prepared = std::vector<const PreparedScene*>;
-using Workers = std::vector<std::unique_ptr<FilmWorker>>;
+using Workers = std::vector<std::shared_ptr<FilmWorker>>;
 
 /// One worker a device; their drivers compile side by side.
 Workers make_workers(const Prepared& prepared, const RenderParams& params, RenderProgress& shared) {
-    std::vector<std::future<std::unique_ptr<FilmWorker>>> begun;
+    std::vector<std::future<std::shared_ptr<FilmWorker>>> begun;
     for (const PreparedScene* scene : prepared)
         begun.push_back(std::async(std::launch::async, [&params, &shared, scene] {
-            return std::make_unique<FilmWorker>(*scene, params, shared);
+            return std::make_shared<FilmWorker>(*scene, params, shared);
         }));
     Workers workers;
     for (auto& worker : begun)
         workers.push_back(worker.get());
     return workers;
-}
-
-std::vector<CrewMember*> members_of(const Workers& workers) {
-    std::vector<CrewMember*> members;
-    for (const auto& worker : workers)
-        members.push_back(worker.get());
-    return members;
 }
 
 /// "32 to 47, 64 to 71"
@@ -82,6 +75,7 @@ private:
     double seconds() const { return seconds_since(start_); }
     double seconds_left() const;
     bool has_gaps() const;
+    bool is_left(size_t member) const { return crew_->shares()[member].failure.empty(); }
 
     const Options& options_;
     const RenderParams params_;
@@ -91,7 +85,7 @@ private:
     const double earlier_seconds_;
     const std::uint64_t first_samples_, earlier_samples_; ///< of earlier runs, a pixel and of all pixels
     Workers workers_;
-    Crew crew_;
+    const std::shared_ptr<Crew> crew_;
     StopRules rules_;
     Measurements measurements_;
     Beside beside_;
@@ -109,7 +103,8 @@ SharedRender::SharedRender(const Prepared& prepared, const RenderParams& params,
       earlier_counts_(result.counts), earlier_seconds_(result.seconds),
       first_samples_(film_samples(result.film)), earlier_samples_(film_all_samples(result.film)),
       workers_(make_workers(prepared, params, result)),
-      crew_(members_of(workers_), crew_hooks(), first_samples_ > 0),
+      crew_(std::make_shared<Crew>(std::vector<std::shared_ptr<CrewMember>>(workers_.begin(), workers_.end()),
+                                   crew_hooks(), first_samples_ > 0)),
       rules_(options_.sampling, film_limit(result.film, options_)), beside_(options_, hooks) {
     if (options_.sampling.denoised_error)
         denoised_target_.emplace(options_);
@@ -148,7 +143,11 @@ void SharedRender::say_failed(size_t member, const std::vector<SampleRange>& los
     progress_.finish();
     spdlog::warn("{} has failed and is left out{}: {}", name(member),
                  lost.empty() ? "" : fmt::format("; the others render its samples {} again", text_of(lost)),
-                 crew_.shares()[member].failure);
+                 crew_->shares()[member].failure);
+    // Who looks on asks a device as well.
+    for (size_t i = 0; i < workers_.size(); ++i)
+        if (is_left(i))
+            return beside_.begin(workers_[i]->prepared());
 }
 
 /// Shows so many samples a pixel of the present work; true: the work is to end for a signal, a file or
@@ -176,7 +175,7 @@ RenderState SharedRender::measured_state() {
     RenderState state;
     state.samples = samples;
     state.seconds = seconds();
-    state.pass_seconds = crew_.fastest_pass();
+    state.pass_seconds = crew_->fastest_pass();
     state.signal = stop_signal();
     if (const std::optional<SquaredError>& error = measurements_.error(); error && error->samples == samples)
         state.error = relative_error(*error);
@@ -195,7 +194,7 @@ void SharedRender::render_to(std::uint64_t samples) {
     Film& film = result_.film;
     const std::vector<SampleRange> work =
         next_ranges(film.ranges, options_.sampling.first_sample, samples - film_samples(film));
-    for (const SampleRange& range : crew_.run(work))
+    for (const SampleRange& range : crew_->run(work))
         add_range(film.ranges, range);
     for (Film& layer : result_.path_layers)
         layer.ranges = film.ranges;
@@ -209,10 +208,11 @@ void SharedRender::note_work() {
     result_.device_seconds = 0;
     for (size_t i = 0; i < workers_.size(); ++i) {
         result_.counts.add(workers_[i]->counts());
-        result_.shares[i].work = crew_.shares()[i];
-        result_.device_seconds += crew_.shares()[i].seconds;
-        result_.longest_launch_seconds =
-            std::max(result_.longest_launch_seconds, workers_[i]->longest_launch_seconds());
+        result_.shares[i].work = crew_->shares()[i];
+        result_.device_seconds += crew_->shares()[i].seconds;
+        if (is_left(i)) // else it may be at one
+            result_.longest_launch_seconds =
+                std::max(result_.longest_launch_seconds, workers_[i]->longest_launch_seconds());
     }
     result_.counts.primary = film_all_samples(result_.film) - earlier_samples_;
     result_.counts.add(earlier_counts_);
@@ -224,7 +224,6 @@ void SharedRender::note_work() {
 /// before has failed. They go through the film from its start: gaps must have been filled before.
 void SharedRender::advance_hits() {
     const auto start = Clock::now();
-    const auto is_left = [&](size_t i) { return crew_.shares()[i].failure.empty(); };
     while (hit_worker_ < workers_.size()) {
         FilmWorker& worker = *workers_[hit_worker_];
         if (!worker.prepared().programs->layers)
@@ -257,7 +256,7 @@ StopRule SharedRender::run_until_stopped() {
             advance_hits();
         const bool is_going_on = beside_.waits() || film_samples(result_.film) > state.samples;
         beside_.at_pass(result_, [] {});
-        if (crew_.has_dropped() || !is_going_on)
+        if (crew_->has_dropped() || !is_going_on)
             return stop_signal() ? StopRule::SIGNAL : StopRule::TIME;
     }
 }
@@ -277,7 +276,7 @@ void SharedRender::run() {
     note_work();
     result_.error = film_error(result_.film, ErrorPixels::SCENE, options_.sampling.measure());
     result_.stop_text = rules_.describe(
-        result_.stop, {samples, stop_seconds, crew_.fastest_pass(), result_.passes <= workers_.size(), 0});
+        result_.stop, {samples, stop_seconds, crew_->fastest_pass(), result_.passes <= workers_.size(), 0});
     if (has_gaps()) {
         progress_.finish();
         spdlog::warn("samples are missing between those of the film; --resume renders them");

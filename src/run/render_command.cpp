@@ -115,7 +115,9 @@ int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::op
     if (saving.needs_film(render))
         files.write(options.film_file.checkpoint_path, [&] { saving.write_film(render); });
 
-    denoise_render(job.devices.front(), options, progress, done->render);
+    const std::vector<const PreparedScene*> scenes = working_scenes(*done);
+    denoise_render(scenes.empty() ? job.devices.front() : scenes.front()->device, options, progress,
+                   done->render);
     const SceneTree no_tree;
     Report report = make_report(job, *done, done->prepared ? *done->prepared->tree : no_tree);
     write_outputs(report, files);

@@ -5,6 +5,7 @@
 #include "paths/path_report.h"
 #include "render/shared_render.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <future>
 #include <spdlog/spdlog.h>
@@ -88,15 +89,28 @@ Simulation simulate(const std::vector<Device>& devices, const std::shared_ptr<co
 void simulate_again(Progress& progress, const RenderHooks& hooks, Simulation& done) {
     if (!done.prepared)
         return;
+    const std::vector<const PreparedScene*> scenes = working_scenes(done);
     if (done.others.empty()) {
         done.render = render(*done.prepared, progress, hooks);
     } else {
-        std::vector<const PreparedScene*> all{&*done.prepared};
-        for (const PreparedScene& other : done.others)
-            all.push_back(&other);
-        done.render = render_shared(all, progress, hooks);
+        done.render = render_shared(scenes, progress, hooks);
+        for (size_t i = 0; i < scenes.size(); ++i)
+            if (!done.render.shares[i].work.failure.empty())
+                done.failed.push_back(&scenes[i]->device);
     }
-    done.causes = explain_bad_samples(*done.prepared, done.render);
+    done.causes = explain_bad_samples(*working_scenes(done).front(), done.render);
+}
+
+std::vector<const PreparedScene*> working_scenes(const Simulation& done) {
+    std::vector<const PreparedScene*> scenes;
+    const auto add = [&](const PreparedScene& scene) {
+        if (std::find(done.failed.begin(), done.failed.end(), &scene.device) == done.failed.end())
+            scenes.push_back(&scene);
+    };
+    if (done.prepared)
+        add(*done.prepared);
+    std::for_each(done.others.begin(), done.others.end(), add);
+    return scenes;
 }
 
 } // namespace clrt

@@ -18,6 +18,7 @@ namespace clrt {
 struct Simulation {
     std::optional<PreparedScene> prepared; ///< none where no path of the scene is asked for
     std::vector<PreparedScene> others;     ///< on further devices that share the picture
+    std::vector<const Device*> failed; ///< those of them that a render has left out: they are not asked again
     std::optional<DeviceFacts> facts;
     Render render;                  ///< the last
     std::vector<CauseCount> causes; ///< of its bad samples
@@ -34,5 +35,8 @@ Simulation simulate(const std::vector<Device>& devices, const std::shared_ptr<co
 /// Renders again what is prepared, as its plan now is (PreparedScene says what may change in it). Replaces
 /// render and causes. Throws DeviceError.
 void simulate_again(Progress& progress, const RenderHooks& hooks, Simulation& done);
+
+/// What is prepared on devices that have not failed; empty where nothing is prepared.
+std::vector<const PreparedScene*> working_scenes(const Simulation& done);
 
 } // namespace clrt

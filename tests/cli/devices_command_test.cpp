@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// --device A,B: the picture of one device, by two; what each did is told, one that fails is left out, and
-// what cannot be shared is refused.
+// --device A,B: the picture of one device, by two; what each did is told, one that fails or hangs is left
+// out, and what cannot be shared is refused.
 #include "clrt_command.h"
 #include "film/film_file.h"
 
@@ -18,14 +18,17 @@ protected:
     /// The test device twice: it is opened twice.
     static std::string two_devices() { return test_device_name() + "," + test_device_name(); }
 
-    /// Renders by two devices, of which those of `failing` ("2", "12") fail after some launches.
-    CommandResult share(std::vector<std::string> arguments, const std::string& failing = "") const {
+    /// Renders by two devices, of which those of `failing` ("2", "12") fail after some launches, or hang.
+    CommandResult share(std::vector<std::string> arguments, const std::string& failing = "",
+                        bool hangs = false) const {
         arguments.insert(arguments.begin(), {"lamp.obj", "--device", two_devices()});
         CommandSettings settings;
         if (!failing.empty()) {
             settings.environment["LD_PRELOAD"] = CLRT_FAILING_LAUNCHES;
             settings.environment["FAILING_QUEUES"] = failing;
             settings.environment["FAILING_AFTER"] = "2"; // one without samples, one with
+            if (hangs)
+                settings.environment["FAILING_HANGS"] = "1";
         }
         return clrt(arguments, settings);
     }
@@ -35,6 +38,13 @@ protected:
         EXPECT_TRUE(one.render.film.sums == other.render.film.sums);
         EXPECT_EQ(one.render.film.ranges, other.render.film.ranges);
         EXPECT_EQ(one.identity, other.identity);
+    }
+    void expect_same_colours(const std::string& a, const std::string& b) const {
+        const ReadPicture one(folder.file(a)), other(folder.file(b));
+        for (int y = 0; y < one.spec.height; ++y)
+            for (int x = 0; x < one.spec.width; ++x)
+                for (const char* channel : {"R", "G", "B"})
+                    ASSERT_EQ(one.at(x, y, channel), other.at(x, y, channel)) << x << "," << y;
     }
     void render_by_one() const {
         EXPECT_EQ(clrt({"lamp.obj", "-s", "40", "--checkpoint", "one.film"}).exit_code, 0);
@@ -78,6 +88,22 @@ TEST_F(DevicesCommand, WithoutADeviceLeftItIsADeviceError) {
     const CommandResult result = share({"-s", "40"}, "12");
     EXPECT_EQ(result.exit_code, 3) << result.err;
     EXPECT_TRUE(holds(result.err, {"no device is left", "CL_OUT_OF_RESOURCES"}));
+}
+
+TEST_F(DevicesCommand, OneThatHangsIsLeftOutForAllFramesAndTheProgramEnds) {
+    EXPECT_EQ(
+        clrt({"lamp.obj", "-s", "40", "--frames", "2", "--guide", "off", "-o", "one{frame}.exr"}).exit_code,
+        0);
+    // The first device is the one that would denoise.
+    const CommandResult result =
+        share({"-s", "40", "--frames", "2", "--denoise=filter", "-o", "two{frame}.exr"}, "1", true);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(holds(result.err, {"has failed and is left out", "the others render its samples"}));
+    const std::string silence = "told nothing for";
+    EXPECT_NE(result.err.find(silence), result.err.npos) << result.err;
+    EXPECT_EQ(result.err.find(silence), result.err.rfind(silence)) << "the second frame does not ask it";
+    for (const std::string frame : {"1", "2"})
+        expect_same_colours("one" + frame + ".exr", "two" + frame + ".exr");
 }
 
 TEST_F(DevicesCommand, AStoppedRunIsGoneOnWithByOne) {

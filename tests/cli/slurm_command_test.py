@@ -4,9 +4,11 @@ tools/slurm/test has Slurm itself."""
 import hashlib
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "tools")
@@ -104,6 +106,65 @@ class SlurmCommand(unittest.TestCase):
         self.assertEqual(told.returncode, 0)
         self.assertIn("reached  --error 100%", told.stdout)
 
+    def test_frames_are_those_of_one_run(self):
+        words = ("a.obj", "-r", "16x12", "--env", "1,1,1")
+        done = self.slurm("submit", "turn", "--frames", "3", "-s", "8", "-o", "t.exr", "--clrt", CLRT, "--", *words, SKIP="1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("3 tasks, frames 1 to 3", done.stdout)
+        told = self.slurm("status", "turn")
+        self.assertEqual(told.returncode, 1)
+        self.assertIn("parts    2 of 3 are there, frames 1 to 1, 3 to 3", told.stdout)
+        self.assertIn("missing  frames 2 to 2: ", told.stdout)
+        os.utime(self.path("t-0001.exr"), (1, 1))
+        self.assertIn("1 tasks, frames 2 to 2", self.slurm("submit", "turn").stdout)
+        self.assertEqual(self.slurm("status", "turn").returncode, 0)
+        self.assertIn("all frames are there", self.slurm("submit", "turn").stdout)
+        self.assertEqual(self.slurm("task", "turn", "--task", "0").stdout, "frame 1: is there\n")
+        self.assertEqual(os.stat(self.path("t-0001.exr")).st_mtime, 1, "it is not rendered again")
+        one = self.run_program(CLRT, *words, "-s", "8", "--frames", "3", "-o", "one.exr")
+        self.assertEqual(one.returncode, 0, one.stderr)
+        for frame in range(1, 4):
+            pixels = [self.pixels(f"{name}-{frame:04}.exr") for name in ("one", "t")]
+            self.assertEqual(*pixels)
+
+    def pixels(self, name):
+        import OpenImageIO
+        image = OpenImageIO.ImageBuf(self.path(name))
+        return image.get_pixels(OpenImageIO.FLOAT)[..., :3].tobytes()
+
+    def task_with_signal(self, number):
+        """A task that gets a signal when it has saved its film; returns it and what scontrol was asked."""
+        self.write("scontrol", '#!/bin/sh\necho "$@" >> "$0.log"\n')
+        os.chmod(self.path("scontrol"), 0o755)
+        done = self.slurm("submit", "job", "-s", "2000000", "-k", "1", "--checkpoint", "0.2s", "--clrt", CLRT, "--dry-run", "--",
+                          "a.obj", "-r", "16x12", "--env", "1,1,1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        environment = {**os.environ, "CLRT_DEVICE": DEVICE, "PATH": self.folder + os.pathsep + os.environ["PATH"],
+                       "SLURM_JOB_ID": "17"}
+        command = [sys.executable, os.path.join(TOOLS, "clrt-slurm"), "task", "job", "--task", "0"]
+        with subprocess.Popen(command, cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True) as task:
+            for _ in range(1000):
+                if os.path.exists(self.path("job/part-0000.film")):
+                    break
+                time.sleep(0.05)
+            task.send_signal(number)
+            text = task.communicate(timeout=100)[0]
+        asked = self.read("scontrol.log") if os.path.exists(self.path("scontrol.log")) else ""
+        return task.returncode, text, asked
+
+    def test_a_task_whose_time_is_over_saves_its_film_and_is_requeued(self):
+        code, text, asked = self.task_with_signal(signal.SIGUSR1)
+        self.assertEqual(code, 143, text)
+        self.assertIn("part 0: its time is over, it is requeued", text)
+        self.assertEqual(asked, "requeue 17\n")
+        self.assertGreater(self.sums("job/part-0000.film")[0][0][1], 0)
+
+    def test_a_task_that_is_cancelled_is_not(self):
+        code, text, asked = self.task_with_signal(signal.SIGTERM)
+        self.assertEqual((code, asked), (143, ""), text)
+        self.assertGreater(self.sums("job/part-0000.film")[0][0][1], 0)
+
     def test_another_version_is_refused_before_it_renders(self):
         self.submit("--dry-run")
         plan = slurm_plan.read_plan(self.path("job/job.json"))
@@ -119,6 +180,7 @@ class SlurmCommand(unittest.TestCase):
                 (("submit", "job", "-s", "8"), "expected a scene behind --"),
                 (("submit", "job", "--", "a.obj"), "expected --spp"),
                 (("submit", "job", "-s", "8", "--", "a.obj", "--adaptive"), "films of it do not merge"),
+                (("submit", "job", "--frames", "3", "-k", "2", "--", "a.obj"), "a task is a frame"),
                 (("submit", "job", "-s", "8", "--error", "x", "--", "a.obj"), "expected an error above 0"),
                 (("status", "job"), "expected the folder of a job"), (("render", "job"), "invalid choice")):
             done = self.slurm(arguments[0], "--clrt", CLRT, *arguments[1:])

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How --threads and --cache reach the drivers: by their environment variables.
 #include "device/device.h"
+#include "device/program.h"
 #include "options/options.h"
 
 #include <cstdlib>
@@ -90,6 +91,15 @@ TEST_F(DriverQuirks, OnlyPoclAndNvidiaCacheByThemselves) {
         device.icd_suffix = suffix;
         EXPECT_EQ(driver_caches_programs(device), caches) << suffix;
     }
+}
+
+TEST_F(DriverQuirks, LlvmpipeGetsAnFmaOfOurs) {
+    DeviceInfo device;
+    device.platform = "rusticl";
+    device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
+    EXPECT_NE(build_options(device, Precision::SINGLE).find("-DCLRT_SOFTWARE_FMA=1"), std::string::npos);
+    device.name = "AMD Radeon";
+    EXPECT_EQ(build_options(device, Precision::SINGLE).find("FMA"), std::string::npos);
 }
 
 TEST_F(DriverQuirks, ThePlatformListIsMadeWithTheThreadsAskedFor) {

@@ -66,10 +66,29 @@ class Words(unittest.TestCase):
         self.assertNotIn("--threads", resumed, "-j is given")
 
 
+    def test_whole_pictures_may_have_what_parts_may_not(self):
+        slurm_plan.check_words(["a.obj", "--adaptive", "-i", "mlt", "--time", "5m", "--guide", "on"], 36)
+        for words, reason in ((["--frames", "3"], "give it to clrt-slurm"), (["--checkpoint", "a.film"], "its own"),
+                              (["-s64"], "give it to clrt-slurm")):
+            with self.subTest(words=words), self.assertRaisesRegex(slurm_plan.PlanError, reason):
+                slurm_plan.check_words(["a.obj", *words], 36)
+
+    def test_a_task_renders_its_frame(self):
+        plan = make_plan(ranges=slurm_plan.split_frames(3), frames=3, spp=64, error="2%")
+        text = " ".join(slurm_plan.frame_command(plan, "/j{1}", 1, "4"))
+        for part in ("a b.obj -r 64x48", "--frames 3:2", "--stats /j{{1}}/frame-{frame:4}.json", "-o /home/x/p.exr", "--spp 64",
+                     "--error 2%", "--threads 4"):
+            self.assertIn(part, text)
+        plan.spp, plan.error = 0, ""
+        text = " ".join(slurm_plan.frame_command(plan, "/j", 0))
+        for word in ("--spp", "--error", "--threads"):
+            self.assertNotIn(word, text)
+
+
 class Scripts(unittest.TestCase):
     def test_the_array_names_tasks_signal_and_requeue(self):
         text = slurm_plan.array_script("/my job/hall", "/opt/clrt-slurm", [0, 1, 2, 9], 4, ["--partition=short"])
-        for line in ("#SBATCH --array=0-2,9%4", "#SBATCH --requeue", "#SBATCH --signal=B:TERM@60", "#SBATCH --open-mode=append",
+        for line in ("#SBATCH --array=0-2,9%4", "#SBATCH --requeue", "#SBATCH --signal=B:USR1@60", "#SBATCH --open-mode=append",
                      "#SBATCH --partition=short", '#SBATCH --output="/my job/hall/task-%a.log"', "#SBATCH --job-name=clrt-hall"):
             self.assertIn(line + "\n", text)
         self.assertTrue(text.endswith("exec /opt/clrt-slurm task --task \"$SLURM_ARRAY_TASK_ID\" '/my job/hall'\n"), text)
@@ -105,6 +124,20 @@ class Parts(unittest.TestCase):
         for ranges, cut in (([[0, 32]], 0), ([[32, 64]], 5), ([[32, 96]], 0), ([], 0)):
             self.write_part(1, ranges, cut=cut)
             self.assertEqual(slurm_parts.look_at(make_plan(), self.folder, 1).state, "damaged", (ranges, cut))
+
+    def test_frames_are_there_when_they_are_told_of_unless_stopped(self):
+        plan = make_plan(ranges=slurm_plan.split_frames(4), frames=4)
+        for frame, text in ((1, '{"stop": {"rule": "spp"}, "error": {"rel_rmse": 0.02}}'),
+                            (2, '{"stop": {"rule": "signal"}, "error": {"rel_rmse": 0.5}}'),
+                            (3, '{"stop": {"rule": "error"}, "error": {"rel_rmse": null}}'), (4, '{"stop": ')):
+            with open(slurm_plan.frame_path(self.folder, frame), "w", encoding="utf-8") as file:
+                file.write(text)
+        found = slurm_parts.frames_there(plan, self.folder)
+        self.assertEqual(found.ranges, [[1, 2], [3, 4]])
+        self.assertEqual(found.error, 0.02)
+        self.assertEqual([task for task, _ in found.problems], [3])
+        self.assertEqual(slurm_parts.missing_tasks(plan, found.ranges), [1, 3])
+        self.assertEqual(slurm_plan.range_text(found.ranges), "1 to 1, 3 to 3")
 
     def test_the_first_field_that_differs_is_named(self):
         self.write_part(0, [[0, 32]])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// numerics/real.h: sine and cosine, differences of products, NaN and infinity by their bits.
+// numerics/real.h: sine and cosine, differences of products, NaN and infinity by their bits; software_fma.h.
 #include "probes/kernel_probe.h"
 #include "probes/random_inputs.h"
 #include "probes/statistics.h"
@@ -30,6 +30,18 @@ KernelProbe& probe() {
         made.add<u32(u32)>("class",
                            "(real_is_nan(as_float(a)) ? 1u : 0u) | (real_is_finite(as_float(a)) ? 2u : 0u)");
         made.add<float(float)>("root", "real_root(a)");
+        return made;
+    }();
+    return instance;
+}
+
+KernelProbe& fma_probe() {
+    static KernelProbe instance = [] {
+        KernelProbe made(test_device(), {"numerics/software_fma.h"});
+        made.add<float(float, float, float)>("one", "software_fma(a, b, c)");
+        made.add<float(float, float, float)>("last",
+                                             "software_fma((float8)(1, 2, 3, 4, 5, 6, 7, a), (float8)(b), "
+                                             "(float8)(c)).s7");
         return made;
     }();
     return instance;
@@ -106,6 +118,48 @@ TEST(Real, SineAndCosineOfATurnKeepTheirDigitsNearEveryZero) {
     const std::vector<float> quarters = {0, 0.25f, 0.5f, 0.75f, 1};
     EXPECT_EQ(probe().run<float>("sin_turn", quarters), (std::vector<float>{0, 1, 0, -1, 0}));
     EXPECT_EQ(probe().run<float>("cos_turn", quarters), (std::vector<float>{1, 0, -1, 0, 1}));
+}
+
+TEST(SoftwareFma, IsRoundedOnceLikeThatOfTheProcessor) {
+    Random random(2);
+    std::vector<float> a, b, c;
+    const auto add = [&](double x, double y, double z) {
+        a.push_back(float(x)), b.push_back(float(y)), c.push_back(float(z));
+    };
+    for (int i = 0; i < 400000; ++i) {
+        // Few digits make ties; summands near the product cancel; far ones decide ties.
+        const double size = i % 3 == 0 ? 1e3 : i % 3 == 1 ? 1e15 : 1e-20;
+        const double x = std::ldexp(random.word() >> (random.word() % 32), -12) * size,
+                     y = random.signed_log(1e-3, 1e3);
+        const double far = std::ldexp(1, int(random.word() % 80) - 40);
+        add(x, y, i % 2 ? random.signed_log(1e-3, 1e3) * x * y * far : -x * y * (1 + (i % 17 - 8) * FLOAT_U));
+    }
+    // Just beside a tie, by less than any sum of two floats holds.
+    for (int n = 1; n < 4000; ++n) {
+        const double part = n * 2 * FLOAT_U, odd = 1 + (random.word() >> 9 | 1u) * 2 * FLOAT_U;
+        add(FLOAT_U * (1 - part), n % 2 ? 1 + part : -1 - part, odd);
+    }
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double x : {0.0, -0.0, 1.0, -3e38, 1e-38, 2e-45, infinity})
+        for (const double y : {0.0, -0.0, -1.0, 2e38, 1e-38, -infinity})
+            for (const double z : {0.0, -0.0, 1.0, 3e38, -1e-30})
+                add(x, y, z);
+    for (const char* name : {"one", "last"}) {
+        const std::vector<float> results = fma_probe().run<float>(name, a, b, c);
+        int bad = 0;
+        for (size_t i = 0; i < a.size(); ++i) {
+            const float expected = std::fma(a[i], b[i], c[i]);
+            // The last bit of what is smaller than normal numbers is free.
+            const bool is_same = std::fabs(expected) < std::numeric_limits<float>::min()
+                                     ? std::fabs(expected - results[i]) <= 1.5e-45f
+                                     : float_to_bits(expected) == float_to_bits(results[i]) ||
+                                           (std::isnan(expected) && std::isnan(results[i]));
+            if (!is_same && ++bad < 5)
+                ADD_FAILURE() << a[i] << " * " << b[i] << " + " << c[i] << ": " << expected << ", "
+                              << results[i];
+        }
+        EXPECT_EQ(bad, 0) << name;
+    }
 }
 
 TEST(Real, DifferencesOfNearlyEqualProductsKeepDigitsAndSign) {

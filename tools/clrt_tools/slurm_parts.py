@@ -9,7 +9,7 @@ import os
 import subprocess
 
 from clrt_tools.film_header import FilmError, read_header
-from clrt_tools.slurm_plan import is_within, part_path
+from clrt_tools.slurm_plan import frame_path, is_within, part_path
 
 
 @dataclasses.dataclass
@@ -25,8 +25,8 @@ class Part:
 @dataclasses.dataclass
 class Sum:
     """What the whole parts add up to."""
-    ranges: list               # of samples
-    error: float = None        # relative; None: not known
+    ranges: list               # of samples, or frames
+    error: float = None        # relative, of frames the largest; None: not known
     error_text: str = ""       # clrt-merge's report
     problems: list = dataclasses.field(default_factory=list)  # (task, reason) of parts that are not in it
 
@@ -48,6 +48,26 @@ def look_at(plan, folder, task):
     if len(ranges) == 1 and ranges[0][0] == first and ranges[0][1] < end:
         return Part(task, "begun", samples, identity, f"{samples} of {end - first} spp are there")
     return Part(task, "damaged", reason=f"expected samples {first} to {end - 1}, found other ones")
+
+
+def frames_there(plan, folder):
+    """The frames that are finished; one that a signal has stopped is not."""
+    found = Sum([])
+    for task, part in enumerate(plan.ranges):
+        try:
+            with open(frame_path(folder, part[0]), encoding="utf-8") as file:
+                told = json.load(file)
+            if told["stop"]["rule"] == "signal":
+                continue
+            error = told["error"].get("rel_rmse")
+        except FileNotFoundError:
+            continue
+        except (OSError, ValueError, KeyError, TypeError) as problem:
+            found.problems.append((task, f"{frame_path(folder, part[0])}: {problem!r}"))
+            continue
+        found.ranges.append(part)
+        found.error = max(found.error or 0, error) if error is not None else found.error
+    return found
 
 
 def merge_program(plan):
