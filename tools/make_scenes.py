@@ -16,7 +16,7 @@ import pathlib
 import sys
 
 import scene_textures as textures
-from scene_effects import gloss_translucency, soft_shadows
+from scene_effects import drink_and_gem, gloss_translucency, soft_shadows
 from scene_exposure import depth_of_field, motion_blur
 from scene_head import add_head
 from scene_kit import Obj, add, png, png_pixels, polygon_normal, scale, subtract, unit
@@ -336,7 +336,7 @@ def all_files():
     for scene in (cornell_box, spheres_over_plane, mirror_glass_depth10, colour_bleeding, caustic, furnace,
                   glossy_plates, textured_interior, every_effect, still_life, plates_far_lamp):
         made.update(scene())
-    for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency, depth_of_field, pool, glazed_room,
+    for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency, drink_and_gem, depth_of_field, pool, glazed_room,
                   ambient_occlusion):
         made.update(files(scene.__name__, scene()))
     made.update(files("motion_blur", motion_blur(0)))
