@@ -62,6 +62,8 @@ REPORT = [
                 "that. Else it is to trust it, for all light, or for what was sampled where lines below name light that "
                 "never was."),
     ("cut", "Paths that ended because --max-depth forbids longer ones, and how much light that takes away at most."),
+    ("biased", "With --texture-filter footprint: over which part of a pixel's width textures are averaged in the last samples. That blur "
+               "is beside the error, and fades as samples are added."),
     ("not seen", "Light that the integrator cannot find in this scene, in path notation (--paths), and why."),
     ("denoised", "With --denoise: what denoising makes of the error, smear included, with 95 % confidence, over all pixels and "
                  "without those that are expected to be the worst. The replicates are two halves; each is denoised by itself "

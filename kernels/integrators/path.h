@@ -59,12 +59,12 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     path_absorb(scene, &surface, path);
     path_add_emission(scene, params, &surface, path, sample);
     if (segment >= params->max_depth) {
-        path_end(scene, params, sampler, segment, &surface, path, rays);
+        path_cut(scene, params, sampler, segment, &surface, path, rays);
         return;
     }
     Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
     AutomatonStep step;
-    const bool continues = path_filter(scene, params, sampler, segment, path, &step, &bsdf, rays);
+    const bool continues = path_filter(scene, params, sampler, segment, &surface, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
     Guide guide = guide_at(scene, guide_cell_of(&path->guided), &bsdf);

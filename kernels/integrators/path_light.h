@@ -34,12 +34,12 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
 #endif
     }
     if (segment >= params->max_depth) {
-        path_end(scene, params, sampler, segment, &surface, path, rays);
+        path_cut(scene, params, sampler, segment, &surface, path, rays);
         return;
     }
     Bsdf bsdf = vertex_bsdf(scene, &surface, wo);
     AutomatonStep step;
-    path_filter(scene, params, sampler, segment, path, &step, &bsdf, rays);
+    path_filter(scene, params, sampler, segment, &surface, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
     Guide guide = guide_none();

@@ -105,12 +105,12 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
         if (segment == length) {
             found->radiance = chain_hit(scene, params, &surface, &path, &weights);
             if (length == params->max_depth)
-                path_end(scene, params, sampler, segment, &surface, &path, rays);
+                path_cut(scene, params, sampler, segment, &surface, &path, rays);
             break;
         }
         Bsdf bsdf = vertex_bsdf(scene, &surface, -path.ray.direction);
         AutomatonStep step;
-        path_filter(scene, params, sampler, segment, &path, &step, &bsdf, rays);
+        path_filter(scene, params, sampler, segment, &surface, &path, &step, &bsdf, rays);
         if (bsdf.lobes == 0u)
             break;
         if (segment + connected == length) {

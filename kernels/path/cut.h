@@ -11,9 +11,9 @@
    roulette, by the same random numbers as a longer path. What it would have met next counts by the weight
    that it has there. With --paths, only the lobes that max_depth closes count. */
 static CLRT_NOINLINE void path_cut(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                   uint segment, const Bsdf* whole, const Path* path, PixelRays* rays)
+                                   uint segment, const Surface* surface, const Path* path, PixelRays* rays)
 {
-    Bsdf bsdf = *whole;
+    Bsdf bsdf = material_bsdf(scene, surface, -path->ray.direction, TRANSPORT_RADIANCE);
     Path longer = *path;
     if (HAS(EFFECT_PATH_FILTER)) {
         const AutomatonStep open = automaton_step(params, path->state, segment);
@@ -33,25 +33,17 @@ static CLRT_NOINLINE void path_cut(const Scene* scene, const RenderParams* param
     film_count_cut(longer.throughput, rays);
 }
 
-/* The same of a path whose last segment ends at a surface. */
-static CLRT_NOINLINE void path_end(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                                   uint segment, const Surface* surface, const Path* path, PixelRays* rays)
-{
-    const Bsdf bsdf = material_bsdf(scene, surface, -path->ray.direction, TRANSPORT_RADIANCE);
-    path_cut(scene, params, sampler, segment, &bsdf, path, rays);
-}
-
 /* Leaves the lobes by which the automaton lets the path go on; true if a ray by one of them can find
    anything. What only max_depth closes is cut. */
 static inline bool path_filter(const Scene* scene, const RenderParams* params, const Sampler* sampler,
-                               uint segment, const Path* path, AutomatonStep* step, Bsdf* bsdf,
-                               PixelRays* rays)
+                               uint segment, const Surface* surface, const Path* path,
+                               AutomatonStep* step, Bsdf* bsdf, PixelRays* rays)
 {
     if (!HAS(EFFECT_PATH_FILTER))
         return true;
     *step = automaton_step(params, path->state, segment);
     if (automaton_is_cut(step, path->state))
-        path_cut(scene, params, sampler, segment, bsdf, path, rays);
+        path_cut(scene, params, sampler, segment, surface, path, rays);
     filter_lobes(step, bsdf);
     return filter_continues(step, bsdf);
 }

@@ -101,8 +101,8 @@ std::string bias_line(const Report& report) {
     const double last = std::max(1.0, double(film_samples(report.render.film)) -
                                           double(report.options.sampling.replicates) + 1);
     return fmt::format(
-        "biased   textures are averaged over a pixel in the first samples, over 1/{:.3g} of its "
-        "width in the last: the error does not count it\n",
+        "biased   textures are averaged over a pixel in the first samples, over 1/{:.3g} of its width "
+        "in the last: the error does not count it\n",
         std::sqrt(last));
 }
 

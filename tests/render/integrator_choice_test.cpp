@@ -154,8 +154,8 @@ TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     const size_t measure = size_t(ErrorMeasure::RELATIVE);
     const double told = price_of(chosen.choice, Integrator::BDPT).path[measure];
     const double share = told / squared_error(box, Integrator::PATH);
-    EXPECT_GT(share, 1.03); // 1.24; it would be 0.86 without the excess of what inner connections find
-    EXPECT_LT(share, 1.5);
+    EXPECT_GT(share, 1.4); // 1.70; less than this without the excess of what inner connections find
+    EXPECT_LT(share, 2.1); // above 1: light paths are ended sooner than those from the eye
 }
 
 TEST(IntegratorChoice, WhatWouldCutPathsIsNotTaken) {

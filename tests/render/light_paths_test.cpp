@@ -29,6 +29,7 @@ TEST(LightPaths, BringWhatPathsFromTheEyeFindOfEveryKindOfLight) {
         SCOPED_TRACE(lighting.name);
         Room room;
         lighting.add(room);
+        room.options.sampling.spp = 768;
         expect_light_is_path(room, 0.05);
     }
 }

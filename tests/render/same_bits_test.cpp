@@ -66,6 +66,7 @@ void make_maps(TestScene& scene) {
     scene.build.use("frosted").icosphere({-0.6, 0.5, -0.4}, 0.4, 1);
     scene.options.light.environment_file = scene.folder.file("sky.exr");
     scene.options.film.filter = Filter::GAUSSIAN;
+    scene.options.scene.texture_filter = TextureFilter::FOOTPRINT;
     scene.look({0, 1.2, 3}, {0, 0.5, 0}, 40);
 }
 

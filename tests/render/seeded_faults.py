@@ -263,6 +263,8 @@ FAULTS = [
     ("light vertices not counted", "integrators/bdpt.h", "(real)count * visible_share", "visible_share", "bdpt_test"),
     ("inner connections through walls", "integrators/bdpt.h", "visible_share(scene, params, &connection.shadow)", "REAL(1.0)", "bdpt_test"),
     ("the depth of each end alone bounded", "integrators/bdpt.h", "params->max_depth - 1u - segment", "params->max_depth", "bdpt_test"),
+    ("inner connections without their excess", "film/moments.h", "moments->shared -= light * light * (count * fmin(excess, MOMENT_RIVALLED));",
+     "", "integrator_choice_test"),
     ("the power of a kept vertex without its throughput", "path/light_path.h", "&path->ray, path->emission.power * path->throughput,",
      "&path->ray, path->emission.power,", "bdpt_test"),
     ("light paths by the window's numbers", "integrators/light_paths.h", "return tile_pixel_number(params, x, y);", "return place;",
