@@ -2,9 +2,10 @@
 // --denoised-error: when a render looks at what denoising makes of it, and when that is good enough.
 //
 // A render that ends where the stated error happens to be low ends too early: on the Cornell box (64 x 48
-// pixels, looked at after 8, 16, 32 and 64 samples) pictures said to have 19 % had 43 %. So it is the upper end of the error's interval
-// that has to come down to the target, of a picture whose noise is known to be seen (ErrorSpread::usable);
-// of the same pictures, and of a caustic's, none that ended so then had more than the target.
+// pixels, looked at after 8, 16, 32 and 64 samples) pictures said to have 19 % had 43 %. So it is the upper
+// end of the error's interval that has to come down to the target, of a picture whose noise is known to be
+// seen (ErrorSpread::usable); of the same pictures, and of a caustic's, none that ended so then had more than
+// the target.
 #pragma once
 
 #include "denoise/denoise.h"
