@@ -4,9 +4,9 @@
 
 #include "bvh/binary_tree.h"
 #include "bvh/bvh.h"
+#include "float_bits.h"
 
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 namespace clrt {
@@ -15,12 +15,6 @@ namespace clrt {
 struct LeafRange {
     u32 first, count;
 };
-
-inline u32 float_bits(float x) {
-    u32 bits;
-    std::memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
 
 /// Sorts a leaf's triangles and returns how many are different: where a leaf is made from several of the
 /// tree, parts of one triangle can meet in it. The different ones come first.

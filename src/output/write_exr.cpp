@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenEXR with layers and metadata.
+#include "float_bits.h"
 #include "output/image_stream.h"
 #include "output/writers.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace clrt {
 
@@ -39,9 +39,7 @@ ImageLayout exr_layout(const Picture& picture) {
 std::uint32_t word(float value, bool is_id) {
     if (is_id)
         return value > 0 ? static_cast<std::uint32_t>(value) : 0;
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
+    return float_bits(value);
 }
 
 /// Puts the channels of rows [first, first + count) side by side, pixel by pixel.

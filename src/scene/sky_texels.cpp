@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/sky_texels.h"
+#include "float_bits.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -15,18 +15,6 @@ namespace {
 constexpr float LARGEST_HALF = 65504;
 /// The exponents of a half lie so much lower than those of a float, and its mantissa is so much shorter.
 constexpr u32 HALF_EXPONENT = 112, HALF_SHORTER = 13;
-
-u32 bits_of(float value) {
-    u32 bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-float value_of(u32 bits) {
-    float value;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 float largest_channel(const glm::vec3& c) {
     return std::max({c.x, c.y, c.z});
@@ -56,14 +44,14 @@ u32 to_rgbe(const glm::vec3& c) {
 
 float from_half(u32 half) {
     return half < 1u << 10 ? std::ldexp(float(half), -24)
-                           : value_of((half + (HALF_EXPONENT << 10)) << HALF_SHORTER);
+                           : float_of_bits((half + (HALF_EXPONENT << 10)) << HALF_SHORTER);
 }
 
 /// The nearest half of a number from 0 to LARGEST_HALF; the even one of two.
 u32 to_half(float value) {
     if (value < 0x1p-14f)
         return u32(std::nearbyint(value * 0x1p24f));
-    const u32 bits = bits_of(value), even = bits >> HALF_SHORTER & 1;
+    const u32 bits = float_bits(value), even = bits >> HALF_SHORTER & 1;
     return ((bits + (1u << (HALF_SHORTER - 1)) - 1 + even) >> HALF_SHORTER) - (HALF_EXPONENT << 10);
 }
 
@@ -110,7 +98,7 @@ void store_texel(const glm::vec3& c, size_t place, Environment& sky) {
     for (size_t i = 0; i < 3; ++i) {
         const float channel = c[int(i)];
         if (sky.texel_format == SKY_TEXEL_FLOAT)
-            sky.texels[3 * place + i] = bits_of(channel);
+            sky.texels[3 * place + i] = float_bits(channel);
         else // the lower half of a word first, on every device there is
             sky.texels[(3 * place + i) / 2] |= to_half(channel) << ((3 * place + i) % 2 * 16);
     }
@@ -151,10 +139,10 @@ glm::vec3 sky_texel(const Environment& sky, int x, int y) {
     if (sky.texel_format == SKY_TEXEL_RGBE) {
         const u32 word = sky.texels[place];
         return glm::vec3(float(word & 255), float(word >> 8 & 255), float(word >> 16 & 255)) *
-               value_of(((word >> 24) - 9) << 23);
+               float_of_bits(((word >> 24) - 9) << 23);
     }
     const auto channel = [&](size_t i) {
-        return sky.texel_format == SKY_TEXEL_FLOAT ? value_of(sky.texels[i])
+        return sky.texel_format == SKY_TEXEL_FLOAT ? float_of_bits(sky.texels[i])
                                                    : from_half(sky.texels[i / 2] >> (i % 2 * 16) & 0xffff);
     };
     return {channel(3 * place), channel(3 * place + 1), channel(3 * place + 2)};

@@ -2,27 +2,15 @@
 #include "scene/texture_levels.h"
 
 #include "colour.h"
+#include "float_bits.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <tbb/parallel_for.h>
 
 namespace clrt {
 namespace {
-
-u32 word_of(float value) {
-    u32 word;
-    std::memcpy(&word, &value, sizeof word);
-    return word;
-}
-
-float float_of(u32 word) {
-    float value;
-    std::memcpy(&value, &word, sizeof value);
-    return value;
-}
 
 bool is_grey_format(u32 format) {
     return format == TEXEL_GREY_SRGB8 || format == TEXEL_GREY_LINEAR8;
@@ -37,12 +25,13 @@ u32 nearest_on_curve(float value, const u32* curve) {
     u32 low = 0, high = 255;
     while (low < high) { // the first that is not below
         const u32 middle = (low + high) / 2;
-        if (float_of(curve[middle]) < value)
+        if (float_of_bits(curve[middle]) < value)
             low = middle + 1;
         else
             high = middle;
     }
-    return low > 0 && value - float_of(curve[low - 1]) < float_of(curve[low]) - value ? low - 1 : low;
+    return low > 0 && value - float_of_bits(curve[low - 1]) < float_of_bits(curve[low]) - value ? low - 1
+                                                                                                : low;
 }
 
 u32 linear_byte(float value) {
@@ -54,7 +43,7 @@ void encode_texel(u32 format, const vec4& texel, size_t i, const u32* curve, u32
     if (format == TEXEL_FLOAT) {
         const float values[4] = {texel.x, texel.y, texel.z, texel.w};
         for (size_t c = 0; c < 4; ++c)
-            words[4 * i + c] = word_of(values[c]);
+            words[4 * i + c] = float_bits(values[c]);
         return;
     }
     const auto byte = [&](float value) {
@@ -90,10 +79,11 @@ size_t texel_words(u32 format, size_t texels) {
 vec4 decode_texel(u32 format, const u32* words, size_t i, const u32* curve) {
     if (format == TEXEL_FLOAT) {
         const u32* word = words + 4 * i;
-        return {float_of(word[0]), float_of(word[1]), float_of(word[2]), float_of(word[3])};
+        return {float_of_bits(word[0]), float_of_bits(word[1]), float_of_bits(word[2]),
+                float_of_bits(word[3])};
     }
     const auto value = [&](u32 byte) {
-        return is_srgb_format(format) ? float_of(curve[byte]) : float(byte) / 255.f;
+        return is_srgb_format(format) ? float_of_bits(curve[byte]) : float(byte) / 255.f;
     };
     if (is_grey_format(format)) {
         const float grey = value(words[i / 4] >> (i % 4 * 8) & 0xff);

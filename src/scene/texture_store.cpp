@@ -3,13 +3,13 @@
 
 #include "colour.h"
 #include "error.h"
+#include "float_bits.h"
 #include "scene/find_file.h"
 #include "scene/text_scanner.h"
 #include "scene/texture_levels.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <tbb/parallel_for.h>
@@ -24,12 +24,6 @@ constexpr u32 CHANNEL_ALPHA = 3, CHANNEL_LUMINANCE = 4;
 constexpr double NORMAL_MAP_TOLERANCE = 0.1, NORMAL_MAP_SHARE = 0.97;
 /// Of the mean texel: (n.z + 1) / 2 is 0.8 at 53 degrees from +z.
 constexpr double NORMAL_MAP_BLUE = 0.8;
-
-u32 float_bits(float value) {
-    u32 bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
 
 ImageEncoding encoding_of(TextureRole role) {
     return role == TextureRole::COLOUR ? ImageEncoding::COLOUR : ImageEncoding::DATA;

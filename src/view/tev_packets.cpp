@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/tev_packets.h"
+#include "float_bits.h"
 
-#include <cstring>
 #include <utility>
 
 namespace clrt {
@@ -30,11 +30,8 @@ public:
     }
     void floats(const std::vector<float>& values) {
         bytes_.reserve(bytes_.size() + sizeof(float) * values.size());
-        for (const float value : values) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, &value, sizeof bits);
-            whole(bits);
-        }
+        for (const float value : values)
+            whole(float_bits(value));
     }
     /// Its bytes, the length now known.
     std::string finish() {

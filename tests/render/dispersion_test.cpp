@@ -148,12 +148,7 @@ TEST(Dispersion, PathsFromBothEndsAgreeOnEveryColour) {
     const Film path = scene.render().film;
     for (const Integrator integrator : {Integrator::BDPT, Integrator::PATH_LIGHT, Integrator::MLT}) {
         scene.options.transport.integrator = integrator;
-        const Film film = scene.render().film;
-        for (int channel = 0; channel < 3; ++channel) {
-            const Estimate a = film_estimate(path, channel), b = film_estimate(film, channel);
-            EXPECT_NEAR(a.mean, b.mean, 5 * std::hypot(a.error, b.error))
-                << name_of(integrator) << ", channel " << channel;
-        }
+        expect_equal_means(path, scene.render().film, name_of(integrator));
     }
 }
 

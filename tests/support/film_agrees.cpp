@@ -17,4 +17,12 @@ testing::AssertionResult agrees(const Estimate& estimate, double expected, doubl
                                        << (sharp ? "" : ", too noisy for this comparison");
 }
 
+void expect_equal_means(const Film& a, const Film& b, const std::string& what) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const Estimate of_a = film_estimate(a, channel), of_b = film_estimate(b, channel);
+        EXPECT_NEAR(of_a.mean, of_b.mean, 5 * std::hypot(of_a.error, of_b.error))
+            << what << ", channel " << channel;
+    }
+}
+
 } // namespace clrt

@@ -5,6 +5,7 @@
 #include "probes/film_estimate.h"
 
 #include <gtest/gtest.h>
+#include <string>
 
 namespace clrt {
 
@@ -12,5 +13,8 @@ namespace clrt {
 /// standard error must not exceed `sharpness` of the expected value, so that the comparison can fail.
 testing::AssertionResult agrees(const Estimate& estimate, double expected, double sharpness = 2e-3,
                                 double rounding = RENDER_ROUNDING);
+
+/// Expects the means of two films to be within five standard errors of each other in every channel.
+void expect_equal_means(const Film& a, const Film& b, const std::string& what);
 
 } // namespace clrt

@@ -2,13 +2,13 @@
 #include "scene/readers/stl_reader.h"
 
 #include "error.h"
+#include "float_bits.h"
 #include "scene/readers/stl_text.h"
 #include "scene/readers/text_encoding.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace clrt {
@@ -37,10 +37,7 @@ u32 word_at(std::string_view bytes, size_t at) {
 }
 
 double number_at(std::string_view bytes, size_t at) {
-    const u32 word = word_at(bytes, at);
-    float value;
-    std::memcpy(&value, &word, sizeof value);
-    return double(value);
+    return double(float_of_bits(word_at(bytes, at)));
 }
 
 bool has_size_of_binary(std::string_view bytes) {
