@@ -13,7 +13,8 @@
 static CLRT_NOINLINE void path_cut(const Scene* scene, const RenderParams* params, const Sampler* sampler,
                                    uint segment, const Surface* surface, const Path* path, PixelRays* rays)
 {
-    Bsdf bsdf = material_bsdf(scene, surface, -path->ray.direction, TRANSPORT_RADIANCE);
+    Bsdf bsdf;
+    material_set_bsdf_apart(scene, surface, -path->ray.direction, TRANSPORT_RADIANCE, &bsdf);
     Path longer = *path;
     if (HAS(EFFECT_PATH_FILTER)) {
         const AutomatonStep open = automaton_step(params, path->state, segment);

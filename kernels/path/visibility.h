@@ -77,7 +77,8 @@ static CLRT_NOINLINE void visibility_cross_pane(const Scene* scene, const Hit* h
 {
     const Ray unit = ray_make(ray->origin, vector_normalize(ray->direction), ray_time(ray));
     const Surface surface = surface_at(scene, hit, &unit);
-    const Bsdf bsdf = material_bsdf(scene, &surface, -unit.direction, TRANSPORT_RADIANCE);
+    Bsdf bsdf;
+    material_set_bsdf_apart(scene, &surface, -unit.direction, TRANSPORT_RADIANCE, &bsdf);
     const real coverage = crossing->coverage;
     const real3 passes = bsdf_pane_passes(&bsdf);
     real stop = REAL(1.0) - bsdf_pane_passing(&bsdf);
@@ -173,11 +174,12 @@ static CLRT_NOINLINE bool visible_is_hidden(const Scene* scene, const RenderPara
 static inline Surface visible_surface(const Scene* scene, const RenderParams* params, const Ray* ray,
                                       Hit* hit)
 {
-    Surface surface = surface_at(scene, hit, ray);
-    for (int i = 1; i < VISIBLE_CORNER_WALLS && surface.is_near_edge; ++i) {
-        if (!visible_is_hidden(scene, params, surface.position + surface.normal_g * surface.offset, ray, hit))
-            break;
+    Surface surface;
+    for (int wall = 1;; ++wall) {
         surface = surface_at(scene, hit, ray);
+        if (wall == VISIBLE_CORNER_WALLS || !surface.is_near_edge ||
+            !visible_is_hidden(scene, params, surface.position + surface.normal_g * surface.offset, ray, hit))
+            break;
     }
     TRACE_CHOICE(scene, TRACE_FRONT, surface.front ? 1u : 0u);
     TRACE_VECTOR(scene, TRACE_POSITION, surface.position);

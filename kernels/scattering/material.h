@@ -333,4 +333,11 @@ CLRT_GIVES_STRUCT Bsdf material_bsdf(const Scene* scene, const Surface* surface,
     return bsdf;
 }
 
+/* The same for callers that few rays come to: out of line everywhere, so that they share one body. */
+static CLRT_NOINLINE void material_set_bsdf_apart(const Scene* scene, const Surface* surface, real3 wo,
+                                                  uint transport, Bsdf* bsdf)
+{
+    material_set_bsdf(scene, surface, wo, transport, bsdf);
+}
+
 #endif
