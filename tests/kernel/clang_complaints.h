@@ -11,17 +11,19 @@
 namespace clrt {
 
 /// The programs of several integrators as one text: one run of the compiler checks them all. Each takes
-/// integrators/entry_point.h anew, whose function then has another name.
+/// integrators/entry_point.h, and the replay.h that builds with CLRT_TRACE have instead, anew; their
+/// functions then have other names.
 inline std::string entry_points(const std::vector<std::string>& integrators) {
     std::string text;
-    for (const std::string& name : integrators)
-        text += fmt::format("#undef CLRT_INTEGRATORS_ENTRY_POINT_H\n"
-                            "#undef INTEGRATOR_KERNEL\n"
-                            "#undef INTEGRATOR_RADIANCE\n"
-                            "#undef pixel_render\n"
-                            "#define pixel_render {0}_pixel_render\n"
-                            "#include \"integrators/{0}.cl\"\n",
-                            name);
+    for (const std::string& name : integrators) {
+        for (const char* guard : {"CLRT_INTEGRATORS_ENTRY_POINT_H", "CLRT_INTEGRATORS_REPLAY_H",
+                                  "INTEGRATOR_KERNEL", "INTEGRATOR_RADIANCE"})
+            text += fmt::format("#undef {}\n", guard);
+        for (const char* function : {"pixel_render", "trace_counter", "trace_film", "trace_finish",
+                                     "replay_sample", "replay_samples"})
+            text += fmt::format("#undef {0}\n#define {0} {1}_{0}\n", function, name);
+        text += fmt::format("#include \"integrators/{}.cl\"\n", name);
+    }
     return text;
 }
 

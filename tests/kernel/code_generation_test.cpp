@@ -199,10 +199,9 @@ TEST_F(CodeGeneration, OfTheProgramsThatSplat) {
 }
 
 TEST_F(CodeGeneration, OfTheProgramsThatRecord) {
-    for (const std::string integrator : {"path", "distribution", "whitted", "raycast"})
-        expect_clean_with_and_without_effects("recording " + integrator,
-                                              include({"integrators/" + integrator + ".cl"}),
-                                              {"-DCLRT_TRACE=1", "-DSAMPLES_AT_ONCE=1"});
+    expect_clean_with_and_without_effects("recording",
+                                          entry_points({"path", "distribution", "whitted", "raycast"}),
+                                          {"-DCLRT_TRACE=1", "-DSAMPLES_AT_ONCE=1"});
 }
 
 TEST_F(CodeGeneration, OfTheKernelsOfClrtBench) {

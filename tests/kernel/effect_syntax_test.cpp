@@ -85,15 +85,13 @@ TEST(EffectSyntax, TheDenoisingFilterCompilesToo) {
 
 TEST(EffectSyntax, RecordingProgramsCompileToo) {
     const ScratchFolder folder;
-    for (const char* name : {"path", "distribution", "whitted", "raycast"})
-        for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
-            const std::string file =
-                folder.write("replay.cl", fmt::format("#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n{}"
-                                                      "#include \"integrators/{}.cl\"\n",
-                                                      precision, name));
-            for (const u32 mask : {u32(EFFECT_ALL), u32(EFFECT_MATTE), u32(EFFECT_MATTE | EFFECT_AREA_LIGHT)})
-                EXPECT_EQ(complaints(file, "CL1.2", mask), "") << name << precision << describe_effects(mask);
-        }
+    for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
+        const std::string file = folder.write(
+            "replay.cl", std::string("#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n") + precision +
+                             entry_points({"path", "distribution", "whitted", "raycast"}));
+        for (const u32 mask : {u32(EFFECT_ALL), u32(EFFECT_MATTE), u32(EFFECT_MATTE | EFFECT_AREA_LIGHT)})
+            EXPECT_EQ(complaints(file, "CL1.2", mask), "") << precision << describe_effects(mask);
+    }
 }
 
 TEST(EffectSyntax, TheCheckSeesAnError) {
