@@ -194,7 +194,7 @@ TEST_F(TimeLimit, AResumedFilmSurvivesAPassThatIsDropped) {
 
 // Without a cache every program is compiled anew: half of the programs fit the time.
 TEST_F(TimeLimit, TheLedgerKeepsItsTime) {
-    const std::string scene = CLRT_SCENES_FOLDER "/every_effect/every_effect.obj";
+    const std::string scene = CLRT_SCENES_FOLDER "/caustic/caustic.obj";
     CommandResult result;
     nlohmann::json bill;
     double compile = 0; // seconds a program
