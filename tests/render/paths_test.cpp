@@ -31,9 +31,16 @@ Estimate estimate_paths(TestScene& scene, const std::string& paths, int channel 
     return film_estimate(render_paths(scene, paths).film, channel);
 }
 
+/// A scene of this file: each expression makes a program of its own, which nothing shares, so that the small
+/// one is the fast one.
+class PathScene : public TestScene {
+public:
+    PathScene() { options.effects.all = false; }
+};
+
 /// Every letter of the notation: floor of two lobes, mirror, smooth and frosted glass, and all four kinds of
 /// light. Without rough lobes the classic integrators have the same light.
-class AllLetters : public TestScene {
+class AllLetters : public PathScene {
 public:
     explicit AllLetters(bool has_rough = true) {
         std::vector<float> sky;
@@ -62,7 +69,7 @@ public:
 };
 
 /// A room of two colours with a lamp and a box: one kind of light, matte.
-class Room : public TestScene {
+class Room : public PathScene {
 public:
     Room() {
         build.material("white", "Kd 0.7 0.7 0.7").material("red", "Kd 0.6 0.1 0.1");
@@ -73,29 +80,26 @@ public:
         look({0.2, 1, 0.9}, {0, 0.7, -1}, 100);
         options.sampling.spp = 64;
         options.sampling.replicates = 8;
-        options.effects.all = false;
     }
 };
 
 /// A slab of glass under a sky of radiance 1, seen head on.
-class SlabUnderSky : public TestScene {
+class SlabUnderSky : public PathScene {
 public:
     SlabUnderSky() {
         build.material("glass", "Ni 1.5\nillum 7").use("glass").box({-60, -60, -0.5}, {60, 60, 0.5});
         options.light.environment = glm::dvec3(1);
         options.sampling.spp = 64;
-        options.effects.all = false;
         look_at_point({0, 0, 5}, {0, 0, 0});
     }
 };
 
 /// A floor that the camera sees at 45 degrees under a sky of radiance 1.
-class FloorUnderSky : public TestScene {
+class FloorUnderSky : public PathScene {
 public:
     explicit FloorUnderSky(const std::string& keys) {
         build.material("m", keys).use("m").floor(50);
         options.light.environment = glm::dvec3(1);
-        options.effects.all = false;
         look_at_point({1, 1, 0}, {0, 0, 0});
     }
 };
@@ -196,7 +200,7 @@ TEST(Paths, MatteAndGlossyOfOneSurfaceAreToldApart) {
 }
 
 TEST(Paths, DirectLightIsTheClosedForm) {
-    TestScene scene;
+    PathScene scene;
     scene.build.material("floor", "Kd 0.5 0.5 0.5")
         .material("lamp", "Kd 0 0 0\nKe 3 3 3")
         .use("floor")
@@ -229,7 +233,7 @@ TEST(Paths, ReflectionAndRefractionOfGlassAreToldApart) {
 
 TEST(Paths, TotalReflectionIsReflection) {
     // Seen from inside glass at 60 degrees, beyond the critical angle of 41.8.
-    TestScene scene;
+    PathScene scene;
     scene.build.material("glass", "Ni 1.5\nillum 7").material("lamp", "Kd 0 0 0\nKe 1 1 1");
     scene.build.use("glass").floor(50).use("lamp").floor(50, -3);
     scene.options.light.environment = glm::dvec3(5);
@@ -418,7 +422,7 @@ TEST(Paths, OpenSkyOnClayIsAmbientOcclusion) {
     // the sky, by the cosine; lamps and what they light have no part in it.
     for (const double height : {0.5, 2.0, 1e4})
         for (const double distance : {0.4, 1.0}) {
-            TestScene scene;
+            PathScene scene;
             scene.build.material("red", "Kd 0.7 0.1 0.1").material("lamp", "Kd 0 0 0\nKe 9 9 9");
             scene.build.use("red").floor(1e5);
             scene.build.polygon({{-1e5, 0, 0}, {1e5, 0, 0}, {1e5, height, 0}, {-1e5, height, 0}});
