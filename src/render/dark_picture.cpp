@@ -3,7 +3,7 @@
 
 #include "output/exposure.h"
 #include "scene/camera_params.h"
-#include "scene/triangle_corners.h"
+#include "scene/enclosed_volume.h"
 #include "scene/voxel_grid.h"
 
 #include <algorithm>
@@ -24,8 +24,6 @@ constexpr int PROBES = 32;
 constexpr size_t MOST_LAMPS = 256;
 /// Share of rays that says "all", beside those which the coarse grid gets wrong.
 constexpr double NEARLY_ALL = 0.95;
-/// Of their area: what closed surfaces may lack.
-constexpr double OPEN_SHARE = 1e-3;
 /// Grey in the middle of a picture that --exposure aims at.
 constexpr double MIDDLE_GREY = 0.18;
 
@@ -124,21 +122,13 @@ bool lamps_look_away(const Scene& scene, const VoxelGrid& grid) {
     return asked > 0 && double(away) >= NEARLY_ALL * double(asked);
 }
 
-/// Whether the emissive faces are closed surfaces whose fronts are inside: by Gauss's theorem they bound a
-/// negative volume, and the vectors of their areas add up to nothing.
+/// Whether the emissive faces are closed surfaces whose fronts are inside.
 bool lamps_are_inside_out(const Scene& scene) {
-    double volume = 0, area = 0;
-    glm::dvec3 sum(0);
-    for (const Triangle& t : scene.triangles) {
-        if (t.emitter == NO_INDEX || (scene.materials[t.material].flags & MATERIAL_EMITS_BOTH_SIDES) != 0)
-            continue;
-        const TriangleCorners c = corners_of(scene.positions, t);
-        const glm::dvec3 across = glm::cross(c.p[1] - c.p[0], c.p[2] - c.p[0]);
-        volume += glm::dot(c.p[0], across);
-        area += glm::length(across);
-        sum += across;
-    }
-    return volume < 0 && glm::length(sum) < OPEN_SHARE * area;
+    EnclosedVolume lamps;
+    for (const Triangle& t : scene.triangles)
+        if (t.emitter != NO_INDEX && (scene.materials[t.material].flags & MATERIAL_EMITS_BOTH_SIDES) == 0)
+            lamps.add(corners_of(scene.positions, t));
+    return lamps.is_inside_out();
 }
 
 bool has_light(const Scene& scene) {
