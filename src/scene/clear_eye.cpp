@@ -33,12 +33,10 @@ double largest_part(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-/// u (4 M + 24 E) of a triangle: kernels/geometry/surface.h, surface_offset_bound.
-double clearance_of(const TriangleCorners& c) {
-    const glm::dvec3 low = glm::min(c.p[0], glm::min(c.p[1], c.p[2])),
-                     high = glm::max(c.p[0], glm::max(c.p[1], c.p[2]));
-    return EYE_ROUNDOFF *
-           (4 * largest_part(glm::max(glm::abs(low), glm::abs(high))) + 24 * largest_part(high - low));
+/// u (4 M + 24 E) of a triangle in this box: kernels/geometry/surface.h, surface_offset_bound.
+double clearance_of(const Bounds& box) {
+    return EYE_ROUNDOFF * (4 * largest_part(glm::max(glm::abs(box.low), glm::abs(box.high))) +
+                           24 * largest_part(box.high - box.low));
 }
 
 /// True if a point of the triangle's plane is inside its edges or at most `margin` beyond them.
@@ -70,8 +68,13 @@ std::vector<EyePlane> planes_at(const Scene& scene, const glm::dvec3& eye) {
         [&](const tbb::blocked_range<size_t>& range, Planes planes) {
             for (size_t i = range.begin(); i < range.end(); ++i) {
                 const TriangleCorners c = corners_of(scene.positions, scene.triangles[i]);
+                const Bounds box{glm::min(c.p[0], glm::min(c.p[1], c.p[2])),
+                                 glm::max(c.p[0], glm::max(c.p[1], c.p[2]))};
+                const double bound = clearance_of(box);
+                if (largest_part(glm::max(box.low - eye, eye - box.high)) > bound)
+                    continue;
                 const glm::dvec3 across = glm::cross(c.p[1] - c.p[0], c.p[2] - c.p[0]);
-                const double area = glm::length(across), bound = clearance_of(c);
+                const double area = glm::length(across);
                 if (!(area > 0))
                     continue;
                 const glm::dvec3 normal = across / area;
