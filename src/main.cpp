@@ -95,7 +95,7 @@ int run(int argc, const char* const* argv) {
         spdlog::info("options file: {}", options.run.sidecar_path);
     if (options.run.explain != Explain::NO) // has nothing to save
         return run_explain(options);
-    catch_stop_signals();
+    catch_stop_signals(options.run.verbosity < 0);
     report_broken_pipes();
     if (options.run.pixel)
         return run_replay(options);

@@ -24,6 +24,19 @@ void reject_empty_values(int argc, const char* const* argv) {
     }
 }
 
+/// CLI11 reads "-spp" as "-s pp", and the next argument as a scene.
+void reject_long_names_with_one_dash(int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument == "--")
+            return;
+        const std::string name = "-" + argument.substr(0, argument.find('='));
+        if (name.size() > 3 && find_option(name))
+            throw UsageError("option " + name.substr(1) + ": expected two dashes before a long name, " +
+                             name);
+    }
+}
+
 /// An option's name in the place of a value means that the value was forgotten.
 void reject_names_as_values(const GivenOption& given) {
     for (const OptionSpec& spec : option_table()) {
@@ -69,6 +82,7 @@ Arguments split_arguments(int argc, const char* const* argv) {
     app.add_option("scene", arguments.scenes);
 
     reject_empty_values(argc, argv);
+    reject_long_names_with_one_dash(argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError&) { // the only one left: the last option lacks its value

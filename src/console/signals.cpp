@@ -3,7 +3,9 @@
 #include "console/signals.h"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <string_view>
 #include <unistd.h>
 
 namespace clrt {
@@ -14,15 +16,25 @@ namespace {
 std::atomic<int> received_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a handler must not wait for a lock");
 
+/// What the first signal is answered by: in a terminal below "^C" and the progress line. Set before handlers
+/// are.
+std::string_view answer;
+
 extern "C" void on_stop_signal(int number) {
     int none = 0;
     if (!received_signal.compare_exchange_strong(none, number))
         _exit(128 + number);
+    const int error = errno;
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, answer.data(), answer.size());
+    errno = error;
 }
 
 } // namespace
 
-void catch_stop_signals() {
+void catch_stop_signals(bool is_quiet) {
+    const std::string_view text =
+        "\nclrt: stopping, as soon as a whole pass can be saved; a second signal stops at once\n";
+    answer = is_quiet ? "" : isatty(STDERR_FILENO) ? text : text.substr(1);
     struct sigaction action {};
     action.sa_handler = on_stop_signal;
     action.sa_flags = SA_RESTART; // reading and writing files goes on

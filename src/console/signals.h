@@ -4,10 +4,11 @@
 
 namespace clrt {
 
-/// Installs handlers for SIGINT and SIGTERM. A second signal ends the process with 128 + its number.
-/// Also ignores SIGXFSZ: a file that grows beyond the limit of `ulimit -f` is then an error message and no
-/// crash.
-void catch_stop_signals();
+/// Installs handlers for SIGINT and SIGTERM. The first is answered by a line on stderr unless `is_quiet`:
+/// while a scene is loaded or a program compiled, nothing else shows that it came. A second signal ends the
+/// process with 128 + its number. Also ignores SIGXFSZ: a file that grows beyond the limit of `ulimit -f` is
+/// then an error message and no crash.
+void catch_stop_signals(bool is_quiet = false);
 
 /// From now on a pipe whose reader has gone is an error of writing, with its message, and ends no process.
 void report_broken_pipes();

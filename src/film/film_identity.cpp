@@ -197,6 +197,8 @@ std::vector<std::string> film_layer_names(const FilmIdentity& identity) {
 std::optional<std::string> identity_difference(const FilmIdentity& expected, const FilmIdentity& found) {
     for (const auto& [name, value] : expected.items()) {
         const auto other = found.find(name);
+        if (other != found.end() && *other != value && name == "scene")
+            return "scene: it is another one, or its files, camera or lights have changed";
         if (other == found.end() || *other != value)
             return fmt::format("{}: expected {}, found {}", name, value.dump(),
                                other == found.end() ? "none" : other->dump());

@@ -3,6 +3,7 @@
 
 #include "output/exposure.h"
 #include "scene/camera_params.h"
+#include "scene/enclosed_volume.h"
 #include "scene/voxel_grid.h"
 
 #include <algorithm>
@@ -121,6 +122,15 @@ bool lamps_look_away(const Scene& scene, const VoxelGrid& grid) {
     return asked > 0 && double(away) >= NEARLY_ALL * double(asked);
 }
 
+/// Whether the emissive faces are closed surfaces whose fronts are inside.
+bool lamps_are_inside_out(const Scene& scene) {
+    EnclosedVolume lamps;
+    for (const Triangle& t : scene.triangles)
+        if (t.emitter != NO_INDEX && (scene.materials[t.material].flags & MATERIAL_EMITS_BOTH_SIDES) == 0)
+            lamps.add(corners_of(scene.positions, t));
+    return lamps.is_inside_out();
+}
+
 bool has_light(const Scene& scene) {
     return !scene.emitters.empty() || !scene.lights.empty() || scene.environment.mean_radiance > 0;
 }
@@ -137,6 +147,9 @@ std::string explain_darkness(const Scene& scene, const Options& options, const s
     if (grid && lamps_look_away(scene, *grid))
         return "all emissive faces shine away from the scene: --two-sided-lights lets their backs shine as "
                "well";
+    if (lamps_are_inside_out(scene))
+        return "all emissive faces shine into closed lamps, their corners run the wrong way round: "
+               "--two-sided-lights lets their backs shine as well";
     if (view.backs >= NEARLY_ALL)
         return fmt::format("the camera at {} sees nothing but backs of surfaces: it is inside a closed one",
                            short_triple(scene.camera.eye));

@@ -48,7 +48,8 @@ std::vector<NamedFile> files_to_write(const Options& options) {
             for (const std::string& path : planned_names(name, options))
                 files.push_back({is_default ? "--output (by default)" : "--output", path});
     if (has_picture && !options.film_file.checkpoint_path.empty())
-        files.push_back({"--checkpoint", options.film_file.checkpoint_path});
+        files.push_back({options.run.given.count("--checkpoint") ? "--checkpoint" : "--resume",
+                         options.film_file.checkpoint_path});
     if (!options.output.stats_path.empty())
         for (const std::string& path : planned_names(options.output.stats_path, options))
             files.push_back({"--stats", path});

@@ -8,6 +8,7 @@
 #include "scene/build_extension.h"
 #include "scene/camera_fit.h"
 #include "scene/camera_motion.h"
+#include "scene/clear_eye.h"
 #include "scene/cut_vast.h"
 #include "scene/daylight.h"
 #include "scene/emission.h"
@@ -15,6 +16,7 @@
 #include "scene/far_notices.h"
 #include "scene/file_camera.h"
 #include "scene/ground.h"
+#include "scene/inside_out.h"
 #include "scene/lights.h"
 #include "scene/material_override.h"
 #include "scene/mesh_motion.h"
@@ -289,6 +291,8 @@ Scene load_all(SceneRequest request, Progress& progress) {
     const StandIns stand_ins = add_stand_ins(description, scene);
     load_camera_and_lights(request, description, exitance, bounds, scene, notices);
     remove_stand_ins(stand_ins, scene);
+    clear_eye(scene, notices);
+    note_inside_out_glass(scene, notices);
     append_instances(description, path, scene, notices);
     store_vertex_colours(scene, path);
     finish_moves(request.scene.end_path, scene);

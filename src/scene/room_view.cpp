@@ -40,6 +40,10 @@ constexpr int AZIMUTHS = 48, LEVELS = 9;
 constexpr double BACK_WORTH = 0.3;
 /// What things before one another are worth, beside the depth of what is seen.
 constexpr double RICHNESS = 3;
+/// And what things are worth that are no walls: who looks across a room at a bare one sees far and nothing.
+constexpr double FURNISHED = 1.2;
+/// Cells of the grid that a wall may fill beside the box's face.
+constexpr double WALL_CELLS = 2;
 /// Tangent of the angle by which the eye looks down: floors have more on them than ceilings.
 constexpr double LOOK_DOWN = 0.12;
 
@@ -123,10 +127,23 @@ bool may_be_room(const VoxelGrid& grid, bool has_lamps) {
                      : blind.all >= BLIND_SIDES_WITHOUT && blind.planes >= PLANE_SIDES && blind.backs > 0;
 }
 
-/// How far one sees to all sides, and what that is worth: nothing where the room is open.
+/// How far one sees to all sides, what that is worth, nothing where the room is open, and where things are
+/// (1).
 struct Panorama {
-    std::array<std::array<double, LEVELS>, AZIMUTHS> depth{}, worth{};
+    std::array<std::array<double, LEVELS>, AZIMUTHS> depth{}, worth{}, things{};
 };
+
+/// Whether a point lies further in than the walls along the box's faces.
+bool is_within_walls(const VoxelGrid& grid, const glm::dvec3& p) {
+    const Bounds& box = grid.box();
+    const glm::dvec3 size = box.high - box.low;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double wall = std::max(NEAR_SIDE * size[axis], WALL_CELLS * grid.cell());
+        if (p[axis] < box.low[axis] + wall || p[axis] > box.high[axis] - wall)
+            return false;
+    }
+    return true;
+}
 
 glm::dvec3 view_direction(const glm::dmat3& frame, int azimuth) {
     const double angle = 2 * glm::pi<double>() * azimuth / AZIMUTHS;
@@ -139,11 +156,13 @@ Panorama look_around_level(const VoxelGrid& grid, const glm::dvec3& p, const glm
     for (int a = 0; a < AZIMUTHS; ++a)
         for (int l = 0; l < LEVELS; ++l) {
             const double slope = tangent * ((l + 0.5) * 2 / LEVELS - 1);
-            const VoxelGrid::Hit hit =
-                grid.cast(p, glm::normalize(view_direction(frame, a) + frame[1] * slope));
+            const glm::dvec3 direction = glm::normalize(view_direction(frame, a) + frame[1] * slope);
+            const VoxelGrid::Hit hit = grid.cast(p, direction);
             panorama.depth[size_t(a)][size_t(l)] = hit.distance;
             panorama.worth[size_t(a)][size_t(l)] =
                 hit.is_hit ? hit.distance * (hit.is_front ? 1 : BACK_WORTH) : 0;
+            panorama.things[size_t(a)][size_t(l)] =
+                hit.is_hit && is_within_walls(grid, p + direction * hit.distance);
         }
     return panorama;
 }
@@ -163,7 +182,7 @@ struct Outlook {
 /// What a picture shows whose middle is at an azimuth and which reaches `beside` azimuths to either side.
 Outlook look_at(const Panorama& panorama, const glm::dmat3& frame, int azimuth, int beside) {
     const double rays = double(2 * beside + 1) * LEVELS;
-    double worth = 0, depth = 0, steps = 0;
+    double worth = 0, depth = 0, steps = 0, things = 0;
     for (int b = azimuth - beside; b <= azimuth + beside; ++b)
         for (size_t l = 0; l < LEVELS; ++l) {
             const auto column = size_t((b + AZIMUTHS) % AZIMUTHS),
@@ -172,8 +191,9 @@ Outlook look_at(const Panorama& panorama, const glm::dmat3& frame, int azimuth, 
             worth += panorama.worth[column][l] / rays;
             depth += here / rays;
             steps += step_between(here, panorama.depth[next][l]) / rays;
+            things += panorama.things[column][l] / rays;
         }
-    return {worth * (1 + RICHNESS * steps), view_direction(frame, azimuth), depth};
+    return {worth * (1 + RICHNESS * steps + FURNISHED * things), view_direction(frame, azimuth), depth};
 }
 
 /// The direction in which a picture shows most.

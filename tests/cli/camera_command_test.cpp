@@ -231,6 +231,10 @@ TEST_F(CameraCommand, APictureThatShowsNothingSaysWhy) {
     // A lamp above a floor that shines upwards.
     folder.write("away.obj", "mtllib black.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 1\nv 1 -1 1\n"
                              "v 1 1 1\nv -1 1 1\nusemtl white\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n");
+    // One that is a pyramid inside out.
+    folder.write("inward.obj",
+                 "mtllib black.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\nv .1 0 1\nv 0 .1 1\n"
+                 "v 0 0 1.1\nusemtl white\nf 1 2 3 4\nusemtl lamp\nf 5 6 7\nf 5 8 6\nf 5 7 8\nf 6 8 7\n");
     const std::string sun = "0,0,1,3,3,3";
     const struct {
         std::vector<std::string> arguments;
@@ -244,7 +248,9 @@ TEST_F(CameraCommand, APictureThatShowsNothingSaysWhy) {
         {{"pyramid.obj", "--env", "0,0,0"}, "the scene has no light"},
         {{"black.obj", "--sun", sun}, "every surface is black (Kd and Ks are 0)"},
         {{"away.obj", "--up", "z", "--eye", "0,-4,0.7", "--at", "0,0,0.3", "--env", "0,0,0"},
-         "--two-sided-lights"},
+         "shine away from the scene: --two-sided-lights"},
+        {{"inward.obj", "--up", "z", "--eye", "0,-4,0.7", "--at", "0,0,0.3", "--env", "0,0,0"},
+         "shine into closed lamps, their corners run the wrong way round: --two-sided-lights"},
         {{"pyramid.obj", "--sun", "0,0,1,1e-6,1e-6,1e-6"}, "the light is weak"},
         {{"pyramid.obj", "--eye", "0,0,0.5", "--at", "0,1,0.5", "--sun", sun}, "it is inside a closed one"},
         {{"pyramid.obj", "--sun", "0,0,-1,3,3,3", "--view", "top"},

@@ -234,7 +234,10 @@ TEST_F(FilmCommand, ResumingSaysWhatDoesNotFit) {
     folder.write("lamp.mtl", "newmtl white\nKd 0.6 0.7 0.7\nnewmtl lamp\nKd 0 0 0\nKe 9 8 6\n");
     CommandResult result = clrt({"--resume", "a.film", "-s", "4", "-o", "b.png"});
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_TRUE(holds(result.err, {"they differ in scene"}));
+    EXPECT_TRUE(holds(result.err, {"they differ in scene: it is another one, or its files"}));
+    result = clrt({"lamp.obj", "--resume", "a.png", "-o", "a.png"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(holds(result.err, {"option --resume: expected a file of its own, found 'a.png'"}));
     EXPECT_FALSE(exists("b.png"));
     folder.write("short.film", folder.read("a.film").substr(0, 3000));
     result = clrt({"lamp.obj", "--resume", "short.film", "-o", "b.png"});

@@ -28,6 +28,13 @@ TEST(CommandLine, UnknownOptionsNameTheNearest) {
     EXPECT_EQ(refusal({"-x", "s.obj"}), "unknown option -x; `clrt --help` lists all");
 }
 
+TEST(CommandLine, LongNamesWithOneDashAreNotReadAsShortOnes) {
+    EXPECT_EQ(refusal({"-spp", "4", "s.obj"}), "option -spp: expected two dashes before a long name, --spp");
+    EXPECT_NE(refusal({"-output=a.png", "s.obj"}).find("long name, --output"), std::string::npos);
+    EXPECT_NE(refusal({"-quiet", "s.obj"}).find("long name, --quiet"), std::string::npos);
+    EXPECT_EQ(parse_all({"-s4", "-q", "--", "-spp"}).options.scene.path, "-spp");
+}
+
 TEST(CommandLine, UnknownOptionsWithoutANearOneNameNone) {
     for (const char* name : {"--xyzzy", "--frobnicate", "--caustics"})
         EXPECT_EQ(refusal({name, "s.obj"}),

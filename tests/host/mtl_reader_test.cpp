@@ -339,6 +339,23 @@ TEST(MtlLibraries, PathsOfOtherSystemsAreFound) {
     EXPECT_TRUE(notices.lines().empty());
 }
 
+TEST(MtlLibraries, CaseTellsFilesApartOnlyWhereItMust) {
+    const TemporaryFolder folder;
+    folder.write("Maps/Room.MTL", "newmtl maps\n");
+    folder.write("a.mtl", "newmtl lower\n");
+    folder.write("A.mtl", "newmtl upper\n");
+    folder.write("beside.mtl", "newmtl beside\n");
+    NoticeList notices;
+    EXPECT_EQ(libraries(folder, "maps\\room.mtl", notices).count("maps"), 1u);
+    EXPECT_EQ(libraries(folder, "C:\\Models\\BESIDE.MTL", notices).count("beside"), 1u);
+    EXPECT_EQ(libraries(folder, "a.mtl", notices).count("lower"), 1u);
+    EXPECT_EQ(libraries(folder, "A.mtl", notices).count("upper"), 1u);
+    EXPECT_EQ(libraries(folder, "a.MTL", notices).count("upper"), 1u) << "the first by name";
+    EXPECT_TRUE(notices.lines().empty());
+    EXPECT_EQ(libraries(folder, "maps/rooms.mtl", notices).size(), 0u);
+    EXPECT_EQ(count_notices(notices, "no file 'maps/rooms.mtl' found"), 1);
+}
+
 TEST(MtlLibraries, TheFirstDefinitionOfANameCounts) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl m\nNs 1\nnewmtl m\nNs 2\n");

@@ -21,8 +21,8 @@ namespace {
 }
 
 /// Catches two signals; the process must end at the second one.
-[[noreturn]] void raise_both(int first, int second) {
-    catch_stop_signals();
+[[noreturn]] void raise_both(int first, int second, bool is_quiet = false) {
+    catch_stop_signals(is_quiet);
     std::raise(first);
     if (stop_signal() != first)
         _exit(1);
@@ -37,6 +37,13 @@ TEST(Signals, SecondSignalEndsTheProcess) {
     EXPECT_EXIT(raise_both(SIGINT, SIGINT), testing::ExitedWithCode(130), "");
     EXPECT_EXIT(raise_both(SIGINT, SIGTERM), testing::ExitedWithCode(143), "");
     EXPECT_EXIT(raise_both(SIGTERM, SIGINT), testing::ExitedWithCode(130), "");
+}
+
+TEST(Signals, TheFirstIsAnsweredWhereSomebodyReads) {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    EXPECT_EXIT(raise_both(SIGINT, SIGINT), testing::ExitedWithCode(130),
+                "clrt: stopping.*; a second signal stops at once");
+    EXPECT_EXIT(raise_both(SIGTERM, SIGTERM, true), testing::ExitedWithCode(143), "^$");
 }
 
 TEST(Signals, ARequestIsAFirstSignal) {

@@ -214,4 +214,19 @@ TEST(SurfaceSides, ABoxSeenAtItsOutlineKeepsItsLightInside) {
             }
 }
 
+TEST(SurfaceSides, AnEyeOnTheFloorSeesTheSkyAboveTheHorizonAndNothingElse) {
+    TestScene scene;
+    scene.build.material("black", "Kd 0 0 0").use("black");
+    scene.build.polygon({{-3, 0.7, 9}, {5, 0.7, 9}, {5, 0.7, -7}, {-3, 0.7, -7}});
+    scene.options.camera.eye = dvec3(0.3, 0.7, 5);
+    scene.options.camera.at = dvec3(0.1, 0.7, 0);
+    scene.options.camera.fov_degrees = 60;
+    scene.options.light.environment = dvec3(1);
+    scene.options.transport.integrator = Integrator::RAYCAST;
+    scene.options.sampling.spp = 64;
+    const Film film = scene.render().film;
+    EXPECT_NEAR(film_estimate(film, 0, {0, 0, 16, 8}).mean, 1, 1e-6);
+    EXPECT_EQ(film_estimate(film, 0, {0, 8, 16, 16}).mean, 0);
+}
+
 } // namespace clrt

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glass whose inside is outside.
+#pragma once
+
+#include "scene/notices.h"
+#include "scene/scene.h"
+
+namespace clrt {
+
+/// Notes closed surfaces of glass whose fronts are inside: they are bubbles of air in endless glass. One that
+/// lies in the box of other closed glass is a bubble indeed, and not noted. By object and material; of the
+/// scene's own triangles, not those of instances.
+void note_inside_out_glass(const Scene& scene, NoticeList& notices);
+
+} // namespace clrt
