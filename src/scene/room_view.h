@@ -21,9 +21,8 @@ bool is_open(const VoxelGrid& grid, const BoxFace& side);
 /// A view from within, where the scene is a room: rays from inside it meet walls whose fronts they see, while
 /// from outside it shows backs of walls, or nothing but a plain box; without lamps it must be a box, and not
 /// a closed one. The eye stands, among points of a lattice whose surroundings are free, where it sees most:
-/// deep space, things before one another, and
-/// things that are no walls. It looks slightly down. Nothing for a thing that is looked at
-/// from outside. `up` is a unit vector.
+/// deep space, things before one another, and things that are no walls. It looks slightly down. Nothing for a
+/// thing that is looked at from outside. `up` is a unit vector.
 std::optional<RoomView> find_room_view(const VoxelGrid& grid, bool has_lamps, const glm::dvec3& up,
                                        const ViewTangents& view);
 
