@@ -18,14 +18,30 @@ constexpr size_t PIXELS_AT_ONCE =
     1u << 13;                     ///< of a parallel sum: its order, and so its bits, follow from this
 constexpr int CHAIN_BLOCK = 8;    ///< pixels; a chain's steps stay nearer than this, most of them
 constexpr double OUTSIDE = 0.025; ///< probability on either side of an interval of 95 %
+constexpr double NORMAL_SQUARED = 3.841458820694124; ///< square of the normal distribution's quantile there
 /// The width of 0.5 % that it leaves to an interval is less than what a reader makes of it.
 constexpr double MOST_DEGREES = 1e5;
+
+/// Sums over groups of pixels of their estimates of tr(C^2), C being the covariance of a replicate's values
+/// in the group, and of the squares of these.
+struct PairSums {
+    double covariances = 0, squares = 0;
+
+    void add_group(double covariance) {
+        covariances += covariance;
+        squares += covariance * covariance;
+    }
+    void add(const PairSums& other) {
+        covariances += other.covariances;
+        squares += other.squares;
+    }
+};
 
 /// Sums over pixels of their squared error and mean, with and without each replicate.
 struct ErrorSums {
     size_t pixels = 0;
     double squared = 0, mean = 0;
-    double covariances = 0; ///< estimates of tr(C^2), C being the covariance of a replicate's channels
+    PairSums pairs;
     std::vector<double> without;
 
     explicit ErrorSums(size_t replicates) : without(replicates, 0.0) {}
@@ -33,7 +49,7 @@ struct ErrorSums {
         pixels += other.pixels;
         squared += other.squared;
         mean += other.mean;
-        covariances += other.covariances;
+        pairs.add(other.pairs);
         for (size_t k = 0; k < without.size(); ++k)
             without[k] += other.without[k];
     }
@@ -103,7 +119,7 @@ void add_pixels(const ReplicateMeans& replicates, const PixelChoice& choice, con
                     (squares - of_channel[k] * of_channel[k] * n / (n - 1)) / ((n - 1) * (n - 2));
         }
         if (!sums.without.empty())
-            sums.covariances += pixel_covariance(deviations, count);
+            sums.pairs.add_group(pixel_covariance(deviations, count));
     }
 }
 
@@ -129,10 +145,10 @@ double block_covariance(const ReplicateMeans& replicates, const ErrorWeights& we
     return squared_covariance(trace, squares, double(count));
 }
 
-/// The sum over blocks of `side` x `side` pixels.
-double block_covariances(const Film& film, const ReplicateMeans& replicates, const PixelChoice& choice,
-                         const ErrorWeights& weights, int side) {
-    double sum = 0;
+/// The sums over blocks of `side` x `side` pixels.
+PairSums block_covariances(const Film& film, const ReplicateMeans& replicates, const PixelChoice& choice,
+                           const ErrorWeights& weights, int side) {
+    PairSums sums;
     std::vector<size_t> pixels;
     for (int top = 0; top < film.height; top += side)
         for (int left = 0; left < film.width; left += side) {
@@ -141,9 +157,9 @@ double block_covariances(const Film& film, const ReplicateMeans& replicates, con
                 for (int x = left; x < std::min(left + side, film.width); ++x)
                     if (const size_t pixel = size_t(y) * size_t(film.width) + size_t(x); choice.has(pixel))
                         pixels.push_back(pixel);
-            sum += block_covariance(replicates, weights, pixels);
+            sums.add_group(block_covariance(replicates, weights, pixels));
         }
-    return sum;
+    return sums;
 }
 
 /// Degrees of freedom of the sum of the pixels' squared errors (Satterthwaite 1946): (sum tr C)^2 over
@@ -155,6 +171,23 @@ double degrees_of(double squared, double covariances, double n) {
     const double trace = squared * n;
     const double ratio = covariances > 0 ? trace * trace / covariances : MOST_DEGREES;
     return std::max(ratio - 2 / (n - 1), 1.0);
+}
+
+/// Degrees of freedom of the sum of the estimates of tr(C^2): 2 over its relative variance. The variance of a
+/// term is told by its square, of which it is the part `spread` where the noise is normal and of one
+/// direction: for s^2 with m degrees of freedom E s^8 / (E s^4)^2 = (m + 4) (m + 6) / (m (m + 2)).
+double degrees_of_pairs(const PairSums& sums, double n) {
+    if (!(sums.covariances > 0))
+        return 1;
+    const double m = n - 1, spread = 1 - m * (m + 2) / ((m + 4) * (m + 6));
+    return std::max(2 * sums.covariances * sums.covariances / (spread * sums.squares), 1.0);
+}
+
+/// Degrees of freedom whose distribution reaches as far above as that with `degrees` which are known from a
+/// variance with `of_pairs` degrees: as Student's quantile instead of the normal one.
+double degrees_above(double degrees, double of_pairs) {
+    const double student = f_quantile(1 - 2 * OUTSIDE, 1, std::min(of_pairs, MOST_DEGREES));
+    return std::max(degrees * std::min(NORMAL_SQUARED / student, 1.0), 1.0);
 }
 
 } // namespace
@@ -187,11 +220,11 @@ std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pix
     for (double& squared : error.without)
         squared /= values;
     const int side = std::max(block, film.block);
-    if (!sums.without.empty())
-        error.degrees = degrees_of(sums.squared,
-                                   side > 1 ? block_covariances(film, replicates, choice, weights, side)
-                                            : sums.covariances,
-                                   double(count));
+    if (sums.without.empty())
+        return error;
+    const PairSums pairs = side > 1 ? block_covariances(film, replicates, choice, weights, side) : sums.pairs;
+    error.degrees = degrees_of(sums.squared, pairs.covariances, double(count));
+    error.pair_degrees = degrees_of_pairs(pairs, double(count));
     return error;
 }
 
@@ -203,9 +236,10 @@ std::optional<FilmError> relative_error(const SquaredError& squared) {
     if (!(squared.degrees > 0))
         return error;
     const double degrees = std::min(squared.degrees, MOST_DEGREES);
-    const double below = degrees * (double(squared.without.size()) - 1);
-    error.low = error.relative_rmse * std::sqrt(f_quantile(OUTSIDE, degrees, below));
-    error.high = error.relative_rmse * std::sqrt(f_quantile(1 - OUTSIDE, degrees, below));
+    const double above = degrees_above(degrees, squared.pair_degrees);
+    const double others = double(squared.without.size()) - 1;
+    error.low = error.relative_rmse * std::sqrt(f_quantile(OUTSIDE, degrees, degrees * others));
+    error.high = error.relative_rmse * std::sqrt(f_quantile(1 - OUTSIDE, above, above * others));
     return error;
 }
 

@@ -21,11 +21,13 @@ struct SquaredError {
     /// Of freedom, of the picture's squared error: as many equal pixels of one channel would scatter as it
     /// does. 0 under four replicates and without an error.
     double degrees = 0;
+    /// Of freedom, of the variance that `degrees` follow from: some for each pixel that decides it.
+    double pair_degrees = 0;
 };
 
 /// None when fewer than two replicates have samples. The same film gives the same bits. What is behind the
 /// scene has little noise, and is as bright and as much of the picture as its author likes: over all pixels
-/// the same rendering of the same objects has any error. Only `degrees` depends on the film's `block` or,
+/// the same rendering of the same objects has any error. Only the degrees depend on the film's `block` or,
 /// where that is larger, this one: the side of the squares of pixels that are taken to be independent of each
 /// other (FilmError): 1 where every sample belongs to one pixel, and where paths splat to neighbours, several
 /// times as far as these are apart.
@@ -47,6 +49,13 @@ int error_block(Integrator integrator);
 /// the distribution, because bright samples that are rare are in the error as well as in its estimate. With
 /// nu degrees of freedom of the sum over the blocks (Satterthwaite 1946) this is the variance of Fisher's F
 /// with nu and (n-1) nu degrees, which is the distribution of the ratio where the d_k are normal.
+///
+/// nu itself is an estimate, and where few pixels decide, of few: the relative variance of the sum of the
+/// blocks' tr(C^2) is about the sum of their squares over the square of their sum, and 2 over it are its
+/// degrees of freedom, m. A picture that has missed a bright sample tells a smaller error and more degrees
+/// than there are, so that it is the upper end that comes out too low. That end takes nu z^2 / t_m^2 degrees,
+/// z and t_m being the quantiles of the normal distribution and of Student's (1908), and one at least, which
+/// is what a single pixel has.
 ///
 /// The estimate itself assumes only that replicates are independent. The interval assumes besides that pixels
 /// are, which holds where each gathers its own samples. Splats of one path to pixels that are nearer than a

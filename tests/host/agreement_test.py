@@ -47,6 +47,13 @@ class Agreement(unittest.TestCase):
             self.assertEqual((found.held, found.count), (held, SEEDS), told)
             self.assertAlmostEqual(found.told_over_true / told, 1, delta=0.03)
 
+    def test_true_errors_scatter_as_those_around_the_truth(self):
+        """The squared error of 12 equal values has a relative variance of 2 / 12; 4000 of them tell it to 2.5 %."""
+        random, values, pictures = numpy.random.default_rng(8), 12, 5
+        errors = [agreement.true_error(10 + random.normal(size=(pictures, values)), 0) for _ in range(4000)]
+        self.assertAlmostEqual(100 * numpy.mean(errors), 1, delta=0.03)
+        self.assertAlmostEqual(numpy.var(errors) / numpy.mean(errors) ** 2 * values / 2, 1, delta=0.15)
+
     def test_what_all_pictures_lack_is_no_fault_of_error_bars(self):
         self.assertEqual(agreement.calibrate(sample(5, bias=0.5)).held, 0)  # the mean that errors are relative to has grown
         biased = sample(5, bias=0.5)

@@ -39,6 +39,20 @@ double mean_squared_error(const Film& film, int without) {
     return sum / double(plane);
 }
 
+/// A film of 8 replicates whose first pixels have grey noise.
+Film grey_film(int side, size_t noisy, std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    Film film = empty_film(side, side, 8, 0, 8);
+    fill_with_noise(film, 10, 0, random);
+    for (size_t r = 0; r < 8; ++r)
+        for (size_t pixel = 0; pixel < noisy; ++pixel) {
+            const auto off = std::llround(normal(random) / film.scale.quantum);
+            for (size_t c = 0; c < 3; ++c)
+                film.sums[r * film_plane(film) + 3 * pixel + c] += off;
+        }
+    return film;
+}
+
 /// Errors of a render whose mean squared error is `first` at 8 samples and falls by `power`.
 std::vector<SquaredError> falling_errors(double first, double power, int octaves) {
     std::vector<SquaredError> history;
@@ -99,28 +113,37 @@ TEST(FilmError, TheErrorIsRootMeanSquareOverTheMean) {
     const double degrees = film_squared_error(film)->degrees;
     EXPECT_NEAR(degrees, 90, 15);
     ASSERT_TRUE(error->low && error->high);
-    for (const auto& [bound, probability] : {std::pair{*error->low, 0.025}, {*error->high, 0.975}})
-        EXPECT_NEAR(f_probability(std::pow(bound / error->relative_rmse, 2), degrees, 7 * degrees),
-                    probability, 1e-7);
+    const auto probability_of = [&](double bound, double degrees_of_bound) {
+        return f_probability(std::pow(bound / error->relative_rmse, 2), degrees_of_bound,
+                             7 * degrees_of_bound);
+    };
+    EXPECT_NEAR(probability_of(*error->low, degrees), 0.025, 1e-7);
+    // The upper end has fewer, as Student's quantile is larger than the normal one.
+    const double student = f_quantile(0.95, 1, film_squared_error(film)->pair_degrees);
+    EXPECT_NEAR(probability_of(*error->high, degrees * 3.8414588 / student), 0.975, 1e-6);
+    EXPECT_GT(probability_of(*error->high, degrees), 0.9755);
 }
 
 TEST(FilmError, DegreesOfFreedomCountPixelsAndChannelsThatGoTogetherOnce) {
     std::mt19937 random(12);
-    std::normal_distribution<double> normal;
     double degrees = 0;
     constexpr int TRIALS = 200;
-    for (int trial = 0; trial < TRIALS; ++trial) {
-        Film film = empty_film(10, 10, 8, 0, 8);
-        fill_with_noise(film, 10, 0, random);
-        for (size_t r = 0; r < 8; ++r)
-            for (size_t pixel = 0; pixel < 25; ++pixel) { // the others have none
-                const auto off = std::llround(normal(random) / film.scale.quantum);
-                for (size_t c = 0; c < 3; ++c)
-                    film.sums[r * film_plane(film) + 3 * pixel + c] += off;
-            }
-        degrees += film_squared_error(film)->degrees / TRIALS;
-    }
+    for (int trial = 0; trial < TRIALS; ++trial)
+        degrees += film_squared_error(grey_film(10, 25, random))->degrees / TRIALS;
     EXPECT_NEAR(degrees, 25, 1);
+}
+
+TEST(FilmError, DegreesOfPairsCountThePixelsThatDecide) {
+    // Of s^2 with 7 degrees of freedom, s^4 has the relative variance 11 * 13 / (7 * 9) - 1.
+    const double variance = 11 * 13 / (7 * 9.0) - 1;
+    std::mt19937 random(12);
+    EXPECT_NEAR(film_squared_error(grey_film(10, 1, random))->pair_degrees, 2 * (1 + variance) / variance,
+                1e-9);
+    double degrees = 0;
+    constexpr int TRIALS = 20;
+    for (int trial = 0; trial < TRIALS; ++trial)
+        degrees += film_squared_error(grey_film(30, 900, random))->pair_degrees / TRIALS;
+    EXPECT_NEAR(degrees, 2 * 900 / variance, 0.1 * degrees);
 }
 
 TEST(FilmError, UnderFourReplicatesThereIsNoInterval) {

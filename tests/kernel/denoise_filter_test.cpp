@@ -185,4 +185,26 @@ TEST(DenoiseFilter, AQuarterIsFilteredByWhatTheOtherLooksLike) {
     EXPECT_EQ(filter().candidates(half)[0].half, after.half) << "the same bits again";
 }
 
+TEST(DenoiseFilter, AQuartersOwnColoursDoNotTellWhichPixelsAreAlike) {
+    // A stripe that the first quarter alone has is noise to it: the other quarter shows no edge, and by its
+    // own colours the stripe would stay. The other quarter has none to smear, whatever guides it.
+    HalfPicture half = wall();
+    shine(half, 0, [](int, int, int) { return 1.0; });
+    const auto in_stripe = [](int x) { return x >= 20 && x < 23; };
+    for (int i = 0; i < WIDTH * HEIGHT; ++i)
+        if (in_stripe(i % WIDTH))
+            std::fill_n(half.quarter[0].begin() + 3 * i, 3, 3.0f);
+    const auto mean_of_stripe = [&](const Pixels& pixels) {
+        double sum = 0;
+        for (size_t i = 0; i < pixels.size(); ++i)
+            sum += in_stripe(int(i / 3 % WIDTH)) ? double(pixels[i]) / (3 * 3 * HEIGHT) : 0;
+        return sum;
+    };
+    for (const DenoiseCandidate& candidate : filter().candidates(half)) {
+        std::printf("stripe of 3 after filtering: %.3f\n", mean_of_stripe(candidate.quarter[0]));
+        EXPECT_LT(mean_of_stripe(candidate.quarter[0]), 1.9);
+        EXPECT_NEAR(mean_of_stripe(candidate.quarter[1]), 1, 1e-3);
+    }
+}
+
 } // namespace clrt

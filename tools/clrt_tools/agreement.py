@@ -3,8 +3,8 @@
 each with a seed of its own, and what follows from them.
 
 Two methods agree by the tests of clrt-compare (verdict.py), the pictures of the seeds being replicates. An error bar is judged by
-its own method's other pictures: with the means a and b of two halves of them, mean((x - a) (x - b)) is the squared error of x
-without theirs, so that what all of a method's pictures lack shows in the tests above and not here."""
+its own method's other pictures, so that what all of a method's pictures lack shows in the tests above and not here: x minus the
+mean of m others is scattered as x around the truth, times sqrt((m + 1) / m)."""
 import dataclasses
 import itertools
 import math
@@ -18,7 +18,7 @@ from clrt_tools.study_runs import Point
 
 # What error bars promise, and the shares that are taken as that, of all and of a scene.
 NOMINAL, LEAST, MOST, LEAST_OF_A_SCENE = 0.95, 0.93, 0.97, 0.85
-# Fewer pictures leave no two halves beside the one that is judged.
+# Fewer pictures hardly tell how they scatter.
 FEWEST_SEEDS = 3
 # Groups of methods that simulate the same paths: all of them, and those that the others do (src/options/integrators.h).
 GROUPS = (("path", "path+light", "bdpt", "mlt"),
@@ -100,11 +100,11 @@ def compare_pairs(samples, tile, alpha, margin):
 
 
 def true_error(values, index):
-    """Squared error of a picture, over its mean: by the mean of the others in two halves."""
+    """Squared error of a picture, over its mean: by the mean of the others, without its noise. The product of the differences from
+    the means of two halves of them has the same mean, and scatters more than the error that an error bar is for."""
     others = [value for i, value in enumerate(values) if i != index]
-    halves = [numpy.mean(others[start::2], axis=0) for start in (0, 1)]
-    squared = float(((values[index] - halves[0]) * (values[index] - halves[1])).mean())
-    return max(squared, 0.0) / float(values[index].mean()) ** 2
+    squared = float(((values[index] - numpy.mean(others, axis=0)) ** 2).mean()) * len(others) / (len(others) + 1)
+    return squared / float(values[index].mean()) ** 2
 
 
 def calibrate(sample):
