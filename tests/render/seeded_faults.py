@@ -216,7 +216,7 @@ FAULTS = [
      "return (bsdf->flags & TRANSPORT_IMPORTANCE) ? x : x * bsdf->eta * bsdf->eta;",
      "return x * bsdf->eta * bsdf->eta;", "light_paths_test"),
     ("shading normals forgotten where light paths go on", "scattering/bsdf.h",
-     "sample.weight *= bsdf_shading_factor(bsdf, sample.wi, wi);", ";", "bdpt_test"),
+     "sample.weight *= bsdf_shading_factor(bsdf, sample.wi, wi);", ";", "bsdf_transport_test"),
     ("shading normals forgotten where light paths meet the camera", "scattering/bsdf.h",
      "sum.value *= bsdf_shading_factor(bsdf, wi_world, wi);", ";", "light_paths_test"),
     ("splats over the light paths of the window", "path/splat_weight.h", "return (real)params->light_path_count;",
