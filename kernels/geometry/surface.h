@@ -7,6 +7,7 @@
 #include "nest.h"
 #include "ray.h"
 #include "scene.h"
+#include "shared/flat_facet.h"
 
 typedef struct {
     real3 position;   /* on the triangle */
@@ -193,12 +194,9 @@ static inline void surface_uv(const Scene* scene, global const Triangle* triangl
     surface->bitangent = ((real)d1.x * e2 - (real)d2.x * e1) / det;
 }
 
-/* cos of 0.01: corner normals that are all within this angle of the plane's are those of a flat triangle. A
-   vn of two decimals, the fewest that exporters write, is off by up to half a hundredth on each axis, which
-   tilts it by at most 0.0087. Balls of more than 300 segments around, whose faces meet at less than 0.02,
-   count as flat too: where their plane hides a light that their shading normals see, it adds at most 0.01 of
-   what it would head-on. */
-#define SURFACE_FLAT_COS REAL(0.99995)
+/* Corner normals that are all within this angle of the plane's are those of a flat triangle. Where its plane
+   hides a light that its shading normals see, it adds at most 0.01 of what it would head-on. */
+#define SURFACE_FLAT_COS ((real)FLAT_FACET_COS)
 
 /* Interpolated shading normal, and the displacement to the curved surface: the point is projected on the
    tangent planes of the corners, and the projections are interpolated (Hanika 2021, Ray Tracing Gems II, ch.

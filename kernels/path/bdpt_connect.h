@@ -9,6 +9,7 @@
 #ifndef CLRT_PATH_BDPT_CONNECT_H
 #define CLRT_PATH_BDPT_CONNECT_H
 
+#include "light_bent.h"
 #include "light_vertices.h"
 #include "splat_connect.h"
 
@@ -83,12 +84,10 @@ static CLRT_NOINLINE bool bdpt_join(const Scene* scene, const EyeVertex* eye, co
     if (eye->surface->is_curved && !surface_reflects(eye->surface, wi))
         return false;
     const BsdfValue to_light = bsdf_eval(eye->bsdf, wi);
-    if (vector_is_black(to_light.value) || !light_vertex_is_seen(&light.bsdf, -wi))
+    if (vector_is_black(to_light.value))
         return false;
     const Hit hit = light_vertices_hit(kept);
-    if (light_vertex_crosses_curved(scene, &light, &hit, -wi))
-        return false;
-    const BsdfValue to_eye = bsdf_eval(&light.bsdf, -wi);
+    const BsdfValue to_eye = light_bent_eval(scene, &light, &hit, -wi);
     if (vector_is_black(to_eye.value))
         return false;
     const real others = bdpt_others(eye, &light, &kept->weights, wi, to_light.pdf_w, to_eye.pdf_w);

@@ -10,6 +10,7 @@
 #include "camera/camera_splat.h"
 #include "film/moments.h"
 #include "film/splat.h"
+#include "light_bent.h"
 #include "light_vertices.h"
 #include "roulette.h"
 #include "splat_weight.h"
@@ -121,11 +122,7 @@ static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderPar
         return false;
     const real3 way = camera.lens - surface->position;
     const real3 wi = vector_normalize(way);
-    if (!light_vertex_is_seen(&vertex->bsdf, wi))
-        return false;
-    if (SPLATS_ARE_WEIGHTED && light_vertex_crosses_curved(scene, vertex, hit, wi))
-        return false;
-    const BsdfValue eval = bsdf_eval(&vertex->bsdf, wi);
+    const BsdfValue eval = light_bent_eval(scene, vertex, hit, wi);
     TRACE_VECTOR(scene, TRACE_LIGHT_BSDF, eval.value);
     if (vector_is_black(eval.value))
         return false;
@@ -206,7 +203,9 @@ static inline bool light_path_meet(const Scene* scene, const RenderParams* param
 #endif
     const real3 wo = -path->ray.direction;
     *watched += vertex->surface.position + vertex->surface.normal_g + vertex->bsdf.wo + vertex->bsdf.frame.z;
-    if (vertex->bsdf.lobes == 0u || !light_vertex_is_seen(&vertex->bsdf, wo))
+    if (vertex->bsdf.lobes == 0u)
+        return false;
+    if (SPLATS_ARE_WEIGHTED && !light_vertex_is_seen(&vertex->bsdf, wo))
         return false;
     if (SPLATS_ARE_WEIGHTED) {
         if (segment == 1u)
@@ -232,14 +231,11 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     const Bsdf* bsdf = &vertex->bsdf;
     const real2 direction = sampler_pair(&path->sampler, segment, SAMPLE_DIRECTION);
     const uint2 choices = sampler_partner_words(&path->sampler, segment, SAMPLE_DIRECTION);
-    const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);
+    const BsdfSample next = light_bent_sample(scene, vertex, hit, sampler_unit(choices.x), direction);
     *watched += next.wi;
-    if (!next.is_valid || !light_vertex_is_seen(bsdf, next.wi))
+    if (!next.is_valid)
         return false;
     if (light_path_is_at_caster(segment) && next.pdf_w > REAL(0.0))
-        return false;
-    if (SPLATS_ARE_WEIGHTED && next.pdf_w > REAL(0.0) &&
-        light_vertex_crosses_curved(scene, vertex, hit, next.wi))
         return false;
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
     TRACE_VECTOR(scene, TRACE_WI, next.wi);

@@ -3,18 +3,19 @@
 //
 // Paths from the eye bend shading normals that they would see from behind, and let coarse meshes reflect
 // below the facet from points above it (geometry/surface.h). Neither has a counterpart from the other end.
-// So light paths take sides by facets alone and leave the horizon of shading normals alone, and what is seen
-// there is found by paths from the eye alone.
+// So light paths take sides by facets alone. Where paths from the eye find the same light, they alone find
+// what is seen where either end would bend a normal; else light paths scatter there as paths from the eye do
+// (light_bent.h).
 #ifndef CLRT_PATH_LIGHT_VERTEX_H
 #define CLRT_PATH_LIGHT_VERTEX_H
 
 #include "lights/emission.h"
 #include "vertex.h"
 
-/* Nearer to the horizon of the shading normal a path may have bent it: from a cosine c below 0 to
-   MATERIAL_SMALLEST_COS / sqrt(1 - c^2). That covers normals up to 4.8 degrees from those seen from right
-   behind. */
-#define LIGHT_SMALLEST_COS REAL(1.2e-2)
+/* Whether paths from the eye find what light paths do, weighted against them (splat_weight.h). */
+#ifndef SPLATS_ARE_WEIGHTED
+#define SPLATS_ARE_WEIGHTED 0
+#endif
 
 typedef struct {
     Surface surface; /* flat: its rays start at the facet */
@@ -25,10 +26,15 @@ typedef struct {
 /* Whether shading normals may differ from the facet's. */
 static inline bool light_vertex_is_bent(void) { return HAS(EFFECT_SMOOTH_NORMALS | EFFECT_NORMAL_MAP); }
 
-/* True if a direction is off the horizon of the shading normal. */
+/* True if neither the BSDF's shading normal is bent nor would be that of the same point as seen from
+   direction w, by the plane's side that it is on. */
 static inline bool light_vertex_is_seen(const Bsdf* bsdf, real3 w)
 {
-    return !light_vertex_is_bent() || fabs(vector_dot(bsdf->frame.z, w)) >= LIGHT_SMALLEST_COS;
+    if (!light_vertex_is_bent())
+        return true;
+    const real cosine = vector_dot(bsdf->frame.z, w);
+    const bool is_above = vector_dot(bsdf->normal_g, w) >= REAL(0.0);
+    return !(bsdf->flags & BSDF_BENT) && (is_above ? cosine : -cosine) >= MATERIAL_SMALLEST_COS;
 }
 
 /* Completes the vertex on its surface, which light has come to from wo. */

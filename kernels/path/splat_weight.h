@@ -21,10 +21,6 @@
 #include "light_vertex.h"
 #include "scattering/bsdf_reverse.h"
 
-#ifndef SPLATS_ARE_WEIGHTED
-#define SPLATS_ARE_WEIGHTED 0
-#endif
-
 /* Whether inner vertices of both paths are connected too (path/bdpt_connect.h). Then every vertex that is not
    sampled by a delta lobe has an `open` term: of the connection to the one before it. */
 #ifndef INNER_CONNECTIONS

@@ -18,6 +18,9 @@
 #define BSDF_NO_REFLECTION 0x10000u
 #define BSDF_NO_REFRACTION 0x20000u
 
+/* wo sees the shading normal from behind, and it has been bent (material.h). */
+#define BSDF_BENT 0x8000u
+
 /* The matte lobe gets what the reflection above it leaves (bsdf_energy.h). */
 #define BSDF_COUPLED 0x40000u
 

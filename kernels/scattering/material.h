@@ -74,9 +74,9 @@ static inline real3 material_mapped_normal(const Scene* scene, global const Mate
     return length_squared == REAL(0.0) ? n : mapped / real_sqrt(length_squared);
 }
 
-/* The shading normal: interpolated, mapped, and bent where wo would see its back. */
+/* The shading normal, interpolated and mapped, on the plane's side that wo is on. */
 static inline real3 material_normal(const Scene* scene, global const Material* material,
-                                    const Surface* surface, real3 wo)
+                                    const Surface* surface)
 {
     real3 n = surface->normal_s;
     const bool has_tangent = !vector_is_zero(surface->tangent);
@@ -88,12 +88,20 @@ static inline real3 material_normal(const Scene* scene, global const Material* m
         if (material->map_normal != NO_INDEX)
             n = side * material_mapped_normal(scene, material, surface, side * n);
     }
-    if (!HAS(EFFECT_SMOOTH_NORMALS | EFFECT_NORMAL_MAP))
-        return n;
-    const real cos_o = vector_dot(n, wo);
-    if (cos_o < MATERIAL_SMALLEST_COS && !vector_is_zero(n - surface->normal_g))
-        n = vector_normalize(n + (MATERIAL_SMALLEST_COS - cos_o) * wo);
     return n;
+}
+
+/* True where wo would see the back of a shading normal that is not the plane's. */
+static inline bool material_is_bent(const Surface* surface, real3 n, real3 wo)
+{
+    return HAS(EFFECT_SMOOTH_NORMALS | EFFECT_NORMAL_MAP) && vector_dot(n, wo) < MATERIAL_SMALLEST_COS &&
+           !vector_is_zero(n - surface->normal_g);
+}
+
+/* A normal that is bent until wo sees it. */
+static inline real3 material_bent(real3 n, real3 wo)
+{
+    return vector_normalize(n + (MATERIAL_SMALLEST_COS - vector_dot(n, wo)) * wo);
 }
 
 /* A map's reflectance at the surface point: of a picture, of the triangle's vertices, or of both, multiplied.
@@ -315,7 +323,11 @@ CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surf
         material_cover(scene, material, surface, bsdf);
         bsdf->flags |= !surface->front && (material->lobes & LOBE_DIELECTRIC) ? BSDF_INSIDE : 0u;
     }
-    const real3 n = material_normal(scene, material, surface, wo);
+    real3 n = material_normal(scene, material, surface);
+    if (material_is_bent(surface, n, wo)) {
+        n = material_bent(n, wo);
+        bsdf->flags |= BSDF_BENT;
+    }
     /* Only stretched highlights need to know where u grows. */
     bsdf->frame = bsdf->alpha_x != bsdf->alpha_y
                       ? frame_make_tangent(n, material_tangent(scene, material, surface, n))

@@ -177,6 +177,8 @@ void add_spots(const PathPlan& plan, const Unsampled& paths, unsigned bit, int m
         spot.paths =
             plan.letters[LETTER_COUNT + bit].symbol + surfaces_text(paths, 1u << bit, together) + "E";
         spot.cause = light_text(plan, bit) + ", next to it " + material.witness;
+        if (plan.missed_by_rays >> bit & 1u)
+            spot.seen = "lights that have an extent: emissive triangles, a sun with a diameter";
         if (material.place.line)
             spot.where = fmt::format("{}:{}", material.place.file, material.place.line);
         spots.push_back(std::move(spot));

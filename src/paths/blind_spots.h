@@ -25,9 +25,10 @@ struct PathPlan;
 
 /// A class of paths that is not sampled.
 struct BlindSpot {
-    std::string paths; ///< as an expression, such as "LpS+D(D|S)*E"
+    std::string paths; ///< as an expression, such as "LpS+D(D|S)*E"; behind "part of " where some is sampled
     std::string cause; ///< the light, and the material next to it
     std::string where; ///< "file:line" of that material; empty: none
+    std::string seen = {}; ///< lights that would be seen instead, for the log; not in files; empty: none
 };
 
 /// The blind spots of an integrator in the scene of the plan, whose letters and kinds of light are known

@@ -2,6 +2,7 @@
 #include "paths/path_plan.h"
 
 #include "colour.h"
+#include "paths/rounded_facets.h"
 #include "scene/lights.h"
 #include "scene/lobes.h"
 #include "scene/material_table.h"
@@ -177,6 +178,8 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
         plan_automaton(picture, options, plan);
     plan.blind_spots =
         find_blind_spots(plan, picture, options.transport.integrator, effective_max_depth(options.transport));
+    if (auto spot = find_rounded_facets(scene, options.transport.integrator))
+        plan.blind_spots.push_back(std::move(*spot));
     return plan;
 }
 

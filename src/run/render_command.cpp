@@ -162,9 +162,8 @@ void announce(const PlannedScene& planned) {
     for (const std::string& line : describe_left_out(planned.effects))
         spdlog::warn("{}", line);
     for (const BlindSpot& spot : planned.effects.paths.blind_spots)
-        spdlog::warn("{} does not see {} ({}); it sees lights that have an extent: emissive triangles, a sun "
-                     "with a diameter",
-                     name_of(planned.options.transport.integrator), spot.paths, spot.cause);
+        spdlog::warn("{} does not see {} ({}){}", name_of(planned.options.transport.integrator), spot.paths,
+                     spot.cause, spot.seen.empty() ? "" : "; it sees " + spot.seen);
 }
 
 } // namespace

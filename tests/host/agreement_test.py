@@ -34,7 +34,7 @@ class Agreement(unittest.TestCase):
         self.assertEqual(found, {("a", "b"): "equivalent", ("a", "c"): "different", ("b", "c"): "different"})
 
     def test_what_a_scene_keeps_apart_is_not_compared(self):
-        for text, effects, reason in (("light", ("matte", "normal and bump maps"), "normal and bump maps"),
+        for text, effects, reason in (("light", ("matte", "normal and bump maps", "smooth normals"), "smooth normals"),
                                       ("whitted --min-contribution 0", ("coat", "glossy"), "glossy"),
                                       ("raycast", ("matte", "refraction"), None), ("path", ("glossy", "coat"), None)):
             self.assertEqual(agreement.Participant(text).apart(effects), reason, text)

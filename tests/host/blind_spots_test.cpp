@@ -56,6 +56,23 @@ bool same_paths(const std::string& a, const std::string& b) {
 
 } // namespace
 
+TEST(BlindSpots, LightPathsMeetNoLightBelowRoundedFacets) {
+    for (const Integrator integrator : {Integrator::LIGHT, Integrator::PATH, Integrator::BDPT}) {
+        LitFloor scene;
+        scene.options.transport.integrator = integrator;
+        scene.build.raw("vn 0 1 0.004\nv 1 0 1\nv 2 0 1\nv 2 0 0\nf -3//-1 -2//-1 -1//-1");
+        EXPECT_EQ(scene.paths(), "") << "as flat as vn of two decimals can tell";
+        scene.build.use("shiny").icosphere({3, 0, 0}, 0.5, 1, Facing::OUTWARD, Shading::SMOOTH);
+        const std::vector<BlindSpot> spots = scene.spots();
+        ASSERT_EQ(spots.size(), integrator == Integrator::LIGHT ? 1u : 0u) << name_of(integrator);
+        for (const BlindSpot& spot : spots) {
+            EXPECT_EQ(spot.paths, "part of L(D|S)*DE");
+            EXPECT_NE(spot.cause.find(" degrees, in material \"shiny\" ("), std::string::npos) << spot.cause;
+            EXPECT_NE(spot.where.find("scene.mtl:"), std::string::npos) << spot.where;
+        }
+    }
+}
+
 TEST(BlindSpots, AnOpenFloorHasNone) {
     LitFloor scene;
     EXPECT_EQ(scene.paths(), "");

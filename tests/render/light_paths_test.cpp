@@ -7,12 +7,16 @@
 #include "support/film_agrees.h"
 #include "support/lit_rooms.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace clrt {
 
 namespace {
+
+constexpr double PI = 3.14159265358979323846;
 
 /// What `light` finds.
 const char* const BY_LIGHT_PATHS = "LE|L(D|S)*DE";
@@ -68,19 +72,67 @@ TEST(LightPaths, ShadingNormalsScaleThemAsTheEyeSeesThem) {
 }
 
 TEST(LightPaths, ShadingNormalsScaleWhatTheySendOn) {
-    // A floor that the sun passes by, lit by a wall alone, whose map turns its normals towards sun and floor.
+    // A floor that the sun passes by, lit by a wall alone, whose map turns its normals towards sun and floor,
+    // or so far up that the floor sees most of them from behind.
+    for (const float up : {-0.5f, 0.8f}) {
+        SCOPED_TRACE(up);
+        TestScene scene;
+        scene.texture("tilt.exr", 1, 1, 3, {0.5f, 0.5f * (1 + up), 0.5f * (1 + std::sqrt(1 - up * up))});
+        scene.build.material("plain", "Kd 0.7 0.7 0.7").use("plain").floor(1.5);
+        scene.build.material("tilted", "Kd 0.7 0.7 0.7\nnorm tilt.exr").use("tilted");
+        scene.build.textured_quad({{-1.5, 0, -1.5}, {1.5, 0, -1.5}, {1.5, 2, -1.5}, {-1.5, 2, -1.5}});
+        scene.options.light.suns.push_back({{0, -0.4, 1}, {3, 3, 3}, 0});
+        scene.options.light.environment = glm::dvec3(0);
+        scene.options.transport.max_depth = 3;
+        scene.options.sampling.spp = 4096;
+        scene.look({0, 3, 0}, {0, 0, -0.7}, 40);
+        expect_light_is_path(scene, 0.05);
+    }
+}
+
+TEST(LightPaths, SeeNormalsFromBehindAsTheEyeDoes) {
+    // A small plate whose map leans away from the camera: its normal is bent to where it is seen.
     TestScene scene;
-    const float down = -0.5f, out = 0.8660254f; // of the normal
-    scene.texture("tilt.exr", 1, 1, 3, {0.5f, 0.5f * (1 + down), 0.5f * (1 + out)});
-    scene.build.material("plain", "Kd 0.7 0.7 0.7").use("plain").floor(1.5);
-    scene.build.material("tilted", "Kd 0.7 0.7 0.7\nnorm tilt.exr").use("tilted");
-    scene.build.textured_quad({{-1.5, 0, -1.5}, {1.5, 0, -1.5}, {1.5, 2, -1.5}, {-1.5, 2, -1.5}});
-    scene.options.light.suns.push_back({{0, -0.4, 1}, {3, 3, 3}, 0});
+    scene.texture("lean.exr", 1, 1, 3, {0.9f, 0.5f, 0.8f});
+    scene.build.material("leaning", "Kd 1 1 1\nnorm lean.exr").use("leaning");
+    scene.build.textured_quad({{-0.1, 0, 0.1}, {0.1, 0, 0.1}, {0.1, 0, -0.1}, {-0.1, 0, -0.1}});
+    scene.look({-9, 4, 0}, {0, 0, 0}, 0.3);
     scene.options.light.environment = glm::dvec3(0);
-    scene.options.transport.max_depth = 3;
-    scene.options.sampling.spp = 4096;
-    scene.look({0, 3, 0}, {0, 0, -0.7}, 40);
-    expect_light_is_path(scene, 0.05);
+    scene.options.film.size = {8, 8};
+    scene.options.sampling.spp = 1024;
+    scene.options.transport.max_depth = 2;
+    const glm::dvec3 eye = glm::normalize(glm::dvec3(-9, 4, 0)), mapped(0.8, 0.6, 0);
+    const glm::dvec3 bent = glm::normalize(mapped + (1e-3 - glm::dot(mapped, eye)) * eye);
+    // The second is behind the mapped normal, the last behind the bent one.
+    for (const glm::dvec3& towards : {glm::dvec3(1, 1, 0.2), {-1, 1, 0.2}, {0, 1, 3}, {-1, 0.1, 0}}) {
+        scene.options.light.suns = {{towards, glm::dvec3(PI), 0}};
+        const double expected = std::max(glm::dot(bent, glm::normalize(towards)), 0.0);
+        for (const Integrator integrator : {Integrator::LIGHT, Integrator::PATH, Integrator::BDPT}) {
+            scene.options.transport.integrator = integrator;
+            SCOPED_TRACE(name_of(integrator));
+            const Estimate radiance = film_estimate(scene.render().film);
+            if (expected > 0)
+                EXPECT_TRUE(agrees(radiance, expected, 0.02, 2e-4)) << towards.x << ", " << towards.z;
+            else
+                EXPECT_EQ(radiance.mean, 0);
+        }
+    }
+}
+
+TEST(LightPaths, ScatterAsTheEyeSeesIt) {
+    for (const bool is_sky : {false, true}) {
+        SCOPED_TRACE(is_sky);
+        Room room;
+        if (is_sky)
+            room.options.light.environment = glm::dvec3(1, 2, 3);
+        else
+            room.add_lamp();
+        room.add_steep_normals();
+        room.look({-1.6, 0.7, 3}, {0, 0.3, 0}, 50);
+        room.options.transport.max_depth = 5;
+        room.options.sampling.spp = 1024;
+        expect_light_is_path(room, 0.1);
+    }
 }
 
 TEST(LightPaths, SplatsAreSpreadByThePixelFilter) {

@@ -102,9 +102,9 @@ std::vector<Place> light_places() {
          "const CameraConnection camera =\n"
          "        camera_project_at(params, surface->position, lens, surface_time(surface));",
          {{"camera.pdf_a"}, {"camera.film.x"}, {"camera.lens.y"}}},
-        {file, "const BsdfValue eval = bsdf_eval(&vertex->bsdf, wi);", {{"eval.value.z"}}},
+        {file, "const BsdfValue eval = light_bent_eval(scene, vertex, hit, wi);", {{"eval.value.z"}}},
         {file,
-         "const BsdfSample next = bsdf_sample(bsdf, sampler_unit(choices.x), direction);",
+         "const BsdfSample next = light_bent_sample(scene, vertex, hit, sampler_unit(choices.x), direction);",
          {{"next.wi.x"}, {"next.weight.x"}}},
         {file, "path->throughput *= next.weight;", {{"path->throughput.y"}}}};
 }

@@ -83,6 +83,22 @@ void Room::add_bent_normals() {
     build.use("glass").icosphere({0.8, 0.4, 1}, 0.3, 1, Facing::OUTWARD, Shading::SMOOTH);
 }
 
+void Room::add_steep_normals() {
+    std::vector<float> texels;
+    for (int i = 0; i < 4 * 4; ++i) {
+        const double slope = 0.3 + 0.16 * (i % 5), turn = 2.4 * i;
+        for (const double n : {slope * std::cos(turn), slope * std::sin(turn), std::sqrt(1 - slope * slope)})
+            texels.push_back(float(0.5 + 0.5 * n));
+    }
+    texture("steep.exr", 4, 4, 3, texels);
+    build.material("steep", "Kd 0.7 0.7 0.7\nnorm steep.exr")
+        .material("steep metal", "Kd 0.8 0.8 0.8\nPm 1\nPr 0.5\nnorm steep.exr")
+        .material("steep glass", "Ni 1.5\nillum 7\nPr 0.5\nnorm steep.exr");
+    build.use("steep").textured_quad({{-2, 0.1, 2}, {2, 0.1, 2}, {2, 0.1, -0.6}, {-2, 0.1, -0.6}});
+    build.use("steep metal").textured_quad({{1.5, 0, 1.5}, {1.8, 2, 1.5}, {1.8, 2, -1}, {1.5, 0, -1}});
+    build.use("steep glass").textured_quad({{-1, 0.5, 1.5}, {0, 0.5, 1.5}, {0, 0.5, 0.2}, {-1, 0.5, 0.2}});
+}
+
 void expect_crop_is_a_part(Integrator integrator) {
     Room room;
     room.add_lamp();

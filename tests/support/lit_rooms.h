@@ -29,6 +29,8 @@ struct Room : TestScene {
     void add_caustics();
     /// A bumpy plate, and coarse balls with smooth normals: matte, of rough and of smooth glass.
     void add_bent_normals();
+    /// Plates beside the camera's way of matte, metal and rough glass, whose maps lean far to all sides.
+    void add_steep_normals();
 };
 
 /// Whether a window of a lit room has the bits that it has in the whole picture.

@@ -26,9 +26,9 @@ GROUPS = (("path", "path+light", "bdpt", "mlt"),
           ("distribution --min-contribution 0", "path --paths LD?(G|S)*E"),
           ("whitted --min-contribution 0", "path --paths LD?S*E"),
           ("raycast", "path --paths LD?E"))
-# Effects of a scene under which an integrator's paths are others than those of `path`, or its light is: light paths take the
-# normals of maps from one side alone, and the two classics give highlights where `path` follows rays.
-APART = {"light": ("normal and bump maps",),
+# Effects of a scene under which an integrator's paths are others than those of `path`, or its light is: light paths meet no light
+# below facets that corner normals round, and the two classics give highlights where `path` follows rays.
+APART = {"light": ("smooth normals",),
          "whitted": ("glossy", "rough refraction", "coat", "sheen"),
          "raycast": ("glossy", "rough refraction", "coat", "sheen")}
 
