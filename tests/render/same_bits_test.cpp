@@ -64,6 +64,9 @@ void make_maps(TestScene& scene) {
     scene.build.use("leaf").textured_quad({{-1, 0.1, 0.5}, {1, 0.1, 0.5}, {1, 1.5, 0.3}, {-1, 1.5, 0.3}});
     scene.build.use("rough").icosphere({0.6, 0.5, -0.4}, 0.4, 1);
     scene.build.use("frosted").icosphere({-0.6, 0.5, -0.4}, 0.4, 1);
+    scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5\nmap_Ke mask.png")
+        .use("lamp")
+        .textured_quad({{-1.5, 1.8, 0}, {-1, 1.8, 0}, {-1, 1.9, 0.5}, {-1.5, 1.9, 0.5}});
     scene.options.light.environment_file = scene.folder.file("sky.exr");
     scene.options.film.filter = Filter::GAUSSIAN;
     scene.options.scene.texture_filter = TextureFilter::FOOTPRINT;
