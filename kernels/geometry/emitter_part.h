@@ -74,8 +74,8 @@ static inline uint emitter_part_digits(real b1, real b2)
     return digits;
 }
 
-/* The emitter that a point of a triangle is on, by its barycentric weights: `first` or one of those behind it,
-   which are the triangle's parts; NO_INDEX of a dark triangle. */
+/* The emitter that a point of a triangle is on, by its barycentric weights: `first` or one of those behind
+   it, which are the triangle's parts. */
 static CLRT_NOINLINE uint emitter_part_find(const Scene* scene, uint first, real b1, real b2)
 {
     const uint digits = emitter_part_digits(b1, b2);
@@ -93,6 +93,7 @@ static CLRT_NOINLINE uint emitter_part_find(const Scene* scene, uint first, real
     return begin;
 }
 
+/* The same of any triangle; NO_INDEX of a dark one. */
 static inline uint emitter_part_hit(const Scene* scene, uint first, real b1, real b2)
 {
     if (!emitter_part_is_used(scene) || first == NO_INDEX)
