@@ -20,7 +20,7 @@ from scene_effects import drink_and_gem, gloss_translucency, soft_shadows
 from scene_exposure import depth_of_field, motion_blur
 from scene_head import add_head
 from scene_kit import Obj, add, png, png_pixels, polygon_normal, scale, subtract, unit
-from scene_rooms import door_ajar, hall_of_lamps
+from scene_rooms import door_ajar, hall_of_lamps, night_screen, town_at_night
 from scene_sky import ambient_occlusion, glazed_room, pool
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
@@ -339,6 +339,7 @@ def all_files():
     for scene in (door_ajar, hall_of_lamps, soft_shadows, gloss_translucency, drink_and_gem, depth_of_field, pool, glazed_room,
                   ambient_occlusion):
         made.update(files(scene.__name__, scene()))
+    made.update(files("night_screen", night_screen(), {"town": town_at_night()}))
     made.update(files("motion_blur", motion_blur(0)))
     made["motion_blur/end/motion_blur.obj"] = motion_blur(1).text("../motion_blur.mtl").encode()
     return made

@@ -122,3 +122,42 @@ def add_lamps(obj, length, width, height, pillars):
             x = width / 2
         obj.begin(f"lamp_{k:03}", f"lamp_{level}")
         obj.quad((x - LAMP_SIDE / 2, y, z - LAMP_SIDE / 2), (LAMP_SIDE, 0, 0), (0, 0, LAMP_SIDE), (0, -1, 0))
+
+
+SCREEN_COLUMNS, SCREEN_ROWS, SCREEN_WINDOWS = 128, 72, 24
+
+
+def night_screen():
+    obj = Obj("A dark room and a television that shows a town at night")
+    width, height, depth = 4.4, 2.5, 4.2
+    obj.begin("walls", "wall")
+    room(obj, (0, 0, 0), (width, height, depth), without=("-y",))
+    obj.begin("floor", "floor")
+    obj.quad((0, 0, 0), (width, 0, 0), (0, 0, depth), (0, 1, 0))
+    obj.begin("cabinet", "wood")
+    obj.box((1.2, 0, 0.02), (3.2, 0.5, 0.5), without=("-y",))
+    obj.begin("frame", "black")
+    obj.box((1.36, 0.58, 0.1), (3.04, 1.56, 0.14))
+    obj.begin("screen", "screen")
+    obj.quad((1.4, 0.62, 0.142), (1.6, 0, 0), (0, 0.9, 0), (0, 0, 1), repeat=(1, 1))
+    obj.begin("table", "wood")
+    table(obj, (1.5, 0, 1.5), (2.9, 0.42, 2.1), 0.03, 0.05)
+    obj.begin("ball", "white")
+    obj.sphere((1.9, 0.54, 1.8), 0.12, 3)
+    obj.begin("pot", "red")
+    obj.lathe((2.5, 0.42, 1.75), [(0, 0.002), (0.06, 0.002), (0.11, 0.05), (0.12, 0.1), (0.09, 0.17), (0.06, 0.2), (0.06, 0.22),
+                                  (0, 0.22)], 32)
+    return obj
+
+
+def town_at_night():
+    """Pixels of the screen: windows of 2 x 2, 1 % of the picture and 94 % of its light, over a sky that is nearly black."""
+    draw = random.Random(3)
+    rows = [[(2, 2, 3)] * SCREEN_COLUMNS for _ in range(SCREEN_ROWS)]
+    places = set()
+    while len(places) < SCREEN_WINDOWS:
+        places.add((4 * draw.randrange(1, SCREEN_COLUMNS // 4 - 1), 4 * draw.randrange(SCREEN_ROWS // 12, SCREEN_ROWS // 4 - 1)))
+    for x, y in sorted(places):
+        for k in range(4):
+            rows[y + k // 2][x + k % 2] = draw.choice([(255, 226, 168), (255, 240, 214), (222, 236, 255)])
+    return rows

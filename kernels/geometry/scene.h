@@ -40,6 +40,9 @@ typedef struct {
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     bool moves; /* triangles move while the shutter is open */
 #endif
+#if CLRT_EFFECTS & EFFECT_MAPPED_EMISSION
+    bool has_emitter_parts;
+#endif
 #ifdef CLRT_COUNT_VISITS
     uint* visits; /* of the rays so far: nodes, leaves, triangles; to be set by whoever counts */
 #endif
@@ -90,6 +93,9 @@ static inline Scene scene_make(SceneHeap heap0, SceneHeap heap1, SceneHeap heap2
 #undef SCENE_ARRAY
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     scene.moves = places->position_moves.is_empty == 0u;
+#endif
+#if CLRT_EFFECTS & EFFECT_MAPPED_EMISSION
+    scene.has_emitter_parts = places->emitter_parts.is_empty == 0u;
 #endif
 #ifdef CLRT_COUNT_VISITS
     scene.visits = 0;

@@ -3,6 +3,7 @@
 #ifndef CLRT_GEOMETRY_SURFACE_H
 #define CLRT_GEOMETRY_SURFACE_H
 
+#include "emitter_part.h"
 #include "instance.h"
 #include "nest.h"
 #include "ray.h"
@@ -316,7 +317,7 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
     surface.b1 = hit->b1;
     surface.b2 = hit->b2;
     surface.triangle = hit->triangle;
-    surface.emitter = triangle->emitter;
+    surface.emitter = emitter_part_hit(scene, triangle->emitter, hit->b1, hit->b2);
     surface.material = triangle->material;
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     surface.time = ray->time;

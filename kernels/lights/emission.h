@@ -74,7 +74,9 @@ static CLRT_NOINLINE Emission emission_of_triangle(const Scene* scene, const Ren
     real3 p0, p1, p2;
     surface_corners(scene, triangle, &p0, &p1, &p2);
     const real3 normal = surface_cross(p1 - p0, p2 - p0);
-    const real2 b = warp_triangle((real2)(sampler_unit(choice->word), choice->v));
+    const EmitterShare share = emitter_part_of(scene, choice->light);
+    const real2 b =
+        emitter_part_weights(&share, warp_triangle((real2)(sampler_unit(choice->word), choice->v)));
     real side = surface_winding_is_reversed(scene, triangle, 0u, REAL(0.0), normal) ? REAL(-1.0)
                                                                                      : REAL(1.0);
     if (material->flags & MATERIAL_EMITS_BOTH_SIDES) {

@@ -28,7 +28,7 @@ static inline uint emitter_choose(const Scene* scene, const RenderParams* params
     return alias_word < scene->emitters[slot].threshold ? slot : scene->emitters[slot].alias;
 }
 
-/* A point on a triangle that was chosen with probability pdf_a over its area. */
+/* A point on an emitter that was chosen with probability pdf_a over its area. */
 CLRT_GIVES_STRUCT LightSample emitter_sample_chosen(const Scene* scene, uint chosen, real pdf_a,
                                                     real3 position, real2 u)
 {
@@ -40,15 +40,19 @@ CLRT_GIVES_STRUCT LightSample emitter_sample_chosen(const Scene* scene, uint cho
     const real3 e1 = p1 - p0;
     const real3 e2 = p2 - p0;
     const real3 normal = surface_cross(e1, e2);
+    const EmitterShare share = emitter_part_of(scene, chosen);
+    real3 q0 = p0, q1 = p1, q2 = p2, part_normal = normal;
+    emitter_part_corners(&share, &q0, &q1, &q2, &part_normal);
     real2 b = warp_triangle(u);
     real solid_angle = REAL(0.0);
-    if (spherical_triangle_is_near(p0 - position, e1, e2, normal)) {
+    if (spherical_triangle_is_near(q0 - position, q1 - q0, q2 - q0, part_normal)) {
         const SphericalTriangle seen =
-            spherical_triangle_make(p0 - position, p1 - position, p2 - position, normal);
+            spherical_triangle_make(q0 - position, q1 - position, q2 - position, part_normal);
         solid_angle = seen.solid_angle;
         if (solid_angle > REAL(0.0))
             b = spherical_triangle_sample(&seen, u);
     }
+    b = emitter_part_weights(&share, b);
     const real3 point = p0 + fma((real3)(b.x), e1, b.y * e2);
     const real3 way = point - position;
     const real facing = -vector_dot(way, normal);
@@ -67,7 +71,7 @@ CLRT_GIVES_STRUCT LightSample emitter_sample_chosen(const Scene* scene, uint cho
     sample.is_distant = false;
     sample.is_delta = false;
     /* facing is cos_l times the lengths of way and normal. */
-    sample.pdf_w = solid_angle > REAL(0.0) ? emitter_pdf_of_angle(pdf_a, normal, solid_angle)
+    sample.pdf_w = solid_angle > REAL(0.0) ? emitter_pdf_of_angle(pdf_a, part_normal, solid_angle)
                                            : pdf_a * distance * distance *
                                                  (distance * vector_length(normal) / fabs(facing));
     float2 uv = (float2)(0.0f);
@@ -101,7 +105,9 @@ static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* s
     global const Emitter* emitter = scene->emitters + surface->emitter;
     real3 p0, p1, p2;
     surface_corners(scene, scene->triangles + emitter->triangle, &p0, &p1, &p2);
-    const real3 normal = surface_cross(p1 - p0, p2 - p0);
+    real3 normal = surface_cross(p1 - p0, p2 - p0);
+    const EmitterShare share = emitter_part_of(scene, surface->emitter);
+    emitter_part_corners(&share, &p0, &p1, &p2, &normal);
     if (spherical_triangle_is_near(p0 - from, p1 - p0, p2 - p0, normal)) {
         const SphericalTriangle seen = spherical_triangle_make(p0 - from, p1 - from, p2 - from, normal);
         if (seen.solid_angle > REAL(0.0))

@@ -31,13 +31,14 @@
 #define EFFECT_CONDUCTOR 0x800000u     /* reflection by a complex index of refraction */
 #define EFFECT_DISPERSION 0x2000000u   /* glass that bends colours apart */
 #define EFFECT_NESTED 0x4000000u       /* solids within each other, by priority (geometry/nest.h) */
+#define EFFECT_MAPPED_EMISSION 0x8000000u /* emissive triangles in parts (geometry/emitter_part.h) */
 #define EFFECT_INSTANCES 0x10000000u   /* copies that share one mesh (geometry/instance.h) */
 #define EFFECT_THIN_WALL 0x20000000u   /* panes without an inside */
 #define EFFECT_ROTATION 0x40000000u    /* highlights stretched askew to the texture coordinates */
 #define EFFECT_TEXTURE_FILTER 0x80000000u /* lookups over the ray's footprint (geometry/ray_cone.h) */
 #define EFFECT_ALL                                                                                           \
-    (0xffffffu | EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_ROTATION | \
-     EFFECT_TEXTURE_FILTER)
+    (0xffffffu | EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_MAPPED_EMISSION | EFFECT_INSTANCES |             \
+     EFFECT_THIN_WALL | EFFECT_ROTATION | EFFECT_TEXTURE_FILTER)
 
 /* Effects that read the array of material extensions. */
 #define EFFECTS_EXTENSION                                                                                    \

@@ -31,6 +31,7 @@
     ROW(Texture, textures, textures)                                                                         \
     ROW(u32, texel_words, texel_words)                                                                       \
     ROW(Emitter, emitters, emitters)                                                                         \
+    ROW(EmitterPart, emitter_parts, emitter_parts)                                                           \
     ROW(Light, lights, lights)                                                                               \
     ROW(vec4, casters, casters)                                                                              \
     ROW(SkyTile, sky_tiles, environment.tiles)                                                               \

@@ -131,7 +131,7 @@ typedef struct {
 } Texture;
 ASSERT_SIZE(Texture, 64);
 
-/* An emissive triangle. Choosing: i = floor(u n); keep i where the second random word is below `threshold`,
+/* An emissive triangle, or one of the parts of one, which follow each other. Choosing: i = floor(u n); keep i where the second random word is below `threshold`,
    else take `alias` (Walker 1977, Vose 1991). */
 typedef struct {
     u32 triangle;
@@ -140,6 +140,24 @@ typedef struct {
     float pdf_a; /* probability of this triangle over its area, per unit area of the normalised frame */
 } Emitter;
 ASSERT_SIZE(Emitter, 16);
+
+/* Which part of its triangle an emitter is, where any triangle has parts: one for each emitter. A triangle is
+   cut into four of half its size, at its corners 0, 1, 2 and (turned by half a turn) in the middle, and so is
+   any of these. Parts of a triangle follow each other by their codes. */
+typedef struct {
+    float b1, b2; /* barycentric weights of corners 1 and 2 of the triangle at the part's corner 0 */
+    float step;   /* the part's edges over the triangle's; below 0: turned */
+    u32 code;     /* EMITTER_CODE */
+} EmitterPart;
+ASSERT_SIZE(EmitterPart, 16);
+
+/* Two bits for each cut, from the whole on: at which corner the part is, 3: in the middle; 0 behind the last.
+   Below them, how many parts the triangle has. */
+#define EMITTER_CODE(digits, parts) ((digits) << 12 | (parts))
+#define EMITTER_CODE_DIGITS(code) ((code) >> 12)
+#define EMITTER_CODE_PARTS(code) ((code)&0xfffu)
+#define EMITTER_LARGEST_LEVEL 10u /* cuts, at most */
+#define EMITTER_MOST_PARTS 4095u  /* of a triangle */
 
 #define LIGHT_POINT 0u
 #define LIGHT_SUN 1u

@@ -55,6 +55,8 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_DISPERSION, "dispersion", EFFECT_REFRACTION, 0, "glass bends all colours alike"},
         {EFFECT_NESTED, "nested solids", EFFECT_REFRACTION, 0,
          "surfaces of solids that overlap are what they are alone"},
+        {EFFECT_MAPPED_EMISSION, "mapped emission", EFFECT_AREA_LIGHT | EFFECT_TEXTURES, 0,
+         "points of lamps are chosen as if their maps were even"},
         {EFFECT_INSTANCES, "instances", 0, 0, "meshes that are shared are not there"},
         {EFFECT_THIN_WALL, "thin walls", 0, 0, "thin walls of glass are black and opaque"},
         {EFFECT_ROTATION, "rotated highlights", 0, EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL,

@@ -8,6 +8,7 @@
 #include "scene/lobes.h"
 #include "scene/material_override.h"
 #include "scene/material_table.h"
+#include "scene/split_emitters.h"
 
 #include <algorithm>
 #include <cassert>
@@ -127,6 +128,15 @@ void find_delta_lights(const Scene& scene, const Options& options, EffectFinder&
                 place_of(options, first));
 }
 
+void find_mapped_emission(const Scene& scene, EffectFinder& finder) {
+    const EmissiveTriangles triangles = count_emissive_triangles(scene);
+    finder.fact(EFFECT_MAPPED_EMISSION, triangles.split > 0,
+                triangles.split > 0
+                    ? fmt::format("{} emissive triangles in {} parts, by what their maps send from each",
+                                  triangles.split, triangles.parts)
+                    : "no map makes an emissive triangle shine unevenly");
+}
+
 void find_spots(const Scene& scene, EffectFinder& finder) {
     const auto is_spot = [](const Light& light) { return LIGHT_SHARPNESS(light) > 0; };
     const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), is_spot);
@@ -162,10 +172,11 @@ void find_light_effects(const Scene& scene, const Options& options, EffectFinder
     const bool area = !scene.emitters.empty();
     const size_t first = area ? scene.triangles[scene.emitters[0].triangle].material : 0;
     finder.fact(EFFECT_AREA_LIGHT, area,
-                area ? fmt::format("{} emissive triangles, first {}", scene.emitters.size(),
+                area ? fmt::format("{} emissive triangles, first {}", count_emissive_triangles(scene).count,
                                    describe_material(scene, first))
                      : "no triangle emits",
                 area ? scene.material_places[first] : SourcePlace{});
+    find_mapped_emission(scene, finder);
     find_delta_lights(scene, options, finder);
     find_environment(scene, options, finder);
 }

@@ -6,6 +6,7 @@
 #include "scene/emission.h"
 #include "scene/lobes.h"
 #include "scene/sky_texels.h"
+#include "scene/split_emitters.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -22,6 +23,8 @@ constexpr u32 FLAGS_OF_SOLIDS = MATERIAL_ATTENUATES | MATERIAL_DISPERSES | MATER
 
 void take_out_area_lights(Scene& scene) {
     scene.emitters.clear();
+    scene.emitter_parts.clear();
+    scene.emitter_exitance.clear();
     for (Triangle& triangle : scene.triangles)
         triangle.emitter = NO_INDEX;
 }
@@ -125,6 +128,7 @@ void take_out_textures(Scene& scene) {
             *map = NO_INDEX;
     for (size_t i = 0; i < scene.emitted.size(); ++i)
         scene.emitted[i] = constant_emission(scene.materials[i]);
+    unite_emitters(scene);
 }
 
 void take_out_normal_maps(Scene& scene) {
@@ -216,6 +220,8 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
     take_out_lobes(effects, scene);
     if (effects & EFFECT_TEXTURES)
         take_out_textures(scene);
+    if (effects & EFFECT_MAPPED_EMISSION)
+        unite_emitters(scene);
     if (effects & EFFECT_NORMAL_MAP)
         take_out_normal_maps(scene);
     if (effects & EFFECT_SMOOTH_NORMALS)

@@ -3,6 +3,7 @@
 
 #include "colour.h"
 #include "kernels/shared/path_types.h"
+#include "scene/emitter_parts.h"
 #include "scene/light_tables.h"
 #include "scene/lights.h"
 #include "scene/vectors.h"
@@ -75,6 +76,12 @@ bool is_none(const std::array<u32, 3>& vertices) {
     return std::all_of(vertices.begin(), vertices.end(), [](u32 v) { return v == NO_INDEX; });
 }
 
+/// Of emitters of one material: whether its map makes no difference between them.
+bool shine_alike(const Scene& scene, u32 a, u32 b) {
+    return emitter_place(scene, a).step == 1 && emitter_place(scene, b).step == 1 &&
+           (scene.emitter_exitance.empty() || scene.emitter_exitance[a] == scene.emitter_exitance[b]);
+}
+
 LightLeaf fan_leaf(const Scene& scene, u32 first, u32 end) {
     const Triangle& t = triangle_of(scene, first);
     LightLeaf leaf;
@@ -84,11 +91,11 @@ LightLeaf fan_leaf(const Scene& scene, u32 first, u32 end) {
     double power = 0, cos_spread = 1;
     const glm::dvec3 axis = shining_normal(scene, t);
     for (u32 i = first; i < end; ++i) {
-        for (const glm::dvec3& p : corners_of(scene, triangle_of(scene, i))) {
+        for (const glm::dvec3& p : emitter_corners(scene, i)) {
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
-        power += emitter_power(scene, scene.emitters[i]);
+        power += emitter_power(scene, i);
         cos_spread = std::min(cos_spread, glm::dot(axis, shining_normal(scene, triangle_of(scene, i))));
     }
     LightBounds& bounds = leaf.bounds;
@@ -162,7 +169,7 @@ double flux_of(const Scene& scene, const LightLeaf& leaf) {
         return light_power(scene.lights[leaf.first - emitters], scene.radius);
     double flux = 0;
     for (u32 i = leaf.first; i < leaf.first + leaf.count; ++i)
-        flux += emitter_power(scene, scene.emitters[i]);
+        flux += emitter_power(scene, i);
     return flux;
 }
 
@@ -224,7 +231,7 @@ NormalSums sum_normals(const Scene& scene) {
     NormalSums sums;
     for (u32 i = 0; i < scene.emitters.size(); ++i) {
         const Triangle& t = triangle_of(scene, i);
-        const auto p = corners_of(scene, t);
+        const auto p = emitter_corners(scene, i);
         const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
         const glm::dvec3 normal = shining_normal(scene, t);
         sums.area += area;
@@ -246,8 +253,8 @@ u32 fan_end(const Scene& scene, u32 first) {
     for (; end < limit; ++end) {
         const Triangle& next = triangle_of(scene, end);
         shared = shared_vertices(shared, next);
-        if (is_none(shared) || next.object != t.object || next.material != t.material ||
-            glm::dot(shining_normal(scene, next), normal) < SAME_PLANE_COS)
+        if (is_none(shared) || !shine_alike(scene, first, end) || next.object != t.object ||
+            next.material != t.material || glm::dot(shining_normal(scene, next), normal) < SAME_PLANE_COS)
             break;
     }
     return end;

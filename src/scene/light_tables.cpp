@@ -3,6 +3,7 @@
 
 #include "colour.h"
 #include "scene/casters.h"
+#include "scene/emitter_parts.h"
 #include "scene/lights.h"
 #include "scene/vectors.h"
 
@@ -41,10 +42,9 @@ void mix_emitters(Scene& scene) {
     if (objects < 2) // by power, as they are
         return;
     std::vector<double> powers, areas;
-    for (const Emitter& emitter : scene.emitters) {
-        const Triangle& t = scene.triangles[emitter.triangle];
-        powers.push_back(emitter_power(scene, emitter));
-        areas.push_back(triangle_area(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]));
+    for (u32 i = 0; i < scene.emitters.size(); ++i) {
+        powers.push_back(emitter_power(scene, i));
+        areas.push_back(emitter_area(scene, i));
     }
     tabulate(mixed_weights(powers, groups, objects), areas, scene.emitters);
 }
@@ -62,11 +62,9 @@ void mix_lights(Scene& scene) {
 
 /// The part of an emissive triangle's light that leaves towards the casters, about: of all of them, whichever
 /// side they are on, as if they were above it.
-double share_of_casters(const Scene& scene, const Emitter& emitter) {
-    const Triangle& t = scene.triangles[emitter.triangle];
-    const glm::dvec3 middle = (to_dvec3(scene.positions[t.v0]) + to_dvec3(scene.positions[t.v1]) +
-                               to_dvec3(scene.positions[t.v2])) /
-                              3.0;
+double share_of_casters(const Scene& scene, u32 emitter) {
+    const auto corners = emitter_corners(scene, emitter);
+    const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     return caster_solid_angle(scene.casters, middle, PI) / PI;
 }
 
@@ -77,8 +75,7 @@ double sum_of(const KindShares& powers) {
 /// Luminance that lights, and a sky of this mean radiance, send into a sphere about the origin.
 KindShares power_into(const Scene& scene, double sky, double radius) {
     KindShares powers;
-    for (const Emitter& emitter : scene.emitters)
-        powers.emitters += emitter_power(scene, emitter);
+    powers.emitters = emitters_power(scene);
     powers.environment = sky * 4 * PI * PI * radius * radius;
     for (const Light& light : scene.lights)
         powers.lights += light_power(light, radius);
@@ -89,8 +86,8 @@ KindShares power_into(const Scene& scene, double sky, double radius) {
 KindShares power_to_casters(const Scene& scene, double sky) {
     const double square = caster_squares(scene.casters);
     KindShares powers;
-    for (const Emitter& emitter : scene.emitters)
-        powers.emitters += emitter_power(scene, emitter) * share_of_casters(scene, emitter);
+    for (u32 i = 0; i < scene.emitters.size(); ++i)
+        powers.emitters += emitter_power(scene, i) * share_of_casters(scene, i);
     powers.environment = sky * 4 * PI * PI * square;
     for (const Light& light : scene.lights)
         powers.lights += light.kind == LIGHT_SUN
@@ -133,12 +130,10 @@ void tabulate_lights(LightSampler sampler, Scene& scene) {
 }
 
 KindShares kind_shares(LightSampler sampler, const Scene& scene) {
-    double emitters = 0, lights = 0;
-    for (const Emitter& emitter : scene.emitters)
-        emitters += emitter_power(scene, emitter);
+    double lights = 0;
     for (const Light& light : scene.lights)
         lights += light_power(light, scene.radius);
-    const double powers[3] = {emitters, environment_power(scene), lights};
+    const double powers[3] = {emitters_power(scene), environment_power(scene), lights};
     const auto kinds = std::count_if(powers, powers + 3, [](double power) { return power > 0; });
     const double all = powers[0] + powers[1] + powers[2];
     const auto share = [&](double power) {

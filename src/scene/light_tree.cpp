@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/light_tree.h"
 
+#include "scene/emitter_parts.h"
 #include "scene/light_parts.h"
 #include "scene/lights.h"
 #include "scene/vectors.h"
@@ -115,23 +116,18 @@ private:
     LightTree& tree_;
 };
 
-double area_of(const Scene& scene, u32 emitter) {
-    const Triangle& t = scene.triangles[scene.emitters[emitter].triangle];
-    return triangle_area(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]);
-}
-
 /// Shares of the lights of a leaf: by area, since they shine alike.
 void write_shares(const Scene& scene, const LightLeaf& leaf, std::vector<LightPlace>& places) {
     const u32 last = leaf.first + leaf.count - 1;
     places[last].end = LIGHT_LEAF_END;
     for (u32 light = leaf.first; light <= last; ++light)
-        places[light].density = light < scene.emitters.size() ? float(1 / area_of(scene, light)) : 1.0f;
+        places[light].density = light < scene.emitters.size() ? float(1 / emitter_area(scene, light)) : 1.0f;
     double all = 0, sum = 0;
     if (leaf.count > 1)
         for (u32 light = leaf.first; light <= last; ++light)
-            all += area_of(scene, light);
+            all += emitter_area(scene, light);
     for (u32 light = leaf.first; light < last; ++light) {
-        sum += area_of(scene, light);
+        sum += emitter_area(scene, light);
         // Every light has some numbers, so the ends rise by at least 1.
         const double least = 1.0 + (light - leaf.first), most = double(LIGHT_LEAF_END) - (last - light);
         places[light].end = u32(std::clamp(sum / all * 4294967296.0, least, most));

@@ -5,6 +5,7 @@
 #include "error.h"
 #include "scene/alias_table.h"
 #include "scene/emission.h"
+#include "scene/emitter_parts.h"
 #include "scene/normalise.h"
 #include "scene/vectors.h"
 
@@ -154,10 +155,19 @@ Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle
     return result;
 }
 
-double emitter_power(const Scene& scene, const Emitter& emitter) {
-    const Triangle& t = scene.triangles[emitter.triangle];
-    return PI * triangle_area(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]) *
-           emitted_luminance(scene.materials[t.material], scene.emitted[t.material]);
+double emitter_power(const Scene& scene, u32 emitter) {
+    const u32 material = scene.triangles[scene.emitters[emitter].triangle].material;
+    return PI * emitter_area(scene, emitter) *
+           (scene.emitter_exitance.empty()
+                ? emitted_luminance(scene.materials[material], scene.emitted[material])
+                : scene.emitter_exitance[emitter]);
+}
+
+double emitters_power(const Scene& scene) {
+    double power = 0;
+    for (u32 i = 0; i < scene.emitters.size(); ++i)
+        power += emitter_power(scene, i);
+    return power;
 }
 
 double sun_irradiance(const Light& sun) {

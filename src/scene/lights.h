@@ -39,9 +39,11 @@ struct Emitters {
 Emitters build_emitters(const std::vector<vec4>& positions, std::vector<Triangle>& triangles,
                         const std::vector<double>& exitance);
 
-/// Luminance that leaves an emissive triangle of this material: pi area luminance, both sides where both
-/// shine.
-double emitter_power(const Scene& scene, const Emitter& emitter);
+/// Luminance that leaves an emitter: pi area luminance, both sides where both shine.
+double emitter_power(const Scene& scene, u32 emitter);
+
+/// The same of all.
+double emitters_power(const Scene& scene);
 
 /// The irradiance, luminance, of a sun at normal incidence.
 double sun_irradiance(const Light& sun);

@@ -25,6 +25,7 @@
 #include "scene/readers/reader_table.h"
 #include "scene/scene_up.h"
 #include "scene/smoothing.h"
+#include "scene/split_emitters.h"
 #include "scene/studio.h"
 #include "scene/texture_store.h"
 #include "scene/vertex_colours.h"
@@ -294,6 +295,7 @@ Scene load_all(SceneRequest request, Progress& progress) {
     clear_eye(scene, notices);
     note_inside_out_glass(scene, notices);
     append_instances(description, path, scene, notices);
+    split_emitters(scene);
     store_vertex_colours(scene, path);
     finish_moves(request.scene.end_path, scene);
     scene.notices = notices.lines();

@@ -106,6 +106,9 @@ struct Scene {
     std::vector<std::string> texture_names;
     std::vector<SourcePlace> texture_places; ///< the map_* statement of each
     std::vector<Emitter> emitters;
+    std::vector<EmitterPart> emitter_parts; ///< one for each emitter; empty where all are whole triangles
+    std::vector<double>
+        emitter_exitance; ///< luminance of each over pi, both sides; empty: that of its material
     std::vector<Light> lights;
     std::vector<std::string> light_sources; ///< by what each of the lights is there, in messages
     std::vector<vec4> casters; ///< spheres at which emission is aimed (scene/casters.h); empty: it is not

@@ -93,26 +93,32 @@ vec4 decode_texel(u32 format, const u32* words, size_t i, const u32* curve) {
     return {value(word & 0xff), value(word >> 8 & 0xff), value(word >> 16 & 0xff), float(word >> 24) / 255.f};
 }
 
-TexelRows halve_picture(const TexelRows& picture) {
-    TexelRows half{std::max(picture.width / 2, 1u), std::max(picture.height / 2, 1u), {}};
-    half.texels.resize(size_t(half.width) * half.height);
-    tbb::parallel_for(0u, half.height, [&](u32 y) {
-        const Cover rows = cover_of(y, half.height, picture.height);
-        for (u32 x = 0; x < half.width; ++x) {
-            const Cover columns = cover_of(x, half.width, picture.width);
-            std::array<double, 5> sum{};
+void halve_values(const float* values, u32 width, u32 height, u32 channels, float* half) {
+    const u32 half_width = half_size(width), half_height = half_size(height);
+    tbb::parallel_for(0u, half_height, [&](u32 y) {
+        const Cover rows = cover_of(y, half_height, height);
+        for (u32 x = 0; x < half_width; ++x) {
+            const Cover columns = cover_of(x, half_width, width);
+            std::array<double, 4> sum{};
+            double all = 0;
             for (size_t j = 0; j < rows.count; ++j)
                 for (size_t i = 0; i < columns.count; ++i) {
-                    const vec4& t = picture.texels[(rows.first + j) * picture.width + columns.first + i];
+                    const float* texel = values + ((rows.first + j) * width + columns.first + i) * channels;
                     const double share = rows.share(j) * columns.share(i);
-                    const double values[5] = {double(t.x), double(t.y), double(t.z), double(t.w), 1};
-                    for (size_t c = 0; c < sum.size(); ++c)
-                        sum[c] += share * values[c];
+                    for (size_t c = 0; c < channels; ++c)
+                        sum[c] += share * double(texel[c]);
+                    all += share;
                 }
-            half.texels[size_t(y) * half.width + x] = {float(sum[0] / sum[4]), float(sum[1] / sum[4]),
-                                                       float(sum[2] / sum[4]), float(sum[3] / sum[4])};
+            for (size_t c = 0; c < channels; ++c)
+                half[(size_t(y) * half_width + x) * channels + c] = float(sum[c] / all);
         }
     });
+}
+
+TexelRows halve_picture(const TexelRows& picture) {
+    TexelRows half{half_size(picture.width), half_size(picture.height), {}};
+    half.texels.resize(size_t(half.width) * half.height);
+    halve_values(&picture.texels[0].x, picture.width, picture.height, 4, &half.texels[0].x);
     return half;
 }
 

@@ -9,6 +9,9 @@
 
 namespace clrt {
 
+/// Texture::channel of maps of which alpha is read, or the luminance.
+constexpr u32 CHANNEL_ALPHA = 3, CHANNEL_LUMINANCE = 4;
+
 /// Words that so many texels take in a format (TEXEL_*), but for TEXEL_VERTEX.
 size_t texel_words(u32 format, size_t texels);
 
@@ -16,14 +19,23 @@ size_t texel_words(u32 format, size_t texels);
 /// curve.
 vec4 decode_texel(u32 format, const u32* words, size_t i, const u32* curve);
 
+/// The size of the next smaller level along an axis.
+inline u32 half_size(u32 size) {
+    return size > 1 ? size / 2 : 1;
+}
+
+/// Means over the areas that texels of half the size take of a larger picture, parts of texels counted by
+/// their share; each texel has so many channels, at most 4, one after the other.
+void halve_values(const float* values, u32 width, u32 height, u32 channels, float* half);
+
 /// A picture of linear texels, rows from the top.
 struct TexelRows {
     u32 width = 0, height = 0;
     std::vector<vec4> texels;
 };
 
-/// Half the size, rounded down, at least 1: each texel the mean over the area that it takes of the larger
-/// picture, parts of texels counted by their share. The mean of the picture stays.
+/// Half the size, rounded down, at least 1: each texel by halve_values. The mean of the
+/// picture stays.
 TexelRows halve_picture(const TexelRows& picture);
 
 /// Appends the levels of a picture below itself, down to one texel, to `words`, in its format; those of 8

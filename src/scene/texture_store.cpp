@@ -17,8 +17,6 @@
 namespace clrt {
 namespace {
 
-constexpr u32 CHANNEL_ALPHA = 3, CHANNEL_LUMINANCE = 4;
-
 /// What tells normal maps from other pictures: of 23 pictures the normal maps had a share of 0.990 or more of
 /// texels whose length is within the tolerance of 1, the next, a bluish one, had 0.938.
 constexpr double NORMAL_MAP_TOLERANCE = 0.1, NORMAL_MAP_SHARE = 0.97;

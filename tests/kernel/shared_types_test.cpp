@@ -74,6 +74,12 @@ const Layout EMITTER = {
     sizeof(Emitter),
     {M(triangle), M(alias), M(threshold), M(pdf_a)}};
 #undef M
+#define M(name) MEMBER(EmitterPart, name)
+const Layout EMITTER_PART = {
+    "EmitterPart",
+    sizeof(EmitterPart),
+    {M(b1), M(b2), M(step), M(code)}};
+#undef M
 #define M(name) MEMBER(Light, name)
 const Layout LIGHT = {
     "Light",
@@ -158,7 +164,7 @@ const std::vector<Layout> LAYOUTS = {
     TRIANGLE,      MATERIAL,      MATERIAL_EXTENSION, TEXTURE,      EMITTER,
     INSTANCE,      LIGHT,         SKY_TILE_LAYOUT,    LIGHT_NODE,   LIGHT_PLACE,
     CAMERA_PARAMS, RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL,
-    CHAIN,         CHAIN_LAUNCH};
+    CHAIN,         CHAIN_LAUNCH,  EMITTER_PART};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.

@@ -54,6 +54,9 @@ void make_maps(TestScene& scene) {
     }
     scene.texture8("colour.png", 8, 8, 3, colour);
     scene.texture8("mask.png", 8, 8, 1, mask);
+    std::vector<unsigned char> spots(64, 20);
+    spots[9] = spots[44] = 255;
+    scene.texture8("spots.png", 8, 8, 1, spots);
     scene.texture("normal.exr", 8, 8, 3, normal);
     scene.texture("sky.exr", 8, 8, 3, sky);
     scene.build.material("mapped", "Kd 0.8 0.8 0.8\nmap_Kd colour.png\nnorm normal.exr");
@@ -64,6 +67,9 @@ void make_maps(TestScene& scene) {
     scene.build.use("leaf").textured_quad({{-1, 0.1, 0.5}, {1, 0.1, 0.5}, {1, 1.5, 0.3}, {-1, 1.5, 0.3}});
     scene.build.use("rough").icosphere({0.6, 0.5, -0.4}, 0.4, 1);
     scene.build.use("frosted").icosphere({-0.6, 0.5, -0.4}, 0.4, 1);
+    scene.build.material("lamp", "Kd 0 0 0\nKe 8 7 5\nmap_Ke spots.png")
+        .use("lamp")
+        .textured_quad({{-1.5, 1.8, 0}, {-1, 1.8, 0}, {-1, 1.9, 0.5}, {-1.5, 1.9, 0.5}});
     scene.options.light.environment_file = scene.folder.file("sky.exr");
     scene.options.film.filter = Filter::GAUSSIAN;
     scene.options.scene.texture_filter = TextureFilter::FOOTPRINT;

@@ -45,6 +45,7 @@ FAULTS = [
         return light_tree_probability(light_tree_width(scene, view, emitter)) *
                (real)scene->light_places[emitter].density;
 """, "", "light_sampler_test"),
+    ("parts of lamps met by chance are the first", "geometry/emitter_part.h", "= emitter_part_digits(b1, b2);", "= 0u;", "emitter_part_test"),
     ("guided directions without the guide's density", "path/guide.h",
      "next.weight = value.value / mixture;", "next.weight = value.value / value.pdf_w;", "guide_test"),
     ("directions of the BSDF as if nothing were guided", "path/guide.h", "    next.weight /= guide->ratio;\n", "", "guide_test"),
@@ -62,8 +63,7 @@ FAULTS = [
      "surface_sides_test"),
     ("rounded normals make a wall curved", "geometry/surface.h", "if (nearest >= SURFACE_FLAT_COS)", "if (false)", "surface_test"),
     ("parts of a BSDF shine through", "path/filter.h", "accepting == FILTER_LETTERS || vector_is_black(whole)",
-     "accepting == FILTER_LETTERS",
-     "surface_sides_test"),
+     "accepting == FILTER_LETTERS", "surface_sides_test"),
     ("walls that edges hide are hit", "path/visibility.h", "nearer.triangle == NO_INDEX ||", "true ||", "surface_sides_test"),
     ("sampler address used for all bounces", "numerics/sampler.h", "return bounce * SAMPLER_PURPOSES + purpose;",
      "return purpose;", "interreflection_test"),

@@ -186,7 +186,11 @@ void SceneOfEffects::add_materials() {
                        : "illum 7" + turned + (has(EFFECT_ROUGH_REFRACTION) ? "" : "\nthin_walled 1"));
     build.material("turned_glass", "illum 7" + turned);
     build.material("screen", base + "\nd 0.6" + map("map_d"));
-    build.material("lamp", "Kd 0 0 0\nKe 8 7 5" + map("map_Ke"));
+    std::vector<unsigned char> lamp(64, has(EFFECT_MAPPED_EMISSION) ? 20 : 230);
+    lamp[9] = lamp[44] = 230;
+    texture8("lamp.png", 8, 8, 1, lamp);
+    build.material("lamp",
+                   std::string("Kd 0 0 0\nKe 8 7 5") + (has(EFFECT_TEXTURES) ? "\nmap_Ke lamp.png" : ""));
 }
 
 void SceneOfEffects::add_bodies() {
