@@ -42,10 +42,11 @@ REPORT = [
                            "pixel, tiles of 8 x 8, and by a tenth of the picture's mean where that is more, so that noise in the "
                            "dark counts as it is seen; --adaptive=relative makes it least, and --error then judges by it. "
                            "Absolute: what stands under `error' otherwise."),
-    ("chosen", "With --integrator auto: the integrator that rendered the picture, and why: what the options or the scene "
+    ("chosen", "Where no integrator is named: the one that rendered the picture, and why: what the options or the scene "
                "leave, or the efficiency of each integrator (1 over squared error times work, that of path being 1) by a pilot. "
-               "The pilot is a coarse picture of at most 5 % of the work, which is counted in rays; its samples are dropped, and "
-               "the picture is the one that --integrator with this name gives."),
+               "Pilots are coarse pictures of at most 5 % of the work, which is counted in rays; their samples are dropped, and "
+               "the picture is the one that --integrator with this name gives. Without the line it is path: the picture takes too "
+               "few samples for a pilot, or path finds the light by itself. With --integrator auto others are tried even so."),
     ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
      "of a sample; the cells of space that have learnt, and the memory that they take."),
     ("chains", "Of --integrator mlt: steps of Markov chains in this run, one for every sample of every pixel, or a few more so "

@@ -209,6 +209,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
     // Understand the values (the last one counts unless they make a list), fill in the picture's name, and
     // see whether all of it fits together and can be written.
+    options.transport.choose = Toggle::AUTO; // unless --integrator says
     for (const GivenOption& option : given) {
         option.spec->apply(options, option.value);
         const std::string& origin = option.value.origin; // "file:line: "

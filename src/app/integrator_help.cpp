@@ -13,7 +13,8 @@ namespace {
 
 const Integrator DEFAULT_INTEGRATOR = TransportOptions{}.integrator;
 const char* const CHOICE_HELP = "path, path+light or bdpt, as small pilot pictures find least noise for the "
-                                "work; the plan is printed";
+                                "work; where none is named, others than path are tried only if its own is "
+                                "noisy";
 
 /// Calls `say` with every row; those that simulate most come first.
 template <typename Say>
@@ -29,7 +30,7 @@ std::string integrator_choices() {
     for_each_row(
         [&](const IntegratorRow& row) { choices.push_back(fmt::format("{} ({})", row.name, row.help)); });
     choices.push_back(fmt::format("{} ({})", CHOSEN_INTEGRATOR, CHOICE_HELP));
-    return fmt::format("{} (default {})", alternatives(choices), name_of(DEFAULT_INTEGRATOR));
+    return fmt::format("{} (default {})", alternatives(choices), CHOSEN_INTEGRATOR);
 }
 
 std::string depth_defaults() {

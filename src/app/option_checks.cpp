@@ -311,7 +311,7 @@ void check_strategies(const Options& options) {
     if (!options.output.strategies)
         return;
     const std::string found =
-        options.transport.choose ? CHOSEN_INTEGRATOR : name_of(options.transport.integrator);
+        options.transport.choose == Toggle::OFF ? name_of(options.transport.integrator) : CHOSEN_INTEGRATOR;
     if (options.transport.integrator != Integrator::BDPT)
         reject(options, std::string("option --aov strategies: expected --integrator ") +
                             name_of(Integrator::BDPT) + ", found " + found +

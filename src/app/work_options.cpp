@@ -42,8 +42,8 @@ std::string layouts_and_qualities() {
 
 void apply_integrator(Options& o, const OptionValue& v) {
     const std::optional<Integrator> named = find_named<Integrator>(v.text);
-    o.transport.choose = v.text == CHOSEN_INTEGRATOR;
-    if (!named && !o.transport.choose) {
+    o.transport.choose = v.text == CHOSEN_INTEGRATOR ? Toggle::ON : Toggle::OFF;
+    if (!named && o.transport.choose == Toggle::OFF) {
         std::vector<std::string> names;
         for (const IntegratorRow& row : INTEGRATOR_ROWS)
             names.emplace_back(row.name);

@@ -248,4 +248,9 @@ std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels, ErrorM
     return squared ? relative_error(*squared) : std::nullopt;
 }
 
+double sample_error(const Film& film, ErrorMeasure measure) {
+    const auto error = film_error(film, ErrorPixels::SCENE, measure);
+    return error ? error->relative_rmse * error->relative_rmse * double(film_samples(film)) : 0;
+}
+
 } // namespace clrt

@@ -73,4 +73,7 @@ std::optional<FilmError> relative_error(const SquaredError& error);
 std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels = ErrorPixels::SCENE,
                                     ErrorMeasure measure = ErrorMeasure::MSE);
 
+/// Squared relative error of one sample a pixel, as if noise fell by their number; 0 where none can be told.
+double sample_error(const Film& film, ErrorMeasure measure);
+
 } // namespace clrt

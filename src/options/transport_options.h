@@ -16,7 +16,9 @@ inline constexpr const char* CHOSEN_INTEGRATOR = "auto";
 /// An integrator reads those of the others that its row takes (options/integrators.h).
 struct TransportOptions {
     Integrator integrator = Integrator::PATH;
-    bool choose = false;             ///< --integrator auto: `integrator` is path until one is chosen
+    /// Whether an integrator is chosen, `integrator` being path until one is: asked for, or, as no other is
+    /// named, where a pilot can tell (render/integrator_choice.h).
+    Toggle choose = Toggle::OFF;
     std::optional<int> max_depth;    ///< path segments; none: as many as the integrator's row says
     int roulette_depth = 5;          ///< first segment that Russian roulette may end
     double min_contribution = 0.002; ///< smallest weight worth a ray

@@ -37,12 +37,6 @@ double rays_per_sample(const RenderCounts& counts) {
     return double(counts.rays()) / double(std::max<std::uint64_t>(counts.primary, 1));
 }
 
-/// Squared relative error of one sample, by a measure (film/error_measure.h); 0 where none can be told.
-double sample_error(const Film& film, ErrorMeasure measure) {
-    const auto error = film_error(film, ErrorPixels::SCENE, measure);
-    return error ? error->relative_rmse * error->relative_rmse * double(film_samples(film)) : 0;
-}
-
 /// Pixels that errors are stated over.
 double error_pixels(const Film& film) {
     return has_backdrop(film) ? double(*film_shown_pixels(film)) : double(film_plane(film) / 3);

@@ -37,6 +37,10 @@ struct Candidate {
 constexpr Candidate CANDIDATES[] = {{Integrator::PATH_LIGHT, 1.35, 1, 0, 1.3, 1.7, 1.5},
                                     {Integrator::BDPT, 1.25, 1.2, 1, 1.3, 1.7, 1.5}};
 
+/// Squared relative error of one sample of path from which on others are tried where none is named. Below it
+/// light is found without them.
+constexpr double HARD_LIGHT_ERROR = 2;
+
 /// What is expected to gain less than this is not taken: pilots were up to a third off.
 constexpr double WORTHWHILE_GAIN = 1.1;
 
@@ -50,6 +54,8 @@ std::optional<std::string> reason_for_path(const Options& options) {
         return "--adaptive gives samples to tiles, and light paths reach all of them at once";
     if (options.transport.guide == Toggle::ON)
         return "--guide on guides paths from the eye";
+    if (options.scene.texture_filter != TextureFilter::NONE)
+        return "--texture-filter follows paths from the eye";
     return std::nullopt;
 }
 
@@ -79,9 +85,9 @@ std::vector<Candidate> candidates_of(const PlannedScene& planned) {
     return candidates;
 }
 
-/// Samples of path that a sample of every candidate's pilot costs.
+/// Samples of path that a sample of every pilot costs, path's own included.
 double pilot_work(const std::vector<Candidate>& candidates, const Options& options) {
-    double work = 0;
+    double work = options.transport.choose == Toggle::AUTO ? 1 : 0;
     for (const Candidate& candidate : candidates)
         work += candidate.pilot_eye + candidate.pilot_light * light_paths_a_sample(options);
     return work;
@@ -116,6 +122,14 @@ void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned
     if (longest_paths(integrator, asked) < longest_paths(Integrator::PATH, asked))
         planned.options.transport.max_depth = longest_paths(integrator, asked);
     take_integrator(integrator, planned);
+}
+
+/// Whether path finds the light by itself, as its pilot tells.
+bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, const PilotSize& size,
+                   std::shared_ptr<const SceneTree>& tree) {
+    const PreparedScene prepared = prepare_render(device, planned, {tree, nullptr});
+    tree = prepared.tree;
+    return path_pilot_error(prepared, size) < HARD_LIGHT_ERROR;
 }
 
 /// Decides by pilots, a candidate after the other.
@@ -201,24 +215,32 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     const auto start = std::chrono::steady_clock::now();
     IntegratorChoice choice;
     choice.integrator = planned->options.transport.integrator;
-    choice.is_asked = planned->options.transport.choose;
-    if (!choice.is_asked)
+    const Toggle wish = planned->options.transport.choose;
+    if (wish == Toggle::OFF)
         return choice;
     const std::vector<Candidate> candidates = candidates_of(*planned);
+    if (wish == Toggle::AUTO && !size_of_pilots(candidates, planned->options))
+        return choice;
+    choice.is_told = wish == Toggle::ON;
     if (decide_by_facts(*planned, candidates, choice))
         take_integrator(choice.integrator, *planned);
     else {
         progress.update({"pilot", -1, 0, -1, -1});
-        decide(device, planned, candidates, tree, choice);
+        if (wish == Toggle::ON || !path_suffices(device, planned, choice.pilot, tree)) {
+            decide(device, planned, candidates, tree, choice);
+            choice.is_told = true;
+        }
     }
+    choice.is_told = choice.is_told || choice.integrator != Integrator::PATH;
     choice.seconds = seconds_since(start);
     progress.finish();
-    spdlog::info("integrator: {}", choice_text(choice));
+    if (choice.is_told)
+        spdlog::info("integrator: {}", choice_text(choice));
     return choice;
 }
 
 std::string choice_text(const IntegratorChoice& choice) {
-    return choice.is_asked ? fmt::format("{}: {}", name_of(choice.integrator), choice.reason) : "";
+    return choice.is_told ? fmt::format("{}: {}", name_of(choice.integrator), choice.reason) : "";
 }
 
 } // namespace clrt

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// --integrator auto: which integrator renders the picture.
+// Which integrator renders the picture, where none is named or --integrator is auto.
 //
 // What it must be able to do decides first: options that only path takes, light that path cannot find, a film
 // that is gone on with. Where several could, each but path takes a pilot (render/pilot.h), all together at
 // most PILOT_SHARE of the render's work, and the integrator with the least squared error times work wins:
-// each is compared with what its own samples tell of path. Work is counted in rays, each weighing what it was
-// measured to cost, never in seconds: the same picture comes out everywhere. The pilots' samples are dropped,
-// so that the picture is, bit for bit, that of the integrator by name.
+// each is compared with what its own samples tell of path. Where none is named, path takes a pilot before
+// them, by the program of the picture, and where that finds the light nothing else is compiled. Work is
+// counted in rays, each weighing what it was measured to cost, never in seconds: the same picture comes out
+// everywhere. The pilots' samples are dropped, so that the picture is, bit for bit, that of the integrator by
+// name.
 //
 // Where --max-depth is not asked for, bdpt takes as long paths as it can, and only where none in its pilot
 // was longer.
@@ -36,8 +38,8 @@ struct IntegratorPrice {
 /// Which integrator renders, and why.
 struct IntegratorChoice {
     Integrator integrator = Integrator::PATH;
-    bool is_asked = false;               ///< by --integrator auto; else it is that of the options
-    std::string reason;                  ///< in words, where it was asked
+    bool is_told = false; ///< auto was asked for, or others than path were tried or taken
+    std::string reason;   ///< in words, where it is told
     PilotSize pilot;                     ///< of each; 0 spp: there was none
     std::vector<IntegratorPrice> prices; ///< that it has found out
     double seconds = 0; ///< of choosing, compilation and tree included; nothing depends on it
@@ -46,12 +48,12 @@ struct IntegratorChoice {
 /// Size of the pilots of a render; none where so small ones tell nothing.
 std::optional<PilotSize> pilot_size(const PlannedScene& planned);
 
-/// Chooses, where --integrator auto asks, says so, and plans for what is chosen. `tree` is that of the plan,
+/// Chooses, unless an integrator is named, says so, and plans for what is chosen. `tree` is that of the plan,
 /// or null; where the pilot needed one it is there. Throws DeviceError, KernelBuildError and SceneError.
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
                                    std::shared_ptr<const SceneTree>& tree, Progress& progress);
 
-/// "path+light: ..." for the report; empty where nothing was asked.
+/// "path+light: ..." for the report; empty where nothing is told.
 std::string choice_text(const IntegratorChoice& choice);
 
 } // namespace clrt

@@ -48,11 +48,9 @@ struct PilotRender {
     double light_paths = 0;
 };
 
-PilotRender render_pilot(const PreparedScene& prepared, const PilotSize& size) {
+/// The film of a pilot before its samples, and the constants of its launch.
+RenderParams begin_pilot(const PreparedScene& prepared, const PilotSize& size, Film& film) {
     const PlannedScene& planned = *prepared.planned;
-    PilotRender pilot;
-    RenderProgress& render = pilot.render;
-    Film& film = render.film;
     film.scale = film_scale(planned.scene);
     RenderParams params = make_render_params(planned.scene, pilot_options(planned.options, size), film.scale);
     restrict_lights(planned.effects.paths, params);
@@ -62,19 +60,33 @@ PilotRender render_pilot(const PreparedScene& prepared, const PilotSize& size) {
     film.ranges = {{0, size.spp}};
     film.sums.resize(PILOT_REPLICATES * film_plane(film));
     film.shown.assign(film_plane(film) / 3, 0);
-    render.path_layers.assign(MOMENTS_PLANES, film_layer(film));
-    for (Film& layer : render.path_layers)
-        layer.sums.resize(film_plane(film));
-    const FilmBuffers buffers(prepared.device, params, MOMENTS_PLANES);
-    const Program program = build_pilot_program(prepared);
-    Launcher launcher(prepared.device, program, integrator_kernel(planned.options.transport.integrator),
-                      params, prepared.buffers);
+    return params;
+}
+
+/// Renders its samples by a program, with so many layers.
+void launch_pilot(const PreparedScene& prepared, const Program& program, const RenderParams& params,
+                  const PilotSize& size, size_t layers, RenderProgress& render) {
+    const FilmBuffers buffers(prepared.device, params, layers);
+    Launcher launcher(prepared.device, program,
+                      integrator_kernel(prepared.planned->options.transport.integrator), params,
+                      prepared.buffers);
     buffers.bind(launcher.kernel());
     launcher.run(0, size.spp, 0, params.tile_count);
     buffers.read_sums(render);
-    buffers.read_shown(film);
+    buffers.read_shown(render.film);
     render.counts = buffers.read_counts();
     render.counts.primary = size.samples();
+}
+
+PilotRender render_pilot(const PreparedScene& prepared, const PilotSize& size) {
+    PilotRender pilot;
+    RenderProgress& render = pilot.render;
+    Film& film = render.film;
+    const RenderParams params = begin_pilot(prepared, size, film);
+    render.path_layers.assign(MOMENTS_PLANES, film_layer(film));
+    for (Film& layer : render.path_layers)
+        layer.sums.resize(film_plane(film));
+    launch_pilot(prepared, build_pilot_program(prepared), params, size, MOMENTS_PLANES, render);
     pilot.light_paths = double(params.light_path_count) / (double(film.width) * double(film.height));
     return pilot;
 }
@@ -146,6 +158,13 @@ void count_rays(const PilotRender& pilot, PilotResult& result) {
 }
 
 } // namespace
+
+double path_pilot_error(const PreparedScene& prepared, const PilotSize& size) {
+    RenderProgress render;
+    const RenderParams params = begin_pilot(prepared, size, render.film);
+    launch_pilot(prepared, prepared.programs->picture, params, size, 0, render);
+    return sample_error(render.film, ErrorMeasure::RELATIVE);
+}
 
 PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {
     const PilotRender pilot = render_pilot(prepared, size);

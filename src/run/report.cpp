@@ -104,9 +104,9 @@ void add_facts(const Report& report, Metadata& metadata) {
         metadata.emplace_back("device.facts", describe_facts(*report.facts));
 }
 
-/// Null without --integrator auto.
+/// Null where nothing is told of a choice.
 Json choice_json(const IntegratorChoice& choice) {
-    if (!choice.is_asked)
+    if (!choice.is_told)
         return nullptr;
     Json json;
     json["integrator"] = name_of(choice.integrator);

@@ -17,7 +17,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheInterface) {
     const Options o = parse({});
     EXPECT_EQ(o.scene.path, "scene.obj");
     EXPECT_EQ(o.transport.integrator, Integrator::PATH);
-    EXPECT_FALSE(o.transport.choose);
+    EXPECT_EQ(o.transport.choose, Toggle::AUTO);
     EXPECT_FALSE(o.sampling.spp);
     EXPECT_FALSE(o.sampling.time_seconds);
     EXPECT_FALSE(o.sampling.error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// --integrator auto: what decides, that a pilot's figures are those of the integrators, and that the picture
-// is that of the one that is chosen.
+// The choice of an integrator: what decides, that a pilot's figures are those of the integrators, and that
+// the picture is that of the one that is chosen.
 #include "film/film_error.h"
 #include "render/integrator_choice.h"
 #include "support/render_scene.h"
@@ -30,7 +30,7 @@ struct Box : TestScene {
         options.sampling.spp = 512; // with pilots of two integrators
         options.sampling.replicates = 4;
         options.light.environment = glm::dvec3(0);
-        options.transport.choose = true;
+        options.transport.choose = Toggle::ON;
     }
     void add_lamp(double side) {
         build.use("lamp").polygon(
@@ -57,7 +57,7 @@ struct Box : TestScene {
 double squared_error(const Box& box, Integrator integrator) {
     Options options = box.options;
     options.transport.integrator = integrator;
-    options.transport.choose = false;
+    options.transport.choose = Toggle::OFF;
     options.sampling.spp = 512;
     options.sampling.replicates = 64; // 8 samples each: nets as of a pilot
     const auto error =
@@ -137,6 +137,22 @@ TEST(IntegratorChoice, LightBehindAScreenIsLeftToPathsFromBothEnds) {
     EXPECT_LT(told, 1.7 * measured);
 }
 
+TEST(IntegratorChoice, WhereNoneIsNamedOthersAreTriedIfPathIsNoisy) {
+    for (const bool is_noisy : {false, true}) {
+        Box box;
+        box.options.transport.choose = Toggle::AUTO;
+        box.add_lamp(is_noisy ? 0.05 : 1.2);
+        box.add_glass();
+        const Chosen chosen = box.choose();
+        EXPECT_EQ(chosen.choice.integrator, is_noisy ? Integrator::PATH_LIGHT : Integrator::PATH);
+        EXPECT_EQ(chosen.choice.is_told, is_noisy) << chosen.choice.reason;
+        EXPECT_EQ(chosen.choice.prices.size(), is_noisy ? 3u : 0u);
+        EXPECT_TRUE(chosen.tree) << "path's pilot has one";
+        box.options.sampling.spp = 64; // too short for pilots
+        EXPECT_FALSE(box.choose().choice.is_told || box.choose().tree);
+    }
+}
+
 TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     // A lamp in a tube: nearly all that is seen comes off a small spot of the ceiling, and what paths from
     // the eye would scatter by is told by connections to it.
@@ -182,7 +198,7 @@ TEST(IntegratorChoice, ThePictureIsThatOfTheChosenOne) {
         const Chosen chosen = box.choose();
         const Render render =
             render_silently(prepare_render(test_device(), chosen.planned, {chosen.tree, nullptr}));
-        box.options.transport.choose = false;
+        box.options.transport.choose = Toggle::OFF;
         box.options.transport.integrator = chosen.choice.integrator;
         EXPECT_TRUE(render.film.sums == box.render().film.sums) << name_of(chosen.choice.integrator);
     }
@@ -228,6 +244,8 @@ TEST(IntegratorChoice, WhatOptionsNeedComesFirst) {
     EXPECT_EQ(reason([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "--aov");
     EXPECT_EQ(reason([](Options& o) { o.sampling.adaptive = ErrorMeasure::RELATIVE; }), "--adaptive");
     EXPECT_EQ(reason([](Options& o) { o.transport.guide = Toggle::ON; }), "--guide");
+    EXPECT_EQ(reason([](Options& o) { o.scene.texture_filter = TextureFilter::FOOTPRINT; }),
+              "--texture-filter");
     EXPECT_EQ(reason([](Options& o) { o.sampling.spp = 8; }), "too");
 }
 
