@@ -46,7 +46,7 @@ REPORT = [
                "leave, or the efficiency of each integrator (1 over squared error times work, that of path being 1) by a pilot. "
                "Pilots are coarse pictures of at most 5 % of the work, which is counted in rays; their samples are dropped, and "
                "the picture is the one that --integrator with this name gives. Without the line it is path: the picture takes too "
-               "few samples for a pilot, or path finds the light by itself. With --integrator auto others are tried even so."),
+               "few samples for a pilot, is a part (--first-sample), or path finds the light by itself and there are no caustics to be."),
     ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
      "of a sample; the cells of space that have learnt, and the memory that they take."),
     ("chains", "Of --integrator mlt: steps of Markov chains in this run, one for every sample of every pixel, or a few more so "

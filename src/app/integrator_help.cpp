@@ -14,7 +14,7 @@ namespace {
 const Integrator DEFAULT_INTEGRATOR = TransportOptions{}.integrator;
 const char* const CHOICE_HELP = "path, path+light or bdpt, as small pilot pictures find least noise for the "
                                 "work; where none is named, others than path are tried only if its own is "
-                                "noisy";
+                                "noisy or there may be caustics, and not with --first-sample";
 
 /// Calls `say` with every row; those that simulate most come first.
 template <typename Say>

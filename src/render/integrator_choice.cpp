@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <spdlog/spdlog.h>
 
 namespace clrt {
@@ -124,9 +125,12 @@ void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned
     take_integrator(integrator, planned);
 }
 
-/// Whether path finds the light by itself, as its pilot tells.
+/// Whether path finds the light by itself, as its pilot tells. Caustics it may find so seldom that its pilot
+/// looks clean without them.
 bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, const PilotSize& size,
                    std::shared_ptr<const SceneTree>& tree) {
+    if (has_caustics(*planned))
+        return false;
     const PreparedScene prepared = prepare_render(device, planned, {tree, nullptr});
     tree = prepared.tree;
     return path_pilot_error(prepared, size) < HARD_LIGHT_ERROR;
@@ -181,12 +185,28 @@ std::optional<PilotSize> size_of_pilots(const std::vector<Candidate>& candidates
     return PilotSize{std::max(int(width * scale), 1), std::max(int(height * scale), 1), PILOT_SPP};
 }
 
+/// Whether others than path are looked at where none is named: not for short renders, nor for parts of a
+/// picture, which are to be of one integrator however long they are. A film says what it goes on with.
+bool may_try(const std::vector<Candidate>& candidates, const Options& options) {
+    if (!options.film_file.resume_path.empty())
+        return true;
+    return options.run.given.count("--first-sample") == 0 && size_of_pilots(candidates, options);
+}
+
+/// The integrator of a film that one of those chosen from has rendered; else path, which the film refuses.
+Integrator integrator_of_film(const std::string& path) {
+    const Integrator integrator = film_integrator(read_film_content(path).identity);
+    const bool is_candidate =
+        std::any_of(std::begin(CANDIDATES), std::end(CANDIDATES),
+                    [&](const Candidate& candidate) { return candidate.integrator == integrator; });
+    return is_candidate ? integrator : Integrator::PATH;
+}
+
 /// Decides by what the options and the scene say; false where pilots must, whose size is set.
 bool decide_by_facts(const PlannedScene& planned, const std::vector<Candidate>& candidates,
                      IntegratorChoice& choice) {
     if (!planned.options.film_file.resume_path.empty()) {
-        choice.integrator =
-            film_integrator(read_film_content(planned.options.film_file.resume_path).identity);
+        choice.integrator = integrator_of_film(planned.options.film_file.resume_path);
         choice.reason = "as the film that is gone on with";
     } else if (const auto reason = reason_for_path(planned.options)) {
         choice.reason = *reason;
@@ -219,7 +239,7 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     if (wish == Toggle::OFF)
         return choice;
     const std::vector<Candidate> candidates = candidates_of(*planned);
-    if (wish == Toggle::AUTO && !size_of_pilots(candidates, planned->options))
+    if (wish == Toggle::AUTO && !may_try(candidates, planned->options))
         return choice;
     choice.is_told = wish == Toggle::ON;
     if (decide_by_facts(*planned, candidates, choice))

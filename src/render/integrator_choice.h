@@ -4,8 +4,9 @@
 // What it must be able to do decides first: options that only path takes, light that path cannot find, a film
 // that is gone on with. Where several could, each but path takes a pilot (render/pilot.h), all together at
 // most PILOT_SHARE of the render's work, and the integrator with the least squared error times work wins:
-// each is compared with what its own samples tell of path. Where none is named, path takes a pilot before
-// them, by the program of the picture, and where that finds the light nothing else is compiled. Work is
+// each is compared with what its own samples tell of path. Where none is named and the
+// scene cannot have caustics, path takes a pilot before them, by the program of the picture, and where that
+// finds the light nothing else is compiled. Work is
 // counted in rays, each weighing what it was measured to cost, never in seconds: the same picture comes out
 // everywhere. The pilots' samples are dropped, so that the picture is, bit for bit, that of the integrator by
 // name.
@@ -38,8 +39,8 @@ struct IntegratorPrice {
 /// Which integrator renders, and why.
 struct IntegratorChoice {
     Integrator integrator = Integrator::PATH;
-    bool is_told = false; ///< auto was asked for, or others than path were tried or taken
-    std::string reason;   ///< in words, where it is told
+    bool is_told = false;                ///< auto was asked for, or others than path were tried or taken
+    std::string reason;                  ///< in words, where it is told
     PilotSize pilot;                     ///< of each; 0 spp: there was none
     std::vector<IntegratorPrice> prices; ///< that it has found out
     double seconds = 0; ///< of choosing, compilation and tree included; nothing depends on it

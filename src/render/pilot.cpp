@@ -163,7 +163,7 @@ double path_pilot_error(const PreparedScene& prepared, const PilotSize& size) {
     RenderProgress render;
     const RenderParams params = begin_pilot(prepared, size, render.film);
     launch_pilot(prepared, prepared.programs->picture, params, size, 0, render);
-    return sample_error(render.film, ErrorMeasure::RELATIVE);
+    return film_error(render.film) ? sample_error(render.film, ErrorMeasure::RELATIVE) : HUGE_VAL;
 }
 
 PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {

@@ -34,8 +34,8 @@ struct PilotResult {
 };
 
 /// The relative squared error of one sample a pixel by path, which the scene is prepared for with its
-/// programs, in a picture of the pilot's size; 0 where it finds no light. As independent of the rest as
-/// run_pilot, and throws the same.
+/// programs, in a picture of the pilot's size; infinite where it finds no light. As independent of the rest
+/// as run_pilot, and throws the same.
 double path_pilot_error(const PreparedScene& prepared, const PilotSize& size);
 
 /// Renders it with a program of its own. The scene is prepared for path+light or bdpt, with or without

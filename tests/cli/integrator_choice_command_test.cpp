@@ -74,6 +74,9 @@ TEST_F(ChoiceCommand, AFilmGoesOnByItsIntegrator) {
     const auto other = clrt(small({"-i", "auto", "--resume", "b.film", "-s", "16", "-o", "b.exr"}));
     EXPECT_EQ(other.exit_code, 0) << other.err;
     EXPECT_TRUE(holds(other.out, {"chosen   path+light: as the film that is gone on with"}));
+    const auto unnamed = clrt(small({"--resume", "b.film", "-s", "24", "-o", "b.exr"}));
+    EXPECT_EQ(unnamed.exit_code, 0) << unnamed.err;
+    EXPECT_TRUE(holds(unnamed.out, {"chosen   path+light: as the film that is gone on with"}));
 }
 
 TEST_F(ChoiceCommand, ASampleIsReplayedByTheChosenOne) {

@@ -106,7 +106,7 @@ TEST(Integrators, HelpSaysWhatEachSimulatesAndTakes) {
         EXPECT_TRUE(holds(page, is_default ? "(default " + depth : row.name + (always + depth))) << row.name;
     }
     EXPECT_TRUE(holds(page, "or auto (path, path+light or bdpt, as small pilot"));
-    EXPECT_TRUE(holds(page, "(default path)"));
+    EXPECT_TRUE(holds(page, "(default auto)"));
     EXPECT_TRUE(holds(page, "--roulette-depth N light, path, path+light, bdpt: first segment"));
     EXPECT_TRUE(holds(page, "--min-contribution X whitted, distribution: smallest weight worth a ray"));
     EXPECT_TRUE(holds(page, "--paths EXPR distribution, path: simulate only these paths"));

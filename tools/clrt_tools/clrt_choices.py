@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The names that an option of clrt takes, asked of the program that will run."""
+import dataclasses
 import re
 import subprocess
 
@@ -42,5 +43,6 @@ class Choices:
         return said.group(1) if said else self.names(option)[0]
 
     def default_method(self):
-        """What clrt does without options."""
-        return Method(**{field: self.default(switch.option) for field, switch in SWITCHES.items() if self.has(switch.option)})
+        """What clrt does without options, by path where it chooses the integrator: a study compares them by name."""
+        method = Method(**{field: self.default(switch.option) for field, switch in SWITCHES.items() if self.has(switch.option)})
+        return dataclasses.replace(method, integrator="path") if method.integrator == "auto" else method
