@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/integrator_choice.h"
 
+#include "console/signals.h"
 #include "film/film_file.h"
 #include "render/render_params.h"
 #include "seconds.h"
@@ -133,7 +134,7 @@ bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& pl
         return false;
     const PreparedScene prepared = prepare_render(device, planned, {tree, nullptr});
     tree = prepared.tree;
-    return path_pilot_error(prepared, size) < HARD_LIGHT_ERROR;
+    return path_pilot_error(prepared, size) < HARD_LIGHT_ERROR || stop_signal();
 }
 
 /// Decides by pilots, a candidate after the other.
@@ -148,6 +149,11 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         const PreparedScene prepared = prepare_scene(device, planned, {tree, nullptr});
         tree = prepared.tree;
         const PilotResult pilot = run_pilot(prepared, choice.pilot);
+        if (stop_signal()) {
+            choice = {};
+            choice.reason = "stopped by a signal";
+            break;
+        }
         if (pilot.is_black) {
             choice.reason = "a pilot finds no light";
             break;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/pilot.h"
 
+#include "console/signals.h"
 #include "film/error_measure.h"
 #include "film/film_buffers.h"
 #include "kernels/shared/moment_types.h"
+#include "render/launch_size.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
+#include "seconds.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace clrt {
@@ -63,7 +67,7 @@ RenderParams begin_pilot(const PreparedScene& prepared, const PilotSize& size, F
     return params;
 }
 
-/// Renders its samples by a program, with so many layers.
+/// Renders its samples by a program, with so many layers, until a signal stops it.
 void launch_pilot(const PreparedScene& prepared, const Program& program, const RenderParams& params,
                   const PilotSize& size, size_t layers, RenderProgress& render) {
     const FilmBuffers buffers(prepared.device, params, layers);
@@ -71,7 +75,13 @@ void launch_pilot(const PreparedScene& prepared, const Program& program, const R
                       integrator_kernel(prepared.planned->options.transport.integrator), params,
                       prepared.buffers);
     buffers.bind(launcher.kernel());
-    launcher.run(0, size.spp, 0, params.tile_count);
+    LaunchSize launch_size(prepared.device.info.compute_units);
+    for (u32 first = 0, tiles = 0; first < params.tile_count && !stop_signal(); first += tiles) {
+        tiles = launch_size.tiles(size.spp, params.tile_count - first);
+        const auto start = std::chrono::steady_clock::now();
+        launcher.run(0, size.spp, first, first + tiles);
+        launch_size.took(tiles, size.spp, seconds_since(start));
+    }
     buffers.read_sums(render);
     buffers.read_shown(render.film);
     render.counts = buffers.read_counts();

@@ -38,9 +38,9 @@ struct PilotResult {
 /// as run_pilot, and throws the same.
 double path_pilot_error(const PreparedScene& prepared, const PilotSize& size);
 
-/// Renders it with a program of its own. The scene is prepared for path+light or bdpt, with or without
-/// programs. The same for every seed and range of samples of the picture, and with any number of threads.
-/// Throws DeviceError and KernelBuildError.
+/// Renders it with a program of its own; a signal stops it, and the result is then worth nothing. The scene
+/// is prepared for path+light or bdpt, with or without programs. The same for every seed and range of samples
+/// of the picture, and with any number of threads. Throws DeviceError and KernelBuildError.
 PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size);
 
 } // namespace clrt
