@@ -77,7 +77,7 @@ TEST_F(LookCommand, ClayKeepsLightAndCoverageAndNothingElse) {
     ASSERT_EQ(look({"-o", "clay.exr", "--aov", "none", "--checkpoint", "clay.film"}).exit_code, 0);
     const auto other = look({"-o", "x.exr", "--material", "none", "--resume", "clay.film"});
     EXPECT_EQ(other.exit_code, 2);
-    EXPECT_TRUE(holds(other.err, {"clay.film", "scene: expected"}));
+    EXPECT_TRUE(holds(other.err, {"clay.film", "scene: it is another one"}));
     folder.write("scene.mtl", "newmtl lamp\nKd 0.8 0.8 0.8\nKe 8 8 8\nnewmtl floor\nKd 0.8 0.8 0.8\n"
                               "newmtl glass\nKd 0.8 0.8 0.8\nnewmtl veil\nKd 0.8 0.8 0.8\nd 0.5\n");
     ASSERT_EQ(look({"-o", "words.exr", "--aov", "none", "--material", "none"}).exit_code, 0);
