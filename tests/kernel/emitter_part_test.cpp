@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // geometry/emitter_part.h: which part of a lamp a point is on; points that are chosen by a lamp's map, and
 // that both techniques give them one density.
-#include "probes/random_inputs.h"
 #include "probes/scene_probe.h"
 #include "probes/scratch_scene.h"
 #include "probes/statistics.h"
 #include "scene/emitter_parts.h"
 #include "scene/lights.h"
+#include "support/light_numbers.h"
+#include "support/solid_angle.h"
 #include "support/test_device.h"
 
 #include <glm/vec2.hpp>
@@ -80,13 +81,6 @@ dvec2 weights_of(const Scene& scene, u32 triangle, const dvec3& p) {
             glm::dot(glm::cross(e1, p - p0), n) / glm::dot(n, n)};
 }
 
-double solid_angle(const dvec3& a, const dvec3& b, const dvec3& c) {
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    return 2 *
-           std::abs(std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
-                                                                  glm::dot(b, c) * la + glm::dot(c, a) * lb));
-}
-
 /// The emitter that a point of a triangle is on.
 u32 emitter_at(const Scene& scene, u32 triangle, const dvec2& b) {
     const u32 first = scene.triangles[triangle].emitter, digits = part_at(EMITTER_LARGEST_LEVEL, b);
@@ -115,21 +109,6 @@ std::array<double, 4> quarter_shares(const Scene& scene, u32 emitter, const dvec
         shares[k] = solid_angle(at({0, 0}), at({1, 0}), at({0, 1})) / whole;
     }
     return shares;
-}
-
-struct Samples {
-    std::vector<vec4> positions, words;
-};
-
-Samples samples_at(const dvec3& position, size_t count, u32 seed) {
-    Random random(seed);
-    Samples samples;
-    for (size_t i = 0; i < count; ++i) {
-        const float x = bits_to_float(random.word()), y = bits_to_float(random.word());
-        samples.words.push_back({x, y, 0, 0});
-        samples.positions.push_back(to_vec4(position, random.unit()));
-    }
-    return samples;
 }
 
 const dvec3 POSITIONS[] = {{0.2, -6, 0.1}, {0.1, -0.6, 0.2}, {-0.3, -0.25, 0.3}};
@@ -165,7 +144,7 @@ TEST(EmitterPart, PointsAreChosenByTheTableAndWithinAPartAsOnAnyTriangle) {
     const Scene scene = spotted_lamp("");
     u32 seed = 3;
     for (const dvec3& position : POSITIONS) {
-        const Samples samples = samples_at(position, SAMPLES, ++seed);
+        const LightNumbers samples = light_numbers_at(position, SAMPLES, ++seed);
         const std::vector<vec4> got =
             probe().run("sample", scene, params_of(scene), samples.positions, samples.words).third;
         const u32 emitters = u32(scene.emitters.size());
@@ -194,7 +173,7 @@ TEST(EmitterPart, AHitHasTheDensityOfTheSample) {
     const Scene scene = spotted_lamp("");
     u32 seed = 10;
     for (const dvec3& position : POSITIONS) {
-        const Samples samples = samples_at(position, 20000, ++seed);
+        const LightNumbers samples = light_numbers_at(position, 20000, ++seed);
         const SceneProbe::Outputs got =
             probe().run("sample", scene, params_of(scene), samples.positions, samples.words);
         std::vector<vec4> hits, wo, from, kept;
@@ -227,7 +206,7 @@ TEST(EmitterPart, SamplesGiveTheIrradianceOfTheMap) {
         const Scene scene = spotted_lamp(keys);
         u32 seed = 20;
         for (const dvec3& position : POSITIONS) {
-            const Samples samples = samples_at(position, 200000, ++seed);
+            const LightNumbers samples = light_numbers_at(position, 200000, ++seed);
             const SceneProbe::Outputs got =
                 probe().run("sample", scene, params_of(scene), samples.positions, samples.words);
             std::vector<double> estimates;

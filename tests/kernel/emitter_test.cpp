@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights/emitter.h and light_sample.h: points on emissive triangles, their density per steradian from both
 // techniques, sides, and shadow rays that do not meet the light they are sent to.
-#include "probes/random_inputs.h"
 #include "probes/scene_probe.h"
 #include "probes/statistics.h"
 #include "scene/lights.h"
+#include "support/light_numbers.h"
+#include "support/solid_angle.h"
 #include "support/test_device.h"
 
 #include <glm/vec2.hpp>
@@ -144,30 +145,6 @@ Lamps five_lamps() {
     return lamps;
 }
 
-/// Positions with second numbers, and words; the words are only moved, so NaN patterns stay what they are.
-struct Numbers {
-    std::vector<vec4> positions, words;
-};
-
-Numbers numbers_at(const dvec3& position, size_t count, u32 seed) {
-    Random random(seed);
-    Numbers numbers;
-    for (size_t i = 0; i < count; ++i) {
-        const u32 word = random.word(), alias = random.word();
-        numbers.words.push_back({bits_to_float(word), bits_to_float(alias), 0, 0});
-        numbers.positions.push_back(to_vec4(position, random.unit()));
-    }
-    return numbers;
-}
-
-/// Solid angle of a triangle (van Oosterom and Strackee 1983).
-double solid_angle(const dvec3& a, const dvec3& b, const dvec3& c) {
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    return 2 *
-           std::abs(std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
-                                                                  glm::dot(b, c) * la + glm::dot(c, a) * lb));
-}
-
 /// Whether points are chosen by solid angle (spherical_triangle.h).
 bool looks_large(const dvec3& a, const dvec3& b, const dvec3& c) {
     const double whole = solid_angle(a, b, c), distance = glm::length(a + b + c) / 3;
@@ -213,7 +190,7 @@ std::vector<double> part_shares(const Lamps& lamps, u32 triangle, const dvec3& p
 
 /// p-value of the points that are chosen as seen from a position; each lies on its triangle.
 double points_p_value(const Lamps& lamps, const dvec3& position, size_t samples, u32 seed) {
-    const Numbers numbers = numbers_at(position, samples, seed);
+    const LightNumbers numbers = light_numbers_at(position, samples, seed);
     const std::vector<vec4> targets =
         probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words).third;
     const u32 triangles = u32(lamps.scene.triangles.size());
@@ -288,7 +265,7 @@ TEST(Emitter, BothTechniquesSwitchBetweenAngleAndAreaAtTheSamePoint) {
         double low = 1e-4, high = 10; // the angle falls with the height
         for (int k = 0; k < 60; ++k)
             (angle_at(std::sqrt(low * high)) > limit ? low : high) = std::sqrt(low * high);
-        Numbers numbers = numbers_at({0.05, -0.02, low}, 4000, 31);
+        LightNumbers numbers = light_numbers_at({0.05, -0.02, low}, 4000, 31);
         for (size_t i = 0; i < numbers.positions.size(); ++i)
             numbers.positions[i].z = float(low * (1 + (double(i) - 2000) * 1e-8));
         const SceneProbe::Outputs got =
@@ -317,7 +294,7 @@ TEST(Emitter, TheDensityIsThatOfTheAreaPerSteradianOrTheReciprocalOfTheSolidAngl
     constexpr size_t SAMPLES = 100000;
     const Lamps lamps = five_lamps();
     for (const dvec3& position : {dvec3(0, 0, 0), dvec3(0.9, -0.3, 1.1), dvec3(-1.2, 0.4, -0.8)}) {
-        const Numbers numbers = numbers_at(position, SAMPLES, 2);
+        const LightNumbers numbers = light_numbers_at(position, SAMPLES, 2);
         const SceneProbe::Outputs got =
             probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
         std::vector<vec4> hits, wo, from, kept;
@@ -361,7 +338,7 @@ TEST(Emitter, ReciprocalDensitiesSumToTheSolidAngle) {
     constexpr size_t SAMPLES = 400000;
     const Lamps lamps = five_lamps();
     for (const dvec3& position : {dvec3(0, 0, 0), dvec3(0.5, -0.3, 1.0), dvec3(0.3, 0.3, -1.5)}) {
-        const Numbers numbers = numbers_at(position, SAMPLES, 3);
+        const LightNumbers numbers = light_numbers_at(position, SAMPLES, 3);
         std::vector<double> estimates;
         for (const vec4& sample :
              probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words).first)
@@ -388,7 +365,7 @@ TEST(Emitter, OnlyTheFrontShinesUnlessBothSidesDo) {
     lamps.scene.normals.push_back({0, 0, -1, 0});
     lamps.finish();
     for (const double side : {1.0, -1.0}) {
-        const Numbers numbers = numbers_at({0.2, 0.3, side}, 3000, 4);
+        const LightNumbers numbers = light_numbers_at({0.2, 0.3, side}, 3000, 4);
         const SceneProbe::Outputs got =
             probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
         for (size_t i = 0; i < got.first.size(); ++i) {
@@ -407,7 +384,7 @@ TEST(Emitter, NothingIsFoundInTheLampsPlaneOrOnIt) {
     lamps.finish();
     for (const dvec3& position :
          {dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0.25, 0.25, 0), dvec3(5, -3, 0), dvec3(0.5, 0, 0)}) {
-        const Numbers numbers = numbers_at(position, 1000, 5);
+        const LightNumbers numbers = light_numbers_at(position, 1000, 5);
         const SceneProbe::Outputs got =
             probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
         for (size_t i = 0; i < got.first.size(); ++i)
@@ -415,7 +392,7 @@ TEST(Emitter, NothingIsFoundInTheLampsPlaneOrOnIt) {
     }
     // And just above it, everything is finite.
     for (const double height : {1e-7, 1e-12, 1e-20, 1e-30}) {
-        const Numbers numbers = numbers_at({0.25, 0.25, height}, 1000, 6);
+        const LightNumbers numbers = light_numbers_at({0.25, 0.25, height}, 1000, 6);
         for (const vec4& sample :
              probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words).first) {
             ASSERT_FALSE(std::isnan(sample.w)) << height;
@@ -437,7 +414,7 @@ TEST(Emitter, ShadowRaysEndShortOfTheirLampButReachIt) {
             lamps.add(p, q, q + random.in_cube(size), {1, 1, 1}, MATERIAL_EMITS_BOTH_SIDES);
         }
         lamps.finish();
-        Numbers numbers = numbers_at(random.in_cube(1), SAMPLES / 20, u32(8 + round));
+        LightNumbers numbers = light_numbers_at(random.in_cube(1), SAMPLES / 20, u32(8 + round));
         for (size_t i = 0; i < numbers.words.size(); ++i) {
             vec4& words = numbers.words[i];
             // Equal chances, whatever the size.
@@ -474,7 +451,7 @@ TEST(Emitter, MapsAndCoverageScaleTheRadianceAtThePoint) {
     lamps.scene.materials[0].map_emission = 0;
     lamps.scene.materials[0].matte.w = 0.5f;
     lamps.finish();
-    const Numbers numbers = numbers_at({0, 0, 0}, 5000, 9);
+    const LightNumbers numbers = light_numbers_at({0, 0, 0}, 5000, 9);
     const SceneProbe::Outputs got =
         probe().run("sample", lamps.scene, lamps.params(), numbers.positions, numbers.words);
     for (size_t i = 0; i < got.first.size(); ++i) {
