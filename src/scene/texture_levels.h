@@ -34,8 +34,7 @@ struct TexelRows {
     std::vector<vec4> texels;
 };
 
-/// Half the size, rounded down, at least 1: each texel by halve_values. The mean of the
-/// picture stays.
+/// Half the size, rounded down, at least 1: each texel by halve_values. The mean of the picture stays.
 TexelRows halve_picture(const TexelRows& picture);
 
 /// Appends the levels of a picture below itself, down to one texel, to `words`, in its format; those of 8

@@ -148,15 +148,15 @@ TEST_F(TimeLimit, APassThatTheTimeInterruptsIsDropped) {
             more.insert(more.end(), size.begin(), size.end());
             return more;
         };
-        run_slow(with({"--spp", adaptive ? "16" : "2"}));
-        const double group = seconds("render") / 2;
-        // A machine that is busier by now does not come so far, and in the last launch of a group nothing is
-        // left to interrupt: the next attempt has more time and another moment.
+        // A machine that is busier than when its pace was measured does not come so far, one that is less
+        // busy comes too far, and in the last launch of a group nothing is left to interrupt: the next
+        // attempt measures anew, and has more time and another moment.
         std::string said;
         double dropped = 0;
         for (int attempt = 0; attempt < 6 && (dropped == 0 || stats["spp"] < (adaptive ? 16 : 1));
              ++attempt) {
-            const double pace = group * (1 + 0.15 * attempt);
+            run_slow(with({"--spp", adaptive ? "16" : "2"}));
+            const double pace = seconds("render") / 2 * (1 + 0.15 * attempt);
             CommandSettings settings;
             settings.signals_after_file = "saved.film";
             settings.signals = {{1.35 * pace, SIGSTOP}, {3.2 * pace, SIGCONT}};
