@@ -7,10 +7,12 @@
 #include "output/atomic_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
+#include <system_error>
 #include <xxhash.h>
 
 namespace clrt {
@@ -75,11 +77,11 @@ std::uint64_t guide_bytes(const GuideProgress& progress) {
 class FilmReader {
 public:
     explicit FilmReader(const std::string& path) : path_(path), input_(path, std::ios::binary) {
-        std::error_code error;
-        size_ = std::filesystem::file_size(path, error);
-        if (!input_ || error)
-            throw SceneError(path, 0,
-                             "expected a film file as --checkpoint writes it, found none that can be read");
+        std::error_code error(input_ ? 0 : errno, std::generic_category());
+        if (!error)
+            size_ = std::filesystem::file_size(path, error);
+        if (error)
+            throw SceneError(path, 0, "the film file cannot be opened: " + error.message());
     }
 
     /// Checks the beginning and parses the header.

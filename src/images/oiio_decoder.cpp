@@ -4,8 +4,10 @@
 #include "error.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <optional>
@@ -27,6 +29,14 @@ constexpr std::uint64_t MOST_PNG_PIXELS_A_BYTE = 258 * 4 * 8;
 std::string one_line(std::string message) {
     std::replace(message.begin(), message.end(), '\n', ' ');
     return message;
+}
+
+/// Why a picture could not be opened: what the system says of its file, else what OpenImageIO does.
+std::string reason_not_opened(const std::string& path, bool is_in_memory) {
+    const std::string reason = one_line(OIIO::geterror());
+    if (is_in_memory || std::ifstream(path))
+        return reason;
+    return std::generic_category().message(errno);
 }
 
 /// Reads the rows [begin, end), counted from the top of the file's window.
@@ -99,7 +109,8 @@ StoredImage read_by_oiio(const std::string& path, const std::string* bytes) {
     }
     const auto input = OIIO::ImageInput::open(bytes ? name_by_format(*bytes, path) : path, &config, proxy);
     if (!input)
-        throw SceneError(path, 0, "the picture cannot be opened: " + one_line(OIIO::geterror()));
+        throw SceneError(path, 0,
+                         "the picture cannot be opened: " + reason_not_opened(path, bytes != nullptr));
     const OIIO::ImageSpec spec = input->spec();
     check_size(*input, spec, path, bytes);
 

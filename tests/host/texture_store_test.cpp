@@ -2,6 +2,8 @@
 #include "scene/texture_store.h"
 
 #include "colour.h"
+#include "error.h"
+#include "scene/read_image.h"
 #include "scene_support.h"
 
 #include <array>
@@ -209,6 +211,22 @@ TEST_F(TextureStoreTest, AFileThatVanishesBetweenTwoUsesIsANotice) {
     EXPECT_EQ(add("a.png", TextureRole::NORMAL), NO_INDEX);
     EXPECT_EQ(count_notices(notices, "a.png"), 2);
     EXPECT_EQ(store.texel(texture(0), 0, 0).w, 1) << "what was read stays";
+}
+
+TEST_F(TextureStoreTest, WhyAPictureCannotBeOpenedIsSaid) {
+    const auto refused = [&](const std::string& name) {
+        try {
+            read_image(folder.path(name), ImageEncoding::COLOUR);
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refused("missing.hdr"),
+              folder.path("missing.hdr") + ": the picture cannot be opened: No such file or directory");
+    folder.write("text.hdr", "no picture at all");
+    EXPECT_NE(refused("text.hdr"), "");
+    EXPECT_EQ(refused("text.hdr").find("No such file"), std::string::npos);
 }
 
 TEST_F(TextureStoreTest, PathsOfOtherSystemsAreFound) {
