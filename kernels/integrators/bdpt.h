@@ -31,11 +31,12 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
     if (!bdpt_join(scene, eye, &kept->at[chosen], &connection))
         return;
     ++rays->shadow;
-    const real3 share = (real)count * visible_share(scene, params, &connection.shadow);
+    const real ways = (real)count * light_vertices_share(kept);
+    const real3 share = ways * visible_share(scene, params, &connection.shadow);
     vertex_add(scene, throughput * connection.light * share, &sample->radiance);
     bdpt_book(params, kept->at[chosen].segment + 1u, segment + 1u, sample);
 #if FILM_MOMENTS
-    moments_connect(throughput * connection.light * (share / (real)count), (real)count, connection.excess,
+    moments_connect(throughput * connection.light * (share / ways), ways, connection.excess,
                     &sample->moments);
 #endif
 }
@@ -123,7 +124,7 @@ static CLRT_NOINLINE void bdpt_radiance(const Scene* scene, const RenderParams* 
 {
     LightVertices kept;
     for (uint k = 0; k < count; ++k) {
-        kept.count = 0u;
+        light_vertices_begin(&kept);
         light_paths_trace(scene, params, &samples[k], &kept, rays);
         bdpt_trace(scene, params, &kept, &samples[k], rays);
     }

@@ -270,10 +270,12 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
         return false;
     if (bsdf_has_smooth_lobe(&vertex.bsdf) && !light_path_is_at_caster(segment)) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
-        light_vertices_keep(segment, hit, &path->ray, path->emission.power * path->throughput, &path->weights,
-                            sink->kept);
+        KeptVertex* kept =
+            light_vertices_keep(&path->sampler, segment, hit, &path->ray,
+                                path->emission.power * path->throughput, &path->weights, sink->kept);
 #if FILM_MOMENTS
-        light_vertices_keep_alone(&path->alone, sink->kept);
+        if (kept != 0)
+            kept->alone = path->alone;
 #endif
     }
     return light_path_leave(scene, params, segment, hit, &vertex, path, &sink->watched, rays);

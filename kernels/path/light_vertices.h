@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vertices of a light path that a path from the eye is connected to: kept in private memory, 48 bytes
-// each in single precision. Surface and BSDF are made again where a vertex is connected.
+// each in single precision. Surface and BSDF are made again where a vertex is connected. Of a path that scatters
+// more often than there is room, a random choice is kept, all vertices alike (reservoir sampling, Vitter 1985),
+// and each of them counts for more.
 #ifndef CLRT_PATH_LIGHT_VERTICES_H
 #define CLRT_PATH_LIGHT_VERTICES_H
 
@@ -9,7 +11,7 @@
 
 /* Of a path, at most: a literal of the program (src/render/kernels.h). */
 #ifndef BDPT_VERTICES
-#define BDPT_VERTICES 62
+#define BDPT_VERTICES 30
 #endif
 
 /* The first bit of a kept vertex's wave, above all segments. */
@@ -38,15 +40,41 @@ typedef struct {
 typedef struct {
     KeptVertex at[BDPT_VERTICES];
     uint count;
+    uint met; /* vertices of the path, kept or not */
 } LightVertices;
 
-/* Keeps the vertex at the end of a ray; `kept` may be 0. */
-static inline void light_vertices_keep(uint segment, const Hit* hit, const Ray* ray, real3 power,
-                                       const SplatWeights* weights, LightVertices* kept)
+static inline void light_vertices_begin(LightVertices* kept) { kept->count = kept->met = 0u; }
+
+/* How many vertices of the path a kept one counts for. */
+static inline real light_vertices_share(const LightVertices* kept)
 {
-    if (!INNER_CONNECTIONS || kept == 0 || kept->count >= BDPT_VERTICES)
-        return;
-    KeptVertex* vertex = &kept->at[kept->count++];
+    return (real)kept->met / (real)kept->count;
+}
+
+/* Where the path's next vertex is kept, behind the others; 0 where it is not. */
+static inline KeptVertex* light_vertices_next(const Sampler* sampler, uint segment, LightVertices* kept)
+{
+    ++kept->met;
+    if (kept->count < BDPT_VERTICES)
+        return &kept->at[kept->count++];
+    const uint leaving = warp_index(sampler_word(sampler, segment, SAMPLE_PARTNER), kept->met);
+    if (leaving >= BDPT_VERTICES)
+        return 0;
+    for (uint i = leaving; i + 1u < BDPT_VERTICES; ++i)
+        kept->at[i] = kept->at[i + 1u];
+    return &kept->at[BDPT_VERTICES - 1u];
+}
+
+/* Keeps the vertex at the end of a ray, and tells where; `kept` may be 0. `sampler`: of the light path. */
+static inline KeptVertex* light_vertices_keep(const Sampler* sampler, uint segment, const Hit* hit,
+                                              const Ray* ray, real3 power, const SplatWeights* weights,
+                                              LightVertices* kept)
+{
+    if (!INNER_CONNECTIONS || kept == 0)
+        return 0;
+    KeptVertex* vertex = light_vertices_next(sampler, segment, kept);
+    if (vertex == 0)
+        return 0;
     vertex->triangle = hit->triangle;
 #if CLRT_EFFECTS & EFFECT_INSTANCES
     vertex->instance = hit->instance;
@@ -60,16 +88,8 @@ static inline void light_vertices_keep(uint segment, const Hit* hit, const Ray* 
     vstore3(-ray->direction, 0, vertex->wo);
     vstore3(power, 0, vertex->power);
     vertex->weights = *weights;
+    return vertex;
 }
-
-#if FILM_MOMENTS
-/* Completes the vertex that was kept last. */
-static inline void light_vertices_keep_alone(const SplatWeights* alone, LightVertices* kept)
-{
-    if (INNER_CONNECTIONS && kept != 0)
-        kept->at[kept->count - 1u].alone = *alone;
-}
-#endif
 
 /* The ray that has met a kept vertex, but for its origin. */
 static inline Ray light_vertices_ray(const KeptVertex* kept, real time)

@@ -88,8 +88,8 @@ constexpr int USUAL_PATH_DEPTH = 4096;
 constexpr int USUAL_TREE_DEPTH = 10;
 /// Their rays wait in private memory.
 constexpr int LARGEST_TREE_DEPTH = WHITTED_MAX_DEPTH;
-/// The vertices of a light path wait in private memory for those of the path from the eye.
-constexpr int USUAL_BDPT_DEPTH = 16, LARGEST_BDPT_DEPTH = 64;
+/// Longer paths hardly ever bring more light than they cost.
+constexpr int USUAL_BDPT_DEPTH = 16;
 /// A chain has one length for ever, and every length needs chains.
 constexpr int USUAL_CHAIN_DEPTH = 16;
 /// Rays of a branch at most: several levels have few, because they share those of the first.
@@ -165,7 +165,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      "global illumination, paths from both ends",
      nullptr,
      {"L(D|S)*E", "L(D|S)*E", "LD(D|S)*E|L(D|S)*D(D(D|S)*)?E"},
-     {USUAL_BDPT_DEPTH, LARGEST_BDPT_DEPTH},
+     {USUAL_BDPT_DEPTH, LARGEST_DEPTH},
      SkySampling::BY_TABLE,
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,

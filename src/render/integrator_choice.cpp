@@ -112,17 +112,11 @@ IntegratorPrice price_of(const Candidate& candidate, const PilotResult& pilot, c
     return price;
 }
 
-/// The longest paths that an integrator takes of those that --max-depth, or path, asks for.
-int longest_paths(Integrator integrator, std::optional<int> asked) {
-    const int wanted = asked.value_or(integrator_row(Integrator::PATH).depth.usual);
-    return std::min(wanted, integrator_row(integrator).depth.longest);
-}
-
-/// Has the plan rendered by an integrator.
+/// Has the plan rendered by an integrator, by paths as long as path's.
 void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned) {
     planned.options.transport.max_depth = asked;
-    if (longest_paths(integrator, asked) < longest_paths(Integrator::PATH, asked))
-        planned.options.transport.max_depth = longest_paths(integrator, asked);
+    if (!asked && integrator_row(integrator).depth.usual < USUAL_PATH_DEPTH)
+        planned.options.transport.max_depth = USUAL_PATH_DEPTH;
     take_integrator(integrator, planned);
 }
 
@@ -163,11 +157,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         const IntegratorPrice price = price_of(candidate, pilot, planned->options);
         choice.prices.push_back(price);
         told.push_back(fmt::format("{} {:.2g}", name_of(price.integrator), price.efficiency));
-        const int longest = longest_paths(candidate.integrator, asked);
-        const bool is_whole = longest == longest_paths(Integrator::PATH, asked) || !pilot.is_cut;
-        if (!is_whole)
-            told.back() += fmt::format(" (which would cut paths at {} segments)", longest);
-        if (is_whole && price.efficiency > best) {
+        if (price.efficiency > best) {
             best = price.efficiency;
             choice.integrator = price.integrator;
         }

@@ -11,8 +11,7 @@
 // everywhere. The pilots' samples are dropped, so that the picture is, bit for bit, that of the integrator by
 // name.
 //
-// Where --max-depth is not asked for, bdpt takes as long paths as it can, and only where none in its pilot
-// was longer.
+// Where --max-depth is not asked for, bdpt takes as long paths as path does.
 #pragma once
 
 #include "console/progress.h"

@@ -25,6 +25,9 @@ constexpr std::uint64_t UNASKED_HIT_SAMPLES = 16;
 const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay", GUIDED_ENDING = "_guided",
                   PILOT_ENDING = "_pilot";
 
+/// Vertices that are kept of a light path: they wait in private memory for those of the path from the eye.
+constexpr int MOST_KEPT_VERTICES = 30;
+
 /// For programs that do not simulate several samples of a pixel side by side (kernels/integrators/pixel.h).
 const std::string ONE_SAMPLE_AT_ONCE = "SAMPLES_AT_ONCE=1";
 
@@ -101,7 +104,8 @@ std::vector<std::string> vertex_defines(const TransportOptions& transport) {
     if (transport.integrator != Integrator::BDPT)
         return {};
     // A path has the segments to both vertices of a connection, and the connection.
-    return {fmt::format("BDPT_VERTICES={}", std::max(effective_max_depth(transport) - 2, 1))};
+    return {fmt::format("BDPT_VERTICES={}",
+                        std::clamp(effective_max_depth(transport) - 2, 1, MOST_KEPT_VERTICES))};
 }
 
 std::vector<std::string> strategy_defines(const Options& options) {

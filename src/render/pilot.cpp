@@ -183,7 +183,6 @@ PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {
     for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
         set_errors(render, measure, result);
     count_rays(pilot, result);
-    result.is_cut = render.counts.cut_paths > 0;
     return result;
 }
 

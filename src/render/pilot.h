@@ -30,7 +30,6 @@ struct PilotResult {
     double inner_rays = 0;       ///< between both
     double light_paths = 0;
     bool is_black = false; ///< no light was found: there are no errors
-    bool is_cut = false;   ///< --max-depth has ended paths
 };
 
 /// The relative squared error of one sample a pixel by path, which the scene is prepared for with its

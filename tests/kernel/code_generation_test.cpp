@@ -174,7 +174,7 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
         return bytes("bdpt", {"-DFILM_SPLATS=1", "-D" + vertex_defines(transport).at(0), gpu_layout});
     };
     EXPECT_LT(paired(USUAL_BDPT_DEPTH), 8 << 10);
-    EXPECT_LT(paired(LARGEST_BDPT_DEPTH), 12 << 10);
+    EXPECT_LT(paired(LARGEST_DEPTH), 10 << 10);
     EXPECT_LT(bytes("path", {}), 8 << 10);
     EXPECT_LT(bytes("whitted", {}), 12 << 10);
     EXPECT_LT(bytes("distribution", few_on_gpu), 5 << 10);

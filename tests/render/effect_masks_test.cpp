@@ -115,7 +115,7 @@ TEST(EffectMasks, EveryShippedSceneHasTheBitsOfTheFullProgram) {
             Options options = shipped_options(path);
             options.transport.integrator = integrator;
             const PathDepths& depth = integrator_row(integrator).depth;
-            if (depth.longest < LARGEST_DEPTH) // trees double with every segment
+            if (depth.usual < USUAL_PATH_DEPTH) // trees double with every segment
                 options.transport.max_depth =
                     std::min(options.transport.max_depth.value_or(depth.usual), depth.usual);
             Progress progress(Toggle::OFF, true);
