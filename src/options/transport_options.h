@@ -23,9 +23,9 @@ struct TransportOptions {
     int roulette_depth = 5;          ///< first segment that Russian roulette may end
     double min_contribution = 0.002; ///< smallest weight worth a ray
     Toggle guide = Toggle::AUTO;     ///< directions where paths have found light
-    /// Rays that --guide auto waits for; no option of the command line. What ends sooner is not worth a
-    /// guide's compilation, which takes about as long as a third of them on a core of a CPU.
-    double guide_after_rays = 1 << 25;
+    /// Rays that --guide auto waits for; no option of the command line. They take two cores of a CPU a second
+    /// or two, a guide's first compilation three; waiting longer costs what the guide would have gained.
+    double guide_after_rays = 1 << 22;
     int shadow_rays = 4;      ///< of a vertex to lamps, sky, and every sun with a disc
     int gloss_rays = 4;       ///< of a vertex by a rough reflection
     int translucent_rays = 4; ///< of a vertex by a rough dielectric, reflected and refracted
