@@ -57,8 +57,8 @@ protected:
 };
 
 /// Arguments that keep the device busy for a minute.
-const std::vector<std::string> LONG_RUN = {"lamp.obj", "-t", "60",       "-s",
-                                           "2000000",  "-o", "long.exr", "--checkpoint"};
+const std::vector<std::string> LONG_RUN = {"lamp.obj", "-i",      "path", "-t",       "60",
+                                           "-s",       "2000000", "-o",   "long.exr", "--checkpoint"};
 
 } // namespace
 
@@ -287,8 +287,9 @@ TEST_F(FilmCommand, PicturesSoFarAreSavedAtWholePasses) {
     CommandSettings settings;
     settings.signals = {{0.5, SIGKILL}};
     settings.signals_after_file = "so_far.exr";
-    std::vector<std::string> command{CLRT_EXECUTABLE, "lamp.obj", "-t",         "60",           "-s",
-                                     "2000000",       "-o",       "so_far.exr", "--save-every", "0.1s"};
+    std::vector<std::string> command{
+        CLRT_EXECUTABLE, "lamp.obj", "-i",         "path",         "-t",  "60", "-s",
+        "2000000",       "-o",       "so_far.exr", "--save-every", "0.1s"};
     settings.folder = path();
     settings.environment["CLRT_DEVICE"] = test_device_name();
     EXPECT_EQ(run_command(command, settings).signal, SIGKILL);
