@@ -142,7 +142,7 @@ TEST_F(FilmCommand, MergingSaysWhatDoesNotFit) {
                                      {"seed.film", "seed: expected 0, found 3"},
                                      {"crop.film", "window: expected [0,0,32,24], found [0,0,8,8]"},
                                      {"a.exr", "expected a film file as --checkpoint writes it"},
-                                     {"none.film", "expected a film file"}}) {
+                                     {"none.film", "the film file cannot be opened: No such file"}}) {
         const CommandResult result = merge({"a.film", name, "-o", "out.exr"});
         EXPECT_EQ(result.exit_code, 1) << result.err;
         EXPECT_TRUE(holds(result.err, {std::string("clrt-merge: error: ") + name + ": ", part}));
