@@ -276,6 +276,8 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
 #if FILM_MOMENTS
         if (kept != 0)
             kept->alone = path->alone;
+#else
+        (void)kept;
 #endif
     }
     return light_path_leave(scene, params, segment, hit, &vertex, path, &sink->watched, rays);

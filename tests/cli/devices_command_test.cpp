@@ -111,7 +111,8 @@ TEST_F(DevicesCommand, AStoppedRunIsGoneOnWithByOne) {
     settings.signals_after_file = "f.film";
     settings.signals = {{0.1, SIGINT}};
     const CommandResult stopped = clrt(
-        {"lamp.obj", "--device", two_devices(), "-s", "2000000", "--checkpoint", "f.film,0.3"}, settings);
+        {"lamp.obj", "-i", "path", "--device", two_devices(), "-s", "2000000", "--checkpoint", "f.film,0.3"},
+        settings);
     EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
     const FilmFile film = read_film_file(folder.file("f.film"));
     ASSERT_EQ(film.render.film.ranges.size(), 1u);

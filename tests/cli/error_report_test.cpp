@@ -54,8 +54,8 @@ TEST_F(ErrorReport, AReachedTargetEndsWithZeroWhereSamplesAreEven) {
 // squared error of x without the noise of a and b.
 TEST_F(ErrorReport, AReachedTargetIsTrueOnTheCornellBox) {
     const auto box = [&](const std::string& name, std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), {CLRT_SCENES_FOLDER "/cornell_box/cornell_box.obj", "-r", "64x64",
-                                           "--aov", "none", "--stats", "s.json", "-o", name});
+        arguments.insert(arguments.end(), {CLRT_SCENES_FOLDER "/cornell_box/cornell_box.obj", "-i", "path",
+                                           "-r", "64x64", "--aov", "none", "--stats", "s.json", "-o", name});
         const CommandResult result = clrt(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return ReadPicture(folder.file(name));

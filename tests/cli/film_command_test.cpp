@@ -57,8 +57,8 @@ protected:
 };
 
 /// Arguments that keep the device busy for a minute.
-const std::vector<std::string> LONG_RUN = {"lamp.obj", "-t", "60",       "-s",
-                                           "2000000",  "-o", "long.exr", "--checkpoint"};
+const std::vector<std::string> LONG_RUN = {"lamp.obj", "-i",      "path", "-t",       "60",
+                                           "-s",       "2000000", "-o",   "long.exr", "--checkpoint"};
 
 } // namespace
 
@@ -142,7 +142,7 @@ TEST_F(FilmCommand, MergingSaysWhatDoesNotFit) {
                                      {"seed.film", "seed: expected 0, found 3"},
                                      {"crop.film", "window: expected [0,0,32,24], found [0,0,8,8]"},
                                      {"a.exr", "expected a film file as --checkpoint writes it"},
-                                     {"none.film", "expected a film file"}}) {
+                                     {"none.film", "the film file cannot be opened: No such file"}}) {
         const CommandResult result = merge({"a.film", name, "-o", "out.exr"});
         EXPECT_EQ(result.exit_code, 1) << result.err;
         EXPECT_TRUE(holds(result.err, {std::string("clrt-merge: error: ") + name + ": ", part}));
@@ -287,8 +287,9 @@ TEST_F(FilmCommand, PicturesSoFarAreSavedAtWholePasses) {
     CommandSettings settings;
     settings.signals = {{0.5, SIGKILL}};
     settings.signals_after_file = "so_far.exr";
-    std::vector<std::string> command{CLRT_EXECUTABLE, "lamp.obj", "-t",         "60",           "-s",
-                                     "2000000",       "-o",       "so_far.exr", "--save-every", "0.1s"};
+    std::vector<std::string> command{
+        CLRT_EXECUTABLE, "lamp.obj", "-i",         "path",         "-t",  "60", "-s",
+        "2000000",       "-o",       "so_far.exr", "--save-every", "0.1s"};
     settings.folder = path();
     settings.environment["CLRT_DEVICE"] = test_device_name();
     EXPECT_EQ(run_command(command, settings).signal, SIGKILL);

@@ -56,6 +56,8 @@ TEST_F(ClrtCommand, ForecastsHoldWhatComes) {
         for (const char* adaptive : {"", "--adaptive=relative"}) {
             std::vector<std::string> arguments = {std::string(CLRT_SCENES_FOLDER "/") + scene + "/" + scene +
                                                       ".obj",
+                                                  "-i",
+                                                  "path",
                                                   "-r",
                                                   "64x48",
                                                   "--aov",

@@ -13,7 +13,8 @@ namespace clrt {
 namespace {
 
 /// A render of a second and a half that no number of samples ends.
-const std::vector<std::string> TIMED_RUN = {"scene.obj", "-r", "64x48", "-t", "1.5", "--stats", "s.json"};
+const std::vector<std::string> TIMED_RUN = {"scene.obj", "-i",  "path",    "-r",    "64x48",
+                                            "-t",        "1.5", "--stats", "s.json"};
 /// A launch aims at half a second; the last one may begin just before the time is up and take twice as long
 /// as it aimed at.
 constexpr double LONGEST_LAUNCH_SECONDS = 1;
@@ -40,7 +41,7 @@ protected:
         if (std::find(arguments.begin(), arguments.end(), "-r") == arguments.end())
             arguments.insert(arguments.end(), {"-r", "192x144"});
         arguments.insert(arguments.end(),
-                         {"room.obj", "--eye", "0,0,0", "--at", "0,0,-1", "--stats", "s.json"});
+                         {"room.obj", "-i", "path", "--eye", "0,0,0", "--at", "0,0,-1", "--stats", "s.json"});
         const CommandResult result = clrt(arguments, settings);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         stats = nlohmann::json::parse(folder.read("s.json"));
@@ -100,8 +101,8 @@ TEST_F(TimeLimit, TheProgressLineSaysWhatIsKnown) {
 
 TEST_F(TimeLimit, TheLastProgressLineIsTheFinalState) {
     const std::string text =
-        run({"scene.obj", "-r", "256x192", "-t", "1.6", "--env", "0,0,0", "--point", "0,0,2,9,9,9",
-             "--filter", "gaussian", "--stats", "s.json", "--progress", "on"});
+        run({"scene.obj", "-i", "path", "-r", "256x192", "-t", "1.6", "--env", "0,0,0", "--point",
+             "0,0,2,9,9,9", "--filter", "gaussian", "--stats", "s.json", "--progress", "on"});
     EXPECT_EQ(last_number(text, "([0-9]+) spp  "), stats["spp"]) << text;
     EXPECT_NEAR(last_number(text, "error ([0-9.]+) %"), 100 * stats["error"]["rel_rmse"].get<double>(),
                 0.0501)
