@@ -21,6 +21,8 @@ import subprocess
 import sys
 import tempfile
 
+from fault_catchers import CAUGHT_BY, QUICK
+
 KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "kernels")
 
 # Name, file, text, text with the fault, test program.
@@ -377,32 +379,6 @@ FAULTS = [
     ("the film's share not replayed", "integrators/replay.h",
      "    film_add(params, sums, &sample->sampler, sample->radiance);\n", "", "replay_test"),
 ]
-
-
-# Fault -> the test that catches it in a few seconds: one for each factor that an estimate of light is made of.
-QUICK = {
-    "dropped cosine": "DirectLight.AQuadLightAboveTheFloorFollowsLambertsFormula",
-    "missing 1/p in roulette": "Furnace.RouletteEndsPathsWithoutChangingTheMean",
-    "MIS weights do not sum to 1": "DirectLight.ATriangleLightFollowsLambertsFormula",
-    "light density off by the count": "LightSampler.EveryChoiceGivesTheSameLightEverywhere",
-    "missing eta^2, smooth glass": "Furnace.ASmoothBoundaryOfGlassReflectsAndRefracts",
-    "the plane's normal for shading": "ShadingNormal.CornerNormalsAreInterpolated",
-    "sampler address used for all bounces": "Interreflection.EveryNumberOfBouncesAgreesWithRadiosity",
-    "tent filter as a box": "PixelFilter.ATentFallsOffLinearly",
-}
-
-
-# The same for faults that --quick may draw: the whole test program may take a minute up to the first test that fails.
-CAUGHT_BY = {
-    "film rounds down": "DirectLight.ATinyFarLightIsNeitherLostNorTooBright",
-    "a light sampled for one class lights both": "Paths.MatteAndGlossyOfOneSurfaceAreToldApart",
-    "mirrors show the background": "Background.TheCameraSeesItAndNothingElseDoes",
-    "fibres denser than their density": "BsdfEnergy.PartGlassPanesAndCoversMakeNoLightAndLoseLittle",
-    "the depth of each end alone bounded": "Bidirectional.AClosedFurnaceHasItsSeriesUpToTheWholePathsDepth",
-    "sampled discs counted twice by a tree of rays": "Distribution.RaysAndShadowRaysShareALightByTheirNumbers",
-    "splats of a sample rounded alike": "FilmSplat.EverySplatOfASampleIsRoundedByANumberOfItsOwn",
-    "cut paths not counted": "CutPaths.WhiteWallsHaveNoBound",
-}
 
 
 # Faults that --quick draws besides. One takes 5 processor seconds in the mean and 20 at most: together a tenth of what the
