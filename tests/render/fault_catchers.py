@@ -21,6 +21,8 @@ CAUGHT_BY = {
     "mirrors show the background": "Background.TheCameraSeesItAndNothingElseDoes",
     "fibres denser than their density": "BsdfEnergy.PartGlassPanesAndCoversMakeNoLightAndLoseLittle",
     "the depth of each end alone bounded": "Bidirectional.AClosedFurnaceHasItsSeriesUpToTheWholePathsDepth",
+    "light vertices not counted": "Bidirectional.AClosedFurnaceHasItsSeriesUpToTheWholePathsDepth",
+    "the power of a kept vertex without its throughput": "Bidirectional.AClosedFurnaceHasItsSeriesUpToTheWholePathsDepth",
     "sampled discs counted twice by a tree of rays": "Distribution.RaysAndShadowRaysShareALightByTheirNumbers",
     "splats of a sample rounded alike": "FilmSplat.EverySplatOfASampleIsRoundedByANumberOfItsOwn",
     "cut paths not counted": "CutPaths.WhiteWallsHaveNoBound",
