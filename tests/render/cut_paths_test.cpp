@@ -23,6 +23,7 @@ public:
         look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
         options.film.size = {8, 8};
         options.sampling.replicates = 16;
+        options.effects.all = false; // long paths: the small program is the fast one
     }
     std::uint64_t samples() const {
         return std::uint64_t(options.film.size.x) * std::uint64_t(options.film.size.y) *
@@ -109,6 +110,7 @@ TEST(CutPaths, EndsOfPathsAreNoCuts) {
     scene.build.material("black", "Kd 0 0 0\nKe 1 1 1").use("black").floor(1);
     scene.options.light.environment = glm::dvec3(1);
     scene.look({0, 1, 2}, {0, 0, 0}, 60);
+    scene.options.effects.all = false;
     for (const Integrator integrator :
          {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED, Integrator::RAYCAST}) {
         scene.options.transport.integrator = integrator;
@@ -123,6 +125,7 @@ TEST(CutPaths, WhittedCountsTheRaysOfItsTree) {
     scene.build.polygon({{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}});
     scene.build.polygon({{-9, 9, 1}, {9, 9, 1}, {9, -9, 1}, {-9, -9, 1}});
     scene.look_at_point({0, 0, 0.5}, {0, 0, -1});
+    scene.options.effects.all = false;
     scene.options.transport.integrator = Integrator::WHITTED;
     scene.options.transport.min_contribution = 0;
     scene.options.transport.max_depth = 4;

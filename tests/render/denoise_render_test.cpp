@@ -31,6 +31,7 @@ protected:
         scene_.look({0.2, 1, 0.9}, {0, 0.9, -1}, 90);
         scene_.options.film.size = {40, 32};
         scene_.options.sampling.replicates = 4; // the default
+        scene_.options.effects.all = false;     // many samples: the small program is the fast one
         scene_.options.output.files = {"a.exr"};
         loaded_ = scene_.load();
     }

@@ -26,6 +26,7 @@ void add_rooms(TestScene& scene) {
     scene.build.use("lamp").polygon({{-2, 2.4, -1.2}, {-1.5, 2.4, -1.2}, {-1.5, 2.4, -0.7}, {-2, 2.4, -0.7}});
     scene.look({2.8, 1.6, 1.6}, {1, 0.9, -0.8}, 60);
     scene.options.film.size = {32, 24};
+    scene.options.effects.all = false; // many samples: the small program is the fast one
 }
 
 /// A lamp over a floor.
@@ -35,6 +36,7 @@ void add_lit_floor(TestScene& scene) {
     scene.build.use("lamp").polygon({{-0.5, 1, -0.5}, {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}});
     scene.look({0, 2, 3}, {0, 0, 0}, 40);
     scene.options.film.size = {32, 24};
+    scene.options.effects.all = false;
 }
 
 Render render_guided(TestScene& scene, Toggle guide, u32 spp, int replicates) {

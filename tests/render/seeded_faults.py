@@ -7,10 +7,11 @@ catch it.
     tests/render/seeded_faults.py BUILD_FOLDER --quick
 
 Without names: all faults, each against its whole test program. --quick, which the test suite runs: the faults of QUICK, each
-against one test, after that test has passed without the fault; and DRAWN of the others, each against its test program up to
-the first test that fails. Those are drawn by a hash of the kernels: the same for the same kernels, others after every
-change. With the variable CLRT_TEST_LONG set (the night tier), all of them. Prints which tests caught each fault; exit code
-1 if one was not caught, if its text is no longer in the kernels, or if the kernels with the fault do not compile."""
+against the one test that catches it, after that test has passed without the fault; and DRAWN of the others, each against
+the test of CAUGHT_BY in the same way, else against its test program up to the first test that fails. Those are drawn by a
+hash of the kernels: the same for the same kernels, others after every change. With the variable CLRT_TEST_LONG set (the
+night tier), all of them. Prints which tests caught each fault; exit code 1 if one was not caught, if its text is no longer
+in the kernels, or if the kernels with the fault do not compile."""
 
 import hashlib
 import os
@@ -19,6 +20,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+from fault_catchers import CAUGHT_BY, QUICK
 
 KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "kernels")
 
@@ -260,13 +263,14 @@ FAULTS = [
     ("inner connections weighed by the other end's cosine", "path/bdpt_connect.h", "to_light * splat_cosine(light->surface.normal_g, wi)",
      "to_light * splat_cosine(eye->surface->normal_g, wi)", "bdpt_test"),
     ("inner connections weighed alone", "path/bdpt_connect.h", "/ (square + others)", "/ square", "bdpt_test"),
-    ("light vertices not counted", "integrators/bdpt.h", "(real)count * visible_share", "visible_share", "bdpt_test"),
+    ("light vertices not counted", "integrators/bdpt.h", "(real)count * light_vertices_share(kept)", "light_vertices_share(kept)",
+     "bdpt_test"),
     ("inner connections through walls", "integrators/bdpt.h", "visible_share(scene, params, &connection.shadow)", "REAL(1.0)", "bdpt_test"),
     ("the depth of each end alone bounded", "integrators/bdpt.h", "params->max_depth - 1u - segment", "params->max_depth", "bdpt_test"),
     ("inner connections without their excess", "film/moments.h", "moments->shared -= light * light * (count * fmin(excess, MOMENT_RIVALLED));",
      "", "integrator_choice_test"),
-    ("the power of a kept vertex without its throughput", "path/light_path.h", "&path->ray, path->emission.power * path->throughput,",
-     "&path->ray, path->emission.power,", "bdpt_test"),
+    ("the power of a kept vertex without its throughput", "path/light_path.h", "path->emission.power * path->throughput, &path->weights, sink->kept);",
+     "path->emission.power, &path->weights, sink->kept);", "bdpt_test"),
     ("light paths by the window's numbers", "integrators/light_paths.h", "return tile_pixel_number(params, x, y);", "return place;", "bdpt_test"),
     ("normals that the eye bends shared with light paths", "path/light_vertex.h", "return !(bsdf->flags & BSDF_BENT) && (is_above",
      "return (is_above", "bdpt_test"),
@@ -378,19 +382,6 @@ FAULTS = [
 ]
 
 
-# Fault -> the test that catches it in a few seconds: one for each factor that an estimate of light is made of.
-QUICK = {
-    "dropped cosine": "DirectLight.AQuadLightAboveTheFloorFollowsLambertsFormula",
-    "missing 1/p in roulette": "Furnace.RouletteEndsPathsWithoutChangingTheMean",
-    "MIS weights do not sum to 1": "DirectLight.ATriangleLightFollowsLambertsFormula",
-    "light density off by the count": "LightSampler.EveryChoiceGivesTheSameLightEverywhere",
-    "missing eta^2, smooth glass": "Furnace.ASmoothBoundaryOfGlassReflectsAndRefracts",
-    "the plane's normal for shading": "ShadingNormal.CornerNormalsAreInterpolated",
-    "sampler address used for all bounces": "Interreflection.EveryNumberOfBouncesAgreesWithRadiosity",
-    "tent filter as a box": "PixelFilter.ATentFallsOffLinearly",
-}
-
-
 # Faults that --quick draws besides. One takes 5 processor seconds in the mean and 20 at most: together a tenth of what the
 # render tests may take (6 minutes on 2 cores).
 DRAWN = 8
@@ -420,13 +411,14 @@ class Uncaught(Exception):
     """Why a fault counts as not caught."""
 
 
-def run_tests(build, program, kernels, tests="*", until_one_fails=False):
-    """The names of the tests that passed and of those that failed."""
+def run_tests(build, program, kernels, tests="*", until_one_fails=False, effects="all"):
+    """The names of the tests that passed and of those that failed. `effects` tells whether their scenes are rendered by the
+    full program or by the small one of the effects that they need."""
     command = [os.path.join(build, "tests", program), "--gtest_filter=" + tests]
     if until_one_fails:
         command.append("--gtest_fail_fast")
     run = subprocess.run(command, capture_output=True, text=True, errors="replace",
-                         env=dict(os.environ, CLRT_TEST_KERNELS=kernels))
+                         env=dict(os.environ, CLRT_TEST_KERNELS=kernels, CLRT_TEST_EFFECTS=effects))
     if "thrown in the test body" in run.stdout:
         raise Uncaught("%s could not run:\n%s" % (program, run.stdout[-2000:]))
     passed, failed = (set(re.findall(r"^\[ *%s *\] ([\w./]+) \(" % word, run.stdout, re.MULTILINE)) for word in ("OK", "FAILED"))
@@ -460,10 +452,12 @@ def catch(build, fault, tests, until_one_fails):
     with tempfile.TemporaryDirectory() as folder:
         kernels = os.path.join(folder, "kernels")
         shutil.copytree(KERNELS, kernels)
-        if tests != "*" and run_tests(build, program, kernels, tests) != ({tests}, set()):
+        # The small program with a fault serves one test, the full one many; both with the fault and without.
+        effects = "all" if tests == "*" else "needed"
+        if tests != "*" and run_tests(build, program, kernels, tests, effects=effects) != ({tests}, set()):
             raise Uncaught("%s does not pass without it" % tests)
         plant(kernels, file, text, replacement)
-        failed = run_tests(build, program, kernels, tests, until_one_fails)[1]
+        failed = run_tests(build, program, kernels, tests, until_one_fails, effects)[1]
     if not failed:
         raise Uncaught("by " + program)
     return sorted(failed)
@@ -481,7 +475,8 @@ def main():
         if wanted and name not in wanted:
             continue
         try:
-            caught = catch(build, fault, QUICK.get(name, "*") if quick else "*", quick)
+            tests = QUICK.get(name) or CAUGHT_BY.get(name) if quick else None
+            caught = catch(build, fault, tests or "*", quick)
             more = " and %d more" % (len(caught) - 1) if len(caught) > 1 else ""
             print("%-45s caught by %s%s" % (name, caught[0], more), flush=True)
         except Uncaught as reason:
@@ -490,7 +485,7 @@ def main():
     for name in stale():
         print("%-45s its text is not in the kernels any more" % name)
         uncaught += 1
-    missing = set(wanted) - {fault[0] for fault in FAULTS}
+    missing = (set(wanted) | set(CAUGHT_BY)) - {fault[0] for fault in FAULTS}
     for name in sorted(missing):
         print("%-45s no fault has this name" % name)
     return 1 if uncaught or missing else 0

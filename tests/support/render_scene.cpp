@@ -5,6 +5,10 @@
 
 namespace clrt {
 
+TestScene::TestScene() {
+    options.effects.all = !tests_take_needed_effects();
+}
+
 Render TestScene::render() const {
     return ScratchScene::render(test_device());
 }

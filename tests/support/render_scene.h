@@ -10,6 +10,8 @@ namespace clrt {
 /// A scratch scene on the test device.
 class TestScene : public ScratchScene {
 public:
+    /// With the full program, unless tests_take_needed_effects().
+    TestScene();
     /// Loads and renders.
     Render render() const;
 };

@@ -19,6 +19,11 @@ bool tests_are_long() {
     return std::getenv("CLRT_TEST_LONG") != nullptr;
 }
 
+bool tests_take_needed_effects() {
+    const char* const effects = std::getenv("CLRT_TEST_EFFECTS");
+    return effects && std::string(effects) == "needed";
+}
+
 const ProbeDevice& test_device() {
     // Never freed: at exit some drivers are gone before our statics.
     static const ProbeDevice* const device = [] {

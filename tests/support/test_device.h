@@ -18,6 +18,11 @@ std::string test_kernels_folder();
 /// CLRT_TEST_LONG: whether the longer forms of tests are asked for.
 bool tests_are_long();
 
+/// CLRT_TEST_EFFECTS=needed: whether scenes are rendered by the small programs of just the effects that they
+/// call for. They have the bits of the full one (render/effect_masks_test), which is the choice where many
+/// tests share it.
+bool tests_take_needed_effects();
+
 /// test_device_name() with the kernels under test, opened once a process.
 const ProbeDevice& test_device();
 
