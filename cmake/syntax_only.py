@@ -5,6 +5,7 @@ takes three quarters of the time. FILE, empty, says when. SOURCES is the folder 
 
 Clang gets the slow ones of the libraries' headers that the input includes, itself or by our headers, precompiled: these and no
 others, so that what the input forgets to include stays unknown to it. FOLDER keeps them, a file for each choice of headers."""
+import fcntl
 import hashlib
 import os
 import re
@@ -40,15 +41,18 @@ def is_current(precompiled):
 
 
 def precompile(folder, headers, command):
-    """The precompiled headers' file. Templates that they use are made there, not again for each input."""
+    """The precompiled headers' file. Templates that they use are made there, not again for each input. Who needs a file that
+    another one makes waits for it: clang refuses one whose text is newer."""
     name = hashlib.sha256("\0".join((*headers, *command)).encode()).hexdigest()[:16]
     text, precompiled = os.path.join(folder, name + ".h"), os.path.join(folder, name + ".pch")
-    if not is_current(precompiled):
-        os.makedirs(folder, exist_ok=True)
-        with open(text, "w", encoding="utf-8") as file:
-            file.writelines(f"#include <{header}>\n" for header in headers)
-        subprocess.run([*command, "-x", "c++-header", text, "-fpch-instantiate-templates", "-o", precompiled, "-MD", "-MF",
-                        precompiled + ".d"], check=True)
+    os.makedirs(folder, exist_ok=True)
+    with open(text + ".lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not is_current(precompiled):
+            with open(text, "w", encoding="utf-8") as file:
+                file.writelines(f"#include <{header}>\n" for header in headers)
+            subprocess.run([*command, "-x", "c++-header", text, "-fpch-instantiate-templates", "-o", precompiled, "-MD",
+                            "-MF", precompiled + ".d"], check=True)
     return precompiled
 
 

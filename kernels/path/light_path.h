@@ -261,6 +261,20 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     return true;
 }
 
+/* Keeps the vertex for connections; `vertices` may be 0. */
+static inline void light_path_keep(uint segment, const Hit* hit, const LightPath* path,
+                                   LightVertices* vertices)
+{
+    KeptVertex* kept = light_vertices_keep(&path->sampler, segment, hit, &path->ray,
+                                           path->emission.power * path->throughput, vertices);
+    if (kept == 0)
+        return;
+    kept->weights = path->weights;
+#if FILM_MOMENTS
+    kept->alone = path->alone;
+#endif
+}
+
 /* Handles the vertex at the end of a segment; false where the path ends. */
 static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderParams* params, uint segment,
                                             Hit* hit, LightPath* path, SplatSink* sink, PixelRays* rays)
@@ -270,15 +284,7 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
         return false;
     if (bsdf_has_smooth_lobe(&vertex.bsdf) && !light_path_is_at_caster(segment)) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
-        KeptVertex* kept =
-            light_vertices_keep(&path->sampler, segment, hit, &path->ray,
-                                path->emission.power * path->throughput, &path->weights, sink->kept);
-#if FILM_MOMENTS
-        if (kept != 0)
-            kept->alone = path->alone;
-#else
-        (void)kept;
-#endif
+        light_path_keep(segment, hit, path, sink->kept);
     }
     return light_path_leave(scene, params, segment, hit, &vertex, path, &sink->watched, rays);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vertices of a light path that a path from the eye is connected to: kept in private memory, 48 bytes
-// each in single precision. Surface and BSDF are made again where a vertex is connected. Of a path that scatters
-// more often than there is room, a random choice is kept, all vertices alike (reservoir sampling, Vitter 1985),
-// and each of them counts for more.
+// each in single precision. Surface and BSDF are made again where a vertex is connected. Of a path that
+// scatters more often than there is room, a random choice is kept, all vertices alike (reservoir sampling,
+// Vitter 1985), and each of them counts for more.
 #ifndef CLRT_PATH_LIGHT_VERTICES_H
 #define CLRT_PATH_LIGHT_VERTICES_H
 
@@ -65,10 +65,10 @@ static inline KeptVertex* light_vertices_next(const Sampler* sampler, uint segme
     return &kept->at[BDPT_VERTICES - 1u];
 }
 
-/* Keeps the vertex at the end of a ray, and tells where; `kept` may be 0. `sampler`: of the light path. */
+/* Keeps the vertex at the end of a ray, all but its weights, and tells where; 0 where it is not kept. `kept`
+   may be 0. `sampler`: of the light path. */
 static inline KeptVertex* light_vertices_keep(const Sampler* sampler, uint segment, const Hit* hit,
-                                              const Ray* ray, real3 power, const SplatWeights* weights,
-                                              LightVertices* kept)
+                                              const Ray* ray, real3 power, LightVertices* kept)
 {
     if (!INNER_CONNECTIONS || kept == 0)
         return 0;
@@ -87,7 +87,6 @@ static inline KeptVertex* light_vertices_keep(const Sampler* sampler, uint segme
     vertex->b2 = hit->b2;
     vstore3(-ray->direction, 0, vertex->wo);
     vstore3(power, 0, vertex->power);
-    vertex->weights = *weights;
     return vertex;
 }
 
