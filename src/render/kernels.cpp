@@ -103,9 +103,10 @@ std::vector<std::string> branch_defines(const TransportOptions& transport) {
 std::vector<std::string> vertex_defines(const TransportOptions& transport) {
     if (transport.integrator != Integrator::BDPT)
         return {};
-    // A path has the segments to both vertices of a connection, and the connection.
-    return {fmt::format("BDPT_VERTICES={}",
-                        std::clamp(effective_max_depth(transport) - 2, 1, MOST_KEPT_VERTICES))};
+    // A path has the segments to both vertices of a connection, and the connection. Shorter ones than the
+    // usual share its program.
+    const bool is_usual = effective_max_depth(transport) <= USUAL_BDPT_DEPTH;
+    return {fmt::format("BDPT_VERTICES={}", is_usual ? USUAL_BDPT_DEPTH - 2 : MOST_KEPT_VERTICES)};
 }
 
 std::vector<std::string> strategy_defines(const Options& options) {
