@@ -88,7 +88,7 @@ constexpr int USUAL_PATH_DEPTH = 4096;
 constexpr int USUAL_TREE_DEPTH = 10;
 /// Their rays wait in private memory.
 constexpr int LARGEST_TREE_DEPTH = WHITTED_MAX_DEPTH;
-/// Longer paths hardly ever bring more light than they cost.
+/// As that of a chain, so that both are compared at equal depth.
 constexpr int USUAL_BDPT_DEPTH = 16;
 /// A chain has one length for ever, and every length needs chains.
 constexpr int USUAL_CHAIN_DEPTH = 16;

@@ -24,7 +24,7 @@ struct TransportOptions {
     double min_contribution = 0.002; ///< smallest weight worth a ray
     Toggle guide = Toggle::AUTO;     ///< directions where paths have found light
     /// Rays that --guide auto waits for; no option of the command line. They take two cores of a CPU a second
-    /// or two, a guide's first compilation three; waiting longer costs what the guide would have gained.
+    /// or two, about as long as a guide's first compilation; waiting longer loses what it would have gained.
     double guide_after_rays = 1 << 22;
     int shadow_rays = 4;      ///< of a vertex to lamps, sky, and every sun with a disc
     int gloss_rays = 4;       ///< of a vertex by a rough reflection

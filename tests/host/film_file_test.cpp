@@ -47,15 +47,19 @@ FilmFile make_film() {
 
 class FilmFileTest : public testing::Test {
 protected:
-    /// The message with which a file of these bytes is refused.
-    std::string refusal(const std::string& bytes) const {
+    /// The message with which a file is refused.
+    static std::string refusal_of(const std::string& path) {
         try {
-            read_film_file(folder.write("bad.film", bytes));
+            read_film_file(path);
         } catch (const SceneError& error) {
-            EXPECT_NE(std::string(error.what()).find("bad.film: "), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(path + ": "), std::string::npos) << error.what();
             return error.what();
         }
         return "accepted";
+    }
+    /// The message with which a file of these bytes is refused.
+    std::string refusal(const std::string& bytes) const {
+        return refusal_of(folder.write("bad.film", bytes));
     }
     void expect_refused(const std::string& bytes, const std::string& part) const {
         const std::string message = refusal(bytes);
@@ -210,17 +214,10 @@ TEST_F(FilmFileTest, OtherFilesAreRefusedByWhatTheyAre) {
     std::string newer = bytes();
     newer[8] = 3;
     expect_refused(newer, "expected format version 2, found 3");
-    const auto refused = [&](const std::string& name) {
-        try {
-            read_film_file(folder.file(name));
-        } catch (const SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    EXPECT_EQ(refused("none.film"),
+    EXPECT_EQ(refusal_of(folder.file("none.film")),
               folder.file("none.film") + ": the film file cannot be opened: No such file or directory");
-    EXPECT_EQ(refused(""), folder.file("") + ": the film file cannot be opened: Is a directory");
+    EXPECT_EQ(refusal_of(folder.file("")),
+              folder.file("") + ": the film file cannot be opened: Is a directory");
 }
 
 TEST_F(FilmFileTest, TheOriginIsReadWithoutTheSums) {

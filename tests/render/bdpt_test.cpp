@@ -163,7 +163,7 @@ TEST(Bidirectional, AClosedFurnaceHasItsSeriesUpToTheWholePathsDepth) {
 }
 
 TEST(Bidirectional, PathsThatScatterMoreOftenThanVerticesAreKeptLoseNoLight) {
-    // Half of the light paths scatter more than 30 times.
+    // A third of the light is missing where a kept vertex counts for itself alone.
     EXPECT_TRUE(agrees(closed_furnace(0.98, USUAL_PATH_DEPTH), 1, 1e-2));
 }
 
