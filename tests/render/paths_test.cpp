@@ -27,8 +27,8 @@ Render render_paths(TestScene& scene, const std::string& paths) {
     return scene.render();
 }
 
-Estimate estimate_paths(TestScene& scene, const std::string& paths, int channel = 0) {
-    return film_estimate(render_paths(scene, paths).film, channel);
+Estimate estimate_paths(TestScene& scene, const std::string& paths) {
+    return film_estimate(render_paths(scene, paths).film);
 }
 
 /// A scene of this file: each expression makes a program of its own, which nothing shares, so that the small
@@ -385,13 +385,13 @@ TEST(Paths, RayCastingIsItsLanguage) {
     // Matte and delta lobes; every kind of light.
     AllLetters scene(false);
     scene.options.sampling.spp = 4096;
+    scene.options.transport.max_depth = 2;
+    const Film paths = render_paths(scene, "LD?E").film;
+    scene.options.transport.paths.clear();
+    scene.options.transport.integrator = Integrator::RAYCAST;
+    const Film rays = scene.render().film;
     for (int channel = 0; channel < 3; channel += 2) {
-        scene.options.transport.integrator = Integrator::PATH;
-        scene.options.transport.max_depth = 2;
-        const Estimate path = estimate_paths(scene, "LD?E", channel);
-        scene.options.transport.paths.clear();
-        scene.options.transport.integrator = Integrator::RAYCAST;
-        const Estimate cast = film_estimate(scene.render().film, channel);
+        const Estimate path = film_estimate(paths, channel), cast = film_estimate(rays, channel);
         const double error = std::hypot(path.error, cast.error);
         EXPECT_LT(error, 5e-3 * path.mean);
         EXPECT_NEAR(path.mean, cast.mean, 5 * error);
@@ -431,9 +431,9 @@ TEST(Paths, OpenSkyOnClayIsAmbientOcclusion) {
             scene.options.light.environment = glm::dvec3(1.25); // over the reflectance of clay
             scene.look_at_point({0, 3, distance + 3}, {0, 0, distance});
             const double open = 0.5 + 0.5 * distance / std::hypot(distance, height);
+            const Film film = render_paths(scene, "LeDE").film;
             for (int channel = 0; channel < 3; ++channel)
-                EXPECT_TRUE(agrees(estimate_paths(scene, "LeDE", channel), open, 5e-3))
-                    << height << ", " << distance;
+                EXPECT_TRUE(agrees(film_estimate(film, channel), open, 5e-3)) << height << ", " << distance;
         }
 }
 
