@@ -235,6 +235,7 @@ TEST(Replay, LongPathsAreRecordedWhole) {
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
     scene.look({0.1, 0.2, 0.3}, {0, 0, -1}, 60);
     scene.options.film.size = {2, 1};
+    scene.options.effects.all = false; // a program that no other test has: the small one is the fast one
     scene.options.transport.max_depth = 3000;
     scene.options.transport.roulette_depth = 4000;
     const Stage stage(scene.load(), scene.options);
