@@ -157,7 +157,7 @@ TEST(SameBits, AbsentEffectsChangeNothing) {
             const Render all = scene.render();
             scene.options.effects.all = false;
             const Effects effects = find_effects(scene.load(), scene.options);
-            EXPECT_NE(effects.mask, u32(EFFECT_ALL)) << name;
+            EXPECT_NE(effects.mask, EFFECT_ALL) << name;
             const Render needed = scene.render();
             EXPECT_EQ(count_differences(all.film, needed.film), 0u) << name << ", " << name_of(integrator);
             EXPECT_EQ(all.counts.rays(), needed.counts.rays()) << name << ", " << name_of(integrator);
@@ -188,7 +188,7 @@ TEST(SameBits, AMapOfRoughnessDoesNotMakeSmoothGlassOrAMirrorRough) {
 }
 
 TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
-    u32 present = 0, absent = 0;
+    EffectMask present = 0, absent = 0;
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
         scene.options.effects.all = false;
@@ -197,12 +197,12 @@ TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
             scene.options.camera.aperture = 0.1;
             scene.options.camera.end_up = glm::dvec3(0.1, 1, 0);
         }
-        const u32 mask = find_effects(scene.load(), scene.options).mask;
+        const EffectMask mask = find_effects(scene.load(), scene.options).mask;
         present |= mask;
         absent |= ~mask;
     }
-    EXPECT_EQ(present, u32(EFFECT_ALL));
-    EXPECT_EQ(absent & EFFECT_ALL, u32(EFFECT_ALL & ~EFFECT_MATTE));
+    EXPECT_EQ(present, EFFECT_ALL);
+    EXPECT_EQ(absent & EFFECT_ALL, EffectMask(EFFECT_ALL & ~EFFECT_MATTE));
 }
 
 TEST(SameBits, AWindowHoldsWhatTheWholePictureHoldsThere) {
