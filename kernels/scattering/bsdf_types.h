@@ -6,6 +6,7 @@
 #include "albedo.h"
 #include "numerics/frame.h"
 #include "shared/effects.h"
+#include "shared/measured_types.h"
 #include "shared/scene_types.h"
 #include "trace/trace.h"
 
@@ -72,6 +73,10 @@ typedef struct {
 #if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
     BsdfCover cover;         /* where the flag is BSDF_COVERED */
 #endif
+#if CLRT_EFFECTS & EFFECT_MEASURED
+    global const MeasuredBrdf* measured;  /* of LOBE_MEASURED, */
+    global const ushort* measured_halves; /* and its values */
+#endif
 #if CLRT_EFFECTS & EFFECT_DISPERSION
     real3 etas;              /* of the colours, as `eta`; where the surface disperses */
 #endif
@@ -84,6 +89,33 @@ static inline BsdfCover* bsdf_cover(const Bsdf* bsdf)
     return (BsdfCover*)&bsdf->cover;
 #else
     return 0;
+#endif
+}
+
+/* The measured BRDF and its values; nowhere where no material has one. */
+static inline global const MeasuredBrdf* bsdf_measured(const Bsdf* bsdf)
+{
+#if CLRT_EFFECTS & EFFECT_MEASURED
+    return bsdf->measured;
+#else
+    return 0;
+#endif
+}
+
+static inline global const ushort* bsdf_measured_halves(const Bsdf* bsdf)
+{
+#if CLRT_EFFECTS & EFFECT_MEASURED
+    return bsdf->measured_halves;
+#else
+    return 0;
+#endif
+}
+
+static inline void bsdf_set_measured(Bsdf* bsdf, global const MeasuredBrdf* measured, global const u32* words)
+{
+#if CLRT_EFFECTS & EFFECT_MEASURED
+    bsdf->measured = measured;
+    bsdf->measured_halves = (global const ushort*)(words + measured->first_word);
 #endif
 }
 

@@ -323,6 +323,9 @@ CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surf
         material_cover(scene, material, surface, bsdf);
         bsdf->flags |= !surface->front && (material->lobes & LOBE_DIELECTRIC) ? BSDF_INSIDE : 0u;
     }
+    if (HAS(EFFECT_MEASURED) && (material->lobes & LOBE_MEASURED))
+        bsdf_set_measured(bsdf, scene->measured + scene->extensions[surface->material].measured,
+                          scene->measured_words);
     real3 n = material_normal(scene, material, surface);
     if (material_is_bent(surface, n, wo)) {
         n = material_bent(n, wo);

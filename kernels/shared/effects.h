@@ -48,14 +48,15 @@ using EffectMask = std::uint64_t;
 #define EFFECT_THIN_WALL EFFECT_BIT(0x20000000)   /* panes without an inside */
 #define EFFECT_ROTATION EFFECT_BIT(0x40000000)    /* highlights stretched askew to the texture coordinates */
 #define EFFECT_TEXTURE_FILTER EFFECT_BIT(0x80000000) /* lookups over the ray's footprint (geometry/ray_cone.h) */
+#define EFFECT_MEASURED EFFECT_BIT(0x100000000) /* measured BRDFs */
 #define EFFECT_ALL                                                                                           \
-    (EFFECT_BIT(0xffffff) | EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_MAPPED_EMISSION | EFFECT_INSTANCES |             \
-     EFFECT_THIN_WALL | EFFECT_ROTATION | EFFECT_TEXTURE_FILTER)
+    (EFFECT_BIT(0xffffff) | EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_MAPPED_EMISSION | EFFECT_INSTANCES |  \
+     EFFECT_THIN_WALL | EFFECT_ROTATION | EFFECT_TEXTURE_FILTER | EFFECT_MEASURED)
 
 /* Effects that read the array of material extensions. */
 #define EFFECTS_EXTENSION                                                                                    \
     (EFFECT_PART_GLASS | EFFECT_ATTENUATION | EFFECT_COAT | EFFECT_SHEEN | EFFECT_ROTATION |                \
-     EFFECT_DISPERSION | EFFECT_NESTED)
+     EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_MEASURED)
 
 /* Effects of surfaces behind which the same ray goes on (path/visibility.h). */
 #define EFFECTS_PASSED (EFFECT_CUT_OUT | EFFECT_THIN_WALL | EFFECT_NESTED)

@@ -5,6 +5,7 @@
 
 #include "bvh/instanced_bvh.h"
 #include "kernels/shared/camera_types.h"
+#include "kernels/shared/measured_types.h"
 #include "kernels/shared/scene_types.h"
 #include "options/integrators.h"
 #include "output/named_file.h"
@@ -103,6 +104,9 @@ struct Scene {
     std::vector<u32> texel_words;
     std::vector<glm::vec3>
         vertex_colours; ///< of each position, linear, while loading: then they are texel words
+    std::vector<MeasuredBrdf> measured; ///< BRDFs, with their values in the words
+    std::vector<u32> measured_words;
+    std::vector<std::string> measured_names; ///< the file of each, as written
     std::vector<std::string> texture_names;
     std::vector<SourcePlace> texture_places; ///< the map_* statement of each
     std::vector<Emitter> emitters;

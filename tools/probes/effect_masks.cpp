@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/effect_masks.h"
 
+#include "probes/merl_file.h"
 #include "probes/meshes.h"
 
 #include <algorithm>
@@ -185,6 +186,10 @@ void SceneOfEffects::add_materials() {
                        ? tint + "Pm 0.8" + turned
                        : "illum 7" + turned + (has(EFFECT_ROUGH_REFRACTION) ? "" : "\nthin_walled 1"));
     build.material("turned_glass", "illum 7" + turned);
+    build.material("sample", "merl sample.binary");
+    if (has(EFFECT_MEASURED))
+        folder.write("sample.binary",
+                     merl_file(matte_and_glossy({0.4, 0.2, 0.1}, {0.3, 0.3, 0.2}, 0.3), {12, 8, 8}));
     build.material("screen", base + "\nd 0.6" + map("map_d"));
     std::vector<unsigned char> lamp(64, has(EFFECT_MAPPED_EMISSION) ? 20 : 230);
     lamp[9] = lamp[44] = 230;
@@ -236,6 +241,8 @@ void SceneOfEffects::add_rare_bodies() {
         build.use("lacquer").icosphere({0.5, 1.3, -0.6}, 0.2, 1);
     if (has(EFFECT_SHEEN))
         build.use("velvet").icosphere({-0.5, 1.4, -0.6}, 0.2, 1);
+    if (has(EFFECT_MEASURED))
+        build.use("sample").icosphere({-0.9, 1.7, 0.1}, 0.2, 1);
     if (has(EFFECT_THIN_WALL))
         build.use("pane").textured_quad(
             {{-1.7, 0.1, 0.4}, {-1.2, 0.1, 0.4}, {-1.2, 0.6, 0.2}, {-1.7, 0.6, 0.2}});
