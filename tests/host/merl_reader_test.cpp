@@ -181,7 +181,7 @@ TEST_F(StoreTest, WhatIsOddIsSaid) {
     ASSERT_EQ(notices.lines().size(), 2u);
     EXPECT_THAT(
         notices.lines()[0],
-        HasSubstr("a.mtl:7: measured BRDF \"holed.binary\": 1 of 120 values are missing and taken as 0"));
+        HasSubstr("a.mtl:7: measured BRDF 'holed.binary': 1 of 120 values are missing and taken as 0"));
     EXPECT_THAT(notices.lines()[1], HasSubstr("reflects up to 1.5"));
 }
 
@@ -191,6 +191,6 @@ TEST_F(StoreTest, AFileThatIsNotThereIsAnError) {
         FAIL();
     } catch (const SceneError& error) {
         EXPECT_THAT(error.what(), HasSubstr("a.mtl:7: merl: expected the file of a measured BRDF, found none "
-                                            "called \"none.binary\""));
+                                            "called 'none.binary'"));
     }
 }

@@ -41,7 +41,7 @@ dvec3 skew(const dvec3& wo, const dvec3& wi) {
 std::vector<LobeSet> sets() {
     return {measured_set("measured matte", matte_and_glossy({0.75, 0.5, 0.25}), COARSE),
             measured_set("measured metal", metal(), DATABASE),
-            measured_set("measured polish", matte_and_glossy({0.3, 0.2, 0.1}, dvec3(0.3), 0.03), DATABASE),
+            measured_set("measured polish", matte_and_glossy({0.3, 0.2, 0.1}, dvec3(0.3), 0.1), DATABASE),
             measured_set("measured skew", skew, COARSE)};
 }
 
@@ -89,8 +89,7 @@ TEST(BsdfMeasured, BothOrdersOfTwoDirectionsHaveOneValue) {
             const dvec3 f = there.value[i] / wi[i].z, g = back.value[i] / wo[i].z;
             // The probe's tilted frame moves cosines by a few units of the last place.
             const double error = 1e-5 + 64 * FLOAT_U / std::min(wo[i].z, wi[i].z);
-            ASSERT_LE(glm::length(f - g),
-                      (error + (set.name == "measured polish" ? 1e-3 : 0)) * glm::length(f))
+            ASSERT_LE(glm::length(f - g), error * glm::length(f))
                 << set.name << " wo.z " << wo[i].z << " wi.z " << wi[i].z;
             ASSERT_NEAR(there.pdf_w_reverse[i], back.pdf_w[i], 1e-3 * back.pdf_w[i]) << set.name;
         }
@@ -98,8 +97,8 @@ TEST(BsdfMeasured, BothOrdersOfTwoDirectionsHaveOneValue) {
 }
 
 TEST(BsdfMeasured, SampledDirectionsFollowPdf) {
-    const SphereCells cells(64, 64, 12);
-    const std::vector<dvec3> nodes = cells.nodes(), u = random_triples(1000000, 1);
+    const SphereCells cells(48, 48, 10);
+    const std::vector<dvec3> nodes = cells.nodes(), u = random_triples(400000, 1);
     for (const LobeSet& set : sets())
         for (const dvec3& wo : eyes()) {
             std::vector<double> expected =
@@ -117,9 +116,9 @@ TEST(BsdfMeasured, SampledDirectionsFollowPdf) {
 }
 
 TEST(BsdfMeasured, AWhiteOneIsWhiteAndOthersHaveTheirAlbedo) {
-    const std::vector<dvec3> u = random_triples(400000, 5);
+    const std::vector<dvec3> u = random_triples(200000, 5);
     const LobeSet white = measured_set("white", matte_and_glossy(dvec3(1)), COARSE);
-    const SphereCells cells(256, 256, 4);
+    const SphereCells cells(128, 128, 4);
     const std::vector<dvec3> nodes = cells.nodes();
     std::vector<LobeSet> all = sets();
     all.push_back(white);
