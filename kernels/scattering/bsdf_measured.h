@@ -100,7 +100,7 @@ static CLRT_NOINLINE real3 measured_value(const Bsdf* bsdf, real3 wo, real3 wi)
         const uint row = (h ? half_step.high : half_step.low) * table->difference_count +
                          (d ? difference.high : difference.low);
         const uint cell = row * table->azimuth_count + (a ? azimuth.high : azimuth.low);
-        sum += share * halves_load(cell, bsdf_measured_halves(bsdf));
+        sum += share * halves_load(cell, (global const ushort*)(table + 1));
     }
     return sum * (real)table->scale;
 }

@@ -43,6 +43,12 @@ typedef struct {
     real coat_shared;     /* s(wo) below the coat */
 } BsdfCover;
 
+/* What surfaces of one kind alone have. */
+typedef union {
+    real3 etas; /* of the colours, as `eta`; where the surface disperses */
+    global const MeasuredBrdf* measured; /* of LOBE_MEASURED; its values lie behind it */
+} BsdfRare;
+
 typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
     real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
@@ -73,12 +79,8 @@ typedef struct {
 #if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
     BsdfCover cover;         /* where the flag is BSDF_COVERED */
 #endif
-#if CLRT_EFFECTS & EFFECT_MEASURED
-    global const MeasuredBrdf* measured;  /* of LOBE_MEASURED, */
-    global const ushort* measured_halves; /* and its values */
-#endif
-#if CLRT_EFFECTS & EFFECT_DISPERSION
-    real3 etas;              /* of the colours, as `eta`; where the surface disperses */
+#if CLRT_EFFECTS & (EFFECT_DISPERSION | EFFECT_MEASURED)
+    BsdfRare rare;
 #endif
 } Bsdf;
 
@@ -92,30 +94,20 @@ static inline BsdfCover* bsdf_cover(const Bsdf* bsdf)
 #endif
 }
 
-/* The measured BRDF and its values; nowhere where no material has one. */
+/* The measured BRDF, with its values behind it; nowhere where no material has one. */
 static inline global const MeasuredBrdf* bsdf_measured(const Bsdf* bsdf)
 {
 #if CLRT_EFFECTS & EFFECT_MEASURED
-    return bsdf->measured;
+    return bsdf->rare.measured;
 #else
     return 0;
 #endif
 }
 
-static inline global const ushort* bsdf_measured_halves(const Bsdf* bsdf)
+static inline void bsdf_set_measured(Bsdf* bsdf, global const u32* words)
 {
 #if CLRT_EFFECTS & EFFECT_MEASURED
-    return bsdf->measured_halves;
-#else
-    return 0;
-#endif
-}
-
-static inline void bsdf_set_measured(Bsdf* bsdf, global const MeasuredBrdf* measured, global const u32* words)
-{
-#if CLRT_EFFECTS & EFFECT_MEASURED
-    bsdf->measured = measured;
-    bsdf->measured_halves = (global const ushort*)(words + measured->first_word);
+    bsdf->rare.measured = (global const MeasuredBrdf*)words;
 #endif
 }
 

@@ -25,17 +25,16 @@ ASSERT_SIZE(MeasuredView, 736);
 
 #define MEASURED_COSINE_SHARE(view) ((view).albedo.w) /* of directions that a cosine lobe samples */
 
-/* One BRDF. Its values are three halves each, r, g, b times `scale` per steradian, and lie at the middles of
+/* One BRDF, in an array of words, at a multiple of four of them. Its values follow: three halves each, r, g, b
+   times `scale` per steradian, two halves to a word, the first in the lower bits. They lie at the middles of
    equal steps of sqrt(half angle), of the difference angle, both up to a right angle, and of the difference's
-   azimuth from 0 to pi; the last runs fastest. Two halves to a word, the first in the lower bits. */
+   azimuth from 0 to pi; the last runs fastest. */
 typedef struct {
-    u32 first_word; /* of its values, in the array of words */
     u32 half_count, difference_count, azimuth_count;
     float scale; /* a power of two */
-    u32 unused0, unused1, unused2;
     MeasuredView views[MEASURED_VIEWS];
 } MeasuredBrdf;
-ASSERT_SIZE(MeasuredBrdf, 11808);
+ASSERT_SIZE(MeasuredBrdf, 11792);
 
 SHARED_END
 

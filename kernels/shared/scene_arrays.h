@@ -6,7 +6,6 @@
 #define CLRT_SHARED_SCENE_ARRAYS_H
 
 #include "bvh_types.h"
-#include "measured_types.h"
 #include "scene_types.h"
 
 /* ROW(type of an element, name in the kernels, member of the host's Bvh). How these are laid out changes no
@@ -29,8 +28,7 @@
     ROW(Instance, instances, instances)                                                                      \
     ROW(Material, materials, materials)                                                                      \
     ROW(MaterialExtension, extensions, extensions)                                                           \
-    ROW(MeasuredBrdf, measured, measured)                                                                    \
-    ROW(u32, measured_words, measured_words)                                                                 \
+    ROW(u32, measured, measured)                                                                             \
     ROW(Texture, textures, textures)                                                                         \
     ROW(u32, texel_words, texel_words)                                                                       \
     ROW(Emitter, emitters, emitters)                                                                         \

@@ -63,7 +63,7 @@ const std::vector<EffectSpec>& effect_table() {
          "stretched highlights lie along the texture coordinates"},
         {EFFECT_TEXTURE_FILTER, "texture filter", EFFECT_TEXTURES, 0,
          "textures are read at a point, as by --texture-filter none"},
-        {EFFECT_MEASURED, "measured BRDFs", 0, 0, "materials with a measured BRDF are black"},
+        {EFFECT_MEASURED, "measured reflection", 0, 0, "materials with a measured BRDF are black"},
     };
     return table;
 }

@@ -2,6 +2,7 @@
 #include "scene/material_table.h"
 
 #include "colour.h"
+#include "scene/measured_store.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>
@@ -54,10 +55,10 @@ void add_covers(const Material& m, const MaterialExtension& e, std::vector<std::
         parts.push_back(fmt::format("sheen {} alpha {:.4g}", colour(e.sheen), EXTENSION_SHEEN_ALPHA(e)));
 }
 
-std::string measured(const Scene& scene, u32 index) {
-    const MeasuredBrdf& m = scene.measured[index];
+std::string measured(const Scene& scene, u32 first_word) {
+    const MeasuredBrdf m = measured_at(scene.measured, first_word);
     return fmt::format("measured {}, {} x {} x {} values, head-on {}",
-                       clrt::quoted(scene.measured_names[index]), m.half_count, m.difference_count,
+                       clrt::quoted(scene.measured_names.at(first_word)), m.half_count, m.difference_count,
                        m.azimuth_count, colour(m.views[MEASURED_VIEWS - 1].albedo));
 }
 

@@ -9,6 +9,7 @@
 #include "scene/text_scanner.h"
 
 #include <algorithm>
+#include <cstring>
 #include <fmt/format.h>
 #include <limits>
 #include <tbb/parallel_for.h>
@@ -24,11 +25,14 @@ float scale_of(const MeasuredValues& table) {
     return largest > 0 ? std::ldexp(1.f, std::ilogb(largest) - 14) : 1;
 }
 
-std::vector<u32> words_of_values(const MeasuredValues& table, float scale) {
+/// Of the BRDF and its values, a multiple of four words.
+std::vector<u32> words_of(const MeasuredBrdf& measured, const MeasuredValues& table) {
+    constexpr size_t FIRST = sizeof measured / sizeof(u32);
     const size_t halves = 3 * table.values.size();
-    std::vector<u32> words((halves + 1) / 2, 0);
+    std::vector<u32> words((FIRST + (halves + 1) / 2 + 3) / 4 * 4, 0);
+    std::memcpy(words.data(), &measured, sizeof measured);
     for (size_t i = 0; i < halves; ++i)
-        words[i / 2] |= to_half(table.values[i / 3][int(i % 3)] / scale) << (i % 2 * 16);
+        words[FIRST + i / 2] |= to_half(table.values[i / 3][int(i % 3)] / measured.scale) << (i % 2 * 16);
     return words;
 }
 
@@ -47,8 +51,8 @@ u32 MeasuredStore::add(const MeasuredUse& use, NoticeList& notices) {
         throw SceneError(use.place.file, use.place.line,
                          fmt::format("merl: expected the file of a measured BRDF, found none called {}",
                                      clrt::quoted(use.file)));
-    const auto known = index_.find(*path);
-    return known != index_.end() ? known->second : store(use, *path, notices);
+    const auto known = first_words_.find(*path);
+    return known != first_words_.end() ? known->second : store(use, *path, notices);
 }
 
 u32 MeasuredStore::store(const MeasuredUse& use, const std::string& path, NoticeList& notices) {
@@ -68,26 +72,29 @@ u32 MeasuredStore::store(const MeasuredUse& use, const std::string& path, Notice
                                 "measured; closed rooms of it may grow too bright",
                                 clrt::quoted(use.file), albedo),
                     use.place);
-    const std::vector<u32> words = words_of_values(table, measured.scale);
+    const std::vector<u32> words = words_of(measured, table);
     if (words_.size() + words.size() > std::numeric_limits<u32>::max())
         throw SceneError(use.place.file, use.place.line,
                          fmt::format("merl: expected measured BRDFs of less than 16 GiB in all, found more "
                                      "with {}",
                                      clrt::quoted(use.file)));
-    measured.first_word = u32(words_.size());
+    const u32 first_word = u32(words_.size());
     words_.insert(words_.end(), words.begin(), words.end());
-    measured_.push_back(measured);
-    names_.push_back(use.file);
-    paths_.push_back(path);
-    return index_[path] = u32(measured_.size() - 1);
+    names_[first_word] = use.file;
+    return first_words_[path] = first_word;
 }
 
 void MeasuredStore::take(Scene& scene) {
-    for (const std::string& path : paths_)
+    for (const auto& [path, first_word] : first_words_)
         scene.files.push_back({"the measured BRDF", path});
-    scene.measured = std::move(measured_);
-    scene.measured_words = std::move(words_);
+    scene.measured = std::move(words_);
     scene.measured_names = std::move(names_);
+}
+
+MeasuredBrdf measured_at(const std::vector<u32>& words, u32 first_word) {
+    MeasuredBrdf measured;
+    std::memcpy(static_cast<void*>(&measured), &words[first_word], sizeof measured);
+    return measured;
 }
 
 } // namespace clrt

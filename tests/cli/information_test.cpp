@@ -122,7 +122,7 @@ TEST_F(Information, TheLedgerBillsTheCodeOfAbsentEffects) {
                                                "glossy",
                                                "instances",
                                                "light tree",
-                                               "measured BRDFs",
+                                               "measured reflection",
                                                "mirror",
                                                "motion blur",
                                                "path filter",

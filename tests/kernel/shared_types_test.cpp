@@ -2,6 +2,7 @@
 // Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
 #include "kernels/shared/chain_types.h"
 #include "kernels/shared/guide_types.h"
+#include "kernels/shared/measured_types.h"
 #include "kernels/shared/render_types.h"
 #include "kernels/shared/scene_arrays.h"
 #include "probes/kernel_probe.h"
@@ -63,8 +64,7 @@ const Layout MEASURED_VIEW = {
 const Layout MEASURED_BRDF = {
     "MeasuredBrdf",
     sizeof(MeasuredBrdf),
-    {M(first_word), M(half_count), M(difference_count), M(azimuth_count), M(scale), M(unused0), M(unused1),
-     M(unused2), M(views)}};
+    {M(half_count), M(difference_count), M(azimuth_count), M(scale), M(views)}};
 #undef M
 #define M(name) MEMBER(Texture, name)
 const Layout TEXTURE = {
@@ -192,8 +192,9 @@ std::string layout_kernel(const Layout& layout) {
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
-        KernelProbe made(test_device(), {"shared/scene_arrays.h", "shared/render_types.h",
-                                         "shared/guide_types.h", "shared/chain_types.h"});
+        KernelProbe made(test_device(),
+                         {"shared/scene_arrays.h", "shared/measured_types.h", "shared/render_types.h",
+                          "shared/guide_types.h", "shared/chain_types.h"});
         for (const Layout& layout : LAYOUTS)
             made.add_text(layout_kernel(layout));
         made.add_text(

@@ -14,9 +14,9 @@ namespace {
 const char* const TEXT = R"(
 #define PROBE_BSDF const vec4 matte, const vec4 specular, const vec4 transmission, const vec4 shape, \
                    const vec4 normal_g, const vec4 parts, const vec4 sheen, const u32 lobes, const u32 fresnel, \
-                   const u32 transport, global const MeasuredBrdf* measured, global const u32* words
+                   const u32 transport, global const u32* measured
 #define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, parts, sheen, lobes, fresnel, \
-                             transport, measured, words
+                             transport, measured
 
 Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
 {
@@ -44,7 +44,7 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     bsdf.cover.sheen = (lobes & LOBE_SHEEN) ? vector_from(sheen) : (real3)(REAL(0.0));
     bsdf.cover.sheen_alpha = (real)parts.w;
 #endif
-    bsdf_set_measured(&bsdf, measured, words);
+    bsdf_set_measured(&bsdf, measured);
     bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
@@ -281,9 +281,7 @@ Kernel BsdfProbe::prepare(const char* name, const LobeSet& set, const std::vecto
     kernel.set("sheen", to_vec4(set.sheen));
     kernel.set("transport",
                (set.is_importance ? TRANSPORT_IMPORTANCE : 0u) | (set.is_inside ? BSDF_INSIDE : 0u));
-    using Brdfs = std::vector<MeasuredBrdf>;
-    kernel.set("measured", probe_.upload(set.measured ? set.measured->measured : Brdfs(1)));
-    kernel.set("words", probe_.upload(set.measured ? set.measured->measured_words : std::vector<u32>(1)));
+    kernel.set("measured", probe_.upload(set.measured ? set.measured->measured : std::vector<u32>(1)));
     kernel.set("in_a", probe_.upload(to_vec4s(a)));
     kernel.set("in_b", probe_.upload(to_vec4s(b)));
     kernel.set("count", u32(a.size()));

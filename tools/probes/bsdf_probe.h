@@ -27,7 +27,7 @@ struct LobeSet {
     glm::dvec3 sheen{0};
     double sheen_alpha = 1;
     bool is_inside = false;                  ///< of glass with a coat or a sheen: wo is below it
-    std::shared_ptr<const Scene> measured{}; ///< of LOBE_MEASURED: its BRDF is number 0
+    std::shared_ptr<const Scene> measured{}; ///< of LOBE_MEASURED: its first BRDF
     bool has_textbook = true;                ///< tests/support/bsdf_reference.h knows it
 
     /// The index ratio across, and from the other side.
