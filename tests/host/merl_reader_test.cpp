@@ -7,6 +7,7 @@
 #include "scene/measured_store.h"
 #include "scene/readers/merl_reader.h"
 #include "scene/vectors.h"
+#include "support/mtl_material.h"
 
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -16,6 +17,7 @@
 
 using namespace clrt;
 using glm::dvec3;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 namespace {
@@ -153,6 +155,32 @@ TEST(MeasuredSampling, WhatIsBlackHasADensityToo) {
     const MeasuredView view = sample_measured(table, 8);
     EXPECT_EQ(MEASURED_COSINE_SHARE(view), 1);
     EXPECT_EQ(view.albedo.x, 0);
+}
+
+TEST(MerlRule, ItTakesThePlaceOfEverythingThatReflects) {
+    NoticeList notices;
+    const LoadMap no_map = [](const TextureUse&, TextureRole role) {
+        return role == TextureRole::COLOUR ? 0u : NO_INDEX;
+    };
+    const std::string others = "Kd 1 0 0\nKs 1 1 1\nPm 1\nPr 0.2\nillum 7\nconductor gold\nmap_Kd a.png\n";
+    const auto rule = [&](const std::string& text) {
+        const MtlMaterial mtl = parse_mtl("newmtl m\n" + text + "merl a.binary\n", "a.mtl", notices).at(0);
+        return rule_material(mtl, {}, no_map, notices);
+    };
+    const RuledMaterial plain = rule("");
+    EXPECT_EQ(plain.material.lobes, LOBE_MEASURED);
+    EXPECT_EQ(plain.rule, "measured BRDF merl");
+    EXPECT_TRUE(plain.extension.is_needed);
+    const RuledMaterial ruled = rule(others);
+    EXPECT_EQ(std::memcmp(&ruled.material, &plain.material, sizeof(Material)), 0);
+    EXPECT_TRUE(notices.lines().empty());
+    EXPECT_EQ(rule("Pc 1\nPs 0.5\n").material.lobes, LOBE_MEASURED);
+    EXPECT_THAT(notices.lines(), ElementsAre("a.mtl:2: Pc has no effect beside merl",
+                                             "a.mtl:3: Ps has no effect beside merl"));
+    const RuledMaterial lamp = rule("Ke 1 2 3\nmap_Ke a.png\nd 0.5\n");
+    EXPECT_EQ(lamp.material.emission.z, 3);
+    EXPECT_EQ(lamp.material.map_emission, 0u);
+    EXPECT_EQ(MATERIAL_COVERAGE(lamp.material), 0.5f);
 }
 
 TEST_F(StoreTest, AFileIsReadOnceAndNamed) {
