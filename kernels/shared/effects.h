@@ -42,12 +42,12 @@ using EffectMask = std::uint64_t;
 #define EFFECT_SPOT EFFECT_BIT(0x400000)          /* point lights that shine within a cone */
 #define EFFECT_CONDUCTOR EFFECT_BIT(0x800000)     /* reflection by a complex index of refraction */
 #define EFFECT_DISPERSION EFFECT_BIT(0x2000000)   /* glass that bends colours apart */
-#define EFFECT_NESTED EFFECT_BIT(0x4000000)       /* solids within each other, by priority (geometry/nest.h) */
-#define EFFECT_MAPPED_EMISSION EFFECT_BIT(0x8000000) /* emissive triangles in parts (geometry/emitter_part.h) */
-#define EFFECT_INSTANCES EFFECT_BIT(0x10000000)   /* copies that share one mesh (geometry/instance.h) */
+#define EFFECT_NESTED EFFECT_BIT(0x4000000) /* solids within each other, by priority (geometry/nest.h) */
+#define EFFECT_MAPPED_EMISSION EFFECT_BIT(0x8000000) /* emissive triangles in parts (emitter_part.h) */
+#define EFFECT_INSTANCES EFFECT_BIT(0x10000000) /* copies that share one mesh (geometry/instance.h) */
 #define EFFECT_THIN_WALL EFFECT_BIT(0x20000000)   /* panes without an inside */
 #define EFFECT_ROTATION EFFECT_BIT(0x40000000)    /* highlights stretched askew to the texture coordinates */
-#define EFFECT_TEXTURE_FILTER EFFECT_BIT(0x80000000) /* lookups over the ray's footprint (geometry/ray_cone.h) */
+#define EFFECT_TEXTURE_FILTER EFFECT_BIT(0x80000000) /* lookups over the ray's footprint (ray_cone.h) */
 #define EFFECT_MEASURED EFFECT_BIT(0x100000000) /* measured BRDFs */
 #define EFFECT_ALL                                                                                           \
     (EFFECT_BIT(0xffffff) | EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_MAPPED_EMISSION | EFFECT_INSTANCES |  \

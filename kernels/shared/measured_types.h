@@ -12,7 +12,7 @@ SHARED_BEGIN
    a right angle. */
 #define MEASURED_CELLS 90u
 
-/* Directions to the eye for which there are tables: the cosine of number i is (i / (MEASURED_VIEWS - 1))^2. */
+/* Directions to the eye that have tables: the cosine of number i is (i / (MEASURED_VIEWS - 1))^2. */
 #define MEASURED_VIEWS 16u
 
 /* How light is sampled that leaves along one direction. */
@@ -25,9 +25,9 @@ ASSERT_SIZE(MeasuredView, 736);
 
 #define MEASURED_COSINE_SHARE(view) ((view).albedo.w) /* of directions that a cosine lobe samples */
 
-/* One BRDF, in an array of words, at a multiple of four of them. Its values follow: three halves each, r, g, b
-   times `scale` per steradian, two halves to a word, the first in the lower bits. They lie at the middles of
-   equal steps of sqrt(half angle), of the difference angle, both up to a right angle, and of the difference's
+/* One BRDF, in an array of words, at a multiple of four of them. Its values follow: three halves each, r, g
+   and b times `scale` per steradian, two halves to a word, the first in the lower bits. They lie at the
+   middles of equal steps of sqrt(half angle), of the difference angle, both up to a right angle, and of the difference's
    azimuth from 0 to pi; the last runs fastest. */
 typedef struct {
     u32 half_count, difference_count, azimuth_count;

@@ -5,6 +5,7 @@
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -37,6 +38,20 @@ TEST(MeasuredRender, AMatteFileLooksLikeKdByEveryIntegrator) {
          {Integrator::PATH, Integrator::LIGHT, Integrator::BDPT, Integrator::RAYCAST}) {
         const Film measured = Ball("Kd 1 0 0\nPc 1\nmerl matte.binary", integrator).render().film;
         expect_equal_means(measured, Ball("Kd 0.6 0.4 0.2", integrator).render().film, name_of(integrator));
+    }
+}
+
+TEST(MeasuredRender, AWhiteFileIsWhiteUnderAWhiteSky) {
+    for (const double cosine : {0.1, 0.6, 1.0}) {
+        TestScene furnace;
+        furnace.folder.write("white.binary", merl_file(matte_and_glossy(glm::dvec3(1)), {12, 10, 8}));
+        furnace.build.material("white", "merl white.binary").use("white").floor(9);
+        furnace.look_at_point({std::sqrt(1 - cosine * cosine), cosine, 0}, {0, 0, 0});
+        furnace.options.light.environment = glm::dvec3(1);
+        furnace.options.effects.all = false;
+        const Film film = furnace.render().film;
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_TRUE(agrees(film_estimate(film, channel), 1, 2e-3, 0.01)) << cosine;
     }
 }
 
