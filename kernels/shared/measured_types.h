@@ -27,8 +27,8 @@ ASSERT_SIZE(MeasuredView, 736);
 
 /* One BRDF, in an array of words, at a multiple of four of them. Its values follow: three halves each, r, g
    and b times `scale` per steradian, two halves to a word, the first in the lower bits. They lie at the
-   middles of equal steps of sqrt(half angle), of the difference angle, both up to a right angle, and of the difference's
-   azimuth from 0 to pi; the last runs fastest. */
+   middles of equal steps of sqrt(half angle), of the difference angle, both up to a right angle, and of the
+   difference's azimuth from 0 to pi; the last runs fastest. */
 typedef struct {
     u32 half_count, difference_count, azimuth_count;
     float scale; /* a power of two */
