@@ -25,8 +25,9 @@ static inline real3 direct_eval(const Bsdf* bsdf, real3 wi_world, bool highlight
                      ((bsdf->exponent + REAL(2.0)) * REAL(0.5) * REAL_INVERSE_PI *
                       real_pow(cos_r, bsdf->exponent) * wi.z);
     }
-    if (HAS(EFFECT_SHEEN) && (bsdf->lobes & LOBE_SHEEN))
-        value += bsdf_eval_lobes(bsdf, LOBE_SHEEN, wi).value;
+    const uint whole = bsdf->lobes & (uint)BSDF_LOBES & (LOBE_SHEEN | LOBE_MEASURED);
+    if (HAS(EFFECT_SHEEN | EFFECT_MEASURED) && whole != 0u)
+        value += bsdf_eval_lobes(bsdf, whole, wi).value;
     return value;
 }
 

@@ -6,6 +6,7 @@
 
 #include "light_sample.h"
 #include "numerics/frame.h"
+#include "numerics/halves.h"
 #include "numerics/real_functions.h"
 
 /* Turns a world direction into the map's frame. */
@@ -65,14 +66,6 @@ static inline uint environment_tile_at(const RenderParams* params, uint column, 
     return row / SKY_TILE_SIZE * environment_tiles_across(params) + column / SKY_TILE_SIZE;
 }
 
-/* Three halves that are not negative, by integers: devices may lose small ones otherwise. */
-static inline float3 environment_from_halves(uint3 halves)
-{
-    const float3 normal = as_float3((halves + (uint3)(112u << 10)) << (uint3)(13u));
-    const float3 small = convert_float3(halves) * 0x1p-24f;
-    return select(normal, small, halves < (uint3)(1u << 10));
-}
-
 /* Radiance of a texel, without the map's factor. */
 static inline real3 environment_texel(const Scene* scene, const RenderParams* params, int column, int row)
 {
@@ -83,10 +76,8 @@ static inline real3 environment_texel(const Scene* scene, const RenderParams* pa
         const uint3 bytes = (uint3)(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u);
         return convert_real3(convert_float3(bytes) * as_float(((word >> 24) - 9u) << 23));
     }
-    if (params->environment_format == SKY_TEXEL_HALF) {
-        const ushort3 halves = vload3(i, (global const ushort*)scene->sky_texels);
-        return convert_real3(environment_from_halves(convert_uint3(halves)));
-    }
+    if (params->environment_format == SKY_TEXEL_HALF)
+        return halves_load(i, (global const ushort*)scene->sky_texels);
     return convert_real3(vload3(i, (global const float*)scene->sky_texels));
 }
 

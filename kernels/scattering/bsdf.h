@@ -9,6 +9,7 @@
 #include "bsdf_dielectric.h"
 #include "bsdf_glossy.h"
 #include "bsdf_matte.h"
+#include "bsdf_measured.h"
 #include "bsdf_mirror.h"
 #include "bsdf_pane.h"
 #include "bsdf_sheen.h"

@@ -6,6 +6,7 @@
 #include "albedo.h"
 #include "numerics/frame.h"
 #include "shared/effects.h"
+#include "shared/measured_types.h"
 #include "shared/scene_types.h"
 #include "trace/trace.h"
 
@@ -42,6 +43,12 @@ typedef struct {
     real coat_shared;     /* s(wo) below the coat */
 } BsdfCover;
 
+/* What surfaces of one kind alone have. */
+typedef union {
+    real3 etas; /* of the colours, as `eta`; where the surface disperses */
+    global const MeasuredBrdf* measured; /* of LOBE_MEASURED; its values lie behind it */
+} BsdfRare;
+
 typedef struct {
     Frame frame;        /* z is the shading normal, on wo's side */
     real3 wo;           /* towards the eye, in the frame: wo.z >= 0 */
@@ -72,8 +79,8 @@ typedef struct {
 #if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
     BsdfCover cover;         /* where the flag is BSDF_COVERED */
 #endif
-#if CLRT_EFFECTS & EFFECT_DISPERSION
-    real3 etas;              /* of the colours, as `eta`; where the surface disperses */
+#if CLRT_EFFECTS & (EFFECT_DISPERSION | EFFECT_MEASURED)
+    BsdfRare rare;
 #endif
 } Bsdf;
 
@@ -84,6 +91,23 @@ static inline BsdfCover* bsdf_cover(const Bsdf* bsdf)
     return (BsdfCover*)&bsdf->cover;
 #else
     return 0;
+#endif
+}
+
+/* The measured BRDF, with its values behind it; nowhere where no material has one. */
+static inline global const MeasuredBrdf* bsdf_measured(const Bsdf* bsdf)
+{
+#if CLRT_EFFECTS & EFFECT_MEASURED
+    return bsdf->rare.measured;
+#else
+    return 0;
+#endif
+}
+
+static inline void bsdf_set_measured(Bsdf* bsdf, global const u32* words)
+{
+#if CLRT_EFFECTS & EFFECT_MEASURED
+    bsdf->rare.measured = (global const MeasuredBrdf*)words;
 #endif
 }
 

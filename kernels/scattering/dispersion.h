@@ -66,9 +66,9 @@ static CLRT_NOINLINE real3 dispersion_reflects(const Bsdf* bsdf, real cos_o)
 {
 #if CLRT_EFFECTS & EFFECT_DISPERSION
     real cos_t;
-    const real3 f = vector_make(fresnel_dielectric(cos_o, bsdf->etas.x, &cos_t),
-                                fresnel_dielectric(cos_o, bsdf->etas.y, &cos_t),
-                                fresnel_dielectric(cos_o, bsdf->etas.z, &cos_t));
+    const real3 f = vector_make(fresnel_dielectric(cos_o, bsdf->rare.etas.x, &cos_t),
+                                fresnel_dielectric(cos_o, bsdf->rare.etas.y, &cos_t),
+                                fresnel_dielectric(cos_o, bsdf->rare.etas.z, &cos_t));
     return f / dispersion_component(dispersion_of(bsdf), f);
 #else
     return (real3)(REAL(1.0));

@@ -216,8 +216,8 @@ static CLRT_NOINLINE void material_disperse(const Scene* scene, const Surface* s
         return;
     const real3 indices = material_indices(scene, surface->material);
     const real3 others = outside == NO_INDEX ? (real3)(REAL(1.0)) : material_indices(scene, outside);
-    bsdf->etas = surface->front ? others / indices : indices / others;
-    bsdf->eta = dispersion_component(wave, bsdf->etas);
+    bsdf->rare.etas = surface->front ? others / indices : indices / others;
+    bsdf->eta = dispersion_component(wave, bsdf->rare.etas);
     bsdf->flags |= wave << BSDF_WAVE_SHIFT;
 #endif
 }
@@ -323,6 +323,8 @@ CLRT_GIVES_STRUCT void material_set_bsdf(const Scene* scene, const Surface* surf
         material_cover(scene, material, surface, bsdf);
         bsdf->flags |= !surface->front && (material->lobes & LOBE_DIELECTRIC) ? BSDF_INSIDE : 0u;
     }
+    if (HAS(EFFECT_MEASURED) && (material->lobes & LOBE_MEASURED))
+        bsdf_set_measured(bsdf, scene->measured + scene->extensions[surface->material].measured);
     real3 n = material_normal(scene, material, surface);
     if (material_is_bent(surface, n, wo)) {
         n = material_bent(n, wo);

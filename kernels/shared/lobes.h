@@ -16,6 +16,7 @@
 #define LOBE_DIELECTRIC 32u /* reflection and refraction with exact Fresnel, smooth when alpha_x = 0 */
 #define LOBE_PANE 64u       /* a thin wall: reflection, and transmission that is not bent; where alpha_x = 0 it
                                is a mirror, and what passes is no event (path/visibility.h) */
+#define LOBE_MEASURED 128u  /* a measured BRDF, alone */
 
 /* Lobes of microfacets, which reflect light more than once (scattering/bsdf_energy.h). */
 #define LOBES_ROUGH (LOBE_GLOSSY | LOBE_DIELECTRIC | LOBE_PANE)
@@ -40,7 +41,9 @@
     ROW(DIELECTRIC, dielectric, EFFECT_REFRACTION, LETTER_BIT(LETTER_GLOSSY),                                \
         LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION), "no material is a dielectric")         \
     ROW(PANE, pane, EFFECT_THIN_WALL, LETTER_BIT(LETTER_GLOSSY), LETTER_BIT(LETTER_MIRROR),                  \
-        "no material is a thin wall")
+        "no material is a thin wall")                                                                        \
+    ROW(MEASURED, measured, EFFECT_MEASURED, LETTER_BIT(LETTER_GLOSSY), 0u,                                  \
+        "no material has a measured BRDF")
 
 #define LOBE_NUMBER(NAME, name, effect, letters, delta_letters, absent) LOBE_ROW_##NAME,
 enum { LOBE_TABLE(LOBE_NUMBER) LOBE_COUNT };

@@ -28,6 +28,7 @@
     ROW(Instance, instances, instances)                                                                      \
     ROW(Material, materials, materials)                                                                      \
     ROW(MaterialExtension, extensions, extensions)                                                           \
+    ROW(u32, measured, measured)                                                                             \
     ROW(Texture, textures, textures)                                                                         \
     ROW(u32, texel_words, texel_words)                                                                       \
     ROW(Emitter, emitters, emitters)                                                                         \

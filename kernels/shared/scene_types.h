@@ -90,7 +90,7 @@ typedef struct {
     u32 map_coat_roughness, map_sheen_roughness; /* alpha = constant (map)^2 */
     float spread; /* of the index between Fraunhofer's lines C and F (scattering/dispersion.h) */
     float priority; /* of the solid: of two in one place the greater is there (geometry/nest.h) */
-    u32 unused0;
+    u32 measured;   /* of LOBE_MEASURED: first word of its BRDF (measured_types.h) */
 } MaterialExtension;
 ASSERT_SIZE(MaterialExtension, 80);
 

@@ -9,7 +9,7 @@ namespace clrt {
 namespace {
 
 /// The bit of a name, or an error that says which name may have been meant.
-u32 known_effect(const OptionValue& value, const std::string& name) {
+EffectMask known_effect(const OptionValue& value, const std::string& name) {
     if (const auto bit = effect_by_name(name))
         return *bit;
     const std::vector<std::string> known = effect_names(EVERY_EFFECT);
@@ -38,7 +38,7 @@ void apply_effects(Options& options, const OptionValue& value) {
         else if (is_away)
             options.effects.off |= known_effect(value, part.substr(1));
         else if (!is_start) {
-            const u32 bit = known_effect(value, part);
+            const EffectMask bit = known_effect(value, part);
             if (!is_first && !options.effects.list)
                 reject_value(value, "effects with a '-' after auto, all or another '-', which '" + part +
                                         "' adds nothing to");

@@ -10,8 +10,8 @@ namespace clrt {
 namespace {
 
 /// What a map can be of; all others are not loaded.
-constexpr u32 MAPPED = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION |
-                       EFFECT_AREA_LIGHT | EFFECT_CUT_OUT | EFFECT_NORMAL_MAP;
+constexpr EffectMask MAPPED = EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_MIRROR | EFFECT_ROUGH_REFRACTION |
+                              EFFECT_AREA_LIGHT | EFFECT_CUT_OUT | EFFECT_NORMAL_MAP;
 
 std::string with_hyphens(std::string name) {
     std::replace(name.begin(), name.end(), ' ', '-');
@@ -63,12 +63,13 @@ const std::vector<EffectSpec>& effect_table() {
          "stretched highlights lie along the texture coordinates"},
         {EFFECT_TEXTURE_FILTER, "texture filter", EFFECT_TEXTURES, 0,
          "textures are read at a point, as by --texture-filter none"},
+        {EFFECT_MEASURED, "measured reflection", 0, 0, "materials with a measured BRDF are black"},
     };
     return table;
 }
 
-u32 with_implied(u32 effects) {
-    for (u32 before = 0; before != effects;) {
+EffectMask with_implied(EffectMask effects) {
+    for (EffectMask before = 0; before != effects;) {
         before = effects;
         for (const EffectSpec& effect : effect_table())
             if (effects & effect.bit)
@@ -77,22 +78,22 @@ u32 with_implied(u32 effects) {
     return effects;
 }
 
-u32 without_effects(u32 effects, u32 taken) {
-    u32 left = 0;
+EffectMask without_effects(EffectMask effects, EffectMask taken) {
+    EffectMask left = 0;
     for (const EffectSpec& effect : effect_table())
         if ((effects & effect.bit) && !(with_implied(effect.bit) & taken))
             left |= effect.bit;
     return left;
 }
 
-std::optional<u32> effect_by_name(const std::string& name) {
+std::optional<EffectMask> effect_by_name(const std::string& name) {
     for (const EffectSpec& effect : effect_table())
         if (with_hyphens(name) == with_hyphens(effect.name))
             return effect.bit;
     return std::nullopt;
 }
 
-std::vector<std::string> effect_names(u32 effects) {
+std::vector<std::string> effect_names(EffectMask effects) {
     std::vector<std::string> names;
     for (const EffectSpec& effect : effect_table())
         if (effects & effect.bit)

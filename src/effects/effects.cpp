@@ -66,7 +66,8 @@ public:
     }
 
     /// An effect that the first used material with a property calls for.
-    void material(u32 bit, const std::string& absent, const std::function<bool(const Material&)>& calls) {
+    void material(EffectMask bit, const std::string& absent,
+                  const std::function<bool(const Material&)>& calls) {
         const size_t i = first_material(calls);
         if (i == used_.size())
             return fact(bit, false, absent);
@@ -74,7 +75,8 @@ public:
     }
 
     /// An effect that a map of the first used material with one of these maps calls for.
-    void map(u32 bit, const std::string& absent, const std::function<std::vector<u32>(size_t)>& maps_of) {
+    void map(EffectMask bit, const std::string& absent,
+             const std::function<std::vector<u32>(size_t)>& maps_of) {
         for (size_t i = 0; i < used_.size(); ++i)
             for (const u32 map : used_[i] ? maps_of(i) : std::vector<u32>())
                 if (map != NO_INDEX)
@@ -87,7 +89,7 @@ public:
     }
 
     /// An effect that one fact decides.
-    void fact(u32 bit, bool present, const std::string& witness, const SourcePlace& place = {}) {
+    void fact(EffectMask bit, bool present, const std::string& witness, const SourcePlace& place = {}) {
         list_.push_back({bit, row_of(bit).name, present, witness, place});
     }
 
@@ -100,7 +102,7 @@ public:
     }
 
 private:
-    static const EffectSpec& row_of(u32 bit) {
+    static const EffectSpec& row_of(EffectMask bit) {
         return *std::find_if(effect_table().begin(), effect_table().end(),
                              [bit](const EffectSpec& row) { return row.bit == bit; });
     }
@@ -206,7 +208,7 @@ void find_material_effects(const Scene& scene, const Options& options, EffectFin
             const bool is_mixed = lobe.bit == LOBE_DIELECTRIC && (m.flags & MATERIAL_PART_GLASS);
             return (m.lobes & lobe.bit) || is_mixed; // part glass implies refraction
         });
-    const auto flagged = [&](u32 effect, u32 flag, const char* absent) {
+    const auto flagged = [&](EffectMask effect, u32 flag, const char* absent) {
         finder.material(effect, absent + by, [flag](const Material& m) { return (m.flags & flag) != 0; });
     };
     flagged(EFFECT_PART_GLASS, MATERIAL_PART_GLASS, "no material is partly glass");
@@ -352,10 +354,10 @@ void find_interreflection(const Scene& scene, const Options& options, EffectFind
 }
 
 /// What --effects asks for, of all effects.
-u32 chosen_effects(const Options& options, u32 needed) {
-    const u32 start = options.effects.list  ? with_implied(*options.effects.list)
-                      : options.effects.all ? EVERY_EFFECT
-                                            : needed;
+EffectMask chosen_effects(const Options& options, EffectMask needed) {
+    const EffectMask start = options.effects.list  ? with_implied(*options.effects.list)
+                             : options.effects.all ? EVERY_EFFECT
+                                                   : needed;
     return without_effects(start, options.effects.off);
 }
 
@@ -385,7 +387,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     for (const Effect& effect : effects.list)
         if (effect.present)
             effects.needed |= effect.bit;
-    const u32 chosen = chosen_effects(options, effects.needed);
+    const EffectMask chosen = chosen_effects(options, effects.needed);
     effects.mask = chosen & EFFECT_ALL;
     effects.left_out = effects.needed & ~chosen;
     return effects;

@@ -15,8 +15,8 @@ namespace clrt {
 
 /// One effect and why it is present or absent.
 struct Effect {
-    u32 bit = 0;      ///< EFFECT_*
-    std::string name; ///< as in messages and files, such as "rough refraction"
+    EffectMask bit = 0; ///< EFFECT_*
+    std::string name;   ///< as in messages and files, such as "rough refraction"
     bool present = false;
     std::string witness; ///< what calls for it, such as `material "glass" (room.mtl:12)`, or why nothing does
     SourcePlace place;   ///< the file and line that the witness names; line 0: none
@@ -26,12 +26,12 @@ struct Effect {
 struct Effects {
     std::vector<Effect> list;
     /// What the scene calls for, all effects.
-    u32 needed = 0;
+    EffectMask needed = 0;
     /// Bits to compile with: the needed ones, all with --effects all, or those of the list, without what is
     /// taken away.
-    u32 mask = 0;
+    EffectMask mask = 0;
     /// What the scene calls for and --effects leaves out, with the effects that imply it: take_out.h.
-    u32 left_out = 0;
+    EffectMask left_out = 0;
     /// What --paths and layers of paths ask for, and its automaton.
     PathPlan paths;
 };

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 Json effect_json(const Effects& effects, const Effect& effect) {
     Json json{{"name", effect.name},
               {"present", effect.present},
-              {"compiled", ((effects.mask | ~u32(EFFECT_ALL)) & effect.bit) != 0},
+              {"compiled", ((effects.mask | ~EFFECT_ALL) & effect.bit) != 0},
               {"left_out", (effects.left_out & effect.bit) != 0},
               {"witness", effect.witness},
               {"file", nullptr},

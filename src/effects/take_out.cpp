@@ -176,7 +176,7 @@ void take_out_instances(Scene& scene) {
     scene.instances.clear();
 }
 
-void take_out_lights(u32 effects, Scene& scene) {
+void take_out_lights(EffectMask effects, Scene& scene) {
     if (effects & EFFECT_AREA_LIGHT)
         take_out_area_lights(scene);
     if (effects & EFFECT_DELTA_LIGHT)
@@ -192,7 +192,7 @@ void take_out_lights(u32 effects, Scene& scene) {
         set_sky(scene.environment, mean_of_map(scene.environment));
 }
 
-void take_out_lobes(u32 effects, Scene& scene) {
+void take_out_lobes(EffectMask effects, Scene& scene) {
     for (const LobeSpec& lobe : LOBE_SPECS)
         if (effects & lobe.effect)
             take_out_lobe(lobe.bit, scene);
@@ -214,7 +214,7 @@ void take_out_lobes(u32 effects, Scene& scene) {
 
 } // namespace
 
-void take_out_effects(u32 effects, Scene& scene, Options& options) {
+void take_out_effects(EffectMask effects, Scene& scene, Options& options) {
     effects = EVERY_EFFECT & ~without_effects(EVERY_EFFECT, effects);
     take_out_lights(effects, scene);
     take_out_lobes(effects, scene);
@@ -250,7 +250,7 @@ void take_out_effects(u32 effects, Scene& scene, Options& options) {
         options.transport.max_depth = std::min(effective_max_depth(options.transport), 2);
 }
 
-bool turns_triangles(u32 effects) {
+bool turns_triangles(EffectMask effects) {
     return (effects & EFFECT_SMOOTH_NORMALS) != 0; // take_out_smooth_normals
 }
 

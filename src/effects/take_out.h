@@ -10,10 +10,10 @@ namespace clrt {
 
 /// Changes the scene and the options to what the column `without` of the effect table says, for each of
 /// `effects` and for those that imply one of them.
-void take_out_effects(u32 effects, Scene& scene, Options& options);
+void take_out_effects(EffectMask effects, Scene& scene, Options& options);
 
 /// Whether taking these effects out may turn triangles round, so that a tree over the scene as it was is none
 /// over what is left. (A tree around triangles that move is also one around those that have stopped.)
-bool turns_triangles(u32 effects);
+bool turns_triangles(EffectMask effects);
 
 } // namespace clrt

@@ -9,8 +9,8 @@ namespace clrt {
 
 struct EffectOptions {
     bool all = false;                  ///< --effects all: the full kernel
-    std::optional<std::uint32_t> list; ///< --effects LIST: these and no others
-    std::uint32_t off = 0;             ///< --effects -NAME: taken away
+    std::optional<std::uint64_t> list; ///< --effects LIST: these and no others
+    std::uint64_t off = 0;             ///< --effects -NAME: taken away
 };
 
 } // namespace clrt

@@ -89,7 +89,8 @@ std::string explain_miss(const Scene& scene, const VoxelGrid& grid) {
 
 bool is_black(const Material& m) {
     const auto none = [](const vec4& v) { return v.x <= 0 && v.y <= 0 && v.z <= 0; };
-    return none(m.matte) && none(m.specular) && (m.lobes & (LOBES_GLASS | LOBE_COAT | LOBE_SHEEN)) == 0 &&
+    return none(m.matte) && none(m.specular) &&
+           (m.lobes & (LOBES_GLASS | LOBE_COAT | LOBE_SHEEN | LOBE_MEASURED)) == 0 &&
            m.fresnel != FRESNEL_CONDUCTOR;
 }
 

@@ -37,7 +37,7 @@ void append(std::vector<std::string>& defines, const std::vector<std::string>& m
 
 /// What every program of integrators/NAME.cl is built with.
 ProgramRequest make_request(const KernelFiles& files, const std::string& name, const Options& options,
-                            u32 effects, BvhLayout layout) {
+                            EffectMask effects, BvhLayout layout) {
     ProgramRequest request;
     request.name = name;
     request.source = expand_kernel_source(files, "integrators/" + name + ".cl");
@@ -53,7 +53,7 @@ ProgramRequest make_request(const KernelFiles& files, const std::string& name, c
 
 /// The same for programs that simulate as many samples of a pixel side by side as the device likes.
 ProgramRequest launched_request(const Device& device, const KernelFiles& files, const std::string& name,
-                                const Options& options, u32 effects, BvhLayout layout,
+                                const Options& options, EffectMask effects, BvhLayout layout,
                                 const std::vector<std::string>& defines) {
     ProgramRequest request = make_request(files, name, options, effects, layout);
     // A CPU's core fills the waits of one with the others, a GPU has other work-items for that; sums of
@@ -146,7 +146,7 @@ bool wants_mattes(const Options& options) {
            });
 }
 
-RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
+RenderPrograms build_render_programs(const Device& device, const Options& options, EffectMask effects,
                                      BvhLayout layout, const PathPlan& paths) {
     const auto start = std::chrono::steady_clock::now();
     const KernelFiles files = kernel_files(options.device.kernels_folder);
@@ -163,8 +163,8 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
     return programs;
 }
 
-Program build_guided_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
-                             const PathPlan& paths) {
+Program build_guided_program(const Device& device, const Options& options, EffectMask effects,
+                             BvhLayout layout, const PathPlan& paths) {
     std::vector<std::string> defines = picture_defines(device, options, paths);
     append(defines, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
     ProgramRequest request =
@@ -174,8 +174,8 @@ Program build_guided_program(const Device& device, const Options& options, u32 e
     return build_program(device, request);
 }
 
-Program build_pilot_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
-                            const PathPlan& paths) {
+Program build_pilot_program(const Device& device, const Options& options, EffectMask effects,
+                            BvhLayout layout, const PathPlan& paths) {
     std::vector<std::string> defines = picture_defines(device, options, paths);
     defines.emplace_back("FILM_MOMENTS=1");
     ProgramRequest request =
@@ -185,8 +185,8 @@ Program build_pilot_program(const Device& device, const Options& options, u32 ef
     return build_program(device, request);
 }
 
-Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
-                             BvhLayout layout, const PathPlan& paths) {
+Program build_replay_program(const Device& device, const Options& options, Precision precision,
+                             EffectMask effects, BvhLayout layout, const PathPlan& paths) {
     ProgramRequest request =
         make_request(kernel_files(options.device.kernels_folder),
                      integrator_stem(options.transport.integrator), options, effects, layout);

@@ -51,20 +51,20 @@ std::vector<std::string> dumped_files(const Options& options);
 
 /// Compiles what the options ask for with this effects mask and, where paths are told apart, the automaton of
 /// the plan.
-RenderPrograms build_render_programs(const Device& device, const Options& options, u32 effects,
+RenderPrograms build_render_programs(const Device& device, const Options& options, EffectMask effects,
                                      BvhLayout layout, const PathPlan& paths = {});
 
 /// Compiles the same integrator so that it guides paths (kernels/path/guide.h).
-Program build_guided_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
-                             const PathPlan& paths);
+Program build_guided_program(const Device& device, const Options& options, EffectMask effects,
+                             BvhLayout layout, const PathPlan& paths);
 
 /// Compiles path+light so that it sums the moments of its samples (kernels/film/moments.h).
-Program build_pilot_program(const Device& device, const Options& options, u32 effects, BvhLayout layout,
-                            const PathPlan& paths);
+Program build_pilot_program(const Device& device, const Options& options, EffectMask effects,
+                            BvhLayout layout, const PathPlan& paths);
 
 /// Compiles the same integrator so that it records what single samples do (kernels/trace), in a precision of
 /// its own.
-Program build_replay_program(const Device& device, const Options& options, Precision precision, u32 effects,
-                             BvhLayout layout, const PathPlan& paths);
+Program build_replay_program(const Device& device, const Options& options, Precision precision,
+                             EffectMask effects, BvhLayout layout, const PathPlan& paths);
 
 } // namespace clrt

@@ -24,12 +24,12 @@ double mean_luminance(const Film& film) {
 }
 
 /// The picture without one of its effects.
-void leave_out(u32 bit, LedgerVariant& variant) {
+void leave_out(EffectMask bit, LedgerVariant& variant) {
     variant.options.effects.off |= bit;
 }
 
 /// The picture by the picture's program with the code of one more effect.
-void add_code(u32 bit, const Effects& effects, LedgerVariant& variant) {
+void add_code(EffectMask bit, const Effects& effects, LedgerVariant& variant) {
     EffectOptions& chosen = variant.options.effects;
     chosen.all = false;
     chosen.list = effects.mask | (effects.needed & ~effects.left_out) | bit;
@@ -39,8 +39,8 @@ void add_code(u32 bit, const Effects& effects, LedgerVariant& variant) {
 /// Whether the picture's program has no code of an effect, but of all that the effect implies: only then the
 /// code has a price of its own.
 bool can_be_added(const Effect& effect, const Effects& effects) {
-    const u32 bit = effect.bit & EFFECT_ALL;
-    const u32 implied = with_implied(bit) & ~bit;
+    const EffectMask bit = effect.bit & EFFECT_ALL;
+    const EffectMask implied = with_implied(bit) & ~bit;
     return bit && !effect.present && !(effects.mask & bit) && (effects.mask & implied) == implied;
 }
 

@@ -18,7 +18,7 @@ namespace clrt {
 struct LedgerVariant {
     std::string effect; ///< that is left out, or whose code is added; empty: none
     Options options;
-    u32 mask = 0;                          ///< of its program
+    EffectMask mask = 0;                   ///< of its program
     std::shared_ptr<PlannedScene> planned; ///< made when it is compiled,
     PreparedParts parts;                   ///< and so are these
     double compile_seconds = 0;

@@ -177,7 +177,7 @@ Json effects_json(const Effects& effects) {
     for (const Effect& effect : effects.list)
         list.push_back({{"name", effect.name},
                         {"present", effect.present},
-                        {"compiled", ((effects.mask | ~u32(EFFECT_ALL)) & effect.bit) != 0},
+                        {"compiled", ((effects.mask | ~EFFECT_ALL) & effect.bit) != 0},
                         {"left_out", (effects.left_out & effect.bit) != 0},
                         {"witness", effect.witness}});
     return list;

@@ -48,7 +48,8 @@ double largest_factor(const Scene& scene, u32 map) {
 
 double albedo(const Scene& scene, const Material& m) {
     const bool reflects = (m.lobes & (LOBE_GLOSSY | LOBE_MIRROR)) != 0;
-    if ((m.lobes & (LOBES_GLASS | LOBE_COAT | LOBE_SHEEN)) || (reflects && m.fresnel != FRESNEL_NONE))
+    if ((m.lobes & (LOBES_GLASS | LOBE_COAT | LOBE_SHEEN | LOBE_MEASURED)) ||
+        (reflects && m.fresnel != FRESNEL_NONE))
         return 1;
     glm::dvec3 sum(0);
     if (m.lobes & LOBE_MATTE)

@@ -89,7 +89,7 @@ BuiltExtension build_extension(const MaterialDescription& from, const Material& 
     }
     const u32 flags =
         MATERIAL_ATTENUATES | MATERIAL_PART_GLASS | MATERIAL_TURNED | MATERIAL_DISPERSES | MATERIAL_NESTED;
-    built.is_needed = (material.flags & flags) || (material.lobes & (LOBE_COAT | LOBE_SHEEN));
+    built.is_needed = (material.flags & flags) || (material.lobes & (LOBE_COAT | LOBE_SHEEN | LOBE_MEASURED));
     return built;
 }
 

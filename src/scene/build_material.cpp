@@ -53,6 +53,9 @@ public:
         case Reflection::CONDUCTOR:
             set_conductor();
             break;
+        case Reflection::MEASURED:
+            m_.lobes = LOBE_MEASURED;
+            break;
         }
         set_extension_flags();
         set_emission();

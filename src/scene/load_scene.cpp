@@ -19,6 +19,7 @@
 #include "scene/inside_out.h"
 #include "scene/lights.h"
 #include "scene/material_override.h"
+#include "scene/measured_store.h"
 #include "scene/mesh_motion.h"
 #include "scene/normalise.h"
 #include "scene/place_instances.h"
@@ -165,6 +166,7 @@ std::vector<double> build_materials(const std::vector<MaterialDescription>& desc
     std::vector<double> exitance;
     progress.update({"textures", 0});
     pictures.read_ahead(uses_of(descriptions, context));
+    MeasuredStore measured;
     for (const MaterialDescription& description : descriptions) {
         progress.update({"textures", double(exitance.size()) / double(descriptions.size())});
         note_remarks(description.surface_remarks, notices);
@@ -172,12 +174,16 @@ std::vector<double> build_materials(const std::vector<MaterialDescription>& desc
         scene.emitted.push_back(emitted_radiance(material, pictures.store()));
         exitance.push_back(emitted_luminance(material, scene.emitted.back()));
         scene.materials.push_back(material);
-        append_extension(build_extension(description, material, context, load_map), scene);
+        BuiltExtension built = build_extension(description, material, context, load_map);
+        if (material.lobes & LOBE_MEASURED)
+            built.extension.measured = measured.add(description.measured, notices);
+        append_extension(built, scene);
         scene.material_names.push_back(description.name);
         scene.material_places.push_back(description.place);
         scene.material_rules.push_back(description.rule);
     }
     take_pictures(pictures.store(), scene);
+    measured.take(scene);
     return exitance;
 }
 

@@ -11,7 +11,7 @@ namespace clrt {
 struct LobeSpec {
     u32 bit;                ///< LOBE_*
     const char* name;       ///< in reports
-    u32 effect;             ///< EFFECT_* that compiles it in
+    EffectMask effect;      ///< EFFECT_* that compiles it in
     unsigned letters;       ///< that it writes where it has a density
     unsigned delta_letters; ///< that it writes where it is a delta function
     const char* absent;     ///< what --explain says where no material has it
@@ -24,8 +24,8 @@ inline constexpr LobeSpec LOBE_SPECS[] = {LOBE_TABLE(LOBE_SPEC)};
 #undef LOBE_SPEC
 
 /// The effects of all lobes.
-constexpr u32 lobe_effects() {
-    u32 effects = 0;
+constexpr EffectMask lobe_effects() {
+    EffectMask effects = 0;
     for (const LobeSpec& lobe : LOBE_SPECS)
         effects |= lobe.effect;
     return effects;

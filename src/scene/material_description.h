@@ -40,12 +40,19 @@ enum class Reflection {
     /// Metallic-roughness: Schlick with F0 = mix(dielectric_f0, base, metallic), matte base (1 - metallic)
     METALLIC,
     DIELECTRIC, ///< reflection and refraction with exact Fresnel; no matte part
-    CONDUCTOR   ///< exact Fresnel by `conductor`; no matte part
+    CONDUCTOR,  ///< exact Fresnel by `conductor`; no matte part
+    MEASURED    ///< `measured` and nothing else
 };
 
 /// Complex index of refraction, channel by channel: eta + i k.
 struct ConductorIndex {
     glm::dvec3 eta{1}, k{0};
+};
+
+/// The file of a measured BRDF.
+struct MeasuredUse {
+    std::string file;  ///< as written; relative to the file in `place` (find_file.h)
+    SourcePlace place; ///< of the statement that names it
 };
 
 /// Something that a material asks for and does not get.
@@ -78,6 +85,7 @@ struct MaterialDescription {
     std::optional<double> priority;
     ConductorIndex conductor;   ///< of CONDUCTOR, from 0
     glm::dvec3 transmission{1}; ///< of DIELECTRIC: tint of each crossing
+    MeasuredUse measured;       ///< of MEASURED
 
     /// Of METALLIC, in [0,1]: the share of what is no metal that is glass of index `ior`. It is tinted by the
     /// root of the base at each crossing of a solid, by the base where the wall is thin.

@@ -2,6 +2,7 @@
 #include "scene/material_table.h"
 
 #include "colour.h"
+#include "scene/measured_store.h"
 #include "scene/text_scanner.h"
 
 #include <algorithm>
@@ -54,7 +55,14 @@ void add_covers(const Material& m, const MaterialExtension& e, std::vector<std::
         parts.push_back(fmt::format("sheen {} alpha {:.4g}", colour(e.sheen), EXTENSION_SHEEN_ALPHA(e)));
 }
 
-std::vector<std::string> parts_of(const Material& m, const MaterialExtension& e) {
+std::string measured(const Scene& scene, u32 first_word) {
+    const MeasuredBrdf m = measured_at(scene.measured, first_word);
+    return fmt::format("measured {}, {} x {} x {} values, head-on {}",
+                       clrt::quoted(scene.measured_names.at(first_word)), m.half_count, m.difference_count,
+                       m.azimuth_count, colour(m.views[MEASURED_VIEWS - 1].albedo));
+}
+
+std::vector<std::string> parts_of(const Scene& scene, const Material& m, const MaterialExtension& e) {
     std::vector<std::string> parts;
     if (m.lobes & LOBE_MATTE)
         parts.push_back("matte " + colour(m.matte));
@@ -64,6 +72,8 @@ std::vector<std::string> parts_of(const Material& m, const MaterialExtension& e)
         parts.push_back(reflection(m, "mirror"));
     if (m.lobes & LOBES_GLASS)
         parts.push_back(glass(m, e));
+    if (m.lobes & LOBE_MEASURED)
+        parts.push_back(measured(scene, e.measured));
     add_covers(m, e, parts);
     if (!m.lobes)
         parts.push_back("black");
@@ -111,7 +121,7 @@ std::string material_summary(const Scene& scene, size_t index) {
     const Material& material = scene.materials[index];
     const MaterialExtension extension =
         scene.extensions.empty() ? MaterialExtension{} : scene.extensions[index];
-    std::string text = fmt::format("{}{}", fmt::join(parts_of(material, extension), ", "),
+    std::string text = fmt::format("{}{}", fmt::join(parts_of(scene, material, extension), ", "),
                                    named_maps(maps_of(material), scene));
     if (!scene.extensions.empty())
         text += named_maps(maps_of(extension), scene);

@@ -11,6 +11,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,7 +103,9 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<u32> texel_words;
     std::vector<glm::vec3>
-        vertex_colours; ///< of each position, linear, while loading: then they are texel words
+        vertex_colours;        ///< of each position, linear, while loading: then they are texel words
+    std::vector<u32> measured; ///< words of measured BRDFs: each a MeasuredBrdf and its values
+    std::map<u32, std::string> measured_names; ///< the file of each by its first word, as written
     std::vector<std::string> texture_names;
     std::vector<SourcePlace> texture_places; ///< the map_* statement of each
     std::vector<Emitter> emitters;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/sky_texels.h"
-#include "float_bits.h"
+#include "half_float.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,6 @@
 
 namespace clrt {
 namespace {
-
-constexpr float LARGEST_HALF = 65504;
-/// The exponents of a half lie so much lower than those of a float, and its mantissa is so much shorter.
-constexpr u32 HALF_EXPONENT = 112, HALF_SHORTER = 13;
 
 float largest_channel(const glm::vec3& c) {
     return std::max({c.x, c.y, c.z});
@@ -40,19 +36,6 @@ bool fits_rgbe(const glm::vec3& c) {
 u32 to_rgbe(const glm::vec3& c) {
     const glm::dvec3 bytes = rgbe_bytes(c);
     return u32(bytes.x) | u32(bytes.y) << 8 | u32(bytes.z) << 16 | u32(rgbe_exponent(c)) << 24;
-}
-
-float from_half(u32 half) {
-    return half < 1u << 10 ? std::ldexp(float(half), -24)
-                           : float_of_bits((half + (HALF_EXPONENT << 10)) << HALF_SHORTER);
-}
-
-/// The nearest half of a number from 0 to LARGEST_HALF; the even one of two.
-u32 to_half(float value) {
-    if (value < 0x1p-14f)
-        return u32(std::nearbyint(value * 0x1p24f));
-    const u32 bits = float_bits(value), even = bits >> HALF_SHORTER & 1;
-    return ((bits + (1u << (HALF_SHORTER - 1)) - 1 + even) >> HALF_SHORTER) - (HALF_EXPONENT << 10);
 }
 
 bool fits_half(const glm::vec3& c) {

@@ -113,16 +113,27 @@ TEST_F(Information, TheLedgerBillsTheCodeOfAbsentEffects) {
         names.push_back(row["name"]);
     std::sort(names.begin(), names.end());
     // Without textures and refraction the code of normal maps and rough refraction has no price of its own.
-    EXPECT_EQ(names, (std::vector<std::string>{"area lights",    "coat",
-                                               "conductors",     "cut-outs",
-                                               "depth of field", "environment map",
-                                               "glossy",         "instances",
-                                               "light tree",     "mirror",
-                                               "motion blur",    "path filter",
-                                               "pixel filter",   "point lights and suns",
-                                               "refraction",     "rotated highlights",
-                                               "sheen",          "smooth normals",
-                                               "textures",       "thin walls"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"area lights",
+                                               "coat",
+                                               "conductors",
+                                               "cut-outs",
+                                               "depth of field",
+                                               "environment map",
+                                               "glossy",
+                                               "instances",
+                                               "light tree",
+                                               "measured reflection",
+                                               "mirror",
+                                               "motion blur",
+                                               "path filter",
+                                               "pixel filter",
+                                               "point lights and suns",
+                                               "refraction",
+                                               "rotated highlights",
+                                               "sheen",
+                                               "smooth normals",
+                                               "textures",
+                                               "thin walls"}));
 }
 
 TEST_F(Information, ExplainNeedsNoDevice) {

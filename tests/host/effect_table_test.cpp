@@ -14,7 +14,7 @@
 namespace clrt {
 
 TEST(EffectTable, EveryBitOccursOnceInOrderWithAName) {
-    u32 seen = 0;
+    EffectMask seen = 0;
     for (const EffectSpec& effect : effect_table()) {
         EXPECT_GT(effect.bit, seen) << effect.name;
         EXPECT_EQ(effect.bit & (effect.bit - 1), 0u) << effect.name;
@@ -23,18 +23,17 @@ TEST(EffectTable, EveryBitOccursOnceInOrderWithAName) {
         seen |= effect.bit;
     }
     EXPECT_EQ(seen, EVERY_EFFECT);
-    EXPECT_EQ(effect_by_name("normal-and-bump-maps"), u32(EFFECT_NORMAL_MAP));
+    EXPECT_EQ(effect_by_name("normal-and-bump-maps"), EFFECT_NORMAL_MAP);
     EXPECT_FALSE(effect_by_name("refractio"));
 }
 
 TEST(EffectTable, ImpliedEffectsComeAndGoTogether) {
-    EXPECT_EQ(with_implied(EFFECT_ROUGH_REFRACTION), u32(EFFECT_ROUGH_REFRACTION | EFFECT_REFRACTION));
-    EXPECT_EQ(with_implied(EFFECT_MATTE), u32(EFFECT_MATTE));
+    EXPECT_EQ(with_implied(EFFECT_ROUGH_REFRACTION), EffectMask(EFFECT_ROUGH_REFRACTION | EFFECT_REFRACTION));
+    EXPECT_EQ(with_implied(EFFECT_MATTE), EFFECT_MATTE);
     EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_TEXTURES),
-              EVERY_EFFECT &
-                  ~u32(EFFECT_TEXTURES | EFFECT_NORMAL_MAP | EFFECT_MAPPED_EMISSION | EFFECT_TEXTURE_FILTER));
-    EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_ENVIRONMENT_MAP),
-              EVERY_EFFECT & ~u32(EFFECT_ENVIRONMENT_MAP));
+              EVERY_EFFECT & ~EffectMask(EFFECT_TEXTURES | EFFECT_NORMAL_MAP | EFFECT_MAPPED_EMISSION |
+                                         EFFECT_TEXTURE_FILTER));
+    EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_ENVIRONMENT_MAP), EVERY_EFFECT & ~EFFECT_ENVIRONMENT_MAP);
     EXPECT_FALSE(is_permitted(EFFECT_ENVIRONMENT_MAP));
     EXPECT_FALSE(is_permitted(EFFECT_TEXTURES)) << "a map of nothing";
     EXPECT_TRUE(is_permitted(EFFECT_TEXTURES | EFFECT_CUT_OUT));
@@ -42,18 +41,18 @@ TEST(EffectTable, ImpliedEffectsComeAndGoTogether) {
 }
 
 TEST(EffectMaskFamilies, AreWhatTheyAreCalled) {
-    const std::vector<u32> pairwise = pairwise_effects();
+    const std::vector<EffectMask> pairwise = pairwise_effects();
     EXPECT_EQ(pairwise, pairwise_effects());
     EXPECT_LE(pairwise.size(), 20u);
-    for (const u32 effects : all_effect_sets())
+    for (const EffectMask effects : all_effect_sets())
         EXPECT_TRUE(is_permitted(effects)) << describe_effects(effects);
     // Every two effects occur together, alone and not at all, as far as one does not imply the other.
     for (const EffectSpec& a : effect_table())
         for (const EffectSpec& b : effect_table()) {
             if (a.bit >= b.bit)
                 continue;
-            std::set<u32> seen;
-            for (const u32 effects : pairwise)
+            std::set<EffectMask> seen;
+            for (const EffectMask effects : pairwise)
                 seen.insert(effects & (a.bit | b.bit));
             const bool implied = (with_implied(a.bit) & b.bit) || (with_implied(b.bit) & a.bit);
             EXPECT_EQ(seen.size(), implied ? 3u : 4u) << a.name << " and " << b.name;
@@ -61,9 +60,9 @@ TEST(EffectMaskFamilies, AreWhatTheyAreCalled) {
 }
 
 TEST(EffectMaskFamilies, EverySetHasASceneThatCallsForIt) {
-    for (const u32 effects : all_effect_sets()) {
+    for (const EffectMask effects : all_effect_sets()) {
         const SceneOfEffects scene(effects);
-        const u32 needed = find_effects(scene.load(), scene.options).needed;
+        const EffectMask needed = find_effects(scene.load(), scene.options).needed;
         EXPECT_EQ(needed, effects) << describe_effects(needed) << "\ninstead of "
                                    << describe_effects(effects);
     }
@@ -88,7 +87,7 @@ TEST(TakeOut, NothingLeavesNothing) {
 
 TEST(TakeOut, AMaterialWithoutAnEffectIsOneThatNeverHadIt) {
     const struct {
-        u32 effect;
+        EffectMask effect;
         const char *with, *without;
     } cases[] = {
         {EFFECT_TEXTURES, "Kd 0.5 0.6 0.7\nmap_Kd colour.png\nnorm normal.exr", "Kd 0.5 0.6 0.7"},

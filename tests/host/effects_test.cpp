@@ -25,7 +25,7 @@ public:
     Effects effects() const { return find_effects(load(), options); }
 };
 
-const Effect& find(const Effects& effects, u32 bit) {
+const Effect& find(const Effects& effects, EffectMask bit) {
     for (const Effect& effect : effects.list)
         if (effect.bit == bit)
             return effect;
@@ -33,7 +33,7 @@ const Effect& find(const Effects& effects, u32 bit) {
 }
 
 /// Expects an effect with a witness that holds this text.
-void expect_present(const OneQuad& scene, u32 bit, const std::string& witness) {
+void expect_present(const OneQuad& scene, EffectMask bit, const std::string& witness) {
     const Effects effects = scene.effects();
     const Effect& effect = find(effects, bit);
     EXPECT_TRUE(effect.present) << effect.name << ": " << effect.witness;
@@ -42,7 +42,7 @@ void expect_present(const OneQuad& scene, u32 bit, const std::string& witness) {
 }
 
 /// The same for an effect that no program is built without.
-void expect_present_at_run_time(const OneQuad& scene, u32 bit, const std::string& witness) {
+void expect_present_at_run_time(const OneQuad& scene, EffectMask bit, const std::string& witness) {
     const Effects effects = scene.effects();
     const Effect& effect = find(effects, bit);
     EXPECT_TRUE(effect.present && (effects.needed & bit)) << effect.name << ": " << effect.witness;
@@ -50,7 +50,7 @@ void expect_present_at_run_time(const OneQuad& scene, u32 bit, const std::string
     EXPECT_EQ(effects.mask & bit, 0u);
 }
 
-void expect_absent(const OneQuad& scene, u32 bit) {
+void expect_absent(const OneQuad& scene, EffectMask bit) {
     const Effects effects = scene.effects();
     const Effect& effect = find(effects, bit);
     EXPECT_FALSE(effect.present) << effect.name << ": " << effect.witness;
@@ -62,7 +62,7 @@ void expect_absent(const OneQuad& scene, u32 bit) {
 
 TEST(Effects, AMatteQuadInTheDarkCallsForOneEffect) {
     const OneQuad scene;
-    EXPECT_EQ(scene.effects().mask, u32(EFFECT_MATTE));
+    EXPECT_EQ(scene.effects().mask, EFFECT_MATTE);
     for (const EffectSpec& effect : effect_table())
         if (effect.bit != EFFECT_MATTE && (effect.bit & EFFECT_ALL))
             expect_absent(scene, effect.bit);
@@ -80,7 +80,7 @@ TEST(Effects, EveryEffectOfTheTableIsListedInOrder) {
 TEST(Effects, MaterialsAreNamedWithTheirPlace) {
     const struct {
         const char* keys;
-        u32 bit;
+        EffectMask bit;
     } cases[] = {
         {"Kd 0 0 0\nKe 1 1 1", EFFECT_AREA_LIGHT},
         {"Kd 0.1 0.1 0.1", EFFECT_MATTE},
@@ -162,7 +162,7 @@ TEST(Effects, AllIsTheFullMaskAndChangesNoWitness) {
     const Effects needed = scene.effects();
     scene.options.effects.all = true;
     const Effects all = scene.effects();
-    EXPECT_EQ(all.mask, u32(EFFECT_ALL));
+    EXPECT_EQ(all.mask, EFFECT_ALL);
     for (size_t i = 0; i < all.list.size(); ++i) {
         EXPECT_EQ(all.list[i].present, needed.list[i].present);
         EXPECT_EQ(all.list[i].witness, needed.list[i].witness);
@@ -205,20 +205,20 @@ TEST(Effects, AListIsCompiledAndWhatItLacksIsLeftOut) {
     scene.options.light.environment = glm::dvec3(1);
     scene.options.effects.list = EFFECT_ROUGH_REFRACTION | EFFECT_MATTE;
     const Effects list = scene.effects();
-    EXPECT_EQ(list.mask, u32(EFFECT_ROUGH_REFRACTION | EFFECT_REFRACTION | EFFECT_MATTE));
-    EXPECT_EQ(list.left_out, u32(EFFECT_ENVIRONMENT) | EFFECT_INTERREFLECTION);
+    EXPECT_EQ(list.mask, EffectMask(EFFECT_ROUGH_REFRACTION | EFFECT_REFRACTION | EFFECT_MATTE));
+    EXPECT_EQ(list.left_out, EFFECT_ENVIRONMENT | EFFECT_INTERREFLECTION);
     EXPECT_NE(describe_left_out(list).at(0).find("environment: black"), std::string::npos);
 
     scene.options.effects.list.reset();
     scene.options.effects.off = EFFECT_REFRACTION | EFFECT_MIRROR;
     const Effects without = scene.effects();
-    EXPECT_EQ(without.mask, u32(EFFECT_ENVIRONMENT));
-    EXPECT_EQ(without.left_out, u32(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION));
+    EXPECT_EQ(without.mask, EFFECT_ENVIRONMENT);
+    EXPECT_EQ(without.left_out, EffectMask(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION));
 
     scene.options.effects.all = true;
-    EXPECT_EQ(
-        scene.effects().mask,
-        u32(EFFECT_ALL & ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR | EFFECT_PART_GLASS |
+    EXPECT_EQ(scene.effects().mask,
+              EffectMask(EFFECT_ALL &
+                         ~(EFFECT_REFRACTION | EFFECT_ROUGH_REFRACTION | EFFECT_MIRROR | EFFECT_PART_GLASS |
                            EFFECT_ATTENUATION | EFFECT_DISPERSION | EFFECT_NESTED)));
     scene.options.effects.off = 0;
     EXPECT_EQ(scene.effects().left_out, 0u);
@@ -250,7 +250,7 @@ TEST(Explain, TheJsonHoldsTheSame) {
     }
     EXPECT_EQ(json["materials"][0]["name"], "thing");
     EXPECT_EQ(json["materials"][0]["line"], 1);
-    EXPECT_EQ(json["effects_mask"], u32(EFFECT_REFRACTION));
+    EXPECT_EQ(json["effects_mask"], EFFECT_REFRACTION);
     EXPECT_TRUE(json["notices"].is_array());
 }
 

@@ -89,6 +89,14 @@ TEST(MtlReader, MetalsAreGivenByTheirIndexOrTheirName) {
     EXPECT_EQ(count_notices(p.notices, "aluminium, brass, copper, gold"), 1);
 }
 
+TEST(MtlReader, AMeasuredBrdfIsAFileAndItsPlace) {
+    const Parsed p = parse("newmtl m\nMerl  my samples/gold 1.binary  # a metal\n");
+    EXPECT_EQ(p.materials[0].merl->file, "my samples/gold 1.binary");
+    EXPECT_EQ(p.materials[0].merl->place.line, 2u);
+    EXPECT_TRUE(p.notices.empty());
+    EXPECT_THROW(parse("newmtl m\nmerl\n"), SceneError);
+}
+
 TEST(MtlReader, AbsentKeysStayAbsent) {
     const MtlMaterial m = parse_one("");
     EXPECT_FALSE(m.ka || m.kd || m.ks || m.ke || m.tf || m.ns || m.ni || m.d || m.tr || m.pr || m.pm ||

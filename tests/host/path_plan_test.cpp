@@ -92,7 +92,7 @@ TEST(PathPlan, ALanguageThatHoldsAllPathsOfTheSceneIsNoFilter) {
     }
     for (const char* part : {"LDE", "LD+E", "LpD*E", "LE"})
         EXPECT_TRUE(scene.plan(part).is_filter) << part;
-    EXPECT_EQ(find_effects(scene.load(), scene.options).mask & EFFECT_PATH_FILTER, u32(EFFECT_PATH_FILTER));
+    EXPECT_EQ(find_effects(scene.load(), scene.options).mask & EFFECT_PATH_FILTER, EFFECT_PATH_FILTER);
 }
 
 TEST(PathPlan, SaysWhenNoPathIsLeft) {

@@ -44,7 +44,7 @@ TEST(PlannedScene, PathsAreThoseOfTheSceneAsItIsRendered) {
 
     scene.options.effects.off = EFFECT_MIRROR;
     const auto planned = plan_scene(scene.load(), scene.options);
-    EXPECT_EQ(planned->effects.left_out, u32(EFFECT_MIRROR));
+    EXPECT_EQ(planned->effects.left_out, EFFECT_MIRROR);
     EXPECT_EQ(find_effects(planned->scene, planned->options).needed & EFFECT_MIRROR, 0u);
     EXPECT_EQ(witness(planned->effects.paths, "R"), "") << "no mirror is left that could write it";
     EXPECT_EQ(accepted_kinds(planned->effects.paths), unsigned(KIND_AREA));
@@ -77,7 +77,7 @@ TEST(PlannedScene, WhatTurnsTrianglesIsKnown) {
             const Triangle &a = scene.triangles[i], &b = reduced.triangles[i];
             is_turned |= a.v0 != b.v0 || a.v1 != b.v1 || a.v2 != b.v2;
         }
-        const u32 with_those_that_imply_it = EVERY_EFFECT & ~without_effects(EVERY_EFFECT, effect.bit);
+        const EffectMask with_those_that_imply_it = EVERY_EFFECT & ~without_effects(EVERY_EFFECT, effect.bit);
         EXPECT_EQ(turns_triangles(with_those_that_imply_it), is_turned) << effect.name;
     }
 }

@@ -80,7 +80,7 @@ protected:
     /// The same with all effects and with none.
     void expect_clean_with_and_without_effects(const std::string& what, const std::string& text,
                                                std::vector<std::string> defines) const {
-        for (const u32 effects : {u32(EFFECT_ALL), 0u}) {
+        for (const EffectMask effects : {EFFECT_ALL, EffectMask(0)}) {
             defines.push_back(fmt::format("-DCLRT_EFFECTS={:#x}u", effects));
             expect_clean(fmt::format("{}, effects {:#x}", what, effects), text, defines);
             defines.pop_back();
@@ -129,8 +129,8 @@ TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
 TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
     // The frames of all functions together, as they lie in memory where registers do not hold them. That of a
     // tree's rays is as large as the depth and the branches that are asked for.
-    u32 effects =
-        EFFECT_ALL & ~u32(EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_NESTED | EFFECT_TEXTURE_FILTER);
+    EffectMask effects =
+        EFFECT_ALL & ~EffectMask(EFFECT_INSTANCES | EFFECT_THIN_WALL | EFFECT_NESTED | EFFECT_TEXTURE_FILTER);
     const auto bytes = [&](const std::string& integrator, const std::vector<std::string>& defines) {
         const std::string file = folder.write("kernels.cl", include({"integrators/" + integrator + ".cl"}));
         const std::string code = folder.file("kernels.ptx");

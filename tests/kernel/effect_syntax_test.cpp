@@ -18,15 +18,15 @@ std::string all_entry_points() {
 }
 
 /// What clang says about the kernels built with a mask; empty if nothing.
-std::string complaints(const std::string& file, const std::string& standard, u32 mask) {
+std::string complaints(const std::string& file, const std::string& standard, EffectMask mask) {
     return clang_complaints(file, {"-cl-std=" + standard, "--target=spir64-unknown-unknown", "-fsyntax-only",
                                    fmt::format("-DCLRT_EFFECTS={:#x}u", mask)});
 }
 
 /// The sets of compiled effects, each once.
-std::vector<u32> masks() {
-    std::vector<u32> result;
-    for (const u32 effects : all_effect_sets())
+std::vector<EffectMask> masks() {
+    std::vector<EffectMask> result;
+    for (const EffectMask effects : all_effect_sets())
         result.push_back(effects & EFFECT_ALL);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -38,9 +38,9 @@ std::vector<u32> masks() {
 TEST(EffectSyntax, EverySetOfEffectsCompilesInOpenCl12And30) {
     const ScratchFolder folder;
     const std::string file = folder.write("all.cl", all_entry_points());
-    const std::vector<u32> all = masks();
+    const std::vector<EffectMask> all = masks();
     ASSERT_GT(all.size(), 30u);
-    for (const u32 mask : all)
+    for (const EffectMask mask : all)
         for (const char* standard : {"CL1.2", "CL3.0"})
             EXPECT_EQ(complaints(file, standard, mask), "") << standard << ", " << describe_effects(mask);
 }
@@ -57,14 +57,15 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
             const std::string traced =
                 folder.write("traced.cl", "#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n" + defines +
                                               entry_points({name}));
-            for (const u32 mask : int64 == std::string("1") ? masks() : std::vector<u32>{EFFECT_ALL})
+            for (const EffectMask mask :
+                 int64 == std::string("1") ? masks() : std::vector<EffectMask>{EFFECT_ALL})
                 EXPECT_EQ(complaints(own, "CL1.2", mask), "") << name << ", " << describe_effects(mask);
             EXPECT_EQ(complaints(traced, "CL1.2", EFFECT_ALL), "") << name;
         }
         for (const char* const name : {"path_light", "bdpt"}) {
             const std::string pilot =
                 folder.write("pilot.cl", "#define FILM_MOMENTS 1\n" + defines + entry_points({name}));
-            for (const u32 mask : {EFFECT_ALL, 0u})
+            for (const EffectMask mask : {EFFECT_ALL, EffectMask(0)})
                 EXPECT_EQ(complaints(pilot, "CL1.2", mask), "") << "pilot, " << describe_effects(mask);
         }
         const std::string recording = folder.write("replay.cl", "#define CLRT_TRACE 1\n" + defines +
@@ -89,7 +90,7 @@ TEST(EffectSyntax, RecordingProgramsCompileToo) {
         const std::string file = folder.write(
             "replay.cl", std::string("#define CLRT_TRACE 1\n#define SAMPLES_AT_ONCE 1\n") + precision +
                              entry_points({"path", "distribution", "whitted", "raycast"}));
-        for (const u32 mask : {u32(EFFECT_ALL), u32(EFFECT_MATTE), u32(EFFECT_MATTE | EFFECT_AREA_LIGHT)})
+        for (const EffectMask mask : {EFFECT_ALL, EFFECT_MATTE, EffectMask(EFFECT_MATTE | EFFECT_AREA_LIGHT)})
             EXPECT_EQ(complaints(file, "CL1.2", mask), "") << precision << describe_effects(mask);
     }
 }

@@ -15,7 +15,7 @@
 namespace clrt {
 namespace {
 
-constexpr u32 EFFECTS = EFFECT_INSTANCES;
+constexpr EffectMask EFFECTS = EFFECT_INSTANCES;
 
 glm::dmat4 turned(double angle, const glm::dvec3& place, const glm::dvec3& scale) {
     const glm::dmat4 turn =
@@ -62,7 +62,7 @@ std::vector<TestHit> in_written_out(const Scene& scene, std::vector<TestHit> hit
     return hits;
 }
 
-RayDeviceOptions options_of(BvhLayout layout, const Scene& all, u32 effects = EFFECTS,
+RayDeviceOptions options_of(BvhLayout layout, const Scene& all, EffectMask effects = EFFECTS,
                             Precision precision = Precision::SINGLE) {
     RayDeviceOptions options;
     options.layout = layout;

@@ -2,6 +2,7 @@
 // Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
 #include "kernels/shared/chain_types.h"
 #include "kernels/shared/guide_types.h"
+#include "kernels/shared/measured_types.h"
 #include "kernels/shared/render_types.h"
 #include "kernels/shared/scene_arrays.h"
 #include "probes/kernel_probe.h"
@@ -53,7 +54,17 @@ const Layout MATERIAL_EXTENSION = {
     sizeof(MaterialExtension),
     {M(attenuation), M(sheen), M(coat), M(coat_alpha), M(turn_cos), M(turn_sin), M(map_transmission),
      M(map_coat), M(map_sheen), M(map_coat_roughness), M(map_sheen_roughness), M(spread), M(priority),
-     M(unused0)}};
+     M(measured)}};
+#undef M
+#define M(name) MEMBER(MeasuredView, name)
+const Layout MEASURED_VIEW = {
+    "MeasuredView", sizeof(MeasuredView), {M(albedo), M(density), M(cumulative)}};
+#undef M
+#define M(name) MEMBER(MeasuredBrdf, name)
+const Layout MEASURED_BRDF = {
+    "MeasuredBrdf",
+    sizeof(MeasuredBrdf),
+    {M(half_count), M(difference_count), M(azimuth_count), M(scale), M(views)}};
 #undef M
 #define M(name) MEMBER(Texture, name)
 const Layout TEXTURE = {
@@ -160,11 +171,11 @@ const Layout ARRAY_PLACES = {
 #undef M
 // clang-format on
 
-const std::vector<Layout> LAYOUTS = {
-    TRIANGLE,      MATERIAL,      MATERIAL_EXTENSION, TEXTURE,      EMITTER,
-    INSTANCE,      LIGHT,         SKY_TILE_LAYOUT,    LIGHT_NODE,   LIGHT_PLACE,
-    CAMERA_PARAMS, RENDER_PARAMS, ARRAY_PLACE_LAYOUT, ARRAY_PLACES, GUIDE_CELL,
-    CHAIN,         CHAIN_LAUNCH,  EMITTER_PART};
+const std::vector<Layout> LAYOUTS = {TRIANGLE,      MATERIAL,        MATERIAL_EXTENSION, TEXTURE,
+                                     EMITTER,       MEASURED_VIEW,   MEASURED_BRDF,      INSTANCE,
+                                     LIGHT,         SKY_TILE_LAYOUT, LIGHT_NODE,         LIGHT_PLACE,
+                                     CAMERA_PARAMS, RENDER_PARAMS,   ARRAY_PLACE_LAYOUT, ARRAY_PLACES,
+                                     GUIDE_CELL,    CHAIN,           CHAIN_LAUNCH,       EMITTER_PART};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.
@@ -181,8 +192,9 @@ std::string layout_kernel(const Layout& layout) {
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
-        KernelProbe made(test_device(), {"shared/scene_arrays.h", "shared/render_types.h",
-                                         "shared/guide_types.h", "shared/chain_types.h"});
+        KernelProbe made(test_device(),
+                         {"shared/scene_arrays.h", "shared/measured_types.h", "shared/render_types.h",
+                          "shared/guide_types.h", "shared/chain_types.h"});
         for (const Layout& layout : LAYOUTS)
             made.add_text(layout_kernel(layout));
         made.add_text(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 clrt_test(kernel albedo_test)
 clrt_test(kernel bsdf_energy_test)
+clrt_test(kernel bsdf_measured_test)
 clrt_test(kernel bsdf_sampling_test)
 clrt_test(kernel bsdf_test)
 clrt_test(kernel bsdf_transport_test)

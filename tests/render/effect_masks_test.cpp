@@ -49,19 +49,20 @@ void expect_same_bits(const Scene& scene, Options options, const std::string& wh
     EXPECT_EQ(needed.counts.bad() + all.counts.bad(), 0u) << what;
 }
 
-void expect_same_bits(u32 effects) {
+void expect_same_bits(EffectMask effects) {
     for (const Integrator integrator : integrators()) {
         SceneOfEffects small(effects);
         small.options.transport.integrator = integrator;
         if (!takes_option(integrator, TAKES_PATHS))
             small.options.transport.paths.clear();
         const Scene scene = small.load();
-        const u32 needed = find_effects(scene, small.options).needed;
+        const EffectMask needed = find_effects(scene, small.options).needed;
         const bool has_tree = light_tree_kinds(integrator) &
                               ((effects & EFFECT_AREA_LIGHT) ? KINDS_ALL : KINDS_ALL & ~KIND_AREA);
-        const u32 expected = effects & ~(integrator == Integrator::RAYCAST ? EFFECT_INTERREFLECTION : 0u) &
-                             ~(takes_option(integrator, TAKES_PATHS) ? 0u : EFFECT_PATH_FILTER) &
-                             ~(has_tree ? 0u : EFFECT_LIGHT_TREE);
+        const EffectMask expected = effects &
+                                    ~(integrator == Integrator::RAYCAST ? EFFECT_INTERREFLECTION : 0u) &
+                                    ~(takes_option(integrator, TAKES_PATHS) ? 0u : EFFECT_PATH_FILTER) &
+                                    ~(has_tree ? 0u : EFFECT_LIGHT_TREE);
         EXPECT_EQ(needed, expected) << describe_effects(needed) << "\ninstead of "
                                     << describe_effects(expected);
         expect_same_bits(scene, small.options,
@@ -93,17 +94,17 @@ std::vector<fs::path> shipped_scenes() {
 } // namespace
 
 TEST(EffectMasks, EveryEffectAloneHasTheBitsOfTheFullProgram) {
-    for (const u32 effects : single_effects())
+    for (const EffectMask effects : single_effects())
         expect_same_bits(effects);
 }
 
 TEST(EffectMasks, EveryPairOfEffectsHasTheBitsOfTheFullProgram) {
-    for (const u32 effects : pairwise_effects())
+    for (const EffectMask effects : pairwise_effects())
         expect_same_bits(effects);
 }
 
 TEST(EffectMasks, AllEffectsButOneHaveTheBitsOfTheFullProgram) {
-    const std::vector<u32> sets = all_but_one_effect();
+    const std::vector<EffectMask> sets = all_but_one_effect();
     for (size_t i = 0; i < (tests_are_long() ? sets.size() : 1); ++i)
         expect_same_bits(sets[i]);
 }
@@ -160,11 +161,11 @@ TEST(EffectMasks, ALeftOutEffectIsASceneWithoutIt) {
 
 TEST(EffectMasks, ProgramsFromTheCacheRenderTheSameBits) {
     const ScratchFolder cache;
-    const u32 sets[] = {
+    const EffectMask sets[] = {
         with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT),
         with_implied(EFFECT_MATTE | EFFECT_AREA_LIGHT | EFFECT_REFRACTION | EFFECT_DELTA_LIGHT)};
     for (int round = 0; round < 2; ++round)
-        for (const u32 effects : sets) {
+        for (const EffectMask effects : sets) {
             SceneOfEffects small(effects);
             const Film plain = small.render(test_device()).film;
             small.options.device.cache = Toggle::ON;

@@ -175,7 +175,7 @@ TEST(Replay, ASampleAddsToTheFilmWhatTheRenderAdds) {
 }
 
 TEST(Replay, SimplerScenesHaveTheBitsOfTheirOwnPrograms) {
-    const std::vector<u32> sets = single_effects();
+    const std::vector<EffectMask> sets = single_effects();
     for (size_t i = 0; i < sets.size(); i += 4) {
         SceneOfEffects small(sets[i]);
         small.options.effects.all = false;

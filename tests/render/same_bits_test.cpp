@@ -3,6 +3,7 @@
 #include "kernels/shared/effects.h"
 #include "probes/film_estimate.h"
 #include "probes/kernel_probe.h"
+#include "probes/merl_file.h"
 #include "probes/meshes.h"
 #include "render/kernels.h"
 #include "support/render_scene.h"
@@ -76,7 +77,8 @@ void make_maps(TestScene& scene) {
     scene.look({0, 1.2, 3}, {0, 0.5, 0}, 40);
 }
 
-/// Balls of what lies above others or lets light into it, under a lamp and a thin wall of glass.
+/// Balls of what lies above others or lets light into it, and of a measured BRDF, under a lamp and a thin
+/// wall of glass.
 void make_covers(TestScene& scene) {
     const std::pair<const char*, const char*> balls[] = {
         {"lacquer", "Kd 0.6 0.1 0.1\nPm 0\nPr 0.4\nPc 0.9\nPcr 0.2"},
@@ -85,7 +87,10 @@ void make_covers(TestScene& scene) {
         {"flint", "Ni 1.7\nillum 7\nabbe 20"},
         {"ice", "Ni 1.3\nillum 7\npriority 1"},
         {"stained", "Kd 0.3 0.7 0.4\nPm 0\nPr 0.3\nNi 1.5\nTf 0.6"},
-        {"brushed", "Kd 0.8 0.7 0.6\nPm 1\nPr 0.4\naniso 0.7\nanisor 0.2"}};
+        {"brushed", "Kd 0.8 0.7 0.6\nPm 1\nPr 0.4\naniso 0.7\nanisor 0.2"},
+        {"sample", "merl sample.binary"}};
+    scene.folder.write("sample.binary",
+                       merl_file(matte_and_glossy(glm::dvec3(0.3), glm::dvec3(0.4), 0.3), {12, 8, 8}));
     double x = -1.8;
     for (const auto& [name, keys] : balls) {
         scene.build.material(name, keys).use(name).icosphere({x, 0.3, 0}, 0.25, 1);
@@ -157,7 +162,7 @@ TEST(SameBits, AbsentEffectsChangeNothing) {
             const Render all = scene.render();
             scene.options.effects.all = false;
             const Effects effects = find_effects(scene.load(), scene.options);
-            EXPECT_NE(effects.mask, u32(EFFECT_ALL)) << name;
+            EXPECT_NE(effects.mask, EFFECT_ALL) << name;
             const Render needed = scene.render();
             EXPECT_EQ(count_differences(all.film, needed.film), 0u) << name << ", " << name_of(integrator);
             EXPECT_EQ(all.counts.rays(), needed.counts.rays()) << name << ", " << name_of(integrator);
@@ -188,7 +193,7 @@ TEST(SameBits, AMapOfRoughnessDoesNotMakeSmoothGlassOrAMirrorRough) {
 }
 
 TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
-    u32 present = 0, absent = 0;
+    EffectMask present = 0, absent = 0;
     for (const auto& [name, make] : SCENES) {
         SmallScene scene(make);
         scene.options.effects.all = false;
@@ -197,12 +202,12 @@ TEST(SameBits, EveryEffectIsPresentInSomeSceneAndAbsentInAnother) {
             scene.options.camera.aperture = 0.1;
             scene.options.camera.end_up = glm::dvec3(0.1, 1, 0);
         }
-        const u32 mask = find_effects(scene.load(), scene.options).mask;
+        const EffectMask mask = find_effects(scene.load(), scene.options).mask;
         present |= mask;
         absent |= ~mask;
     }
-    EXPECT_EQ(present, u32(EFFECT_ALL));
-    EXPECT_EQ(absent & EFFECT_ALL, u32(EFFECT_ALL & ~EFFECT_MATTE));
+    EXPECT_EQ(present, EFFECT_ALL);
+    EXPECT_EQ(absent & EFFECT_ALL, EffectMask(EFFECT_ALL & ~EFFECT_MATTE));
 }
 
 TEST(SameBits, AWindowHoldsWhatTheWholePictureHoldsThere) {

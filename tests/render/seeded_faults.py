@@ -142,6 +142,8 @@ FAULTS = [
      "coat_schlick * below * COVER_SCHLICK_VARIANCE * sheen_left", "REAL(0.0)", "bsdf_energy_test"),
     ("a pane bends importance", "scattering/bsdf_reverse.h",
      "if (!(HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE)))", "if (true)", "bsdf_transport_test"),
+    ("measured directions told apart", "scattering/bsdf_measured.h", "is_other ? real_atan2", "false ? real_atan2", "bsdf_measured_test"),
+    ("a measured density as of halves", "scattering/bsdf_measured.h", "density / (REAL(2.0) * length)", "density", "bsdf_measured_test"),
     ("a cover not seen from the other side", "scattering/bsdf_reverse.h", "reversed.flags ^= BSDF_INSIDE;", ";",
      "bsdf_transport_test"),
     ("a coat over the whole light below", "scattering/bsdf_cover.h",

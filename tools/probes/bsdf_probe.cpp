@@ -2,6 +2,9 @@
 // The program that evaluates and samples a BSDF, and the lobe sets that tests go through.
 #include "probes/bsdf_probe.h"
 
+#include "probes/scratch_folder.h"
+#include "scene/measured_store.h"
+
 #include <stdexcept>
 
 namespace clrt {
@@ -11,9 +14,9 @@ namespace {
 const char* const TEXT = R"(
 #define PROBE_BSDF const vec4 matte, const vec4 specular, const vec4 transmission, const vec4 shape, \
                    const vec4 normal_g, const vec4 parts, const vec4 sheen, const u32 lobes, const u32 fresnel, \
-                   const u32 transport
+                   const u32 transport, global const u32* measured
 #define PROBE_BSDF_ARGUMENTS matte, specular, transmission, shape, normal_g, parts, sheen, lobes, fresnel, \
-                             transport
+                             transport, measured
 
 Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
 {
@@ -35,10 +38,13 @@ Bsdf probe_bsdf(PROBE_BSDF, vec4 wo)
     bsdf.flags = transport & (TRANSPORT_IMPORTANCE | BSDF_INSIDE);
     bsdf.glass = (real)parts.x;
     bsdf.flags |= parts.x > 0.0f ? MATERIAL_PART_GLASS : 0u;
+#if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
     bsdf.cover.coat = (lobes & LOBE_COAT) ? (real)parts.y : REAL(0.0);
     bsdf.cover.coat_alpha = (real)parts.z;
     bsdf.cover.sheen = (lobes & LOBE_SHEEN) ? vector_from(sheen) : (real3)(REAL(0.0));
     bsdf.cover.sheen_alpha = (real)parts.w;
+#endif
+    bsdf_set_measured(&bsdf, measured);
     bsdf_energy_set(&bsdf);
     bsdf_choose_lobes(&bsdf);
     return bsdf;
@@ -231,6 +237,20 @@ std::vector<LobeSet> all_lobe_sets() {
     return sets;
 }
 
+LobeSet measured_set(const std::string& name, const BrdfFunction& brdf, const MerlCounts& counts) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("measured.binary", merl_file(brdf, counts));
+    NoticeList notices;
+    MeasuredStore store;
+    store.add({file, {folder.file("m.mtl"), 1}}, notices);
+    auto scene = std::make_shared<Scene>();
+    store.take(*scene);
+    LobeSet set{name, LOBE_MEASURED};
+    set.measured = scene;
+    set.has_textbook = false;
+    return set;
+}
+
 LobeSet lobe_set(const std::string& name) {
     for (const LobeSet& set : all_lobe_sets())
         if (set.name == name)
@@ -238,8 +258,8 @@ LobeSet lobe_set(const std::string& name) {
     throw std::logic_error("there is no lobe set \"" + name + "\"");
 }
 
-BsdfProbe::BsdfProbe(const ProbeDevice& device)
-    : device_(device), probe_(device, {"scattering/bsdf_reverse.h"}) {
+BsdfProbe::BsdfProbe(const ProbeDevice& device, const ProbeOptions& options)
+    : device_(device), probe_(device, {"scattering/bsdf_reverse.h"}, options) {
     probe_.add_text(TEXT);
     probe_.add_text(ALBEDO_TEXT);
 }
@@ -261,6 +281,7 @@ Kernel BsdfProbe::prepare(const char* name, const LobeSet& set, const std::vecto
     kernel.set("sheen", to_vec4(set.sheen));
     kernel.set("transport",
                (set.is_importance ? TRANSPORT_IMPORTANCE : 0u) | (set.is_inside ? BSDF_INSIDE : 0u));
+    kernel.set("measured", probe_.upload(set.measured ? set.measured->measured : std::vector<u32>(1)));
     kernel.set("in_a", probe_.upload(to_vec4s(a)));
     kernel.set("in_b", probe_.upload(to_vec4s(b)));
     kernel.set("count", u32(a.size()));

@@ -4,8 +4,11 @@
 
 #include "kernels/shared/scene_types.h"
 #include "probes/kernel_probe.h"
+#include "probes/merl_file.h"
 #include "probes/random_inputs.h"
+#include "scene/scene.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,8 +26,9 @@ struct LobeSet {
     double coat = 0, coat_alpha = 1;
     glm::dvec3 sheen{0};
     double sheen_alpha = 1;
-    bool is_inside = false;   ///< of glass with a coat or a sheen: wo is below it
-    bool has_textbook = true; ///< tests/support/bsdf_reference.h knows it
+    bool is_inside = false;                  ///< of glass with a coat or a sheen: wo is below it
+    std::shared_ptr<const Scene> measured{}; ///< of LOBE_MEASURED: its first BRDF
+    bool has_textbook = true;                ///< tests/support/bsdf_reference.h knows it
 
     /// The index ratio across, and from the other side.
     double crossed_eta() const { return lobes & LOBE_PANE ? 1 : eta; }
@@ -34,6 +38,9 @@ struct LobeSet {
 /// All lobe sets that material rules make: matte, glossy with and without Fresnel, mirrors, dielectrics from
 /// both sides.
 std::vector<LobeSet> all_lobe_sets();
+
+/// The lobe of a measured BRDF, by way of a file of its own.
+LobeSet measured_set(const std::string& name, const BrdfFunction& brdf, const MerlCounts& counts);
 
 /// The set of that name among all_lobe_sets().
 LobeSet lobe_set(const std::string& name);
@@ -57,7 +64,7 @@ struct AlbedoSample {
 /// The program; its surface is tilted, so that frames take part. Directions are local, z is the normal.
 class BsdfProbe {
 public:
-    explicit BsdfProbe(const ProbeDevice& device);
+    explicit BsdfProbe(const ProbeDevice& device, const ProbeOptions& options = {});
 
     /// `normal_g`: the geometric normal, local.
     BsdfValues eval(const LobeSet& set, const std::vector<glm::dvec3>& wo, const std::vector<glm::dvec3>& wi,

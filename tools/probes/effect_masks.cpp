@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/effect_masks.h"
 
+#include "probes/merl_file.h"
 #include "probes/meshes.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 
 namespace clrt {
 
-bool is_permitted(u32 effects) {
+bool is_permitted(EffectMask effects) {
     for (const EffectSpec& effect : effect_table())
         if ((effects & effect.bit) && effect.one_of && !(effects & effect.one_of))
             return false;
@@ -22,7 +23,7 @@ bool is_permitted(u32 effects) {
 namespace {
 
 /// The set with what it cannot be without; matte where any lobe would do, else the first that does.
-u32 completed(u32 effects) {
+EffectMask completed(EffectMask effects) {
     effects = with_implied(effects);
     for (const EffectSpec& effect : effect_table())
         if ((effects & effect.bit) && effect.one_of && !(effects & effect.one_of))
@@ -31,7 +32,7 @@ u32 completed(u32 effects) {
 }
 
 /// Every two bits with their values in a set, as numbers.
-std::set<u32> pairs_of(u32 effects) {
+std::set<u32> pairs_of(EffectMask effects) {
     std::set<u32> pairs;
     const u32 count = u32(effect_table().size());
     const auto bit = [&](u32 i) { return (effects & effect_table()[i].bit) != 0; };
@@ -42,9 +43,9 @@ std::set<u32> pairs_of(u32 effects) {
 }
 
 /// A set in which every effect is as likely as not, as far as a scene can call for it.
-u32 random_effects(std::mt19937& random) {
+EffectMask random_effects(std::mt19937& random) {
     for (;;) {
-        u32 effects = 0;
+        EffectMask effects = 0;
         for (const EffectSpec& effect : effect_table())
             if (random() & 1)
                 effects |= effect.bit;
@@ -67,33 +68,33 @@ void add_two_instances(Scene& scene) {
 
 } // namespace
 
-std::vector<u32> single_effects() {
-    std::vector<u32> sets;
+std::vector<EffectMask> single_effects() {
+    std::vector<EffectMask> sets;
     for (const EffectSpec& effect : effect_table())
         sets.push_back(completed(effect.bit));
     return sets;
 }
 
-std::vector<u32> all_but_one_effect() {
-    std::vector<u32> sets;
+std::vector<EffectMask> all_but_one_effect() {
+    std::vector<EffectMask> sets;
     for (const EffectSpec& effect : effect_table())
         sets.push_back(without_effects(EVERY_EFFECT, effect.bit));
     return sets;
 }
 
-std::vector<u32> pairwise_effects() {
+std::vector<EffectMask> pairwise_effects() {
     constexpr int CANDIDATES = 400, PROBES = 4000;
     std::mt19937 random(1);
     std::set<u32> missing;
     for (int i = 0; i < PROBES; ++i)
         for (const u32 pair : pairs_of(random_effects(random)))
             missing.insert(pair);
-    std::vector<u32> sets;
+    std::vector<EffectMask> sets;
     while (!missing.empty()) {
-        u32 best = 0;
+        EffectMask best = 0;
         size_t most = 0;
         for (int i = 0; i < CANDIDATES || most == 0; ++i) {
-            const u32 candidate = random_effects(random);
+            const EffectMask candidate = random_effects(random);
             const std::set<u32> pairs = pairs_of(candidate);
             const size_t covered = size_t(std::count_if(pairs.begin(), pairs.end(),
                                                         [&](u32 pair) { return missing.count(pair) != 0; }));
@@ -107,18 +108,18 @@ std::vector<u32> pairwise_effects() {
     return sets;
 }
 
-std::vector<u32> all_effect_sets() {
-    std::set<u32> sets{0u, EVERY_EFFECT};
+std::vector<EffectMask> all_effect_sets() {
+    std::set<EffectMask> sets{0, EVERY_EFFECT};
     for (const auto& family : {single_effects(), all_but_one_effect(), pairwise_effects()})
         sets.insert(family.begin(), family.end());
     return {sets.begin(), sets.end()};
 }
 
-std::string describe_effects(u32 effects) {
+std::string describe_effects(EffectMask effects) {
     return fmt::format("{:#x}: {}", effects, fmt::join(effect_names(effects), ","));
 }
 
-SceneOfEffects::SceneOfEffects(u32 effects) : effects_(effects) {
+SceneOfEffects::SceneOfEffects(EffectMask effects) : effects_(effects) {
     options.film.size = {16, 16};
     options.sampling.spp = 16;
     options.sampling.replicates = 8;
@@ -185,6 +186,10 @@ void SceneOfEffects::add_materials() {
                        ? tint + "Pm 0.8" + turned
                        : "illum 7" + turned + (has(EFFECT_ROUGH_REFRACTION) ? "" : "\nthin_walled 1"));
     build.material("turned_glass", "illum 7" + turned);
+    build.material("sample", "merl sample.binary");
+    if (has(EFFECT_MEASURED))
+        folder.write("sample.binary",
+                     merl_file(matte_and_glossy({0.4, 0.2, 0.1}, {0.3, 0.3, 0.2}, 0.3), {12, 8, 8}));
     build.material("screen", base + "\nd 0.6" + map("map_d"));
     std::vector<unsigned char> lamp(64, has(EFFECT_MAPPED_EMISSION) ? 20 : 230);
     lamp[9] = lamp[44] = 230;
@@ -236,6 +241,8 @@ void SceneOfEffects::add_rare_bodies() {
         build.use("lacquer").icosphere({0.5, 1.3, -0.6}, 0.2, 1);
     if (has(EFFECT_SHEEN))
         build.use("velvet").icosphere({-0.5, 1.4, -0.6}, 0.2, 1);
+    if (has(EFFECT_MEASURED))
+        build.use("sample").icosphere({-0.9, 1.7, 0.1}, 0.2, 1);
     if (has(EFFECT_THIN_WALL))
         build.use("pane").textured_quad(
             {{-1.7, 0.1, 0.4}, {-1.2, 0.1, 0.4}, {-1.2, 0.6, 0.2}, {-1.7, 0.6, 0.2}});

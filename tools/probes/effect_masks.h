@@ -11,37 +11,37 @@
 namespace clrt {
 
 /// True if every effect has those that it cannot be without: some scene calls for exactly these.
-bool is_permitted(u32 effects);
+bool is_permitted(EffectMask effects);
 
 /// Every effect with just those that it cannot be without.
-std::vector<u32> single_effects();
+std::vector<EffectMask> single_effects();
 
 /// All effects but one and those that imply it, for every effect.
-std::vector<u32> all_but_one_effect();
+std::vector<EffectMask> all_but_one_effect();
 
 /// A covering array: for every two effects, each of "both", "one", "the other" and "neither" that a scene can
 /// call for occurs in some set. Found greedily, always the same.
-std::vector<u32> pairwise_effects();
+std::vector<EffectMask> pairwise_effects();
 
 /// The three families together, each set once.
-std::vector<u32> all_effect_sets();
+std::vector<EffectMask> all_effect_sets();
 
 /// Names for messages.
-std::string describe_effects(u32 effects);
+std::string describe_effects(EffectMask effects);
 
 /// A scene that calls for exactly these effects, each of which shows where light and lobes allow; 16 x 16
 /// pixels.
 class SceneOfEffects : public ScratchScene {
 public:
-    explicit SceneOfEffects(u32 effects);
+    explicit SceneOfEffects(EffectMask effects);
 
 private:
-    bool has(u32 effect) const { return (effects_ & effect) != 0; }
+    bool has(EffectMask effect) const { return (effects_ & effect) != 0; }
     void add_materials();
     void add_bodies();
     void add_rare_bodies();
     void add_lights();
-    const u32 effects_;
+    const EffectMask effects_;
 };
 
 } // namespace clrt

@@ -209,7 +209,7 @@ bool operator==(const TestHit& a, const TestHit& b) {
 }
 
 RayDevice::RayDevice(const ProbeDevice& device, const Scene& scene, BvhLayout layout, Precision precision,
-                     u32 effects)
+                     EffectMask effects)
     : RayDevice(device, scene,
                 RayDeviceOptions{layout, BvhQuality::FAST, precision, effects, {}, {}, nullptr}) {}
 

@@ -57,7 +57,7 @@ struct RayDeviceOptions {
     BvhLayout layout = BvhLayout::BVH8;
     BvhQuality quality = BvhQuality::FAST;
     Precision precision = Precision::SINGLE;
-    u32 effects = 0;
+    EffectMask effects = 0;
     std::vector<std::string> defines = {};
     std::optional<float> extent =
         {}; ///< the scene's, where `extent_of` would meet coordinates that are not finite
@@ -83,7 +83,7 @@ class RayDevice {
 public:
     RayDevice(const ProbeDevice& device, const Scene& scene, const RayDeviceOptions& options);
     RayDevice(const ProbeDevice& device, const Scene& scene, BvhLayout layout,
-              Precision precision = Precision::SINGLE, u32 effects = 0);
+              Precision precision = Precision::SINGLE, EffectMask effects = 0);
 
     /// scene_closest_hit for every ray.
     std::vector<TestHit> closest(const std::vector<TestRay>& rays) const;

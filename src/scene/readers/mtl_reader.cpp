@@ -182,6 +182,14 @@ void read_conductor(const Statement& statement, MtlMaterial& material, NoticeLis
     }
 }
 
+MeasuredUse read_measured(const Statement& statement) {
+    const std::string_view file = trim(without_comment(statement.value));
+    if (file.empty())
+        throw SceneError(statement.place.file, statement.place.line,
+                         "merl: expected the name of a file, found the end of the line");
+    return {std::string(file), statement.place};
+}
+
 /// Reads a statement into the table's member; false if the key is none of the table's.
 bool read_from_tables(const Statement& statement, const std::string& key, MtlMaterial& material,
                       NoticeList& notices) {
@@ -213,6 +221,8 @@ void read_statement(const Statement& statement, MtlMaterial& material, NoticeLis
         return;
     if (key == "conductor")
         read_conductor(statement, material, notices);
+    else if (key == "merl")
+        material.merl = read_measured(statement);
     else if (key == "ka")
         material.ka = read_ambient(statement);
     else if (key == "illum")

@@ -3,6 +3,7 @@
 // meaning).
 #pragma once
 
+#include "scene/material_description.h"
 #include "scene/notices.h"
 #include "scene/readers/mtl_dialect.h"
 #include "scene/texture_use.h"
@@ -34,7 +35,8 @@ struct MtlMaterial {
     std::optional<glm::dvec3> eta, k; ///< complex index of refraction; `conductor` gives both by a name
     std::optional<double> ns, ni, d, tr, pr, pm, ps, pc, pcr, aniso, anisor;
     std::optional<double> attenuation_distance, thin_walled, abbe, priority;
-    std::optional<int> illum; ///< 0..9
+    std::optional<int> illum;        ///< 0..9
+    std::optional<MeasuredUse> merl; ///< a measured BRDF, of our own like `conductor`
     std::optional<MtlTexture> map_kd, map_ks, map_ke, map_d, map_pr, map_pm, map_ps, map_normal, map_bump;
     std::optional<MtlTexture> map_ns, map_refl; ///< of Ns, and of what is reflected
 

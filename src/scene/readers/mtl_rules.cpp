@@ -23,7 +23,8 @@ enum class Model {
     SCHLICK_MIRROR, ///< a mirror with Schlick's Fresnel from Ks
     DIELECTRIC,     ///< reflection and refraction with exact Fresnel; no matte part
     CONDUCTOR,      ///< exact Fresnel by eta and k, rough by Pr
-    METALLIC        ///< F0 = mix(0.04, Kd, Pm) with Schlick's Fresnel, rough by Pr
+    METALLIC,       ///< F0 = mix(0.04, Kd, Pm) with Schlick's Fresnel, rough by Pr
+    MEASURED        ///< a measured BRDF, whatever the other keys say
 };
 
 struct Rule {
@@ -33,7 +34,8 @@ struct Rule {
 };
 
 /// The table. Models 0..9 are those of the MTL specification (Wavefront, 1995); METALLIC_RULE replaces them
-/// where Pm or map_Pm is given, CONDUCTOR_RULE where eta is (Hable and others' PBR extension).
+/// where Pm or map_Pm is given, CONDUCTOR_RULE where eta is (Hable and others' PBR extension), MEASURED_RULE
+/// where merl is.
 constexpr Rule ILLUM_RULES[] = {
     {0, Model::MATTE, "matte Kd"},
     {1, Model::MATTE, "matte Kd"},
@@ -48,6 +50,7 @@ constexpr Rule ILLUM_RULES[] = {
 };
 constexpr Rule CONDUCTOR_RULE = {-1, Model::CONDUCTOR, "conductor eta, k, Pr"};
 constexpr Rule METALLIC_RULE = {-1, Model::METALLIC, "metallic-roughness Kd, Pm, Pr"};
+constexpr Rule MEASURED_RULE = {-1, Model::MEASURED, "measured BRDF merl"};
 
 bool is_positive(const std::optional<glm::dvec3>& colour) {
     return colour && largest_component(*colour) > 0;
@@ -55,6 +58,8 @@ bool is_positive(const std::optional<glm::dvec3>& colour) {
 
 /// Ks without the key is 1 with its map, else 0. Without illum: 2 if Ks > 0, else 1.
 const Rule& find_rule(const MtlMaterial& mtl) {
+    if (mtl.merl)
+        return MEASURED_RULE;
     if (mtl.eta)
         return CONDUCTOR_RULE;
     if (mtl.pm || mtl.map_pm)
@@ -119,10 +124,11 @@ private:
         return fmt::format("{} is 0, so map_{} has no effect", name, name);
     }
 
-    /// Kd without the key: 1 with map_Kd, 0 beside Ks, Ke or Tf, else 0.8. Glass and metals by their index
-    /// have no matte part.
+    /// Kd without the key: 1 with map_Kd, 0 beside Ks, Ke or Tf, else 0.8. Glass, metals by their index and
+    /// what is measured have no matte part.
     void set_base() {
-        if (rule_.model == Model::DIELECTRIC || rule_.model == Model::CONDUCTOR)
+        if (rule_.model == Model::DIELECTRIC || rule_.model == Model::CONDUCTOR ||
+            rule_.model == Model::MEASURED)
             return;
         const bool beside = mtl_.ks || mtl_.ke || mtl_.tf;
         to_.base = mapped(mtl_.kd, mtl_.map_kd, glm::dvec3(beside ? 0.0 : DEFAULT_REFLECTANCE));
@@ -147,6 +153,10 @@ private:
         case Model::METALLIC:
             set_metallic();
             set_roughness();
+            break;
+        case Model::MEASURED: // Kd, Ks, Pm and illum are what other readers take instead
+            to_.reflection = Reflection::MEASURED;
+            to_.measured = *mtl_.merl;
             break;
         default:
             set_specular();
@@ -261,6 +271,10 @@ private:
     /// Pc is the coat's weight, Pcr its roughness; Ps the sheen of white fibres, for whose roughness there
     /// is no key.
     void set_covers() {
+        if (rule_.model == Model::MEASURED) {
+            remark_covers();
+            return;
+        }
         to_.coat_weight.value = std::min(mtl_.pc.value_or(0), 1.0);
         to_.coat_roughness.value = mtl_.pcr.value_or(DEFAULT_PCR);
         if (!mtl_.ps && !mtl_.map_ps)
@@ -272,14 +286,24 @@ private:
         to_.sheen_roughness.value = SHEEN_ROUGHNESS;
     }
 
+    /// A measurement has all that lies on its surface.
+    void remark_covers() {
+        constexpr const char* WHAT = "has no effect beside merl";
+        remark_key("Pc", "pc", mtl_.pc.value_or(0) > 0, WHAT);
+        remark_key("Ps", "ps", mtl_.ps.value_or(0) > 0, WHAT);
+        remark_key("map_Ps", "map_ps", mtl_.map_ps.has_value(), WHAT);
+    }
+
     /// Keys that mean nothing here.
     void remark_missing_keys() {
-        const auto note = [&](const char* name, const char* key, bool is_given) {
-            if (is_given)
-                remark(fmt::format("{} has no effect here and is ignored", name), mtl_.place_of(key));
-        };
-        note("map_Ns", "map_ns", mtl_.map_ns.has_value());
-        note("map_refl", "map_refl", mtl_.map_refl.has_value());
+        constexpr const char* WHAT = "has no effect here and is ignored";
+        remark_key("map_Ns", "map_ns", mtl_.map_ns.has_value(), WHAT);
+        remark_key("map_refl", "map_refl", mtl_.map_refl.has_value(), WHAT);
+    }
+
+    void remark_key(const char* name, const char* key, bool is_given, const char* what) {
+        if (is_given)
+            remark(fmt::format("{} {}", name, what), mtl_.place_of(key));
     }
 
     const MtlMaterial& mtl_;

@@ -46,7 +46,7 @@ std::optional<Device> another_device(const Device& device) {
 
 /// A small scene of all effects; every sample has sums of its own.
 struct EverySample : SceneOfEffects {
-    EverySample() : SceneOfEffects(EVERY_EFFECT & ~u32(EFFECT_PATH_FILTER)) {
+    EverySample() : SceneOfEffects(EVERY_EFFECT & ~EFFECT_PATH_FILTER) {
         options.effects.all = true;
         options.film.size = {24, 24};
         options.sampling.spp = 64;

@@ -127,8 +127,8 @@ void no_hiding(CaseRun& run) {
                 see_counts(shipped[build], render_loaded(run.device, scene, subject.options), name);
             }
     }
-    for (const u32 effects : all_effect_sets()) {
-        SceneOfEffects subject(effects & ~u32(EFFECT_PATH_FILTER));
+    for (const EffectMask effects : all_effect_sets()) {
+        SceneOfEffects subject(effects & ~EFFECT_PATH_FILTER);
         subject.options.effects.all = true;
         subject.options.sampling.spp = spp;
         see_counts(made[Build::SINGLE], subject.render(run.device), describe_effects(effects));
