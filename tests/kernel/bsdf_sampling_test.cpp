@@ -32,11 +32,7 @@ void expect_directions_follow_pdf(const LobeSet& set, const dvec3& wo, const Sph
     const BsdfValues density = probe().eval(set, repeated(wo, nodes.size()), nodes);
     std::vector<double> expected = cells.integrals(density.pdf_w);
     const double mass = total(expected);
-    const BsdfSamples samples = probe().sample(set, repeated(wo, u.size()), u);
-    std::vector<dvec3> found;
-    for (size_t i = 0; i < u.size(); ++i)
-        if (samples.eta[i] > 0)
-            found.push_back(samples.wi[i]);
+    const std::vector<dvec3> found = probe().sample(set, repeated(wo, u.size()), u).found();
     for (double& cell : expected)
         cell *= double(u.size());
     EXPECT_GT(chi_squared_test(cells.histogram(found), expected).p_value, SMALLEST_P)

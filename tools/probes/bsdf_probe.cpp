@@ -258,6 +258,14 @@ LobeSet lobe_set(const std::string& name) {
     throw std::logic_error("there is no lobe set \"" + name + "\"");
 }
 
+std::vector<glm::dvec3> BsdfSamples::found() const {
+    std::vector<glm::dvec3> directions;
+    for (size_t i = 0; i < wi.size(); ++i)
+        if (eta[i] > 0)
+            directions.push_back(wi[i]);
+    return directions;
+}
+
 BsdfProbe::BsdfProbe(const ProbeDevice& device, const ProbeOptions& options)
     : device_(device), probe_(device, {"scattering/bsdf_reverse.h"}, options) {
     probe_.add_text(TEXT);

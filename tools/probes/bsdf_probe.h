@@ -53,6 +53,9 @@ struct BsdfValues {
 struct BsdfSamples {
     std::vector<glm::dvec3> wi, weight;
     std::vector<double> pdf_w, eta; ///< eta 0: no direction was found
+
+    /// The directions that were found.
+    std::vector<glm::dvec3> found() const;
 };
 
 /// What rough facets lose of light from a direction and what Schlick's part of them reflects, and the means
