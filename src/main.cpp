@@ -15,6 +15,7 @@
 #include "render/integrator_choice.h"
 #include "render/ledger.h"
 #include "render/prepared_scene.h"
+#include "render/sky_choice.h"
 #include "replay/replay_pixel.h"
 #include "run/render_command.h"
 #include "run/run_files.h"
@@ -66,9 +67,10 @@ int run_replay(Options options) {
     if (options.run.given.count("--output"))
         spdlog::info("--pixel replays a sample: no picture is written");
     const auto planned = plan_scene(std::move(scene), options);
-    std::shared_ptr<const SceneTree> tree;
-    choose_integrator(device, planned, tree, progress);
-    const PreparedScene prepared = prepare_scene(device, planned, {tree, nullptr});
+    PreparedParts parts;
+    choose_integrator(device, planned, parts, progress);
+    choose_sky_table(device, planned, parts, progress);
+    const PreparedScene prepared = prepare_scene(device, planned, {parts.tree, nullptr});
     const PixelReplay replay = replay_pixel(prepared);
     print_report(options, replay.text);
     write_statistics(options, replay.json);

@@ -123,25 +123,24 @@ void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned
 /// Whether path finds the light by itself, as its pilot tells. Caustics it may find so seldom that its pilot
 /// looks clean without them.
 bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, const PilotSize& size,
-                   std::shared_ptr<const SceneTree>& tree) {
+                   PreparedParts& parts) {
     if (has_caustics(*planned))
         return false;
-    const PreparedScene prepared = prepare_render(device, planned, {tree, nullptr});
-    tree = prepared.tree;
+    const PreparedScene prepared = prepare_render(device, planned, parts);
+    parts = {prepared.tree, prepared.programs};
     return path_pilot_error(prepared, size) < HARD_LIGHT_ERROR || stop_signal();
 }
 
 /// Decides by pilots, a candidate after the other.
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
-            const std::vector<Candidate>& candidates, std::shared_ptr<const SceneTree>& tree,
-            IntegratorChoice& choice) {
+            const std::vector<Candidate>& candidates, PreparedParts& parts, IntegratorChoice& choice) {
     const std::optional<int> asked = planned->options.transport.max_depth;
     std::vector<std::string> told = {"path 1"};
     double best = WORTHWHILE_GAIN;
     for (const Candidate& candidate : candidates) {
         take(candidate.integrator, asked, *planned);
-        const PreparedScene prepared = prepare_scene(device, planned, {tree, nullptr});
-        tree = prepared.tree;
+        const PreparedScene prepared = prepare_scene(device, planned, {parts.tree, nullptr});
+        parts.tree = prepared.tree;
         const PilotResult pilot = run_pilot(prepared, choice.pilot);
         if (stop_signal()) {
             choice = {};
@@ -227,7 +226,7 @@ std::optional<PilotSize> pilot_size(const PlannedScene& planned) {
 }
 
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
-                                   std::shared_ptr<const SceneTree>& tree, Progress& progress) {
+                                   PreparedParts& parts, Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     IntegratorChoice choice;
     choice.integrator = planned->options.transport.integrator;
@@ -242,8 +241,10 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
         take_integrator(choice.integrator, *planned);
     else {
         progress.update({"pilot", -1, 0, -1, -1});
-        if (wish == Toggle::ON || !path_suffices(device, planned, choice.pilot, tree)) {
-            decide(device, planned, candidates, tree, choice);
+        if (wish == Toggle::ON || !path_suffices(device, planned, choice.pilot, parts)) {
+            decide(device, planned, candidates, parts, choice);
+            if (choice.integrator != Integrator::PATH)
+                parts.programs.reset(); // path's
             choice.is_told = true;
         }
     }

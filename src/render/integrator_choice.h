@@ -48,10 +48,11 @@ struct IntegratorChoice {
 /// Size of the pilots of a render; none where so small ones tell nothing.
 std::optional<PilotSize> pilot_size(const PlannedScene& planned);
 
-/// Chooses, unless an integrator is named, says so, and plans for what is chosen. `tree` is that of the plan,
-/// or null; where the pilot needed one it is there. Throws DeviceError, KernelBuildError and SceneError.
+/// Chooses, unless an integrator is named, says so, and plans for what is chosen. `parts` are those of the
+/// plan that are there; what the pilots made and the render can use is added. Throws DeviceError,
+/// KernelBuildError and SceneError.
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
-                                   std::shared_ptr<const SceneTree>& tree, Progress& progress);
+                                   PreparedParts& parts, Progress& progress);
 
 /// "path+light: ..." for the report; empty where nothing is told.
 std::string choice_text(const IntegratorChoice& choice);

@@ -93,6 +93,11 @@ void set_filter(const Options& options, RenderParams& params) {
     }
 }
 
+/// Whether the environment map has a table for an integrator: that of the radiance is one for all of them.
+bool fits(const Environment& sky, const IntegratorRow& integrator) {
+    return sky.sampling == SkySampling::BY_TABLE || (sky.sampling && sky.sampling == integrator.sky);
+}
+
 } // namespace
 
 Crop render_window(const FilmOptions& film) {
@@ -101,7 +106,7 @@ Crop render_window(const FilmOptions& film) {
 
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {
     if (!scene.environment.texels.empty() &&
-        scene.environment.sampling != integrator_row(options.transport.integrator).sky)
+        !fits(scene.environment, integrator_row(options.transport.integrator)))
         throw std::logic_error("the environment map has no table for this integrator: tabulate_sky");
     RenderParams params{};
     params.camera = make_camera_params(scene.camera, scene.normalisation, options.film.size);

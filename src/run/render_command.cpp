@@ -5,6 +5,7 @@
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/render_params.h"
+#include "render/sky_choice.h"
 #include "run/denoising.h"
 #include "run/report.h"
 #include "run/run_files.h"
@@ -65,7 +66,7 @@ struct Job {
     const std::vector<Device>& devices;
     std::shared_ptr<PlannedScene> planned;
     IntegratorChoice choice;
-    std::shared_ptr<const SceneTree> tree; ///< null: it is not built yet
+    PreparedParts parts; ///< that are there before the render
     double load_seconds;
 };
 
@@ -101,7 +102,7 @@ int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::op
     RenderHooks hooks = saving.hooks;
     hooks.observer = viewers.observer();
     if (!done)
-        done.emplace(simulate(job.devices, job.planned, progress, hooks, job.tree));
+        done.emplace(simulate(job.devices, job.planned, progress, hooks, job.parts));
     else
         simulate_again(progress, hooks, *done);
     progress.finish();
@@ -177,8 +178,9 @@ int run_render(Options options) {
     const std::vector<Device> devices = open_chosen_devices(options);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
-    Job job{start, devices, plan_scene(std::move(scene), options), {}, nullptr, load_seconds};
-    job.choice = choose_integrator(devices.front(), job.planned, job.tree, progress);
+    Job job{start, devices, plan_scene(std::move(scene), options), {}, {}, load_seconds};
+    job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
+    choose_sky_table(devices.front(), job.planned, job.parts, progress);
     announce(*job.planned);
     std::optional<Simulation> done;
     const int exit_code = options.camera.frames ? render_turn(job, progress, viewers, done)

@@ -54,12 +54,12 @@ std::vector<CauseCount> explain_bad_samples(const PreparedScene& prepared, const
 
 /// Prepares the scene on every device; what compiles does so side by side.
 void prepare(const std::vector<Device>& devices, const std::shared_ptr<const PlannedScene>& planned,
-             std::shared_ptr<const SceneTree> tree, Simulation& done) {
+             PreparedParts parts, Simulation& done) {
     std::vector<std::future<std::shared_ptr<const RenderPrograms>>> programs;
     for (size_t i = 1; i < devices.size(); ++i)
         programs.push_back(
             std::async(std::launch::async, [&, i] { return plan_programs(devices[i], *planned); }));
-    done.prepared.emplace(prepare_render(devices.front(), planned, {std::move(tree), nullptr}));
+    done.prepared.emplace(prepare_render(devices.front(), planned, std::move(parts)));
     for (size_t i = 1; i < devices.size(); ++i)
         done.others.push_back(
             prepare_scene(devices[i], planned, {done.prepared->tree, programs[i - 1].get()}));
@@ -68,11 +68,11 @@ void prepare(const std::vector<Device>& devices, const std::shared_ptr<const Pla
 } // namespace
 
 Simulation simulate(const std::vector<Device>& devices, const std::shared_ptr<const PlannedScene>& planned,
-                    Progress& progress, const RenderHooks& hooks, std::shared_ptr<const SceneTree> tree) {
+                    Progress& progress, const RenderHooks& hooks, PreparedParts parts) {
     Simulation done;
     if (!planned->effects.paths.is_empty) {
         progress.update({"compile", -1, 0, -1});
-        prepare(devices, planned, std::move(tree), done);
+        prepare(devices, planned, std::move(parts), done);
         for (const Device& device : devices) {
             std::optional<DeviceFacts> facts = ask_facts(device, planned->options, progress);
             if (!done.facts || (facts && promises_bits(*done.facts) && !promises_bits(*facts)))

@@ -25,12 +25,11 @@ struct Simulation {
 };
 
 /// Prepares a scene and renders it. What cannot be told about the device or about bad samples is only said.
-/// Where no path is asked for this is the black picture, and nothing is prepared. `tree`: that of the plan,
-/// or null. Several devices share the picture; facts are those of the first that breaks a rule, else of the
-/// first. Throws DeviceError.
+/// Where no path is asked for this is the black picture, and nothing is prepared. `parts`: those of the
+/// plan that are there for the first device. Several devices share the picture; facts are those of the first
+/// that breaks a rule, else of the first. Throws DeviceError.
 Simulation simulate(const std::vector<Device>& devices, const std::shared_ptr<const PlannedScene>& planned,
-                    Progress& progress, const RenderHooks& hooks,
-                    std::shared_ptr<const SceneTree> tree = nullptr);
+                    Progress& progress, const RenderHooks& hooks, PreparedParts parts = {});
 
 /// Renders again what is prepared, as its plan now is (PreparedScene says what may change in it). Replaces
 /// render and causes. Throws DeviceError.

@@ -15,7 +15,7 @@ namespace {
 struct Chosen {
     IntegratorChoice choice;
     std::shared_ptr<PlannedScene> planned;
-    std::shared_ptr<const SceneTree> tree;
+    PreparedParts parts;
 };
 
 /// A box with a lamp under its ceiling, and spheres on its floor.
@@ -44,9 +44,9 @@ struct Box : TestScene {
     }
 
     Chosen choose() const {
-        Chosen chosen{{}, plan_loaded(test_device(), load(), options), nullptr};
+        Chosen chosen{{}, plan_loaded(test_device(), load(), options), {}};
         Progress silent(Toggle::OFF, true);
-        chosen.choice = choose_integrator(test_device(), chosen.planned, chosen.tree, silent);
+        chosen.choice = choose_integrator(test_device(), chosen.planned, chosen.parts, silent);
         EXPECT_EQ(chosen.planned->options.transport.integrator, chosen.choice.integrator);
         return chosen;
     }
@@ -81,7 +81,7 @@ TEST(IntegratorChoice, CausticsAreLeftToLightPaths) {
     box.add_caustic();
     const Chosen chosen = box.choose();
     EXPECT_EQ(chosen.choice.integrator, Integrator::PATH_LIGHT) << chosen.choice.reason;
-    EXPECT_TRUE(chosen.tree) << "the pilot's is the picture's";
+    EXPECT_TRUE(chosen.parts.tree) << "the pilot's is the picture's";
     EXPECT_EQ(chosen.choice.prices.size(), 3u);
     EXPECT_GT(price_of(chosen.choice, Integrator::PATH_LIGHT).efficiency, 3) << chosen.choice.reason;
 }
@@ -150,13 +150,13 @@ TEST(IntegratorChoice, WhereNoneIsNamedOthersAreTriedWherePathMayNotSuffice) {
         EXPECT_EQ(chosen.choice.integrator, is_hard ? Integrator::PATH_LIGHT : Integrator::PATH);
         EXPECT_EQ(chosen.choice.is_told, is_hard) << chosen.choice.reason;
         EXPECT_EQ(chosen.choice.prices.size(), is_hard ? 3u : 0u);
-        EXPECT_TRUE(chosen.tree) << "path's pilot has one";
+        EXPECT_TRUE(chosen.parts.tree) << "path's pilot has one";
         const std::uint32_t spp = *box.options.sampling.spp;
         box.options.run.given["--first-sample"] = ""; // a part, which is to be as the others
-        EXPECT_FALSE(box.choose().choice.is_told || box.choose().tree);
+        EXPECT_FALSE(box.choose().choice.is_told || box.choose().parts.tree);
         box.options.run.given.clear();
         box.options.sampling.spp = spp / 8; // too short for pilots
-        EXPECT_FALSE(box.choose().choice.is_told || box.choose().tree);
+        EXPECT_FALSE(box.choose().choice.is_told || box.choose().parts.tree);
     }
 }
 
@@ -188,7 +188,7 @@ TEST(IntegratorChoice, ThePictureIsThatOfTheChosenOne) {
         box.add_glass();
         const Chosen chosen = box.choose();
         const Render render =
-            render_silently(prepare_render(test_device(), chosen.planned, {chosen.tree, nullptr}));
+            render_silently(prepare_render(test_device(), chosen.planned, {chosen.parts.tree, nullptr}));
         box.options.transport.choose = Toggle::OFF;
         box.options.transport.integrator = chosen.choice.integrator;
         EXPECT_TRUE(render.film.sums == box.render().film.sums) << name_of(chosen.choice.integrator);
