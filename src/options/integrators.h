@@ -54,8 +54,8 @@ struct PathDepths {
 };
 
 /// Which techniques find the sky: the table is all that does, or directions sampled by the BSDF do too, and
-/// multiple importance sampling weighs the two.
-enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF };
+/// multiple importance sampling weighs the two. The brightest alone may be left to the table.
+enum class SkySampling { BY_TABLE, BY_TABLE_AND_BSDF, BRIGHTEST_BY_TABLE };
 
 /// Lights that a vertex is connected to: none, every one, every one where all emissive triangles together are
 /// one light, of which a table or (--light-sampler) the tree chooses a triangle, or one that is chosen of

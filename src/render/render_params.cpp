@@ -95,7 +95,7 @@ void set_filter(const Options& options, RenderParams& params) {
 
 /// Whether the environment map has a table for an integrator: that of the radiance is one for all of them.
 bool fits(const Environment& sky, const IntegratorRow& integrator) {
-    return sky.sampling == SkySampling::BY_TABLE || (sky.sampling && sky.sampling == integrator.sky);
+    return sky.sampling == SkySampling::BY_TABLE || (sky.sampling && integrator.sky != SkySampling::BY_TABLE);
 }
 
 } // namespace

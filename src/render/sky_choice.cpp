@@ -16,11 +16,13 @@ namespace clrt {
 
 namespace {
 
-/// Pixels and samples a pixel of a pilot. Smaller frames are not worth one.
-constexpr double MOST_PIXELS = 1536, FEWEST_PIXELS = 768;
-constexpr std::uint32_t SKY_PILOT_SPP = 8;
+/// Pixels and samples a pixel of a pilot: nets of eight samples, and pixels that are not too large, whose own
+/// contents would count as noise of all tables. Smaller frames are not worth one.
+constexpr double MOST_PIXELS = 512, FEWEST_PIXELS = 256;
+constexpr std::uint32_t SKY_PILOT_SPP = 32;
 
-/// Squared error that a table must spare for it to be taken, by pilots that are right within a few percent.
+/// Squared error that a table must spare for it to be taken, by pilots whose ratios scatter by a few
+/// percent.
 constexpr double WORTHWHILE_SKY_GAIN = 1.1;
 
 /// Size of the pilots; none where a plan has no choice.
@@ -37,6 +39,23 @@ std::optional<PilotSize> size_of_sky_pilots(const PlannedScene& planned) {
                      std::max(int(options.film.size.y * scale), 1), SKY_PILOT_SPP};
 }
 
+/// A map's table, kept while another is tried.
+class Table {
+public:
+    explicit Table(const Environment& sky)
+        : tiles_(sky.tiles), share_(sky.tabulated_share), sampling_(sky.sampling) {}
+    void put_into(Environment& sky) {
+        sky.tiles = std::move(tiles_);
+        sky.tabulated_share = share_;
+        sky.sampling = sampling_;
+    }
+
+private:
+    std::vector<SkyTile> tiles_;
+    double share_;
+    std::optional<SkySampling> sampling_;
+};
+
 } // namespace
 
 void choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>& planned,
@@ -46,30 +65,30 @@ void choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>&
         return;
     progress.update({"pilot", -1, 0, -1, -1});
     Environment& sky = planned->scene.environment;
-    std::vector<SkyTile> tiles = sky.tiles;
-    const double share = sky.tabulated_share;
     const std::optional<Crop> crop = std::exchange(planned->options.film.crop, std::nullopt);
-    const auto error = [&] {
+    const auto error_by = [&](SkySampling sampling) {
+        tabulate_sky(sky, sampling);
         const PreparedScene prepared = prepare_render(device, planned, parts);
         parts = {prepared.tree, prepared.programs};
         return path_pilot_error(prepared, *size);
     };
-    const double by_excess = error();
-    tabulate_sky(sky, SkySampling::BY_TABLE);
-    const double by_radiance = error();
+    const double usual = error_by(SkySampling::BY_TABLE_AND_BSDF);
+    Table best(sky);
+    double error = usual / WORTHWHILE_SKY_GAIN;
+    for (const SkySampling sampling : {SkySampling::BY_TABLE, SkySampling::BRIGHTEST_BY_TABLE})
+        if (const double other = error_by(sampling); other < error && !stop_signal()) {
+            best = Table(sky);
+            error = other;
+        }
+    best.put_into(sky);
     planned->options.film.crop = crop;
     progress.finish();
-    spdlog::debug("sky: {:.4g} by what exceeds the mean, {:.4g} by its radiance", by_excess, by_radiance);
-    if (by_excess > WORTHWHILE_SKY_GAIN * by_radiance && !stop_signal()) {
-        spdlog::info(
-            "sky: light samples by its whole radiance have {:.2f} times less squared error than by what "
-            "exceeds its mean, by pilots of {} x {} pixels, {} spp",
-            by_excess / by_radiance, size->width, size->height, size->spp);
-        return;
-    }
-    sky.tiles = std::move(tiles);
-    sky.tabulated_share = share;
-    sky.sampling = SkySampling::BY_TABLE_AND_BSDF;
+    if (sky.sampling != SkySampling::BY_TABLE_AND_BSDF)
+        spdlog::info("sky: light samples by {} have {:.2f} times less squared error than by what exceeds its "
+                     "mean, by pilots of {} x {} pixels, {} spp",
+                     sky.sampling == SkySampling::BY_TABLE ? "its whole radiance"
+                                                           : "what exceeds four times its mean",
+                     usual / error, size->width, size->height, size->spp);
 }
 
 } // namespace clrt

@@ -19,6 +19,19 @@ namespace {
 /// rounding.
 constexpr double SMALLEST_EXCESS = 1e-6;
 
+/// Radiance, in means of the map, that BSDF sampling finds as well.
+double left_to_bsdf(SkySampling sampling) {
+    switch (sampling) {
+    case SkySampling::BRIGHTEST_BY_TABLE:
+        return 4;
+    case SkySampling::BY_TABLE_AND_BSDF:
+        return 1;
+    case SkySampling::BY_TABLE:
+        break;
+    }
+    return 0;
+}
+
 /// Weights of a tile's texels, row by row.
 using TileWeights = std::array<double, SKY_TILE_TEXELS>;
 
@@ -135,9 +148,9 @@ void tabulate_sky(Environment& sky, SkySampling sampling) {
         return;
     sky.tabulated_share = 1;
     std::vector<double> weights;
-    if (sampling == SkySampling::BY_TABLE_AND_BSDF) {
+    if (const double means = left_to_bsdf(sampling); means > 0) {
         const double light = light_of_map(sky);
-        weights = share_tiles(sky, light / (4 * PI));
+        weights = share_tiles(sky, means * light / (4 * PI));
         sky.tabulated_share = std::accumulate(weights.begin(), weights.end(), 0.0) / light;
     }
     if (weights.empty() || !(sky.tabulated_share > SMALLEST_EXCESS)) {

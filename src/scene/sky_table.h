@@ -22,9 +22,9 @@ double light_of_map(const Environment& sky);
 
 /// Fills in the table of a map that gives light: texels chosen in proportion to their light, but for
 /// rounding to a share of 1/SKY_SHARES of their tile's; one with light keeps a share. Beside BSDF sampling
-/// it is what cell_luminance exceeds its mean by (MIS compensation, Karlik et al. 2019): dimmer texels have
-/// probability 0 and are left to the BSDF. A map without bright texels keeps the table of its luminance. A
-/// constant environment needs no table.
+/// it is what cell_luminance exceeds its mean by (MIS compensation, Karlik et al. 2019), or for the brightest
+/// alone four times its mean: dimmer texels have probability 0 and are left to the BSDF. A map without bright
+/// texels keeps the table of its luminance. A constant environment needs no table.
 void tabulate_sky(Environment& sky, SkySampling sampling);
 
 /// The probability with which the table chooses a texel.

@@ -79,21 +79,15 @@ TEST(Environment, ProbabilityIsPositiveExactlyWhereTheLookupIs) {
     EXPECT_NEAR(sum, 1, 1e-6);
 }
 
-TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> uniform(0, 2);
-    EnvironmentImage image = black(12, 8);
-    for (glm::vec3& texel : image.texels)
-        texel = glm::vec3(uniform(random), uniform(random), uniform(random));
-    NoticeList notices;
-    Environment environment = map_environment(image, 3, 0, notices);
-    tabulate_sky(environment, SkySampling::BY_TABLE_AND_BSDF);
+/// A table of texels in proportion to what exceeds so many means, of which dimmer ones have none.
+void expect_chosen_by_excess(Environment environment, SkySampling sampling, double means) {
+    tabulate_sky(environment, sampling);
     const std::vector<double> cells = cell_luminance(environment, 0, 8);
     double mean = 0, sum = 0;
     for (size_t i = 0; i < cells.size(); ++i)
         mean += cells[i] * texel_solid_angle(int(i) / 12, 12, 8) / (4 * PI);
     const auto weight = [&](size_t i) {
-        return std::max(cells[i] - mean, 0.0) * texel_solid_angle(int(i) / 12, 12, 8);
+        return std::max(cells[i] - means * mean, 0.0) * texel_solid_angle(int(i) / 12, 12, 8);
     };
     for (size_t i = 0; i < cells.size(); ++i)
         sum += weight(i);
@@ -102,11 +96,26 @@ TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
         const double p = texel_probability(environment, int(i) % 12, int(i) / 12);
         const SkyTile& tile = environment.tiles[i / 48 * 3 + i % 12 / 4];
         EXPECT_NEAR(p, weight(i) / sum, double(tile.probability) / SKY_SHARES + 1e-7) << i;
-        EXPECT_EQ(p > 0, cells[i] > mean) << i;
+        EXPECT_EQ(p > 0, cells[i] > means * mean) << i;
         dim += p == 0;
     }
     EXPECT_GT(dim, 0u);
+    EXPECT_LT(dim, cells.size());
     EXPECT_NEAR(environment.mean_radiance, 3 * mean, 1e-12) << "the light that is left to the BSDF counts";
+}
+
+TEST(Environment, BesideBsdfSamplingTexelsAreChosenByWhatExceedsTheMean) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(0, 2);
+    EnvironmentImage image = black(12, 8);
+    for (glm::vec3& texel : image.texels)
+        texel = glm::vec3(uniform(random), uniform(random), uniform(random));
+    for (const size_t bright : {17u, 50u, 51u})
+        image.texels[bright] *= 20;
+    NoticeList notices;
+    const Environment environment = map_environment(image, 3, 0, notices);
+    expect_chosen_by_excess(environment, SkySampling::BY_TABLE_AND_BSDF, 1);
+    expect_chosen_by_excess(environment, SkySampling::BRIGHTEST_BY_TABLE, 4);
 }
 
 TEST(Environment, OnlyThePathTracerLeavesDimTexelsToTheBsdf) {
@@ -146,7 +155,8 @@ TEST(Environment, SolidAnglesSumToTheSphere) {
 }
 
 TEST(Environment, AConstantMapIsChosenBySolidAngle) {
-    for (const SkySampling sampling : {SkySampling::BY_TABLE, SkySampling::BY_TABLE_AND_BSDF}) {
+    for (const SkySampling sampling :
+         {SkySampling::BY_TABLE, SkySampling::BY_TABLE_AND_BSDF, SkySampling::BRIGHTEST_BY_TABLE}) {
         EnvironmentImage image = black(6, 5);
         image.texels.assign(30, glm::vec3(0.5f));
         NoticeList notices;

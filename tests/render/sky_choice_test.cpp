@@ -6,19 +6,40 @@
 #include "scene/sky_table.h"
 #include "support/render_scene.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace clrt {
 
 namespace {
 
-/// Where the sun of the map is, as seen from the room.
-enum class Sun { IN_WINDOW, BEHIND_WALL };
+/// Under which sky a scene is.
+enum class Place { ROOM_WITH_SUN, ROOM_WITHOUT_SUN, OUTDOORS };
 
-/// A room with a window towards +x under a sky that is nearly even, but for a sun.
-struct Room : TestScene {
-    explicit Room(Sun sun) {
+/// A room with a window towards +x, into which the sun shines or not, or a floor and a wall.
+struct Sunlit : TestScene {
+    explicit Sunlit(Place place) {
         build.material("white", "Kd 0.75 0.75 0.75").use("white");
+        if (place == Place::OUTDOORS)
+            add_block();
+        else
+            add_walls();
+        constexpr int WIDTH = 32, HEIGHT = 16;
+        const bool is_outdoors = place == Place::OUTDOORS;
+        std::vector<float> texels(size_t(WIDTH) * HEIGHT * 3, is_outdoors ? 0.3f : 2.0f);
+        if (is_outdoors) // brighter above the horizon
+            std::fill_n(texels.begin(), texels.size() / 2, 3.0f);
+        const int column = place == Place::ROOM_WITHOUT_SUN ? 0 : WIDTH / 2; // towards -x or +x
+        for (size_t channel = 0; channel < 3; ++channel)
+            texels[(size_t(5) * WIDTH + size_t(column)) * 3 + channel] = 150;
+        texture("sky.exr", WIDTH, HEIGHT, 3, texels);
+        options.light.environment_file = folder.file("sky.exr");
+        look({-2.8, 1.6, 1.6}, {1, 0.9, -0.8}, 60);
+        options.film.size = {24, 18}; // as large as a pilot
+        options.effects.all = false;
+    }
+    void add_walls() {
         for (const double y : {0.0, 2.5})
             build.polygon({{-3, y, -2}, {-3, y, 2}, {2, y, 2}, {2, y, -2}});
         for (const double z : {-2.0, 2.0})
@@ -28,16 +49,11 @@ struct Room : TestScene {
         build.polygon({{2, 2, -2}, {2, 2.5, -2}, {2, 2.5, 2}, {2, 2, 2}});
         build.polygon({{2, 1, -2}, {2, 2, -2}, {2, 2, -0.5}, {2, 1, -0.5}});
         build.polygon({{2, 1, 0.5}, {2, 2, 0.5}, {2, 2, 2}, {2, 1, 2}});
-        constexpr int WIDTH = 32, HEIGHT = 16;
-        std::vector<float> texels(size_t(WIDTH) * HEIGHT * 3, 2.0f);
-        const int column = sun == Sun::IN_WINDOW ? WIDTH / 2 : 0; // towards +x or -x
-        for (size_t channel = 0; channel < 3; ++channel)
-            texels[(size_t(5) * WIDTH + size_t(column)) * 3 + channel] = 150;
-        texture("sky.exr", WIDTH, HEIGHT, 3, texels);
-        options.light.environment_file = folder.file("sky.exr");
-        look({-2.8, 1.6, 1.6}, {1, 0.9, -0.8}, 60);
-        options.film.size = {40, 30};
-        options.effects.all = false;
+    }
+    /// A floor, and a wall that shades it.
+    void add_block() {
+        build.floor(4);
+        build.polygon({{1, 0, -2}, {1, 1.5, -2}, {1, 1.5, 1}, {1, 0, 1}});
     }
     std::shared_ptr<PlannedScene> plan() const { return plan_loaded(test_device(), load(), options); }
 
@@ -55,7 +71,7 @@ struct Room : TestScene {
 };
 
 /// Squared relative error of a sample a pixel by a table.
-double squared_error(const Room& room, SkySampling sampling) {
+double squared_error(const Sunlit& room, SkySampling sampling) {
     const auto planned = room.plan();
     tabulate_sky(planned->scene.environment, sampling);
     planned->options.sampling.spp = 256;
@@ -73,33 +89,37 @@ std::vector<float> probabilities(const Environment& sky) {
 
 } // namespace
 
-TEST(SkyChoice, TheBetterTableIsTaken) {
-    Room lit(Sun::IN_WINDOW), sky_only(Sun::BEHIND_WALL);
-    EXPECT_EQ(lit.chosen(), SkySampling::BY_TABLE_AND_BSDF);
-    EXPECT_EQ(sky_only.chosen(), SkySampling::BY_TABLE);
-    for (const Room* room : {&lit, &sky_only}) {
-        const double by_excess = squared_error(*room, SkySampling::BY_TABLE_AND_BSDF);
-        const double by_radiance = squared_error(*room, SkySampling::BY_TABLE);
-        EXPECT_EQ(by_excess > 1.1 * by_radiance, room == &sky_only) << by_excess << " " << by_radiance;
+TEST(SkyChoice, TheBestTableIsTaken) {
+    constexpr SkySampling ALL[] = {SkySampling::BY_TABLE_AND_BSDF, SkySampling::BY_TABLE,
+                                   SkySampling::BRIGHTEST_BY_TABLE};
+    std::set<SkySampling> taken;
+    for (const Place place : {Place::ROOM_WITH_SUN, Place::ROOM_WITHOUT_SUN, Place::OUTDOORS}) {
+        Sunlit scene(place);
+        const SkySampling chosen = scene.chosen();
+        taken.insert(chosen);
+        const double error = squared_error(scene, chosen);
+        for (const SkySampling other : ALL)
+            EXPECT_LT(error, 1.15 * squared_error(scene, other)) << int(place) << " " << int(other);
     }
+    EXPECT_EQ(taken.size(), 3u) << "each of them is the best somewhere";
 }
 
 TEST(SkyChoice, WhatThePilotsMadeIsThere) {
-    Room room(Sun::BEHIND_WALL);
+    Sunlit room(Place::ROOM_WITHOUT_SUN);
     room.choose();
     EXPECT_TRUE(room.parts.tree);
     EXPECT_TRUE(room.parts.programs);
 }
 
 TEST(SkyChoice, ThePlanIsAsBeforeWhereTheTableStays) {
-    Room room(Sun::IN_WINDOW);
+    Sunlit room(Place::ROOM_WITH_SUN);
     const auto planned = room.plan(), after = room.choose();
     EXPECT_EQ(probabilities(after->scene.environment), probabilities(planned->scene.environment));
     EXPECT_EQ(after->scene.environment.tabulated_share, planned->scene.environment.tabulated_share);
 }
 
 TEST(SkyChoice, PartsOfAPictureChooseAlike) {
-    Room room(Sun::BEHIND_WALL);
+    Sunlit room(Place::ROOM_WITHOUT_SUN);
     room.options.film.crop = Crop{0, 0, 8, 8};
     room.options.sampling.spp = 1;
     const auto planned = room.choose();
@@ -109,15 +129,15 @@ TEST(SkyChoice, PartsOfAPictureChooseAlike) {
 }
 
 TEST(SkyChoice, ThereIsNoPilotWhereThereIsNoChoice) {
-    Room small(Sun::BEHIND_WALL);
+    Sunlit small(Place::ROOM_WITHOUT_SUN);
     small.options.film.size = {16, 12};
     EXPECT_EQ(small.chosen(), SkySampling::BY_TABLE_AND_BSDF);
     EXPECT_FALSE(small.parts.programs);
-    Room other(Sun::BEHIND_WALL);
+    Sunlit other(Place::ROOM_WITHOUT_SUN);
     other.options.transport.integrator = Integrator::BDPT;
     other.choose();
     EXPECT_FALSE(other.parts.programs);
-    Room constant(Sun::BEHIND_WALL);
+    Sunlit constant(Place::ROOM_WITHOUT_SUN);
     constant.options.light.environment_file.clear();
     constant.options.light.environment = glm::dvec3(1);
     constant.choose();
