@@ -342,4 +342,33 @@ TEST_F(Fault, AMeshThatTheMemoryCannotHoldIsAnErrorWhereverItRunsOut) {
     }
 }
 
+TEST_F(Fault, ATruncatedPngIsToldInOurWordsOnly) {
+    folder.write("scene.mtl", "newmtl leaf\nmap_Kd cut.png\n");
+    write_square("textured", "mtllib scene.mtl\nusemtl leaf\n");
+    ASSERT_EQ(clrt(quick({"scene.obj", "-o", "whole.png", "--sun", "1,2,3,9,9,9"})).exit_code, 0);
+    const std::string whole = folder.read("whole.png");
+    const size_t pixels = whole.find("IDAT");
+    ASSERT_NE(pixels, whole.npos);
+    for (const size_t size : {whole.size() - 20, pixels + 4, pixels + 6, pixels - 2, size_t(20), size_t(8)}) {
+        folder.write("cut.png", whole.substr(0, size));
+        const CommandResult result = clrt(quick({"textured.obj", "-o", "a.png"}));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_TRUE(holds(result.err, {"scene.mtl:2: cut.png: the picture ", "the map is ignored"})) << size;
+        EXPECT_EQ(result.err.find("libpng"), result.err.npos) << size << ": " << result.err;
+        EXPECT_TRUE(holds(result.err,
+                          {"is cut off: expected ",
+                           "bytes or more, found " + std::to_string(size) + "; copy or export it again"}));
+    }
+    // Without its last chunk a PNG has all its pixels.
+    folder.write("cut.png", whole.substr(0, whole.find("IEND") - 4));
+    const CommandResult result = clrt(quick({"textured.obj", "-o", "a.png"}));
+    EXPECT_EQ(result.err.find("cut.png: "), result.err.npos) << result.err;
+    // An environment map is an error.
+    folder.write("sky.png", whole.substr(0, pixels + 6));
+    const CommandResult sky = clrt(quick({"scene.obj", "--env", "sky.png"}));
+    EXPECT_EQ(sky.exit_code, 1);
+    EXPECT_TRUE(holds(sky.err, {"clrt: error: sky.png: the picture is cut off"}));
+    EXPECT_EQ(sky.err.find("libpng"), sky.err.npos) << sky.err;
+}
+
 } // namespace clrt
