@@ -98,7 +98,7 @@ int run(int argc, const char* const* argv) {
     if (options.run.explain != Explain::NO) // has nothing to save
         return run_explain(options);
     catch_stop_signals(options.run.verbosity < 0);
-    report_broken_pipes();
+    report_failed_writes();
     if (options.run.pixel)
         return run_replay(options);
     return options.run.ledger != LedgerOf::NOTHING ? run_ledger(options) : run_render(options);

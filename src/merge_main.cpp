@@ -144,7 +144,8 @@ std::string merge_json(const FilmFile& sum, const ErrorReport& error, size_t fil
     return json.dump(2) + "\n";
 }
 
-void merge(const MergeOptions& options, const Options& look) {
+/// Returns the exit code.
+int merge(const MergeOptions& options, const Options& look) {
     // One film after the other: two are in memory at a time.
     FilmFile sum = read_film_file(options.films.front());
     std::string names = options.films.front();
@@ -175,13 +176,14 @@ void merge(const MergeOptions& options, const Options& look) {
     if (!options.stats.empty())
         files.write(options.stats,
                     [&] { write_text_file(options.stats, merge_json(sum, error, options.films.size())); });
-    files.finish();
+    const int exit_code = files.complete() ? EXIT_DONE : EXIT_SCENE;
     if (options.quiet)
-        return;
+        return exit_code;
     const bool is_piped = std::any_of(options.outputs.begin(), options.outputs.end(), is_standard_output);
     fmt::print(is_piped ? stderr : stdout, "{} x {}, {} spp of {} films, {:.1f} s of rendering\n{}",
                film.width, film.height, film_samples(film), options.films.size(), sum.render.seconds,
                format_error_report(error));
+    return exit_code;
 }
 
 int run(int argc, const char* const* argv) {
@@ -201,11 +203,10 @@ int run(int argc, const char* const* argv) {
         fmt::print("clrt-merge {}\n", CLRT_VERSION);
         return EXIT_DONE;
     }
-    start_log(options.quiet ? -1 : 0);
-    report_broken_pipes();
+    start_log(options.quiet ? -1 : 0, "clrt-merge");
+    report_failed_writes();
     check(options);
-    merge(options, look_of(options));
-    return EXIT_DONE;
+    return merge(options, look_of(options));
 }
 
 } // namespace

@@ -6,12 +6,12 @@ namespace clrt {
 
 /// Installs handlers for SIGINT and SIGTERM. The first is answered by a line on stderr unless `is_quiet`:
 /// while a scene is loaded or a program compiled, nothing else shows that it came. A second signal ends the
-/// process with 128 + its number. Also ignores SIGXFSZ: a file that grows beyond the limit of `ulimit -f` is
-/// then an error message and no crash.
+/// process with 128 + its number.
 void catch_stop_signals(bool is_quiet = false);
 
-/// From now on a pipe whose reader has gone is an error of writing, with its message, and ends no process.
-void report_broken_pipes();
+/// From now on a pipe whose reader has gone (SIGPIPE) and a file that grows beyond the limit of `ulimit -f`
+/// (SIGXFSZ) are errors of writing, with their messages, and end no process.
+void report_failed_writes();
 
 /// 0, or the number of the signal that came.
 int stop_signal();

@@ -2,15 +2,18 @@
 #include "images/oiio_decoder.h"
 
 #include "error.h"
+#include "images/png_cut.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -67,6 +70,21 @@ std::vector<T> read_values(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
     return values;
 }
 
+/// Throws SceneError for a PNG that is cut off, before libpng says so on stderr.
+void check_png(const std::string& path, const std::string* bytes) {
+    std::error_code error;
+    const std::uint64_t size = bytes ? bytes->size() : std::filesystem::file_size(path, error);
+    if (error)
+        return;
+    std::unique_ptr<std::istream> file;
+    if (bytes)
+        file = std::make_unique<std::istringstream>(*bytes);
+    else
+        file = std::make_unique<std::ifstream>(path, std::ios::binary);
+    if (const std::optional<std::string> cut = png_cut(*file, size))
+        throw SceneError(path, 0, "the picture is cut off: " + *cut + "; copy or export it again");
+}
+
 /// The name that makes OpenImageIO choose the decoder of a picture in memory.
 std::string name_by_format(const std::string& bytes, const std::string& path) {
     const std::pair<std::string, const char*> formats[] = {
@@ -98,6 +116,7 @@ void check_size(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, cons
 } // namespace
 
 StoredImage read_by_oiio(const std::string& path, const std::string* bytes) {
+    check_png(path, bytes);
     // Without this OpenImageIO multiplies the colours of PNG and others by alpha.
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;

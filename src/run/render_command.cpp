@@ -39,7 +39,8 @@ int finish(const Report& report) {
             "report and `nonfinite` in the JSON of --stats",
             render.counts.bad());
     if (render.stop_signal) {
-        spdlog::warn("stopped by a signal after {} spp; the picture is saved", film_samples(render.film));
+        spdlog::warn("stopped by a signal after {} spp{}", film_samples(render.film),
+                     report.lost_files.empty() ? "; the picture is saved" : "");
         return 128 + render.stop_signal;
     }
     if (!render.hits_error.empty()) {
@@ -122,13 +123,13 @@ int render_picture(const Job& job, Progress& progress, Viewers& viewers, std::op
     const SceneTree no_tree;
     Report report = make_report(job, *done, done->prepared ? *done->prepared->tree : no_tree);
     write_outputs(report, files);
-    files.finish();
     const bool is_frame = options.camera.frame > 0 && options.run.verbosity == 0;
     if (options.run.verbosity >= 0)
         print_report(options, is_frame ? format_frame(report) : format_report(report));
     if (report.empty_picture)
         spdlog::warn("{}", *report.empty_picture);
-    return finish(report);
+    const int exit_code = finish(report);
+    return files.complete() ? exit_code : EXIT_SCENE;
 }
 
 /// The pictures of --frames, or the one of them that is asked for. The scene is loaded and prepared once.

@@ -284,6 +284,7 @@ std::string report_json(const Report& report) {
                     {"texture_seconds", report.scene.statistics.texture_seconds}};
     json["paths"] = paths_json(report.effects.paths);
     json["effects"] = effects_json(report.effects);
+    json["lost_files"] = report.lost_files;
     json["empty_picture"] = report.empty_picture ? Json(*report.empty_picture) : Json(nullptr);
     json["notices"] = report.scene.notices;
     return json.dump(2) + "\n";

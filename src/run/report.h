@@ -13,6 +13,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace clrt {
 
@@ -32,6 +33,7 @@ struct Report {
     double exposure_ev = 0;                        ///< stops of the 8-bit pictures
     IntegratorChoice choice = {};                  ///< of --integrator auto
     std::optional<std::string> empty_picture = {}; ///< why the picture shows nothing, where it does not
+    std::vector<std::string> lost_files = {};      ///< results that could not be written
 };
 
 /// The error that the command names, and whether the picture satisfies it.

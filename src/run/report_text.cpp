@@ -30,11 +30,22 @@ std::string picture_line(const Report& report) {
                                ADAPTIVE_TILE_SIZE, ADAPTIVE_TILE_SIZE);
     }
     std::vector<std::string> files;
-    for (const std::string& name : report.options.output.files)
-        files.push_back(expand_file_name(
-            name, {report.options.sampling.seed, film_samples(film), report.options.camera.frame}));
-    return fmt::format("picture  {}, {} x {}, {}; {}\n", fmt::join(files, ", "), film.width, film.height,
-                       samples, report.render.stop_text);
+    for (const std::string& name : report.options.output.files) {
+        const std::string file = expand_file_name(
+            name, {report.options.sampling.seed, film_samples(film), report.options.camera.frame});
+        if (std::count(report.lost_files.begin(), report.lost_files.end(), file) == 0)
+            files.push_back(file);
+    }
+    return fmt::format("picture  {}, {} x {}, {}; {}\n",
+                       files.empty() ? "none" : fmt::format("{}", fmt::join(files, ", ")), film.width,
+                       film.height, samples, report.render.stop_text);
+}
+
+/// Results that are not there although they were asked for.
+std::string lost_line(const Report& report) {
+    return report.lost_files.empty()
+               ? ""
+               : fmt::format("lost     {}: could not be written\n", fmt::join(report.lost_files, ", "));
 }
 
 std::string adaptive_line(const Report& report) {
@@ -152,8 +163,9 @@ std::string proof_lines(const Report& report) {
 
 std::string format_report(const Report& report) {
     std::string text =
-        picture_line(report) + choice_line(report) + adaptive_line(report) + guide_line(report) +
-        chain_line(report) + time_line(report) + share_lines(report) + format_error_report(report.error) +
+        picture_line(report) + lost_line(report) + choice_line(report) + adaptive_line(report) +
+        guide_line(report) + chain_line(report) + time_line(report) + share_lines(report) +
+        format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         bias_line(report) + left_out_lines(report) + bad_lines(report);

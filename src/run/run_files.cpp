@@ -72,11 +72,9 @@ std::vector<NamedFile> files_to_read(const Options& options) {
 
 void print_report(const Options& options, const std::string& text) {
     const std::vector<NamedFile> results = files_to_write(options);
-    if (std::any_of(results.begin(), results.end(),
-                    [](const NamedFile& file) { return is_standard_output(file.path); }))
-        std::fputs(text.c_str(), stderr);
-    else
-        fmt::print("{}", text);
+    const bool is_taken = std::any_of(results.begin(), results.end(),
+                                      [](const NamedFile& file) { return is_standard_output(file.path); });
+    std::fputs(text.c_str(), is_taken ? stderr : stdout);
 }
 
 void check_run_files(const Options& options, const Scene& scene) {

@@ -20,6 +20,7 @@ std::vector<NamedFile> files_to_write(const Options& options);
 std::vector<NamedFile> files_to_read(const Options& options);
 
 /// Prints what a run has to say in the end: to stdout, or to stderr where a result goes to stdout.
+/// A stream that takes no more is no reason to stop: run_program() tells of stdout in the end.
 void print_report(const Options& options, const std::string& text);
 
 /// Throws UsageError where a result would replace a file of the options or of the loaded scene, or another

@@ -63,23 +63,18 @@ void FinalFiles::write(const std::string& path, const std::function<void()>& wri
     try {
         writer();
         spdlog::info("wrote {}", path);
+        return;
     } catch (const SceneError& error) {
         fail(error);
     } catch (const std::bad_alloc&) {
         fail(SceneError(path, 0, "not enough memory to write the file"));
     }
+    lost_.push_back(path);
 }
 
 void FinalFiles::fail(const SceneError& error) {
-    if (first_error_)
-        spdlog::error("{}", error.what());
-    else
-        first_error_ = error;
-}
-
-void FinalFiles::finish() const {
-    if (first_error_)
-        throw SceneError(*first_error_);
+    spdlog::error("{}", error.what());
+    complete_ = false;
 }
 
 void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& paths) {
@@ -106,10 +101,12 @@ void write_outputs(Report& report, FinalFiles& files) {
         const std::string path = output_name(name, options, film);
         files.write(path, [&] { write_picture(picture, path, report.exposure_ev, options.output.tonemap); });
     }
+    report.lost_files = files.lost();
     if (options.output.stats_path.empty())
         return;
     const std::string stats = output_name(options.output.stats_path, options, film);
     files.write(stats, [&] { write_text_file(stats, report_json(report)); });
+    report.lost_files = files.lost();
 }
 
 Saving::Saving(const Scene& scene, const PathPlan& paths, const Options& options, const DeviceInfo& device,

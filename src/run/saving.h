@@ -11,29 +11,35 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace clrt {
 
 /// An output's name with the render's numbers in the place of {seed}, {spp} and {frame}.
 std::string output_name(const std::string& name, const Options& options, const Film& film);
 
-/// Writes the files at the end of a render. One that cannot be written must not cost the others.
+/// Writes the files at the end of a render. One that cannot be written is said at once and must cost neither
+/// the others nor the report.
 class FinalFiles {
 public:
     void write(const std::string& path, const std::function<void()>& writer);
     /// Notes what is wrong with a file that is written all the same.
     void fail(const SceneError& error);
-    /// Throws the first error, if there was one.
-    void finish() const;
+    /// What could not be written, in the order of the attempts.
+    const std::vector<std::string>& lost() const { return lost_; }
+    /// Whether every file is there as asked.
+    bool complete() const { return complete_; }
 
 private:
-    std::optional<SceneError> first_error_;
+    std::vector<std::string> lost_;
+    bool complete_ = true;
 };
 
 /// Says which of these files cannot show a transparent picture's background, and why.
 void warn_of_lost_alpha(const Picture& picture, const std::vector<std::string>& paths);
 
-/// Pictures and the statistics of a finished render; chooses the exposure first and puts it into the report.
+/// Pictures and the statistics of a finished render; chooses the exposure first and puts it, and what
+/// could not be written, into the report.
 void write_outputs(Report& report, FinalFiles& files);
 
 /// Film files and pictures beside a render, and the film that it goes on from. Refers to the arguments of its

@@ -38,7 +38,7 @@ std::string format_frame(const Report& report) {
 }
 
 int graver_exit(int a, int b) {
-    constexpr int GRAVITY[] = {EXIT_DONE, EXIT_ERROR_NOT_REACHED, EXIT_CHECK, EXIT_DEVICE};
+    constexpr int GRAVITY[] = {EXIT_DONE, EXIT_ERROR_NOT_REACHED, EXIT_CHECK, EXIT_DEVICE, EXIT_SCENE};
     const auto rank = [&](int code) { return std::find(std::begin(GRAVITY), std::end(GRAVITY), code); };
     return rank(a) < rank(b) ? b : a; // signals, at the end, are gravest
 }

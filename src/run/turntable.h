@@ -16,7 +16,7 @@ Camera turned_camera(const Camera& camera, int frame, int frames);
 /// "frame 3 of 12: 64 spp, error 2.1 %, 4.20 s" and a line end.
 std::string format_frame(const Report& report);
 
-/// The graver of the exit codes of two pictures that were written.
+/// The graver of the exit codes of two pictures.
 int graver_exit(int a, int b);
 
 } // namespace clrt

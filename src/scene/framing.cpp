@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -22,13 +23,18 @@ constexpr double FLOOR_THICKNESS = 0.01;
 /// Times as wide as what stands on it, a floor is left out: smaller ones are part of the thing, as a plinth
 /// is.
 constexpr double WIDE_FLOOR = 2;
+/// Times as large as all that does not shine, a scene has lamps far away.
+constexpr double FAR_LAMPS = 5;
+/// Diameters of all that does not shine, on every side of it: as far out a lamp is near.
+constexpr double NEAR_LAMPS = 1;
 
 glm::dvec3 position(const Scene& scene, u32 vertex) {
     const vec4& p = scene.positions[vertex];
     return {p.x, p.y, p.z};
 }
 
-/// Calls visit(corners of a triangle) for all triangles, on all threads, and merges what the tasks have got.
+/// Calls visit(corners of a triangle, whether it shines) for all triangles, on all threads, and merges what
+/// the tasks have got.
 template <class T, class Visit, class Merge>
 T reduce_triangles(const Scene& scene, const T& start, const Visit& visit, const Merge& merge) {
     return tbb::parallel_reduce(
@@ -38,7 +44,7 @@ T reduce_triangles(const Scene& scene, const T& start, const Visit& visit, const
                 const Triangle& t = scene.triangles[i];
                 const glm::dvec3 corners[3] = {position(scene, t.v0), position(scene, t.v1),
                                                position(scene, t.v2)};
-                visit(value, corners);
+                visit(value, corners, t.emitter != NO_INDEX);
             }
             return value;
         },
@@ -72,6 +78,20 @@ bool is_floor(const glm::dvec3 (&corners)[3], const glm::dvec3& up, double top) 
     return glm::dot(corners[0], up) < top && glm::dot(corners[1], up) < top && glm::dot(corners[2], up) < top;
 }
 
+/// Whether a triangle is part of what is framed.
+bool is_framed(const Framed& framed, const glm::dvec3 (&corners)[3], bool shines, const glm::dvec3& up) {
+    if (framed.without_floor && is_floor(corners, up, framed.floor_top))
+        return false;
+    if (!shines || !framed.lamps_within)
+        return true;
+    const glm::dmat3 frame = up_frame(up);
+    const Bounds& near = *framed.lamps_within;
+    return std::all_of(std::begin(corners), std::end(corners), [&](const glm::dvec3& corner) {
+        const glm::dvec3 p = corner * frame;
+        return glm::clamp(p, near.low, near.high) == p;
+    });
+}
+
 /// How far points reach: along the normals of the planes right, left, above and below, and towards the eye.
 struct Reach {
     double right, left, above, below, near;
@@ -87,8 +107,8 @@ Reach measure_reach(const Scene& scene, const Framed& framed, const glm::dvec3& 
     const double least = std::numeric_limits<double>::lowest();
     return reduce_triangles(
         scene, Reach{least, least, least, least, least},
-        [&](Reach& reach, const glm::dvec3(&corners)[3]) {
-            if (framed.without_floor && is_floor(corners, up, framed.floor_top))
+        [&](Reach& reach, const glm::dvec3(&corners)[3], bool shines) {
+            if (!is_framed(framed, corners, shines, up))
                 return;
             for (const glm::dvec3& p : corners) {
                 const double x = glm::dot(p, axes.right), y = glm::dot(p, axes.up),
@@ -117,8 +137,8 @@ Edges measure_edges(const Scene& scene, const Framed& framed, const glm::dvec3& 
     };
     return reduce_triangles(
         scene, Edges(),
-        [&](Edges& edges, const glm::dvec3(&corners)[3]) {
-            if (framed.without_floor && is_floor(corners, up, framed.floor_top))
+        [&](Edges& edges, const glm::dvec3(&corners)[3], bool shines) {
+            if (!is_framed(framed, corners, shines, up))
                 return;
             for (const glm::dvec3& p : corners) {
                 const double x = glm::dot(p - eye, axes.right), y = glm::dot(p - eye, axes.up),
@@ -137,6 +157,35 @@ Edges measure_edges(const Scene& scene, const Framed& framed, const glm::dvec3& 
         });
 }
 
+/// The box, in the up frame, of those triangles that does_count(corners, whether it shines) chooses.
+template <class Counts>
+Bounds box_of(const Scene& scene, const glm::dmat3& frame, const Counts& does_count) {
+    return reduce_triangles(
+        scene, nothing(),
+        [&](Bounds& box, const glm::dvec3(&corners)[3], bool shines) {
+            if (does_count(corners, shines))
+                for (const glm::dvec3& p : corners)
+                    add(box, p * frame);
+        },
+        united);
+}
+
+/// Lamps do not say where the scene is where all else is small beside them and their distance.
+void leave_out_far_lamps(const Scene& scene, const glm::dvec3& up, Framed& framed) {
+    if (scene.emitters.empty())
+        return;
+    const glm::dmat3 frame = up_frame(up);
+    const Bounds lit = box_of(scene, frame, [](const auto&, bool shines) { return !shines; });
+    if (is_nothing(lit) || !(lit.radius() > 0) || framed.box.radius() <= FAR_LAMPS * lit.radius())
+        return;
+    const glm::dvec3 margin(2 * NEAR_LAMPS * lit.radius());
+    framed.lamps_within = Bounds{lit.low - margin, lit.high + margin};
+    framed.box = box_of(scene, frame, [&](const glm::dvec3(&corners)[3], bool shines) {
+        return is_framed(framed, corners, shines, up);
+    });
+    framed.centre = frame * framed.box.centre();
+}
+
 /// How far the eye must go so that both farthest points are equally far from the middle (Newton's step).
 double balance(const Farthest& one, const Farthest& other) {
     return (one.tangent - other.tangent) / (one.inverse_depth + other.inverse_depth);
@@ -147,13 +196,7 @@ double balance(const Farthest& one, const Farthest& other) {
 Framed frame_all(const Scene& scene, const glm::dvec3& up) {
     const glm::dmat3 frame = up_frame(up);
     Framed framed;
-    framed.box = reduce_triangles(
-        scene, nothing(),
-        [&](Bounds& box, const glm::dvec3(&corners)[3]) {
-            for (const glm::dvec3& p : corners)
-                add(box, p * frame);
-        },
-        united);
+    framed.box = box_of(scene, frame, [](const auto&, bool) { return true; });
     if (is_nothing(framed.box))
         framed.box = {};
     framed.centre = frame * framed.box.centre();
@@ -163,13 +206,16 @@ Framed frame_all(const Scene& scene, const glm::dvec3& up) {
 Framed find_framed(const Scene& scene, const glm::dvec3& up) {
     const glm::dmat3 frame = up_frame(up);
     Framed framed = frame_all(scene, up);
+    leave_out_far_lamps(scene, up, framed);
     struct Parts {
         Bounds floor = nothing(), rest = nothing();
     };
     const double top = framed.box.low.y + FLOOR_THICKNESS * (framed.box.high.y - framed.box.low.y);
     const Parts parts = reduce_triangles(
         scene, Parts(),
-        [&](Parts& p, const glm::dvec3(&corners)[3]) {
+        [&](Parts& p, const glm::dvec3(&corners)[3], bool shines) {
+            if (!is_framed(framed, corners, shines, up))
+                return;
             Bounds& box = is_floor(corners, up, top) ? p.floor : p.rest;
             for (const glm::dvec3& corner : corners)
                 add(box, corner * frame);

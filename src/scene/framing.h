@@ -32,15 +32,18 @@ constexpr double LEAST_HEIGHT = 0.1;
 struct Framed {
     bool without_floor = false; ///< a floor reaches out of the picture
     double floor_top = 0;       ///< along up, normalised frame: triangles that end below it are the floor
-    Bounds box;                 ///< of what is framed, axes of the up frame, normalised frame
-    glm::dvec3 centre{0};       ///< of the box, normalised frame
+    std::optional<Bounds>
+        lamps_within;     ///< lamps that reach out of it are far away, up frame; absent: none is
+    Bounds box;           ///< of what is framed, axes of the up frame, normalised frame
+    glm::dvec3 centre{0}; ///< of the box, normalised frame
 };
 
 /// Everything. `up` is a unit vector.
 Framed frame_all(const Scene& scene, const glm::dvec3& up);
 
-/// Everything, less a floor that is far wider than what stands on it: triangles that lie in the lowest plane
-/// say nothing about where the scene is, however far they reach. `up` is a unit vector.
+/// Everything, less lamps far away, beside whose distance the rest is small, and less a floor that is far
+/// wider than what stands on it: triangles that lie in the lowest plane say nothing about where the scene is,
+/// however far they reach. `up` is a unit vector.
 Framed find_framed(const Scene& scene, const glm::dvec3& up);
 
 /// The eye, in the normalised frame, from which a picture with these axes holds all that is framed with a

@@ -299,8 +299,8 @@ Scene load_all(SceneRequest request, Progress& progress) {
     load_camera_and_lights(request, description, exitance, bounds, scene, notices);
     remove_stand_ins(stand_ins, scene);
     clear_eye(scene, notices);
-    note_inside_out_glass(scene, notices);
     append_instances(description, path, scene, notices);
+    note_inside_out_glass(scene, notices);
     split_emitters(scene);
     store_vertex_colours(scene, path);
     finish_moves(request.scene.end_path, scene);

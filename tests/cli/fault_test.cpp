@@ -132,13 +132,68 @@ TEST_F(Fault, AFullDiskCostsOnlyTheFilesThatDoNotFit) {
     EXPECT_EQ(result.exit_code, 1) << result.err;
     EXPECT_TRUE(holds(result.err,
                       {"clrt: error: a.film: cannot write the file: File too large", "a.pfm: cannot write"}));
-    EXPECT_EQ(result.out, "");
+    // What was rendered is told all the same, with what is not there.
+    EXPECT_TRUE(holds(result.out,
+                      {"picture  b.ppm, 800 x 600, 1 spp", "time ", "error ", "lost     a.film, a.pfm: "}));
     EXPECT_EQ(folder.read("a.pfm"), "older picture");
     EXPECT_EQ(folder.read("a.film"), "older film");
     EXPECT_EQ(ReadPicture(folder.file("b.ppm")).spec.width, 800) << "what fits is written";
-    EXPECT_TRUE(holds(folder.read("s.json"), {"\"spp\": 1"}));
+    EXPECT_TRUE(
+        holds(folder.read("s.json"), {"\"spp\": 1", "\"lost_files\": [\n    \"a.film\",\n    \"a.pfm\"\n"}));
     EXPECT_EQ(partial_files(), std::vector<std::string>());
-    EXPECT_EQ(clrt(words).exit_code, 0) << "with room";
+    const CommandResult roomy = clrt(words);
+    EXPECT_EQ(roomy.exit_code, 0) << "with room";
+    EXPECT_TRUE(holds(roomy.out, {"picture  a.pfm, b.ppm, 800 x 600"}));
+    EXPECT_EQ(roomy.out.find("lost "), roomy.out.npos);
+    EXPECT_TRUE(holds(folder.read("s.json"), {"\"lost_files\": []"}));
+}
+
+TEST_F(Fault, WhatWasRenderedIsToldWhereNothingCanBeWritten) {
+    CommandSettings full;
+    full.limits[RLIMIT_FSIZE] = FULL_DISK_BYTES;
+    CommandResult result = clrt({"scene.obj", "-i", "raycast", "-s", "1", "-o", "a.pfm"}, full);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(holds(result.out, {"picture  none, 800 x 600, 1 spp", "time ", "lost     a.pfm: "}));
+    result = clrt(quick({"scene.obj", "-o", "a.png", "--stats", "/proc/s.json"}));
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(holds(result.out, {"picture  a.png, 16 x 12, 1 spp", "time ", "lost     /proc/s.json: "}));
+    // The picture goes to the standard output and does not get there.
+    result = shell("scene.obj -i raycast -s 1 -r 16x12 -o png:- --stats s.json > /dev/full");
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(holds(result.err, {"standard output", "picture  none, 16 x 12", "lost     png:-: "}));
+    EXPECT_TRUE(holds(folder.read("s.json"), {"png:-"}));
+    // What misses its error is told so beside it; the file's code is the graver one.
+    result = clrt(
+        {"scene.obj", "-i", "raycast", "-s", "16", "-e", "0.0001%", "--point", "0,0,3,9,9,9", "-o", "a.pfm"},
+        full);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(holds(result.out + result.err, {"missed   --error 0.0001 %", "is not reached", "lost "}));
+}
+
+TEST_F(Fault, AFrameThatCannotBeWrittenCostsNoOther) {
+    std::filesystem::create_directory(folder.file("a-0001.pfm")); // stands in its way
+    const CommandResult result = clrt(quick({"scene.obj", "--frames", "2", "-o", "a.pfm"}));
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(holds(result.err, {"clrt: error: a-0001.pfm: "}));
+    EXPECT_TRUE(holds(result.out, {"frame 1 of 2", "frame 2 of 2"}));
+    EXPECT_EQ(ReadPicture(folder.file("a-0002.pfm")).spec.width, 16);
+}
+
+TEST_F(Fault, FullDisksCostMergedFilmsNoReport) {
+    for (const char* first : {"0", "1"})
+        ASSERT_EQ(clrt({"scene.obj", "-i", "raycast", "-s", "1", "--replicates", "1", "--first-sample", first,
+                        "--checkpoint", std::string(first) + ".film"})
+                      .exit_code,
+                  0);
+    CommandSettings full;
+    full.folder = path();
+    full.limits[RLIMIT_FSIZE] = FULL_DISK_BYTES;
+    const CommandResult result =
+        run_command({CLRT_MERGE_EXECUTABLE, "0.film", "1.film", "-o", "a.pfm", "-o", "b.ppm"}, full);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(holds(result.err, {"clrt-merge: error: a.pfm: cannot write the file: File too large"}));
+    EXPECT_TRUE(holds(result.out, {"800 x 600, 2 spp of 2 films", "error "}));
+    EXPECT_TRUE(exists("b.ppm"));
 }
 
 TEST_F(Fault, AFullDiskOnTheWayIsAWarningAndTheRenderGoesOn) {
@@ -285,6 +340,35 @@ TEST_F(Fault, AMeshThatTheMemoryCannotHoldIsAnErrorWhereverItRunsOut) {
         EXPECT_TRUE(with_eight || !with_six) << "more memory, less success";
         EXPECT_TRUE(succeeds(16 * bytes));
     }
+}
+
+TEST_F(Fault, ATruncatedPngIsToldInOurWordsOnly) {
+    folder.write("scene.mtl", "newmtl leaf\nmap_Kd cut.png\n");
+    write_square("textured", "mtllib scene.mtl\nusemtl leaf\n");
+    ASSERT_EQ(clrt(quick({"scene.obj", "-o", "whole.png", "--sun", "1,2,3,9,9,9"})).exit_code, 0);
+    const std::string whole = folder.read("whole.png");
+    const size_t pixels = whole.find("IDAT");
+    ASSERT_NE(pixels, whole.npos);
+    for (const size_t size : {whole.size() - 20, pixels + 4, pixels + 6, pixels - 2, size_t(20), size_t(8)}) {
+        folder.write("cut.png", whole.substr(0, size));
+        const CommandResult result = clrt(quick({"textured.obj", "-o", "a.png"}));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_TRUE(holds(result.err, {"scene.mtl:2: cut.png: the picture ", "the map is ignored"})) << size;
+        EXPECT_EQ(result.err.find("libpng"), result.err.npos) << size << ": " << result.err;
+        EXPECT_TRUE(holds(result.err,
+                          {"is cut off: expected ",
+                           "bytes or more, found " + std::to_string(size) + "; copy or export it again"}));
+    }
+    // Without its last chunk a PNG has all its pixels.
+    folder.write("cut.png", whole.substr(0, whole.find("IEND") - 4));
+    const CommandResult result = clrt(quick({"textured.obj", "-o", "a.png"}));
+    EXPECT_EQ(result.err.find("cut.png: "), result.err.npos) << result.err;
+    // An environment map is an error.
+    folder.write("sky.png", whole.substr(0, pixels + 6));
+    const CommandResult sky = clrt(quick({"scene.obj", "--env", "sky.png"}));
+    EXPECT_EQ(sky.exit_code, 1);
+    EXPECT_TRUE(holds(sky.err, {"clrt: error: sky.png: the picture is cut off"}));
+    EXPECT_EQ(sky.err.find("libpng"), sky.err.npos) << sky.err;
 }
 
 } // namespace clrt

@@ -21,6 +21,8 @@ target_compile_definitions(devices_command_test PRIVATE CLRT_FAILING_LAUNCHES="$
 add_dependencies(devices_command_test failing_launches clrt-merge)
 clrt_command_test(exit_code_test)
 clrt_command_test(fault_test)
+target_compile_definitions(fault_test PRIVATE CLRT_MERGE_EXECUTABLE="$<TARGET_FILE:clrt-merge>")
+add_dependencies(fault_test clrt-merge)
 clrt_command_test(file_safety_test)
 target_compile_definitions(file_safety_test PRIVATE CLRT_MERGE_EXECUTABLE="$<TARGET_FILE:clrt-merge>")
 add_dependencies(file_safety_test clrt-merge)

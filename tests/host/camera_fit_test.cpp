@@ -242,6 +242,63 @@ TEST(CameraFit, AVastFloorIsNotFramed) {
     EXPECT_NEAR(std::max(seen.high.x - seen.low.x, seen.high.y - seen.low.y) / 2, FRAMED_SHARE, 1e-4);
 }
 
+/// Fits to points and to triangles that shine.
+Fitted fit_with_lamps(const Points& points, const Points& lamps, const CameraOptions& options = {}) {
+    Points all = points;
+    all.insert(all.end(), lamps.begin(), lamps.end());
+    Scene scene = scene_of(all);
+    for (size_t i = 0; i < scene.triangles.size(); ++i)
+        scene.triangles[i].emitter = i < points.size() / 3 ? NO_INDEX : u32(i - points.size() / 3);
+    scene.emitters.resize(lamps.size() / 3);
+    NoticeList notices;
+    const Camera camera = fit_camera(options, {800, 600}, scene, bounds_of(all), notices);
+    return {camera, notices.lines()};
+}
+
+/// A square of this half side at this height.
+Points square_above(double half, double height) {
+    const glm::dvec3 a(-half, height, -half), b(half, height, -half), c(half, height, half),
+        d(-half, height, half);
+    return {a, b, c, a, c, d};
+}
+
+TEST(CameraFit, LampsFarAwayAreNotFramed) {
+    const Points things = box_points(BOX);
+    const Camera alone = fit_points({}, {800, 600}, things).camera;
+    for (const Points& lamps : {square_above(300, 1000), square_above(1, 1000), square_above(300, 3)}) {
+        const Camera with = fit_with_lamps(things, lamps).camera;
+        EXPECT_LT(glm::distance(with.eye, alone.eye), 1e-3);
+        EXPECT_LT(glm::distance(with.at, alone.at), 1e-3);
+    }
+    CameraOptions parallel;
+    parallel.projection = PROJECTION_ORTHOGRAPHIC;
+    EXPECT_NEAR(fit_with_lamps(things, square_above(300, 1000), parallel).camera.ortho_height,
+                fit_points(parallel, {800, 600}, things).camera.ortho_height, 1e-3);
+    // One lamp is far, another among the things.
+    Points lamps = square_above(300, 1000);
+    const Points near = square_above(1, 4);
+    lamps.insert(lamps.end(), near.begin(), near.end());
+    Points with_near = things;
+    with_near.insert(with_near.end(), near.begin(), near.end());
+    EXPECT_LT(glm::distance(fit_with_lamps(things, lamps).camera.eye,
+                            fit_points({}, {800, 600}, with_near).camera.eye),
+              1e-3);
+    // A wide floor below is left out as without the lamp.
+    Points on_floor = square_above(40, 0);
+    on_floor.insert(on_floor.end(), things.begin(), things.end());
+    EXPECT_LT(glm::distance(fit_with_lamps(on_floor, square_above(300, 2000)).camera.eye,
+                            fit_points({}, {800, 600}, on_floor).camera.eye),
+              1e-3);
+}
+
+TEST(CameraFit, LampsNearbyAndLampsAloneAreFramed) {
+    const Points things = box_points(BOX), lamp = square_above(1, 12);
+    Points both = things;
+    both.insert(both.end(), lamp.begin(), lamp.end());
+    EXPECT_EQ(fit_with_lamps(things, lamp).camera.eye, fit_points({}, {800, 600}, both).camera.eye);
+    EXPECT_EQ(fit_with_lamps({}, lamp).camera.eye, fit_points({}, {800, 600}, lamp).camera.eye);
+}
+
 TEST(CameraFit, APlinthIsFramed) {
     Points points = box_points(CUBE);
     const Points plinth = box_points({glm::dvec3(-1.5, -1.01, -1.5), glm::dvec3(1.5, -1, 1.5)});

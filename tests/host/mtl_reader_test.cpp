@@ -301,6 +301,47 @@ TEST(MtlTexture, BadOptionsAreErrorsWithTheirLine) {
               "a.mtl:2: map_d -imfchan: expected one of r g b m l z, found 'q'");
 }
 
+TEST(MtlTexture, UnknownOptionsAreNamedAndLeftOut) {
+    const TemporaryFolder folder;
+    for (const char* name : {"tex.png", "my tex.png"})
+        folder.write(name, "");
+    const auto read = [&](const std::string& value) {
+        NoticeList notices;
+        auto materials = parse_mtl("newmtl a\nmap_Kd " + value, folder.path("a.mtl"), notices);
+        return Parsed{std::move(materials), notices.lines()};
+    };
+    const auto expect = [&](const std::string& value, const std::string& file, size_t count) {
+        const Parsed p = read(value);
+        ASSERT_TRUE(p.materials[0].map_kd) << value;
+        EXPECT_EQ(p.materials[0].map_kd->file, file) << value;
+        EXPECT_EQ(count_notices(p.notices, folder.path("a.mtl") + ":2: map_Kd: unknown option '-foo', which "
+                                                                  "is left out; expected one of -s -o -t "),
+                  int(count))
+            << value;
+        EXPECT_EQ(p.notices.size(), count) << value;
+    };
+    expect("-foo tex.png", "tex.png", 1);
+    expect("-foo 1 on my tex.png", "my tex.png", 1);
+    expect("-foo missing.png", "missing.png", 1);
+    expect("-clamp on -foo 3 -4 -bm 2 my tex.png", "my tex.png", 1);
+    expect("tex.png -foo", "tex.png", 1);
+    expect("my tex.png -foo 2 # wood", "my tex.png", 1);
+    expect("tex.png -bm 2 -foo 3 -clamp on", "tex.png", 1);
+    expect("tex.png -foo 3 -bm 2", "tex.png", 1);
+    for (const char* value : {"-foo 3 -bm 2 tex.png", "tex.png -foo 3 -bm 2", "tex.png -bm 2 -foo 3"})
+        EXPECT_EQ(read(value).materials[0].map_kd->bump_multiplier, 2) << value;
+    // What may be a name is one.
+    expect("-gone.png", "-gone.png", 0);
+    expect("-1.png", "-1.png", 0);
+    expect("tex - old.png", "tex - old.png", 0);
+    expect("gone -foo.png", "gone -foo.png", 0);
+    for (const char* name : {"-foo.png", "-foo tex.png", "tex.png -foo.png"}) {
+        folder.write(name, "");
+        expect(name, name, 0);
+        expect(std::string("-bm 2 ") + name + " -clamp on", name, 0);
+    }
+}
+
 TEST(MtlTexture, AMapWithoutAFileIsIgnored) {
     const Parsed p = parse("newmtl a\nmap_Kd -clamp on\n");
     EXPECT_FALSE(p.materials[0].map_kd);

@@ -2,8 +2,10 @@
 #include "scene/readers/mtl_texture.h"
 
 #include "error.h"
+#include "scene/find_file.h"
 #include "scene/text_scanner.h"
 
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -33,12 +35,65 @@ const Option* find_option(std::string_view word) {
     return nullptr;
 }
 
+/// Whether a word has the form of an option, as "-foo" and not "-1.png" has.
+bool looks_like_option(std::string_view word) {
+    return word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+}
+
+/// All options, for messages.
+std::string option_names() {
+    std::string names;
+    for (const Option& option : OPTIONS)
+        names += (names.empty() ? "" : " ") + std::string(option.name);
+    return names;
+}
+
+/// The offset of the first option that follows white space; the size of the text if there is none.
+size_t find_trailing_options(std::string_view text) {
+    std::string_view rest = text;
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+        const size_t at = size_t(word.data() - text.data());
+        if (at > 0 && find_option(word))
+            return at;
+    }
+    return text.size();
+}
+
 /// Reads the options of one statement into its texture.
 class OptionReader {
 public:
     OptionReader(std::string_view key, const SourcePlace& place, MtlTexture& texture, NoticeList& notices)
         : key_(key), place_(place), texture_(texture), notices_(notices) {}
 
+    /// Takes what stands before the name off the front of the text: options, and words that have the form of
+    /// one, with their values, unless a file has such a name. How many values follow is not known: it goes on
+    /// where a file's name or another option begins, or with the last word.
+    void take_leading(std::string_view& rest) {
+        for (take_options(rest); is_unknown(rest) && !names_file(rest, false); take_options(rest))
+            drop_unknown(rest, [&] { return is_last_word(rest) || names_file(rest, true); });
+    }
+
+    /// Takes what follows the name: nothing else but options.
+    void take_trailing(std::string_view rest) {
+        for (take_options(rest); !rest.empty(); take_options(rest))
+            drop_unknown(rest, [&] { return rest.empty(); });
+    }
+
+    /// The offset of a word that has the form of an option behind the name of a file that is there; the size
+    /// of the text where there is none, or where the whole names a file.
+    size_t find_unknown_behind(std::string_view text) const {
+        if (names_file(text, false))
+            return text.size();
+        std::string_view rest = text;
+        for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+            const size_t at = size_t(word.data() - text.data());
+            if (at > 0 && looks_like_option(word) && names_file(text.substr(0, at), true))
+                return at;
+        }
+        return text.size();
+    }
+
+private:
     /// Takes options off the front of the text until a word that is none.
     void take_options(std::string_view& rest) {
         for (;;) {
@@ -51,7 +106,36 @@ public:
         }
     }
 
-private:
+    /// Drops a word that is no option, with a notice, and what follows it up to an option or until is_end().
+    template <class IsEnd>
+    void drop_unknown(std::string_view& rest, const IsEnd& is_end) {
+        std::string text =
+            fmt::format("{}: unknown option {}, which is left out", key_, clrt::quoted(next_word(rest)));
+        notices_.add(text + "; expected one of " + option_names(), place_);
+        for (rest = trim(rest); !is_end(); rest = trim(rest)) {
+            std::string_view after = rest;
+            if (looks_like_option(next_word(after)))
+                return;
+            rest = after;
+        }
+    }
+
+    /// Whether the text begins with a word of the form of an option, and goes on.
+    static bool is_unknown(std::string_view rest) {
+        return !is_last_word(rest) && looks_like_option(next_word(rest));
+    }
+
+    static bool is_last_word(std::string_view rest) {
+        next_word(rest);
+        return trim(rest).empty();
+    }
+
+    /// Whether the text up to options behind it names a file that is there.
+    bool names_file(std::string_view text, bool by_base_name) const {
+        const std::string_view name = trim(text.substr(0, find_trailing_options(text)));
+        return find_file(name, place_.file, by_base_name).has_value();
+    }
+
     [[noreturn]] void fail(const Option& option, std::string_view expected, std::string_view found) const {
         throw SceneError(place_.file, place_.line,
                          fmt::format("{} {}: expected {}, found {}", key_, option.name, expected,
@@ -152,17 +236,6 @@ private:
     NoticeList& notices_;
 };
 
-/// The offset of the first option that follows white space; the size of the text if there is none.
-size_t find_trailing_options(std::string_view text) {
-    std::string_view rest = text;
-    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
-        const size_t at = size_t(word.data() - text.data());
-        if (at > 0 && find_option(word))
-            return at;
-    }
-    return text.size();
-}
-
 } // namespace
 
 std::optional<MtlTexture> parse_mtl_texture(std::string_view key, std::string_view value,
@@ -171,11 +244,11 @@ std::optional<MtlTexture> parse_mtl_texture(std::string_view key, std::string_vi
     texture.place = place;
     OptionReader reader(key, place, texture, notices);
     std::string_view rest = trim(without_comment(value));
-    reader.take_options(rest);
-    const size_t end = find_trailing_options(rest);
+    reader.take_leading(rest);
+    const std::string_view name = rest.substr(0, find_trailing_options(rest));
+    const size_t end = reader.find_unknown_behind(name);
     texture.file = std::string(trim(rest.substr(0, end)));
-    std::string_view trailing = rest.substr(end);
-    reader.take_options(trailing);
+    reader.take_trailing(rest.substr(end));
     if (texture.file.empty()) {
         notices.add(fmt::format("{} names no file and is ignored", key), place);
         return std::nullopt;
