@@ -21,8 +21,9 @@ namespace {
 
 constexpr int SEEDS = 50;
 constexpr std::uint32_t SPP = 16, ADAPTIVE_SPP = 64, REFERENCE_SEED = 1000;
-/// Samples of a reference over those of the renders. What its noise adds to a realised squared error, (1 / 16) /
-/// sqrt(N) of it for N pixels that hold the error, is small against the scatter over the seeds, sqrt(2 / 50 / N).
+/// Samples of a reference over those of the renders. What its noise adds to a realised squared error, (1 /
+/// 16) / sqrt(N) of it for N pixels that hold the error, is small against the scatter over the seeds, sqrt(2
+/// / 50 / N).
 constexpr std::uint32_t REFERENCE_FACTOR = 16;
 /// Of 50 intervals of 95 %, 47.5 hold the error on average; fewer than 43 happen once in 200 times.
 constexpr int FEWEST_COVERED = 43;
