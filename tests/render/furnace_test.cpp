@@ -16,6 +16,10 @@ namespace {
 
 constexpr int NO_ROULETTE = 65535;
 
+/// What closed furnaces need, together: long paths, for which the small program is the fast one.
+constexpr EffectMask CLOSED_EFFECTS =
+    EFFECT_AREA_LIGHT | EFFECT_MATTE | EFFECT_MIRROR | EFFECT_REFRACTION | EFFECT_INTERREFLECTION;
+
 /// A closed space of emitting and reflecting walls around the camera.
 class ClosedFurnace : public TestScene {
 public:
@@ -25,6 +29,7 @@ public:
         build.use("wall");
         look({0.1, 0.2, 0.7}, {0.2, -0.1, -0.5}, 70);
         options.transport.roulette_depth = NO_ROULETTE;
+        shared_effects = CLOSED_EFFECTS;
     }
 };
 
@@ -126,6 +131,7 @@ TEST(Furnace, EveryPartOfAnIcosphereHasTheSameRadiance) {
 TEST(Furnace, TheOtherIntegratorsStopAfterOneBounce) {
     ClosedFurnace scene(0.5, 0.5);
     scene.build.box({-1, -1, -1}, {1, 1, 1}, Facing::INWARD);
+    scene.shared_effects = 0; // the programs of the other tests
     for (const Integrator integrator : {Integrator::WHITTED, Integrator::RAYCAST}) {
         scene.options.transport.integrator = integrator;
         EXPECT_TRUE(agrees(film_estimate(scene.render().film), 0.75, 4e-3)) << name_of(integrator);

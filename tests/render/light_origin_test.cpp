@@ -92,6 +92,11 @@ void add_ball(TestScene& scene, int segments) {
 /// Where lamps are: beside the ball, within it, or both.
 enum class Lamps { BESIDE = 1, INSIDE = 2, BOTH = 3 };
 
+/// What paths by all the balls' materials need, together: a program for each technique.
+constexpr EffectMask BALL_EFFECTS = EFFECT_AREA_LIGHT | EFFECT_MATTE | EFFECT_GLOSSY | EFFECT_REFRACTION |
+                                    EFFECT_ROUGH_REFRACTION | EFFECT_SMOOTH_NORMALS | EFFECT_LIGHT_TREE |
+                                    EFFECT_INTERREFLECTION;
+
 /// A ball and its lamps: one as large as the ball beside it, turned away from the camera, and one across its
 /// middle that shines upwards, so near that light sampling takes its solid angle.
 class BallAndLamps : public TestScene {
@@ -112,11 +117,13 @@ public:
     Estimate by_paths(const std::string& kernels = "") {
         options.transport.integrator = Integrator::PATH;
         options.device.kernels_folder = kernels;
+        shared_effects = BALL_EFFECTS;
         return film_estimate(render().film);
     }
     Estimate by(Integrator integrator) {
         options.transport.integrator = integrator;
         options.device.kernels_folder.clear();
+        shared_effects = 0;
         return film_estimate(render().film);
     }
 };

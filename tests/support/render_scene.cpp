@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/render_scene.h"
 
+#include "effects/effects.h"
+
+#include <gtest/gtest.h>
 #include <utility>
 
 namespace clrt {
@@ -10,7 +13,14 @@ TestScene::TestScene() {
 }
 
 Render TestScene::render() const {
-    return ScratchScene::render(test_device());
+    if (shared_effects == 0)
+        return ScratchScene::render(test_device());
+    Scene scene = load();
+    Options shared = options;
+    shared.effects = {};
+    EXPECT_EQ(find_effects(scene, shared).mask & ~shared_effects, 0u) << "effects that the program lacks";
+    shared.effects.list = shared_effects;
+    return render_loaded(std::move(scene), shared);
 }
 
 Render render_loaded(Scene scene, Options options) {
