@@ -151,16 +151,16 @@ class StudyCommand(unittest.TestCase):
                                       r"double precision buys nothing: the same error in \S+ times .* the seconds")
 
     def test_a_quick_study_on_a_slow_machine_ends_in_time_and_says_what_it_dropped(self):
-        done, _, rows = self.quick(15, 2e5, FAKE_CLRT_START="0.5")
-        self.check_seconds(done, 15)
+        done, _, rows = self.quick(30, 1e5, FAKE_CLRT_START="1")
+        self.check_seconds(done, 30)
         self.assertRegex(done.stdout, "note: dropped, because there is no time for them: .*path, fast, sobol")
         self.assertIn(("single", "sobol"), {(row["precision"], row["sampler"]) for row in rows})
         with open(os.path.join(self.folder, "page.html"), encoding="utf-8") as file:
             self.assertIn("dropped, because there is no time", file.read())
 
     def test_a_quick_study_ends_in_time_where_the_machine_gets_ten_times_slower(self):
-        done, _, _ = self.quick(15, 2e6, FAKE_CLRT_START="0.1", FAKE_CLRT_SLOW_AFTER="8")
-        self.check_seconds(done, 15)
+        done, _, _ = self.quick(30, 1e6, FAKE_CLRT_START="0.2", FAKE_CLRT_SLOW_AFTER="8")
+        self.check_seconds(done, 30)
         self.assertRegex(done.stdout, r"note: (\d+ of \d+ runs were )?dropped")
 
     def test_measures_a_way_to_find_the_light_where_clrt_takes_it(self):
