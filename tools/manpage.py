@@ -26,6 +26,7 @@ HEADINGS = {"Example": "EXAMPLE", "Options file": "FILES", "Exit codes": "EXIT S
 # What the report of a render means, for the page of clrt.
 REPORT = [
     ("picture", "The files that were written, width and height in pixels, samples, and what ended the render."),
+    ("lost", "Files that could not be written, as on a full disk; the error before the report says why, and the exit code is 1."),
     ("spp", "Samples a pixel: how many paths were traced through each. A pass is one sample of every pixel; a picture always "
             "ends with a whole pass."),
     ("time", "Seconds from the start of the program, and those of rendering alone, without loading and compiling."),
