@@ -140,7 +140,7 @@ TEST_F(TimeLimit, TheFirstPassIsFinishedAndSaidToOverrun) {
 }
 
 // The process is halted in the second group of launches, once the film of the first is there, until the time
-// is over: the picture is that of the first. (An adaptive render takes eight samples a pixel at once.)
+// is over: the picture is that of the first. (An adaptive one begins with a sample of each replicate.)
 TEST_F(TimeLimit, APassThatTheTimeInterruptsIsDropped) {
     for (const bool adaptive : {false, true}) {
         const unsigned group = adaptive ? 4 : 1;
