@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <optional>
 #include <spdlog/spdlog.h>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -56,6 +58,13 @@ private:
     std::optional<SkySampling> sampling_;
 };
 
+/// What a table spares of the usual one's squared error, in words; infinite: the usual one found no light.
+std::string comparison(double gain) {
+    return std::isfinite(gain)
+               ? fmt::format("have {:.2f} times less squared error than by what exceeds its mean", gain)
+               : "find light that those by what exceeds its mean do not";
+}
+
 } // namespace
 
 void choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>& planned,
@@ -84,11 +93,10 @@ void choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>&
     planned->options.film.crop = crop;
     progress.finish();
     if (sky.sampling != SkySampling::BY_TABLE_AND_BSDF)
-        spdlog::info("sky: light samples by {} have {:.2f} times less squared error than by what exceeds its "
-                     "mean, by pilots of {} x {} pixels, {} spp",
+        spdlog::info("sky: light samples by {} {}, by pilots of {} x {} pixels, {} spp",
                      sky.sampling == SkySampling::BY_TABLE ? "its whole radiance"
                                                            : "what exceeds four times its mean",
-                     usual / error, size->width, size->height, size->spp);
+                     comparison(usual / error), size->width, size->height, size->spp);
 }
 
 } // namespace clrt
