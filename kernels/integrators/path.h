@@ -101,6 +101,26 @@ static inline void path_draw(const Scene* scene, const RenderParams* params, con
     }
 }
 
+/* Draws light samples for the paths of a list that have hit something. */
+static inline void path_draw_sky(const Scene* scene, const RenderParams* params, const PathList* list,
+                                 Path* paths)
+{
+    if (!light_is_sky(params))
+        return;
+    PathList hit;
+    hit.count = 0u;
+    for (uint i = 0; i < list->count; ++i)
+        path_list_add(&hit, list->at[i], paths[list->at[i]].hit.triangle != NO_INDEX);
+    if (hit.count == 0u)
+        return;
+    SkyLanes lanes;
+    for (uint i = 0; i < hit.count || i % DEVICE_LANES != 0u; ++i)
+        sky_set_numbers(&lanes, i, &paths[hit.at[min(i, hit.count - 1u)]].numbers);
+    sky_draw(scene, params, &lanes, hit.count);
+    for (uint i = 0; i < hit.count; ++i)
+        paths[hit.at[i]].sky = sky_of(&lanes, i);
+}
+
 /* Advances the paths of a list by a segment and its vertex; leaves those in it that go on. */
 static inline void path_advance(const Scene* scene, const RenderParams* params, uint segment, Path* paths,
                                 CameraSample* samples, PathList* alive, PixelRays* rays)
@@ -123,6 +143,8 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
         guide_approach(scene, params, &path->ray, &path->hit, path->numbers.direction, &path->guided);
     }
 #endif
+
+    path_draw_sky(scene, params, alive, paths);
 
     /* Handle them. */
     PathList next, connected;

@@ -7,7 +7,7 @@
 
 #include "delta_light.h"
 #include "emitter.h"
-#include "environment.h"
+#include "environment_sample.h"
 #include "light_tree.h"
 
 /* A chosen light, and what is left of the random numbers for the point on it. */
@@ -33,6 +33,13 @@ static inline uint light_of_sky(const RenderParams* params)
 static inline bool light_choice_is_by_tree(const RenderParams* params)
 {
     return HAS(EFFECT_LIGHT_TREE) && LIGHT_TREE_IS_USED(*params) != 0.0f;
+}
+
+/* True where the environment map is the only light that is chosen. */
+static inline bool light_is_sky(const RenderParams* params)
+{
+    return environment_is_searched(params) && !light_choice_is_by_tree(params) &&
+           params->choose_environment == 1.0f;
 }
 
 /* Probabilities of the kinds of light. */

@@ -16,6 +16,17 @@ static inline LightView lights_view(const Surface* surface, real3 normal)
     return view;
 }
 
+/* The sample that a direction is which was drawn from the map, where light_is_sky. */
+static inline LightSample lights_drawn(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                       const SkySample* drawn)
+{
+    LightSample sample = environment_drawn(drawn);
+    sample.kind = KIND_SKY;
+    sample.light = light_of_sky(params);
+    light_choose_side(scene, surface, &sample);
+    return sample;
+}
+
 /* Chooses a light, then a point on it. The probability of the choice is in pdf_w. `normal` as in
    LightView. */
 static inline LightSample lights_sample(const Scene* scene, const RenderParams* params,

@@ -5,18 +5,19 @@
 
 #include "real.h"
 
-/* Three halves that are not negative, by integers: devices may lose small ones otherwise. */
-static inline float3 halves_decode(uint3 halves)
+/* A half that is not negative, by integers: devices may lose small ones otherwise. */
+static inline float half_decode(uint bits)
 {
-    const float3 normal = as_float3((halves + (uint3)(112u << 10)) << (uint3)(13u));
-    const float3 small = convert_float3(halves) * 0x1p-24f;
-    return select(normal, small, halves < (uint3)(1u << 10));
+    const float normal = as_float((bits + (112u << 10)) << 13);
+    const float small = (float)bits * 0x1p-24f;
+    return bits < (1u << 10) ? small : normal;
 }
 
-/* The halves of a number in an array of three each. */
+/* Number i of an array of three halves each. */
 static inline real3 halves_load(size_t i, global const ushort* halves)
 {
-    return convert_real3(halves_decode(convert_uint3(vload3(i, halves))));
+    const uint3 bits = convert_uint3(vload3(i, halves));
+    return (real3)((real)half_decode(bits.x), (real)half_decode(bits.y), (real)half_decode(bits.z));
 }
 
 #endif

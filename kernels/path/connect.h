@@ -47,6 +47,16 @@ static inline void path_connect_layers(const Bsdf* bsdf, const AutomatonStep* st
 #endif
 }
 
+/* The light that a vertex is to be connected to: the one drawn for it, or one chosen where it is. */
+static inline LightSample path_light(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                     const Bsdf* bsdf, const Path* path)
+{
+    if (light_is_sky(params))
+        return lights_drawn(scene, params, surface, &path->sky);
+    return lights_sample(scene, params, surface, bsdf_light_normal(bsdf), path->numbers.light,
+                         path->numbers.alias);
+}
+
 /* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling.
    Nothing where delta lobes or the automaton keep a light from being found so. */
 static inline void path_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
@@ -56,8 +66,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
         return;
     if (HAS(EFFECT_PATH_FILTER) && !filter_wants_light(step, bsdf))
         return;
-    LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), path->numbers.light,
-                                      path->numbers.alias);
+    LightSample light = path_light(scene, params, surface, bsdf, path);
     solid_dim_light(scene, surface, &light);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);

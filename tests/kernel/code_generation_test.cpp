@@ -14,6 +14,7 @@
 #include "stability/film_bench.h"
 #include "stability/path_probe.h"
 #include "support/test_device.h"
+#include "vector_builtins.h"
 
 #include <fmt/format.h>
 #include <fstream>
@@ -104,6 +105,16 @@ std::string include(const std::vector<std::string>& files) {
     return text;
 }
 
+/// How many loops of a header clang turns into loops of vectors of eight.
+std::ptrdiff_t loops_in_vectors(const std::string& header, const std::string& file, const Target& target) {
+    std::vector<std::string> options = {"-cl-std=CL1.2",        "-O2", "-c", "-o", "/dev/null",
+                                        "-Rpass=loop-vectorize"};
+    options.insert(options.end(), target.options.begin(), target.options.end());
+    const std::string said = clang_complaints(file, options);
+    const std::regex loop(header + ":[0-9:]+ remark: vectorized loop .*width: 8");
+    return std::distance(std::sregex_iterator(said.begin(), said.end(), loop), std::sregex_iterator());
+}
+
 } // namespace
 
 TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
@@ -116,14 +127,31 @@ TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
 
 TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
     const std::string file = folder.write("kernels.cl", include({"integrators/path.cl"}));
-    for (const Target& target : {AVX2, AVX512}) {
-        std::vector<std::string> options = {"-cl-std=CL1.2",        "-O2", "-c", "-o", "/dev/null",
-                                            "-Rpass=loop-vectorize"};
-        options.insert(options.end(), target.options.begin(), target.options.end());
-        EXPECT_THAT(clang_complaints(file, options),
-                    testing::ContainsRegex("numbers\\.h:[0-9:]+ remark: vectorized loop .*width: 8"))
-            << "for " << target.name;
-    }
+    for (const Target& target : {AVX2, AVX512})
+        EXPECT_EQ(loops_in_vectors("numbers.h", file, target), 1) << "for " << target.name;
+}
+
+TEST_F(CodeGeneration, OfTheLightSamplesOfAGroupOfPathsIsInVectors) {
+    const std::string file = folder.write(
+        "kernels.cl",
+        vector_builtins() + include({"path/sky.h"}) +
+            "kernel void draw(global const uint* texels, global const SkyTile* tiles,\n"
+            "                 global const RenderParams* given, global uint* words, global float* pdf_w)\n"
+            "{\n"
+            "    Scene scene;\n"
+            "    scene.sky_texels = texels;\n"
+            "    scene.sky_tiles = tiles;\n"
+            "    const RenderParams params = *given;\n"
+            "    SkyLanes lanes;\n"
+            "    for (uint i = 0; i < SAMPLES_AT_ONCE; ++i)\n"
+            "        lanes.word[i] = lanes.alias_word[i] = words[i], lanes.v[i] = 0.5f;\n"
+            "    sky_draw(&scene, &params, &lanes, SAMPLES_AT_ONCE);\n"
+            "    for (uint i = 0; i < SAMPLES_AT_ONCE; ++i)\n"
+            "        pdf_w[i] = lanes.pdf_w[i] + lanes.wi_x[i] + lanes.red[i];\n"
+            "}\n");
+    for (const Target& target : {AVX2, AVX512})
+        EXPECT_EQ(loops_in_vectors("sky.h", file, target), 3)
+            << "for " << target.name << ": one for each form of a map's texels";
 }
 
 TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {

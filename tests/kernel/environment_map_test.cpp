@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lights/environment.h: orientation, lookup and rotation of lat-long maps, and directions sampled by texels.
+// lights/environment.h, environment_sample.h, path/sky.h: orientation, lookup and rotation of lat-long maps,
+// and directions sampled by texels.
 #include "probes/random_inputs.h"
 #include "probes/scene_probe.h"
 #include "probes/sphere_cells.h"
@@ -10,7 +11,9 @@
 #include "support/test_device.h"
 
 #include <algorithm>
+#include <cstring>
 #include <gtest/gtest.h>
+#include <set>
 
 using namespace clrt;
 using glm::dvec3;
@@ -19,7 +22,7 @@ namespace {
 
 SceneProbe& probe() {
     static SceneProbe instance = [] {
-        SceneProbe made(test_device(), {"lights/environment.h", "numerics/sampler.h"});
+        SceneProbe made(test_device(), {"path/sky.h"});
         made.add("uv", "const real2 uv = environment_uv(environment_to_map(params, vector_from(a)));"
                        "first = (vec4)(uv.x, uv.y, 0.0f, 0.0f);");
         made.add("turn", "first = probe_vec4(environment_to_world(params, vector_from(a)), REAL(0.0));"
@@ -27,8 +30,22 @@ SceneProbe& probe() {
         made.add("eval", "first = probe_vec4(environment_eval(scene, params, vector_from(a)), REAL(0.0));"
                          "first.w = params->environment_width ? environment_map_pdf_w(scene, params, "
                          "vector_from(a)) : 0;");
-        made.add("texel", "first = probe_vec4(environment_texel(scene, params, as_int(a.x), as_int(a.y)), "
-                          "REAL(0.0));");
+        made.add("texel", "const SkyColor c = environment_texel(scene, params->environment_format, "
+                          "environment_texel_number(params, as_uint(a.x), as_uint(a.y)));"
+                          "first = (vec4)((float)c.red, (float)c.green, (float)c.blue, 0.0f);");
+        // As "sample", but in place b.x of b.y paths that draw together, the others by other words.
+        made.add("lanes", "SkyLanes lanes; const uint place = as_uint(b.x); const uint count = as_uint(b.y);"
+                          "for (uint i = 0; i < count || i % DEVICE_LANES != 0u; ++i) {"
+                          "  PathNumbers numbers;"
+                          "  numbers.light = (uint2)(as_uint(a.x) + (i - place) * 0x9e3779b9u, as_uint(a.w));"
+                          "  numbers.alias = as_uint(a.y) ^ (i - place);"
+                          "  sky_set_numbers(&lanes, i, &numbers);"
+                          "}"
+                          "sky_draw(scene, params, &lanes, count);"
+                          "const SkySample drawn = sky_of(&lanes, place);"
+                          "const LightSample s = environment_drawn(&drawn);"
+                          "first = probe_vec4(s.wi, s.pdf_w);"
+                          "second = probe_vec4(s.radiance, s.is_distant ? 1.0f : 0.0f);");
         made.add("solid_angle", "first.x = environment_texel_solid_angle(params, as_uint(a.x));");
         // a: words and the second number; b: shading normal
         made.add(
@@ -268,6 +285,35 @@ TEST(EnvironmentMap, TexelsReadTheSameInEveryForm) {
             EXPECT_EQ(sky_texel(map, int(i) % 13, int(i) / 13), expected) << format << ": " << i;
         }
     }
+}
+
+TEST(EnvironmentMap, PathsThatDrawTogetherDrawWhatEachDrawsAlone) {
+    constexpr u32 GROUP = 32;
+    EnvironmentImage coarse = random_image(13, 7), fine = coarse;
+    for (glm::vec3& texel : coarse.texels)
+        texel = glm::round(texel * 16.f) / 16.f;
+    for (glm::vec3& texel : fine.texels)
+        texel *= 1 / 3.f;
+    std::set<u32> formats;
+    for (const EnvironmentImage& image :
+         {EnvironmentImage{13, 7, std::vector<glm::vec3>(91, glm::vec3(1))}, coarse, fine}) {
+        const Environment map = map_of(image, 3, -15);
+        formats.insert(map.texel_format);
+        std::vector<vec4> a = random_numbers(10000, 5), b;
+        Random random(6);
+        for (vec4& numbers : a) {
+            const u32 second = random.word(), count = 1 + random.word() % GROUP;
+            numbers.z = float((second >> 8) | 1u) * 0x1p-24f; // as sampler_unit
+            numbers.w = bits_to_float(second);
+            b.push_back({bits_to_float(random.word() % count), bits_to_float(count), 0, 0});
+        }
+        const SceneProbe::Outputs alone = run("sample", map, a), together = run("lanes", map, a, b);
+        for (size_t i = 0; i < a.size(); ++i) {
+            ASSERT_EQ(std::memcmp(&alone.first[i], &together.first[i], sizeof(vec4)), 0) << i;
+            ASSERT_EQ(std::memcmp(&alone.second[i], &together.second[i], sizeof(vec4)), 0) << i;
+        }
+    }
+    EXPECT_EQ(formats.size(), 3u) << "each form of texels is tried";
 }
 
 TEST(EnvironmentMap, SampledTexelsHaveTheirProbabilityAndAreFilledUniformly) {

@@ -63,9 +63,7 @@ std::vector<Place> path_places() {
          "path->ray = surface_ray(surface, next->reflects, next->wi);",
          {{"path->ray.origin.x"}, {"path->ray.direction.y"}},
          Reached::IF_CONTINUED},
-        {"path/connect.h",
-         "LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), "
-         "path->numbers.light,\n                                      path->numbers.alias);",
+        {"path/connect.h", "LightSample light = path_light(scene, params, surface, bsdf, path);",
          light_values(), Reached::IF_LIT},
     };
 }

@@ -120,9 +120,7 @@ std::vector<Fault> planted_faults() {
                "\n    if (path->numbers.alias == sampler_partner_words(&planted, " + bounce +
                ", SAMPLE_DIRECTION).y) next." + what;
     };
-    const std::string light =
-        "LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), "
-        "path->numbers.light,\n                                      path->numbers.alias);";
+    const std::string light = "LightSample light = path_light(scene, params, surface, bsdf, path);";
     const char* const walk = "path/walk.h";
     return {
         {"NaN weight at bounce 2", walk, sampled, spoil_sample("2u", "weight.y = as_float(0x7fc00000u);"),

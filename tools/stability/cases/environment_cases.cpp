@@ -132,7 +132,7 @@ void poles(CaseRun& run) {
     Figure& radiance = run.figure("radiances of it that are not 1", 0);
     Figure& bad = run.figure("densities at the poles that are no finite number > 0", 0);
     auto& probe = run.device.once<SceneProbe>("sky", [&] {
-        SceneProbe made(run.device, {"lights/environment.h", "numerics/sampler.h"});
+        SceneProbe made(run.device, {"lights/environment_sample.h", "numerics/sampler.h"});
         made.add("sample",
                  "const LightSample s = environment_sample(scene, params, vector_make(REAL(0.0), REAL(0.0), "
                  "REAL(1.0)), as_uint(a.x),"
