@@ -87,15 +87,15 @@ static inline SkyColor environment_decode_rgbe(uint word)
 }
 
 /* Radiance of texel i in this format, without the map's factor. */
-CLRT_INLINE SkyColor environment_texel(const Scene* scene, uint format, uint i)
+CLRT_GIVES_STRUCT SkyColor environment_texel(const Scene* scene, uint format, uint i)
 {
     if (format == SKY_TEXEL_RGBE)
         return environment_decode_rgbe(scene->sky_texels[i]);
     const size_t first = (size_t)i * 3u;
     if (format == SKY_TEXEL_HALF) {
         global const ushort* stored = (global const ushort*)scene->sky_texels + first;
-        const SkyColor color = {(real)half_decode(stored[0]), (real)half_decode(stored[1]),
-                                (real)half_decode(stored[2])};
+        const SkyColor color = {(real)binary16_decode(stored[0]), (real)binary16_decode(stored[1]),
+                                (real)binary16_decode(stored[2])};
         return color;
     }
     global const float* floats = (global const float*)scene->sky_texels + first;
@@ -113,8 +113,8 @@ static inline SkyColor environment_mix_colors(SkyColor a, SkyColor b, real t)
 }
 
 /* Radiance of the map at map coordinates, bilinear; wraps around, ends at the poles. `format`: the map's. */
-CLRT_INLINE SkyColor environment_lookup(const Scene* scene, const RenderParams* params, uint format, real u,
-                                        real v)
+CLRT_GIVES_STRUCT SkyColor environment_lookup(const Scene* scene, const RenderParams* params, uint format,
+                                              real u, real v)
 {
     const int width = (int)params->environment_width;
     const int height = (int)params->environment_height;

@@ -93,8 +93,8 @@ typedef struct {
 
 /* Chooses a texel of a map in this format and a direction uniformly within it. Without branches, for loops
    over lanes. */
-CLRT_INLINE SkySample environment_draw(const Scene* scene, const RenderParams* params, uint format, uint word,
-                                       uint alias_word, real v)
+CLRT_GIVES_STRUCT SkySample environment_draw(const Scene* scene, const RenderParams* params, uint format,
+                                             uint word, uint alias_word, real v)
 {
     const uint width = params->environment_width;
     const uint across = environment_tiles_across(params);

@@ -56,7 +56,7 @@
 /* A large function that gives a struct to one caller that matters. x86 targets of PoCL: in line, so that of
    the struct only what that caller reads is computed and nothing goes through memory. Elsewhere out of line
    like all large functions; Oclgrind 21.10 does not even know the intrinsic that clang writes where it puts a
-   returned struct in line. */
+   returned struct, or a `restrict` parameter, in line. */
 #ifdef CLRT_HAS_MOVMSKPS
 #define CLRT_GIVES_STRUCT CLRT_INLINE
 #else

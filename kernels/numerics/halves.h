@@ -6,7 +6,7 @@
 #include "real.h"
 
 /* A half that is not negative, by integers: devices may lose small ones otherwise. */
-static inline float half_decode(uint bits)
+static inline float binary16_decode(uint bits)
 {
     const float normal = as_float((bits + (112u << 10)) << 13);
     const float small = (float)bits * 0x1p-24f;
@@ -17,7 +17,8 @@ static inline float half_decode(uint bits)
 static inline real3 halves_load(size_t i, global const ushort* halves)
 {
     const uint3 bits = convert_uint3(vload3(i, halves));
-    return (real3)((real)half_decode(bits.x), (real)half_decode(bits.y), (real)half_decode(bits.z));
+    return (real3)((real)binary16_decode(bits.x), (real)binary16_decode(bits.y),
+                   (real)binary16_decode(bits.z));
 }
 
 #endif

@@ -23,9 +23,8 @@ static inline void sky_set_numbers(SkyLanes* lanes, uint i, const PathNumbers* n
 }
 
 /* Draws for a whole vector of paths, from number `first` on. */
-CLRT_INLINE void sky_draw_vector(const Scene* scene, const RenderParams* params, uint format,
-                                 SkyLanes* restrict lanes,
-                                 uint first)
+CLRT_GIVES_STRUCT void sky_draw_vector(const Scene* scene, const RenderParams* params, uint format,
+                                       SkyLanes* restrict lanes, uint first)
 {
     for (uint i = first; i < first + DEVICE_LANES; ++i) {
         const SkySample sample =
