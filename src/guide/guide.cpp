@@ -16,7 +16,7 @@ constexpr double MOST_RECORDS = 200;
 /// With so many records a cell chooses half as many directions as it does with very many.
 constexpr double FEW_RECORDS = 64;
 /// The part of the directions that a cell chooses at most: what it has not seen is left to the BSDF.
-constexpr double LARGEST_SHARE = 0.5;
+constexpr double LARGEST_SHARE = 0.7;
 
 /// What an epoch adds to what a cell knew.
 void learn_cell(const std::uint64_t* sums, GuideLore& lore) {
