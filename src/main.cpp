@@ -14,6 +14,7 @@
 #include "output/image.h"
 #include "render/integrator_choice.h"
 #include "render/ledger.h"
+#include "render/portal_choice.h"
 #include "render/prepared_scene.h"
 #include "render/sky_choice.h"
 #include "replay/replay_pixel.h"
@@ -68,6 +69,7 @@ int run_replay(Options options) {
         spdlog::info("--pixel replays a sample: no picture is written");
     const auto planned = plan_scene(std::move(scene), options);
     PreparedParts parts;
+    choose_portals(device, planned, parts, progress);
     choose_integrator(device, planned, parts, progress);
     choose_sky_table(device, planned, parts, progress);
     const PreparedScene prepared = prepare_scene(device, planned, {parts.tree, nullptr});

@@ -105,7 +105,7 @@ static inline void path_draw(const Scene* scene, const RenderParams* params, con
 static inline void path_draw_sky(const Scene* scene, const RenderParams* params, const PathList* list,
                                  Path* paths)
 {
-    if (!light_is_sky(params))
+    if (!light_is_drawn(params))
         return;
     PathList hit;
     hit.count = 0u;

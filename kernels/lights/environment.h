@@ -144,13 +144,28 @@ static CLRT_NOINLINE real3 environment_map_lookup(const Scene* scene, const Rend
     return vector_make(color.red, color.green, color.blue);
 }
 
+static inline bool environment_is_map(const RenderParams* params)
+{
+    return HAS(EFFECT_ENVIRONMENT_MAP) && params->environment_width != 0u;
+}
+
+/* The map coordinates of a world direction; 0 of a constant environment. */
+static inline real2 environment_place(const RenderParams* params, real3 wi)
+{
+    return environment_is_map(params) ? environment_uv(environment_to_map(params, wi)) : (real2)(REAL(0.0));
+}
+
+/* Radiance that arrives from a place. */
+static inline real3 environment_eval_at(const Scene* scene, const RenderParams* params, real2 place)
+{
+    const real3 factor = vector_from(params->environment);
+    return environment_is_map(params) ? factor * environment_map_lookup(scene, params, place) : factor;
+}
+
 /* Radiance that arrives along a ray leaving the scene in direction wi. */
 static inline real3 environment_eval(const Scene* scene, const RenderParams* params, real3 wi)
 {
-    const real3 factor = vector_from(params->environment);
-    if (!HAS(EFFECT_ENVIRONMENT_MAP) || params->environment_width == 0u)
-        return factor;
-    return factor * environment_map_lookup(scene, params, environment_uv(environment_to_map(params, wi)));
+    return environment_eval_at(scene, params, environment_place(params, wi));
 }
 
 /* The share of a row's texel. */
@@ -176,13 +191,20 @@ static inline real environment_texel_pdf_w(const Scene* scene, const RenderParam
     return environment_share_pdf_w(params, tile, share, row);
 }
 
-/* Density of environment_map_sample for a direction. */
+/* Density of environment_map_sample for the direction to a place. */
+static inline real environment_map_pdf_w_at(const Scene* scene, const RenderParams* params, real2 place)
+{
+    const uint column =
+        min((uint)(place.x * (real)params->environment_width), params->environment_width - 1u);
+    const uint row =
+        min((uint)(place.y * (real)params->environment_height), params->environment_height - 1u);
+    return environment_texel_pdf_w(scene, params, column, row);
+}
+
+/* The same for a direction. */
 static inline real environment_map_pdf_w(const Scene* scene, const RenderParams* params, real3 wi)
 {
-    const real2 uv = environment_uv(environment_to_map(params, wi));
-    const uint column = min((uint)(uv.x * (real)params->environment_width), params->environment_width - 1u);
-    const uint row = min((uint)(uv.y * (real)params->environment_height), params->environment_height - 1u);
-    return environment_texel_pdf_w(scene, params, column, row);
+    return environment_map_pdf_w_at(scene, params, environment_uv(environment_to_map(params, wi)));
 }
 
 #endif

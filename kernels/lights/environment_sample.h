@@ -38,14 +38,14 @@ static inline uint environment_word(const RenderParams* params, uint2 words)
    the second call the slot has arrived. */
 static inline void environment_prefetch_slot(const Scene* scene, const RenderParams* params, uint2 words)
 {
-    if (environment_is_searched(params))
+    if (environment_is_searched(params) && params->portal_count == 0u)
         CLRT_PREFETCH(scene->sky_tiles + environment_slot(params, environment_word(params, words)));
 }
 
 static inline void environment_prefetch_texel(const Scene* scene, const RenderParams* params, uint2 words,
                                               uint alias_word)
 {
-    if (!environment_is_searched(params))
+    if (!environment_is_searched(params) || params->portal_count != 0u)
         return;
     const uint slot = environment_slot(params, environment_word(params, words));
     const uint tile = environment_tile(scene, slot, alias_word);

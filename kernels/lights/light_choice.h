@@ -42,6 +42,12 @@ static inline bool light_is_sky(const RenderParams* params)
            params->choose_environment == 1.0f;
 }
 
+/* True where light samples are drawn from the map alone, whatever the vertex. */
+static inline bool light_is_drawn(const RenderParams* params)
+{
+    return light_is_sky(params) && params->portal_count == 0u;
+}
+
 /* Probabilities of the kinds of light. */
 typedef struct {
     real emitter, sky, light;

@@ -7,6 +7,7 @@
 #include "light_choice.h"
 #include "numerics/mis.h"
 #include "numerics/sampler.h"
+#include "sky_portal.h"
 
 /* A surface as light sampling sees it: from the point where rays start that it reflects. `normal` as in
    LightView. */
@@ -16,7 +17,7 @@ static inline LightView lights_view(const Surface* surface, real3 normal)
     return view;
 }
 
-/* The sample that a direction is which was drawn from the map, where light_is_sky. */
+/* The sample that a direction is which was drawn from the map, where light_is_drawn. */
 static inline LightSample lights_drawn(const Scene* scene, const RenderParams* params, const Surface* surface,
                                        const SkySample* drawn)
 {
@@ -39,8 +40,11 @@ static inline LightSample lights_sample(const Scene* scene, const RenderParams* 
         sample = emitter_sample_chosen(scene, choice.light, choice.probability, view.position,
                                        (real2)(sampler_unit(choice.word), choice.v));
         sample.kind = KIND_AREA;
-    } else if (HAS(EFFECT_ENVIRONMENT_MAP) && choice.light == light_of_sky(params)) {
-        sample = environment_map_sample(scene, params, choice.word, choice.alias_word, choice.v);
+    } else if (HAS(EFFECT_ENVIRONMENT) && choice.light == light_of_sky(params)) {
+        if (params->portal_count != 0u)
+            sample = sky_sample_portals(scene, params, &view, choice.word, choice.alias_word, choice.v);
+        else if (environment_is_searched(params))
+            sample = environment_map_sample(scene, params, choice.word, choice.alias_word, choice.v);
         sample.pdf_w *= choice.probability;
         sample.kind = KIND_SKY;
     } else if (HAS(EFFECT_DELTA_LIGHT) && choice.light != NO_INDEX) {
@@ -65,11 +69,12 @@ static CLRT_NOINLINE real3 lights_escape(const Scene* scene, const RenderParams*
 {
     real3 radiance = (real3)(REAL(0.0));
     if (HAS(EFFECT_ENVIRONMENT) && (kinds & KIND_SKY)) {
+        const real2 place = environment_place(params, wi);
         real light_pdf_w = REAL(0.0);
-        if (HAS(EFFECT_ENVIRONMENT_MAP) && pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
+        if (pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
             light_pdf_w =
-                light_probability_of_sky(scene, params, view) * environment_map_pdf_w(scene, params, wi);
-        radiance = environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);
+                light_probability_of_sky(scene, params, view) * sky_pdf_w(scene, params, view, wi, place);
+        radiance = environment_eval_at(scene, params, place) * mis_weight(pdf_w, light_pdf_w);
     }
     if (!HAS(EFFECT_DELTA_LIGHT) || !(kinds & KIND_SUN))
         return radiance;

@@ -51,7 +51,7 @@ static inline void path_connect_layers(const Bsdf* bsdf, const AutomatonStep* st
 static inline LightSample path_light(const Scene* scene, const RenderParams* params, const Surface* surface,
                                      const Bsdf* bsdf, const Path* path)
 {
-    if (light_is_sky(params))
+    if (light_is_drawn(params))
         return lights_drawn(scene, params, surface, &path->sky);
     return lights_sample(scene, params, surface, bsdf_light_normal(bsdf), path->numbers.light,
                          path->numbers.alias);

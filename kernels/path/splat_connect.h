@@ -100,11 +100,12 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
     const real disc_pdf_a =
         competes ? emission_disc_ray_pdf_a(scene, params, path->ray.origin, wi) : REAL(0.0);
     if (HAS(EFFECT_ENVIRONMENT)) {
+        const real2 place = environment_place(params, wi);
         real light_pdf_w = REAL(0.0);
-        if (HAS(EFFECT_ENVIRONMENT_MAP) && path->pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
+        if (path->pdf_w > REAL(0.0) && params->choose_environment > 0.0f)
             light_pdf_w =
-                light_probability_of_sky(scene, params, view) * environment_map_pdf_w(scene, params, wi);
-        radiance = environment_eval(scene, params, wi) *
+                light_probability_of_sky(scene, params, view) * sky_pdf_w(scene, params, view, wi, place);
+        radiance = environment_eval_at(scene, params, place) *
                    splat_hit_weight(path, weights, light_pdf_w,
                                     emission_sky_pdf_w(scene, params, wi) * disc_pdf_a);
     }

@@ -82,10 +82,11 @@ static CLRT_NOINLINE real splat_light_pdf(const Scene* scene, const RenderParams
         return emitter_hit_pdf_w(scene, &light, pdf_a, view->position, distance, way / distance);
     }
     if (HAS(EFFECT_ENVIRONMENT) && emission->light == light_of_sky(params)) {
-        if (!HAS(EFFECT_ENVIRONMENT_MAP) || !(params->choose_environment > 0.0f))
+        if (!(params->choose_environment > 0.0f))
             return REAL(0.0);
+        const real3 wi = -emission->ray.direction;
         return light_probability_of_sky(scene, params, view) *
-               environment_map_pdf_w(scene, params, -emission->ray.direction);
+               sky_pdf_w(scene, params, view, wi, environment_place(params, wi));
     }
     const uint index = emission->light - params->emitter_count;
     const real chosen = light_probability_of_delta(scene, params, view, index);

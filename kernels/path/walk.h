@@ -17,7 +17,7 @@ typedef struct {
     Ray ray;                 /* the segment to trace */
     Hit hit;                 /* where it ended */
     PathNumbers numbers;     /* of the vertex there */
-    SkySample sky;           /* drawn for it, where light_is_sky */
+    SkySample sky;           /* drawn for it, where light_is_drawn */
     LightView view;          /* whence the surface that it left looked at lights; unused for camera rays */
     bool has_crossed_curved; /* it did not start there but at the plane below */
     real3 throughput;        /* of the path so far: product of BSDF times cosine over pdf */

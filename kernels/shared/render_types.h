@@ -64,9 +64,11 @@ typedef struct {
     u32 light_path_count;       /* of a pass over the whole picture */
     u32 environment_format;     /* SKY_TEXEL_* */
     u32 texture_filter;         /* 1: lookups are filtered over the ray's footprint */
-    u32 unused0;
+    u32 portal_count;           /* rectangles through which the sky is seen */
+    float portal_share;         /* probability of sampling the sky through them */
+    u32 unused0, unused1, unused2;
 } RenderParams;
-ASSERT_SIZE(RenderParams, 416);
+ASSERT_SIZE(RenderParams, 432);
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)

@@ -37,6 +37,7 @@
     ROW(vec4, casters, casters)                                                                              \
     ROW(SkyTile, sky_tiles, environment.tiles)                                                               \
     ROW(u32, sky_texels, environment.texels)                                                                 \
+    ROW(SkyPortal, sky_portals, environment.portals)                                                         \
     ROW(LightNode, light_nodes, light_tree.nodes)                                                            \
     ROW(LightPlace, light_places, light_tree.places)
 

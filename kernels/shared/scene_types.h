@@ -200,6 +200,15 @@ ASSERT_SIZE(SkyTile, 32);
 
 #define SKY_SHARES 240u /* 15 for each of 16 equal texels */
 
+/* A rectangle through which the sky is seen from within, such as a window (lights/sky_portal.h). */
+typedef struct {
+    vec4 corner; /* w: mean luminance of the sky behind it */
+    vec4 edge_u; /* w: 1 / its squared length */
+    vec4 edge_v; /* likewise */
+    vec4 normal; /* of unit length, inwards; w: area */
+} SkyPortal;
+ASSERT_SIZE(SkyPortal, 64);
+
 /* How texels of the map are stored, in words tile by tile. */
 #define SKY_TEXEL_RGBE 0u  /* one word: bytes r, g, b, e from the lowest; a channel is byte 2^(e - 136) */
 #define SKY_TEXEL_HALF 1u  /* three halves, not negative */

@@ -20,10 +20,10 @@ namespace {
 /// Samples of a pixel that layers of hits are means over where nobody has asked for them.
 constexpr std::uint64_t UNASKED_HIT_SAMPLES = 16;
 
-/// The program of the layers of hits, and what tells the programs of a replay, of guided paths and of a pilot
-/// from the picture's.
-const std::string HIT_LAYERS_PROGRAM = "aov", REPLAY_ENDING = "_replay", GUIDED_ENDING = "_guided",
-                  PILOT_ENDING = "_pilot";
+/// The programs of the layers of hits and of ways out, and what tells the programs of a replay, of guided
+/// paths and of a pilot from the picture's.
+const std::string HIT_LAYERS_PROGRAM = "aov", ESCAPE_PROGRAM = "escapes", REPLAY_ENDING = "_replay",
+                  GUIDED_ENDING = "_guided", PILOT_ENDING = "_pilot";
 
 /// Vertices that are kept of a light path: they wait in private memory for those of the path from the eye.
 constexpr int MOST_KEPT_VERTICES = 30;
@@ -174,6 +174,12 @@ Program build_guided_program(const Device& device, const Options& options, Effec
     return build_program(device, request);
 }
 
+Program build_escape_program(const Device& device, const Options& options, EffectMask effects,
+                             BvhLayout layout) {
+    return build_program(device, make_request(kernel_files(options.device.kernels_folder), ESCAPE_PROGRAM,
+                                              options, effects, layout));
+}
+
 Program build_pilot_program(const Device& device, const Options& options, EffectMask effects,
                             BvhLayout layout, const PathPlan& paths) {
     std::vector<std::string> defines = picture_defines(device, options, paths);
@@ -204,8 +210,8 @@ std::vector<std::string> dumped_files(const Options& options) {
         return paths;
     const std::string integrator = integrator_stem(options.transport.integrator);
     for (const std::string& name :
-         {integrator, HIT_LAYERS_PROGRAM, std::string(DENOISE_PROGRAM), integrator + REPLAY_ENDING,
-          integrator + GUIDED_ENDING, integrator + PILOT_ENDING}) {
+         {integrator, HIT_LAYERS_PROGRAM, ESCAPE_PROGRAM, std::string(DENOISE_PROGRAM),
+          integrator + REPLAY_ENDING, integrator + GUIDED_ENDING, integrator + PILOT_ENDING}) {
         const auto [source, flags] = dump_paths(options.device.dump_folder, name);
         paths.insert(paths.end(), {source, flags});
     }

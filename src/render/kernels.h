@@ -58,6 +58,10 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 Program build_guided_program(const Device& device, const Options& options, EffectMask effects,
                              BvhLayout layout, const PathPlan& paths);
 
+/// Compiles what finds ways out of the scene (kernels/integrators/escapes.cl).
+Program build_escape_program(const Device& device, const Options& options, EffectMask effects,
+                             BvhLayout layout);
+
 /// Compiles path+light so that it sums the moments of its samples (kernels/film/moments.h).
 Program build_pilot_program(const Device& device, const Options& options, EffectMask effects,
                             BvhLayout layout, const PathPlan& paths);

@@ -25,6 +25,10 @@ constexpr std::uint32_t PILOT_SEED = 0x70696c6fu;
 /// Their spread is what splats and paths together scatter by; fewer samples each are no net.
 constexpr int PILOT_REPLICATES = 4;
 
+/// Of pilots of the sky.
+constexpr double MOST_SKY_PIXELS = 512, FEWEST_SKY_PIXELS = 256;
+constexpr std::uint32_t SKY_PILOT_SPP = 32;
+
 /// The options of the pilot's picture: the same view, coarser, without a pixel filter.
 Options pilot_options(const Options& options, const PilotSize& size) {
     Options pilot = options;
@@ -168,6 +172,15 @@ void count_rays(const PilotRender& pilot, PilotResult& result) {
 }
 
 } // namespace
+
+std::optional<PilotSize> sky_pilot_size(const Options& options) {
+    const double pixels = double(options.film.size.x) * double(options.film.size.y);
+    if (pixels < FEWEST_SKY_PIXELS)
+        return std::nullopt;
+    const double scale = std::min(std::sqrt(MOST_SKY_PIXELS / pixels), 1.0);
+    return PilotSize{std::max(int(options.film.size.x * scale), 1),
+                     std::max(int(options.film.size.y * scale), 1), SKY_PILOT_SPP};
+}
 
 double path_pilot_error(const PreparedScene& prepared, const PilotSize& size) {
     RenderProgress render;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace clrt {
 
@@ -31,6 +32,10 @@ struct PilotResult {
     double light_paths = 0;
     bool is_black = false; ///< no light was found: there are no errors
 };
+
+/// Size of the pilots that compare ways to sample the sky; none for frames that are not worth one. Nets of
+/// eight samples, and pixels that are not too large, whose own contents would count as noise of all ways.
+std::optional<PilotSize> sky_pilot_size(const Options& options);
 
 /// The relative squared error of one sample a pixel by path, which the scene is prepared for with its
 /// programs, in a picture of the pilot's size; infinite where it finds no light. As independent of the rest

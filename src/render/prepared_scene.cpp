@@ -57,6 +57,12 @@ Program build_guided_program(const PreparedScene& prepared) {
                                 prepared.tree->bvh.layout, planned.effects.paths);
 }
 
+Program build_escape_program(const PreparedScene& prepared) {
+    const PlannedScene& planned = *prepared.planned;
+    return build_escape_program(prepared.device, planned.options, planned.effects.mask,
+                                prepared.tree->bvh.layout);
+}
+
 Program build_pilot_program(const PreparedScene& prepared) {
     const PlannedScene& planned = *prepared.planned;
     return build_pilot_program(prepared.device, planned.options, planned.effects.mask,

@@ -57,6 +57,9 @@ PreparedScene prepare_render(const Device& device, std::shared_ptr<const Planned
 /// Compiles the same integrator so that it guides paths.
 Program build_guided_program(const PreparedScene& prepared);
 
+/// Compiles what finds ways out of the scene.
+Program build_escape_program(const PreparedScene& prepared);
+
 /// Compiles path+light, which the scene is planned for, so that it sums the moments of its samples.
 Program build_pilot_program(const PreparedScene& prepared);
 

@@ -34,6 +34,8 @@ void set_lights(const Scene& scene, LightSampler sampler, RenderParams& params) 
     params.environment_height = sky.texels.empty() ? 0 : u32(sky.height);
     params.environment_cos = float(std::cos(sky.rotation_degrees * RADIANS));
     params.environment_sin = float(std::sin(sky.rotation_degrees * RADIANS));
+    params.portal_count = u32(sky.portals.size());
+    params.portal_share = float(sky.portal_share);
     params.emitter_count = u32(scene.emitters.size());
     params.light_count = u32(scene.lights.size());
     const KindShares shares = kind_shares(sampler, scene);

@@ -18,11 +18,6 @@ namespace clrt {
 
 namespace {
 
-/// Pixels and samples a pixel of a pilot: nets of eight samples, and pixels that are not too large, whose own
-/// contents would count as noise of all tables. Smaller frames are not worth one.
-constexpr double MOST_PIXELS = 512, FEWEST_PIXELS = 256;
-constexpr std::uint32_t SKY_PILOT_SPP = 32;
-
 /// Squared error that a table must spare for it to be taken, by pilots whose ratios scatter by a few
 /// percent.
 constexpr double WORTHWHILE_SKY_GAIN = 1.1;
@@ -30,15 +25,10 @@ constexpr double WORTHWHILE_SKY_GAIN = 1.1;
 /// Size of the pilots; none where a plan has no choice.
 std::optional<PilotSize> size_of_sky_pilots(const PlannedScene& planned) {
     const Environment& sky = planned.scene.environment;
-    const Options& options = planned.options;
-    const double pixels = double(options.film.size.x) * double(options.film.size.y);
     const bool is_certain = sky.sampling != SkySampling::BY_TABLE_AND_BSDF || sky.tabulated_share == 1;
-    if (is_certain || planned.effects.paths.is_empty || !options.output.path_layers.empty() ||
-        pixels < FEWEST_PIXELS)
+    if (is_certain || planned.effects.paths.is_empty || !planned.options.output.path_layers.empty())
         return std::nullopt;
-    const double scale = std::min(std::sqrt(MOST_PIXELS / pixels), 1.0);
-    return PilotSize{std::max(int(options.film.size.x * scale), 1),
-                     std::max(int(options.film.size.y * scale), 1), SKY_PILOT_SPP};
+    return sky_pilot_size(planned.options);
 }
 
 /// A map's table, kept while another is tried.

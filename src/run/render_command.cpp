@@ -4,6 +4,7 @@
 #include "console/progress.h"
 #include "exit_code.h"
 #include "render/dark_picture.h"
+#include "render/portal_choice.h"
 #include "render/render_params.h"
 #include "render/sky_choice.h"
 #include "run/denoising.h"
@@ -180,6 +181,7 @@ int run_render(Options options) {
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
     Job job{start, devices, plan_scene(std::move(scene), options), {}, {}, load_seconds};
+    choose_portals(devices.front(), job.planned, job.parts, progress);
     job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
     choose_sky_table(devices.front(), job.planned, job.parts, progress);
     announce(*job.planned);

@@ -55,6 +55,8 @@ struct Environment {
     /// What the table is made for; none: there is none yet.
     std::optional<SkySampling> sampling;
     double tabulated_share = 1; ///< of the map's light: what the table is in proportion to
+    std::vector<SkyPortal> portals; ///< through which it is seen (scene/sky_portals.h), normalised frame
+    double portal_share = 0;        ///< of its light samples
 };
 
 /// The tree that chooses lights (scene/light_tree.h); empty: tables do.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host and device lay the structs of kernels/shared out alike: every size and every member's offset.
 #include "kernels/shared/chain_types.h"
+#include "kernels/shared/escape_types.h"
 #include "kernels/shared/guide_types.h"
 #include "kernels/shared/measured_types.h"
 #include "kernels/shared/render_types.h"
@@ -155,7 +156,19 @@ const Layout RENDER_PARAMS = {
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(emit_emitter), M(emit_environment), M(emit_light), M(emission_radius), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
      M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(caster_count), M(caster_squares), M(light_path_count),
-     M(environment_format), M(texture_filter), M(unused0)}};
+     M(environment_format), M(texture_filter), M(portal_count), M(portal_share), M(unused0), M(unused1), M(unused2)}};
+#undef M
+#define M(name) MEMBER(SkyPortal, name)
+const Layout SKY_PORTAL = {
+    "SkyPortal",
+    sizeof(SkyPortal),
+    {M(corner), M(edge_u), M(edge_v), M(normal)}};
+#undef M
+#define M(name) MEMBER(Escape, name)
+const Layout ESCAPE = {
+    "Escape",
+    sizeof(Escape),
+    {M(origin), M(direction)}};
 #undef M
 #define M(name) MEMBER(ArrayPlace, name)
 const Layout ARRAY_PLACE_LAYOUT = {
@@ -175,7 +188,8 @@ const std::vector<Layout> LAYOUTS = {TRIANGLE,      MATERIAL,        MATERIAL_EX
                                      EMITTER,       MEASURED_VIEW,   MEASURED_BRDF,      INSTANCE,
                                      LIGHT,         SKY_TILE_LAYOUT, LIGHT_NODE,         LIGHT_PLACE,
                                      CAMERA_PARAMS, RENDER_PARAMS,   ARRAY_PLACE_LAYOUT, ARRAY_PLACES,
-                                     GUIDE_CELL,    CHAIN,           CHAIN_LAUNCH,       EMITTER_PART};
+                                     GUIDE_CELL,    CHAIN,           CHAIN_LAUNCH,       EMITTER_PART,
+                                     SKY_PORTAL,    ESCAPE};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.
@@ -194,7 +208,7 @@ KernelProbe& probe() {
     static KernelProbe instance = [] {
         KernelProbe made(test_device(),
                          {"shared/scene_arrays.h", "shared/measured_types.h", "shared/render_types.h",
-                          "shared/guide_types.h", "shared/chain_types.h"});
+                          "shared/guide_types.h", "shared/chain_types.h", "shared/escape_types.h"});
         for (const Layout& layout : LAYOUTS)
             made.add_text(layout_kernel(layout));
         made.add_text(

@@ -163,9 +163,12 @@ FAULTS = [
     ("sky turned the other way", "lights/environment.h",
      "vector_make(fma(c, d.x, -(s * d.z)), d.y, fma(s, d.x, c * d.z))",
      "vector_make(fma(c, d.x, s * d.z), d.y, fma(-s, d.x, c * d.z))", "sky_light_test"),
+    ("hits of the sky know nothing of portals", "lights/sky_portal.h",
+     "return sky_mixed_pdf_w(scene, params, view, wi, place, portals_weight(scene, params, view));",
+     "return sky_mixed_pdf_w(scene, params, view, wi, place, REAL(0.0));", "portal_choice_test"),
     ("sky that its table leaves to the BSDF is lost", "lights/lights.h",
-     "environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);",
-     "environment_eval(scene, params, wi) * mis_weight(pdf_w, light_pdf_w);\n        if (pdf_w > REAL(0.0) && "
+     "environment_eval_at(scene, params, place) * mis_weight(pdf_w, light_pdf_w);",
+     "environment_eval_at(scene, params, place) * mis_weight(pdf_w, light_pdf_w);\n        if (pdf_w > REAL(0.0) && "
      "params->choose_environment > 0.0f && light_pdf_w == REAL(0.0))\n            radiance = (real3)(REAL(0.0));",
      "sky_light_test"),
     ("screens cast no shadow", "path/visibility.h", "share *= visibility_crossing(scene, &hit, ray, true).share;", "",

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/portal_choice.h"
+
+#include "colour.h"
+#include "console/signals.h"
+#include "device/buffer_values.h"
+#include "kernels/shared/escape_types.h"
+#include "kernels/shared/path_types.h"
+#include "render/launcher.h"
+#include "render/pilot.h"
+#include "render/render_params.h"
+#include "scene/sky_portals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <spdlog/spdlog.h>
+#include <utility>
+#include <vector>
+
+namespace clrt {
+
+namespace {
+
+/// Smaller frames are not worth a program more.
+constexpr double FEWEST_PIXELS = 96 * 72;
+/// Paths that are followed.
+constexpr u32 ESCAPES = 32768;
+constexpr u32 ESCAPE_SEED = 0x65736370u;
+
+/// Shares of the light samples of a map that portals are tried with: a map with a sun wants the table, too.
+constexpr double SHARES_OF_MAP[] = {0.5, 0.9};
+/// A constant sky has no table.
+constexpr double SHARE_OF_CONSTANT = 1;
+
+/// Squared error that portals must spare: light samples through them take up to twice the time of a path, for
+/// all of them are weighed at each vertex, and few shadow rays end early.
+constexpr double WORTHWHILE_PORTAL_GAIN = 2;
+
+/// Whether the sky is a light that portals can help to find.
+bool may_have_portals(const PlannedScene& planned) {
+    const auto& [scene, options, effects] = planned;
+    const bool shines = clrt::luminance(scene.environment.radiance) > 0;
+    // The light tree holds a map, but no constant sky.
+    const bool can_choose = !scene.environment.texels.empty() || scene.light_tree.nodes.empty();
+    return shines && can_choose && options.transport.integrator == Integrator::PATH &&
+           !effects.paths.is_empty && (accepted_kinds(effects.paths) & KIND_SKY) &&
+           options.output.path_layers.empty() &&
+           double(options.film.size.x) * double(options.film.size.y) >= FEWEST_PIXELS;
+}
+
+/// Follows paths out of the scene.
+std::vector<Escape> find_escapes(const PreparedScene& prepared) {
+    const Device& device = prepared.device;
+    const Program program = build_escape_program(prepared);
+    Kernel kernel(program, "find_escapes");
+    bind_scene(prepared.buffers, kernel);
+    RenderParams params = launch_params(*prepared.planned);
+    params.seed = ESCAPE_SEED;
+    const cl::Buffer escapes = create_buffer(device, "escapes", ESCAPES * sizeof(Escape));
+    kernel.set("params", params);
+    kernel.set("count", ESCAPES);
+    kernel.set("escapes", escapes);
+    const char* const doing = "looking for ways out of the scene";
+    run_groups(device, kernel, (ESCAPES + TILE_PIXELS - 1) / TILE_PIXELS, doing);
+    return read_values<Escape>(device, doing, escapes, 0, ESCAPES);
+}
+
+/// Decides between no portals and these, with each share of the samples.
+void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
+            std::vector<SkyPortal> portals) {
+    Environment& sky = planned->scene.environment;
+    const PilotSize size = *sky_pilot_size(planned->options);
+    const auto error_of = [&] {
+        const PreparedScene prepared = prepare_render(device, planned, parts);
+        parts = {prepared.tree, prepared.programs};
+        return path_pilot_error(prepared, size);
+    };
+    const double usual = error_of();
+    double least = usual / WORTHWHILE_PORTAL_GAIN, best = 0;
+    sky.portals = std::move(portals);
+    const bool is_map = !sky.texels.empty();
+    for (const double share : is_map ? std::vector<double>(std::begin(SHARES_OF_MAP), std::end(SHARES_OF_MAP))
+                                     : std::vector<double>{SHARE_OF_CONSTANT}) {
+        sky.portal_share = share;
+        if (const double error = error_of(); error < least && !stop_signal()) {
+            least = error;
+            best = share;
+        }
+    }
+    sky.portal_share = best;
+    if (best == 0)
+        sky.portals.clear();
+    else
+        spdlog::info(
+            "sky: light samples through {} window{} have {:.2f} times less squared error, by pilots of "
+            "{} x {} pixels, {} spp",
+            sky.portals.size(), sky.portals.size() == 1 ? "" : "s", usual / least, size.width, size.height,
+            size.spp);
+}
+
+} // namespace
+
+void choose_portals(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
+                    Progress& progress) {
+    if (!may_have_portals(*planned))
+        return;
+    progress.update({"pilot", -1, 0, -1, -1});
+    const std::optional<Crop> crop = std::exchange(planned->options.film.crop, std::nullopt);
+    const PreparedScene prepared = prepare_scene(device, planned, {parts.tree, nullptr});
+    parts.tree = prepared.tree;
+    std::vector<SkyPortal> portals = find_portals(find_escapes(prepared), scene_axes(planned->scene));
+    if (!portals.empty())
+        decide(device, planned, parts, std::move(portals));
+    planned->options.film.crop = crop;
+    progress.finish();
+}
+
+} // namespace clrt

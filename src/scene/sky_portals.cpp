@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/sky_portals.h"
+
+#include "scene/vectors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <utility>
+
+namespace clrt {
+
+namespace {
+
+/// Paths that have met so many surfaces and more leave through what the sky lights those by.
+constexpr float FEWEST_SURFACES = 1;
+/// Of the paths that have met a surface, at most this part leaves from their first: more do out of doors.
+constexpr double MOST_LEAVE_AT_ONCE = 0.4;
+/// Escapes from which on a rectangle tells where its edges are, and what part of all it must have.
+constexpr size_t FEWEST_ESCAPES = 24;
+constexpr double SMALLEST_PART = 0.01;
+/// Planes that are tried along an axis, and between the neighbours of the best of all, so many times; and
+/// escapes that they are judged by.
+constexpr int PLANES = 20, FINER_PLANES = 6, REFINEMENTS = 3;
+constexpr size_t JUDGES = 1500;
+/// Windows lie beyond most of the points that paths come from; walls outside are no further than so many
+/// times as far as the outermost is from the middle one.
+constexpr double LEAST_QUANTILE = 0.25, BEYOND = 0.25;
+/// A gap divides a rectangle if it is this part of its side, and so many times as wide as the mean distance
+/// of points along it: chance leaves no such gaps.
+constexpr double WIDE_GAP = 0.04, CERTAIN_GAP = 12;
+/// Paths that go nearly along a plane tell little about it.
+constexpr double SMALLEST_COS = 0.1;
+/// Planes that are taken, one after the other, at most.
+constexpr int MOST_PLANES = 6;
+
+struct Ray {
+    glm::dvec3 origin, direction; ///< in the frame of the axes
+    double luminance;
+};
+
+struct Point {
+    glm::dvec2 at;
+    double luminance;
+};
+
+struct Rectangle {
+    glm::dvec2 low, high;
+    size_t points = 0;
+    double luminance = 0; ///< the mean
+    double area() const { return (high.x - low.x) * (high.y - low.y); }
+};
+
+/// A plane across an axis, and the rectangles in it.
+struct Plane {
+    int axis = 0;
+    double sign = 1, place = 0; ///< paths leave towards sign * axis; the coordinate times the sign
+    std::vector<Rectangle> rectangles;
+
+    double area() const {
+        double sum = 0;
+        for (const Rectangle& rectangle : rectangles)
+            sum += rectangle.area();
+        return sum;
+    }
+    double points() const {
+        double sum = 0;
+        for (const Rectangle& rectangle : rectangles)
+            sum += double(rectangle.points);
+        return sum;
+    }
+};
+
+/// Where a path crosses a plane; false where it does not.
+bool crossing(const Plane& plane, const Ray& ray, glm::dvec2& at) {
+    const double speed = plane.sign * ray.direction[plane.axis];
+    const double way = plane.place - plane.sign * ray.origin[plane.axis];
+    if (speed < SMALLEST_COS || way < 0)
+        return false;
+    const glm::dvec3 p = ray.origin + ray.direction * (way / speed);
+    at = {p[(plane.axis + 1) % 3], p[(plane.axis + 2) % 3]};
+    return true;
+}
+
+/// Divides points at wide gaps, and adds the box of what has none.
+void add_rectangles(std::vector<Point>::iterator begin, std::vector<Point>::iterator end, size_t fewest,
+                    std::vector<Rectangle>& rectangles) {
+    const auto count = size_t(end - begin);
+    if (count < fewest)
+        return;
+    Rectangle box{begin->at, begin->at, count, 0};
+    for (auto point = begin; point != end; ++point) {
+        box.low = glm::min(box.low, point->at);
+        box.high = glm::max(box.high, point->at);
+        box.luminance += point->luminance / double(count);
+    }
+    int axis = -1;
+    double widest = std::max(WIDE_GAP, CERTAIN_GAP / double(count)), cut = 0;
+    for (int side = 0; side < 2; ++side) {
+        std::sort(begin, end, [&](const Point& a, const Point& b) { return a.at[side] < b.at[side]; });
+        for (auto point = begin + 1; point != end; ++point) {
+            const double gap = (point->at[side] - (point - 1)->at[side]) / (box.high[side] - box.low[side]);
+            if (gap > widest) {
+                widest = gap;
+                axis = side;
+                cut = point->at[side];
+            }
+        }
+    }
+    if (axis < 0) {
+        // The edges are about as far beyond the outermost points as neighbours are from each other.
+        const glm::dvec2 beyond = (box.high - box.low) / double(count);
+        box.low -= beyond;
+        box.high += beyond;
+        rectangles.push_back(box);
+        return;
+    }
+    const auto middle = std::partition(begin, end, [&](const Point& point) { return point.at[axis] < cut; });
+    add_rectangles(begin, middle, fewest, rectangles);
+    add_rectangles(middle, end, fewest, rectangles);
+}
+
+/// The rectangles of a plane, each with `fewest` of the paths at least; of all of them every `step`th is
+/// looked at.
+void fill(const std::vector<Ray>& rays, size_t step, size_t fewest, Plane& plane) {
+    std::vector<Point> points;
+    glm::dvec2 at;
+    for (size_t i = 0; i < rays.size(); i += step)
+        if (crossing(plane, rays[i], at))
+            points.push_back({at, rays[i].luminance});
+    plane.rectangles.clear();
+    add_rectangles(points.begin(), points.end(), std::max(fewest / step, FEWEST_ESCAPES / 4),
+                   plane.rectangles);
+}
+
+/// How well a plane shows windows: many paths pass it close together.
+double merit(const Plane& plane) {
+    const double points = plane.points();
+    return points > 0 ? points * points / plane.area() : 0;
+}
+
+/// A search for the plane through which most paths pass closest together.
+class PlaneSearch {
+public:
+    PlaneSearch(const std::vector<Ray>& rays, size_t fewest)
+        : rays_(rays), step_(std::max<size_t>(rays.size() / JUDGES, 1)), fewest_(fewest) {
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double sign : {-1.0, 1.0})
+                look_along(axis, sign);
+        for (int k = 0; k < REFINEMENTS && most_ > 0; ++k) {
+            const Plane around = best_;
+            distance_ /= FINER_PLANES / 2;
+            for (int i = -FINER_PLANES / 2; i <= FINER_PLANES / 2; ++i)
+                look_at(around.axis, around.sign, around.place + i * distance_);
+        }
+        fill(rays_, 1, fewest_, best_);
+    }
+    const Plane& best() const { return best_; }
+
+private:
+    void look_along(int axis, double sign) {
+        std::vector<double> places;
+        for (size_t i = 0; i < rays_.size(); i += step_)
+            if (sign * rays_[i].direction[axis] > SMALLEST_COS)
+                places.push_back(sign * rays_[i].origin[axis]);
+        if (places.size() < FEWEST_ESCAPES / 4)
+            return;
+        std::sort(places.begin(), places.end());
+        const double low = places[size_t(LEAST_QUANTILE * double(places.size()))], last = places.back();
+        const double high = last + BEYOND * (last - places[places.size() / 2]);
+        const double distance = (high - low) / PLANES;
+        for (int k = 0; k <= PLANES; ++k)
+            if (look_at(axis, sign, low + k * distance))
+                distance_ = distance;
+    }
+
+    /// Whether a plane is better than all before.
+    bool look_at(int axis, double sign, double place) {
+        Plane plane{axis, sign, place, {}};
+        fill(rays_, step_, fewest_, plane);
+        const double found = merit(plane);
+        if (!(found > most_))
+            return false;
+        most_ = found;
+        best_ = std::move(plane);
+        return true;
+    }
+
+    const std::vector<Ray>& rays_;
+    size_t step_, fewest_;
+    Plane best_;
+    double most_ = 0, distance_ = 0;
+};
+
+/// Takes away the paths that pass one of a plane's rectangles.
+void take_away(const Plane& plane, std::vector<Ray>& rays) {
+    rays.erase(std::remove_if(rays.begin(), rays.end(),
+                              [&](const Ray& ray) {
+                                  glm::dvec2 at;
+                                  return crossing(plane, ray, at) &&
+                                         std::any_of(plane.rectangles.begin(), plane.rectangles.end(),
+                                                     [&](const Rectangle& r) {
+                                                         return at.x >= r.low.x && at.x <= r.high.x &&
+                                                                at.y >= r.low.y && at.y <= r.high.y;
+                                                     });
+                              }),
+               rays.end());
+}
+
+vec4 packed(const glm::dvec3& v, double w) {
+    return {float(v.x), float(v.y), float(v.z), float(w)};
+}
+
+SkyPortal make_portal(const Plane& plane, const Rectangle& rectangle, const glm::dmat3& axes) {
+    const int u = (plane.axis + 1) % 3, v = (plane.axis + 2) % 3;
+    const glm::dvec2 size = rectangle.high - rectangle.low;
+    const glm::dvec3 corner =
+        axes[plane.axis] * (plane.sign * plane.place) + axes[u] * rectangle.low.x + axes[v] * rectangle.low.y;
+    return {packed(corner, rectangle.luminance), packed(axes[u] * size.x, 1 / (size.x * size.x)),
+            packed(axes[v] * size.y, 1 / (size.y * size.y)),
+            packed(axes[plane.axis] * -plane.sign, rectangle.area())};
+}
+
+/// The paths that leave within, in the frame of the axes; none where there is no within.
+std::vector<Ray> ways_out(const std::vector<Escape>& escapes, const glm::dmat3& axes) {
+    std::vector<Ray> rays;
+    const glm::dmat3 to_axes = glm::transpose(axes);
+    double at_once = 0;
+    for (const Escape& escape : escapes) {
+        if (escape.origin.w < FEWEST_SURFACES)
+            continue;
+        at_once += escape.origin.w == FEWEST_SURFACES ? 1 : 0;
+        rays.push_back({to_axes * to_dvec3(escape.origin), to_axes * to_dvec3(escape.direction),
+                        double(escape.direction.w)});
+    }
+    if (at_once > MOST_LEAVE_AT_ONCE * double(escapes.size()))
+        rays.clear();
+    return rays;
+}
+
+} // namespace
+
+glm::dmat3 scene_axes(const Scene& scene) {
+    // Normals as long as the areas of their triangles; what lies across the main axis turns about it.
+    std::vector<glm::dvec3> normals;
+    glm::dvec3 squares(0);
+    for (const Triangle& triangle : scene.triangles) {
+        const glm::dvec3 p = to_dvec3(scene.positions[triangle.v0]);
+        const glm::dvec3 normal = glm::cross(to_dvec3(scene.positions[triangle.v1]) - p,
+                                             to_dvec3(scene.positions[triangle.v2]) - p);
+        const double area = glm::length(normal);
+        if (!(area > 0))
+            continue;
+        normals.push_back(normal);
+        squares += normal * normal * normal * normal / (area * area * area);
+    }
+    const int up = squares.x > squares.y && squares.x > squares.z ? 0 : squares.y >= squares.z ? 1 : 2;
+    const int u = (up + 1) % 3, v = (up + 2) % 3;
+    double cosines = 0, sines = 0;
+    for (const glm::dvec3& normal : normals) {
+        const double angle = std::atan2(normal[v], normal[u]), area = std::hypot(normal[u], normal[v]);
+        cosines += area * std::cos(4 * angle);
+        sines += area * std::sin(4 * angle);
+    }
+    const double turn = std::atan2(sines, cosines) / 4;
+    glm::dmat3 axes(1.0);
+    axes[u] = axes[v] = glm::dvec3(0);
+    axes[u][u] = axes[v][v] = std::cos(turn);
+    axes[u][v] = std::sin(turn);
+    axes[v][u] = -std::sin(turn);
+    return axes;
+}
+
+std::vector<SkyPortal> find_portals(const std::vector<Escape>& escapes, const glm::dmat3& axes) {
+    std::vector<Ray> rays = ways_out(escapes, axes);
+    const size_t fewest = std::max(size_t(SMALLEST_PART * double(rays.size())), FEWEST_ESCAPES);
+    std::vector<SkyPortal> portals;
+    for (int k = 0; k < MOST_PLANES && rays.size() >= fewest; ++k) {
+        const Plane plane = PlaneSearch(rays, fewest).best();
+        if (plane.rectangles.empty() || portals.size() + plane.rectangles.size() > MOST_PORTALS)
+            break;
+        take_away(plane, rays);
+        for (const Rectangle& rectangle : plane.rectangles)
+            portals.push_back(make_portal(plane, rectangle, axes));
+    }
+    return portals;
+}
+
+} // namespace clrt

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Windows by the ways that paths take out of a room: their edges, in rooms turned about, several of them;
+// none in the open.
+#include "probes/random_inputs.h"
+#include "scene/sky_portals.h"
+#include "scene/vectors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace clrt {
+
+namespace {
+
+using glm::dvec3;
+
+/// A window in the plane x = 2, from low to high in y and z.
+struct Window {
+    dvec3 low, high;
+};
+
+/// Ways from random points of the room [-3, 2] x [0, 2.5] x [-2, 2] through its windows, by area; turned by
+/// an angle about +Y.
+std::vector<Escape> escapes_of(const std::vector<Window>& windows, double angle, size_t count,
+                               float surfaces) {
+    Random random(5);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto turned = [&](const dvec3& v) { return dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x); };
+    std::vector<Escape> escapes;
+    for (size_t i = 0; i < count; ++i) {
+        const Window& window = windows[i % windows.size()];
+        const dvec3 from(-3 + 4.8 * random.unit(), 2.5 * random.unit(), -2 + 4 * random.unit());
+        const dvec3 to =
+            window.low + (window.high - window.low) * dvec3(random.unit(), random.unit(), random.unit());
+        escapes.push_back({to_vec4(turned(from), surfaces), to_vec4(turned(glm::normalize(to - from)), 1)});
+    }
+    return escapes;
+}
+
+glm::dmat3 axes_turned(double angle) {
+    glm::dmat3 axes(1.0);
+    axes[0] = {std::cos(angle), 0, -std::sin(angle)};
+    axes[2] = {std::sin(angle), 0, std::cos(angle)};
+    return axes;
+}
+
+const Window LEFT = {{2, 1, -1.5}, {2, 2, -0.5}}, RIGHT = {{2, 0.5, 0}, {2, 2.2, 1.6}};
+
+} // namespace
+
+TEST(SkyPortals, AreWhereTheWindowsAre) {
+    for (const double angle : {0.0, 0.4}) {
+        std::vector<SkyPortal> portals =
+            find_portals(escapes_of({LEFT, RIGHT}, angle, 8000, 3), axes_turned(angle));
+        ASSERT_EQ(portals.size(), 2u) << angle;
+        std::sort(portals.begin(), portals.end(),
+                  [](const SkyPortal& a, const SkyPortal& b) { return a.normal.w < b.normal.w; });
+        EXPECT_NEAR(double(portals[0].normal.w), 1.0 * 1.0, 0.1);
+        EXPECT_NEAR(double(portals[1].normal.w), 1.7 * 1.6, 0.2);
+        for (const SkyPortal& portal : portals) {
+            // Inwards, in the wall.
+            const dvec3 normal = to_dvec3(portal.normal);
+            EXPECT_NEAR(glm::dot(normal, dvec3(-std::cos(angle), 0, std::sin(angle))), 1, 1e-6);
+            EXPECT_NEAR(glm::dot(to_dvec3(portal.corner), normal), -2, 0.15);
+        }
+    }
+}
+
+TEST(SkyPortals, AreNoneInTheOpenOrWhereFewPathsLeave) {
+    EXPECT_TRUE(find_portals(escapes_of({LEFT}, 0, 8000, 1), axes_turned(0)).empty());
+    EXPECT_TRUE(find_portals(escapes_of({LEFT}, 0, 10, 3), axes_turned(0)).empty());
+}
+
+} // namespace clrt
