@@ -94,7 +94,7 @@ TEST(Guide, DividesCellsWithManyRecordsAndFindsThem) {
     EXPECT_DOUBLE_EQ(guide.lore()[0].weight.count, 200);
     const std::vector<GuideCell> cells = guide.device_cells();
     EXPECT_NEAR(cells[0].radiance, 500, 1e-3);
-    EXPECT_NEAR(cells[0].share, 0.5 * 200 / 264, 1e-6);
+    EXPECT_NEAR(cells[0].share, 0.7 * 200 / 264, 1e-6);
     EXPECT_EQ(cells[1].share, 0);
     // The grid's corners of the first side are in different cells.
     const std::vector<u32> links = guide.device_links();
