@@ -256,11 +256,11 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
         progress.update({"pilot", -1, 0, -1, -1});
         if (wish == Toggle::ON || !path_suffices(device, planned, choice.pilot, parts)) {
             decide(device, planned, candidates, parts, choice);
-            if (choice.integrator != Integrator::PATH)
-                parts.programs.reset(); // path's
             choice.is_told = true;
         }
     }
+    if (choice.integrator != Integrator::PATH)
+        parts.programs.reset(); // path's, which pilots have taken
     choice.is_told = choice.is_told || choice.integrator != Integrator::PATH;
     choice.seconds = seconds_since(start);
     progress.finish();

@@ -3,8 +3,9 @@
 // sky is seen from everywhere the plan stays as it is.
 #include "film/film_error.h"
 #include "probes/film_estimate.h"
+#include "render/integrator_choice.h"
 #include "render/portal_choice.h"
-#include "support/render_scene.h"
+#include "support/windowed_room.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ struct Room : TestScene {
     explicit Room(bool has_walls, bool has_map = false) {
         build.material("white", "Kd 0.75 0.75 0.75").use("white");
         if (has_walls)
-            add_walls();
+            add_windowed_room(build);
         else
             build.floor(4);
         if (has_map) {
@@ -31,17 +32,6 @@ struct Room : TestScene {
         look({-2.8, 1.6, 1.6}, {1, 0.9, -0.8}, 60);
         options.film.size = {96, 72};
         options.effects.all = false;
-    }
-    void add_walls() {
-        for (const double y : {0.0, 2.5})
-            build.polygon({{-3, y, -2}, {-3, y, 2}, {2, y, 2}, {2, y, -2}});
-        for (const double z : {-2.0, 2.0})
-            build.polygon({{-3, 0, z}, {2, 0, z}, {2, 2.5, z}, {-3, 2.5, z}});
-        build.polygon({{-3, 0, -2}, {-3, 2.5, -2}, {-3, 2.5, 2}, {-3, 0, 2}});
-        build.polygon({{2, 0, -2}, {2, 1, -2}, {2, 1, 2}, {2, 0, 2}});
-        build.polygon({{2, 2, -2}, {2, 2.5, -2}, {2, 2.5, 2}, {2, 2, 2}});
-        build.polygon({{2, 1, -2}, {2, 2, -2}, {2, 2, -0.5}, {2, 1, -0.5}});
-        build.polygon({{2, 1, 0.5}, {2, 2, 0.5}, {2, 2, 2}, {2, 1, 2}});
     }
     std::shared_ptr<PlannedScene> plan(bool chooses) {
         const auto planned = plan_loaded(test_device(), load(), options);
@@ -104,6 +94,22 @@ TEST(PortalChoice, CropsAndSeedsChooseAlike) {
     EXPECT_EQ(whole->scene.environment.portals[0].edge_u.y, crop->scene.environment.portals[0].edge_u.y);
     EXPECT_EQ(whole->scene.environment.portal_share, crop->scene.environment.portal_share);
     EXPECT_TRUE(crop->options.film.crop);
+}
+
+// The picture's program is the chosen integrator's, not the one that tried portals.
+TEST(PortalChoice, LeavesTheIntegratorToBeChosen) {
+    Room room(true);
+    room.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror").floor(0.5, 0.3);
+    room.options.light.suns.push_back({{1, 0.6, 0}, {9, 9, 9}, 0});
+    room.options.transport.choose = Toggle::ON;
+    const auto planned = room.plan(false);
+    Progress silent(Toggle::OFF, true);
+    PreparedParts parts;
+    choose_portals(test_device(), planned, parts, silent);
+    choose_integrator(test_device(), planned, parts, silent);
+    ASSERT_EQ(planned->options.transport.integrator, Integrator::PATH_LIGHT);
+    planned->options.film.size = {24, 18};
+    EXPECT_NO_THROW(render(prepare_render(test_device(), planned, parts), silent));
 }
 
 } // namespace clrt

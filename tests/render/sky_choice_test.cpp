@@ -4,7 +4,7 @@
 #include "film/film_error.h"
 #include "render/sky_choice.h"
 #include "scene/sky_table.h"
-#include "support/render_scene.h"
+#include "support/windowed_room.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ struct Sunlit : TestScene {
         if (place == Place::OUTDOORS)
             add_block();
         else
-            add_walls();
+            add_windowed_room(build);
         constexpr int WIDTH = 32, HEIGHT = 16;
         const bool is_outdoors = place == Place::OUTDOORS;
         std::vector<float> texels(size_t(WIDTH) * HEIGHT * 3, is_outdoors ? 0.3f : 2.0f);
@@ -38,17 +38,6 @@ struct Sunlit : TestScene {
         look({-2.8, 1.6, 1.6}, {1, 0.9, -0.8}, 60);
         options.film.size = {24, 18}; // as large as a pilot
         options.effects.all = false;
-    }
-    void add_walls() {
-        for (const double y : {0.0, 2.5})
-            build.polygon({{-3, y, -2}, {-3, y, 2}, {2, y, 2}, {2, y, -2}});
-        for (const double z : {-2.0, 2.0})
-            build.polygon({{-3, 0, z}, {2, 0, z}, {2, 2.5, z}, {-3, 2.5, z}});
-        build.polygon({{-3, 0, -2}, {-3, 2.5, -2}, {-3, 2.5, 2}, {-3, 0, 2}});
-        build.polygon({{2, 0, -2}, {2, 1, -2}, {2, 1, 2}, {2, 0, 2}});
-        build.polygon({{2, 2, -2}, {2, 2.5, -2}, {2, 2.5, 2}, {2, 2, 2}});
-        build.polygon({{2, 1, -2}, {2, 2, -2}, {2, 2, -0.5}, {2, 1, -0.5}});
-        build.polygon({{2, 1, 0.5}, {2, 2, 0.5}, {2, 2, 2}, {2, 1, 2}});
     }
     /// A floor, and a wall that shades it.
     void add_block() {
