@@ -9,7 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number_or_null(const std::optional<double>& number) {
+template <class T>
+Json number_or_null(const std::optional<T>& number) {
     return number ? Json(*number) : Json(nullptr);
 }
 
@@ -37,13 +38,16 @@ Json guide_header(const GuideProgress& guide) {
     json["begin"] = guide.begin;
     json["end"] = guide.end;
     json["pilot_end"] = guide.pilot_end;
-    json["guided_from"] = guide.guided_from;
+    json["guided_from"] = number_or_null(guide.guided_from);
     json["guided_to"] = guide.guided_to;
     json["pilot_error"] = number_or_null(guide.pilot_error);
     json["plain_rays"] = guide.plain_rays;
+    json["taught_rays"] = guide.taught_rays;
     json["teachers"] = guide.teachers;
     json["gain"] = guide.gain;
     json["earlier_gain"] = guide.earlier_gain;
+    json["asked_from"] = guide.asked_from;
+    json["judgements"] = guide.judgements;
     json["weights"] = guide.guide ? guide.weights.size() : 0;
     json["error"] = number_or_null(guide.error);
     json["work"] = number_or_null(guide.work);
@@ -62,13 +66,17 @@ GuideProgress guide_of_header(const Json& json) {
     guide.begin = whole<std::uint64_t>(json.at("begin"));
     guide.end = whole<std::uint64_t>(json.at("end"));
     guide.pilot_end = whole<std::uint64_t>(json.at("pilot_end"));
-    guide.guided_from = whole<std::uint64_t>(json.at("guided_from"));
+    if (const Json& from = json.at("guided_from"); !from.is_null())
+        guide.guided_from = whole<std::uint64_t>(from);
     guide.guided_to = whole<std::uint64_t>(json.at("guided_to"));
     guide.pilot_error = read_number(json.at("pilot_error"));
     json.at("plain_rays").get_to(guide.plain_rays);
+    json.at("taught_rays").get_to(guide.taught_rays);
     guide.teachers = whole<u32>(json.at("teachers"));
     json.at("gain").get_to(guide.gain);
     json.at("earlier_gain").get_to(guide.earlier_gain);
+    guide.asked_from = whole<std::uint64_t>(json.at("asked_from"));
+    guide.judgements = whole<u32>(json.at("judgements"));
     guide.error = read_number(json.at("error"));
     guide.work = read_number(json.at("work"));
     const size_t nodes = read_count(json.at("nodes"), 2 * GUIDE_CELLS),

@@ -18,17 +18,20 @@ enum class GuideStage {
 /// The present epoch of a guided render: a range of samples in which the guide stays the same.
 struct GuideProgress {
     GuideStage stage = GuideStage::OFF;
-    u32 epoch = 0;                     ///< keys the nets of its samples (RenderParams::epoch)
-    std::uint64_t begin = 0, end = 0;  ///< samples a pixel, of the film, where it does; end 0: there is none
-    std::uint64_t pilot_end = 0;       ///< likewise
-    std::uint64_t guided_from = 0;     ///< samples before any were guided; 0: none are
-    std::uint64_t guided_to = 0;       ///< where that ended; 0: it has not
-    std::optional<double> pilot_error; ///< squared relative error of a sample before there was a guide
-    double plain_rays = 0;             ///< of a sample then
-    u32 teachers = NO_INDEX;           ///< the last sample that teaches (RenderParams::guide_learns)
-    std::vector<float> weights; ///< of gains (kernels/path/guide_gain.h), by tile; empty: none is asked for
-    double gain = 0;            ///< sum of those of this epoch's samples, as it was read back last
-    double earlier_gain = 0;    ///< of the epochs before
+    u32 epoch = 0;                    ///< keys the nets of its samples (RenderParams::epoch)
+    std::uint64_t begin = 0, end = 0; ///< samples a pixel, of the film, where it does; end 0: there is none
+    std::uint64_t pilot_end = 0;      ///< likewise
+    std::optional<std::uint64_t> guided_from; ///< samples before any were guided; none: none are
+    std::uint64_t guided_to = 0;              ///< where that ended; 0: it has not
+    std::optional<double> pilot_error;        ///< squared relative error of a sample before there was a guide
+    double plain_rays = 0;                    ///< of a sample then
+    double taught_rays = 0;                   ///< of a pilot that the guide has been learnt from
+    u32 teachers = NO_INDEX;                  ///< the last sample that teaches (RenderParams::guide_learns)
+    std::vector<float> weights;   ///< of gains (kernels/path/guide_gain.h), by tile; empty: none is asked for
+    double gain = 0;              ///< sum of those of this epoch's samples, as it was read back last
+    std::uint64_t asked_from = 0; ///< samples before any was asked for its gain; 0: none is
+    double earlier_gain = 0;      ///< of the epochs before
+    u32 judgements = 0;           ///< of guided samples on trial
     std::optional<double> error, work; ///< squared error of a guided sample, and its rays in what they cost
                                        ///< over those of a sample before
     std::optional<Guide> guide;        ///< ON

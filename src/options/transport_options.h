@@ -23,8 +23,9 @@ struct TransportOptions {
     int roulette_depth = 5;          ///< first segment that Russian roulette may end
     double min_contribution = 0.002; ///< smallest weight worth a ray
     Toggle guide = Toggle::AUTO;     ///< directions where paths have found light
-    /// Rays that --guide auto waits for; no option of the command line. They take two cores of a CPU a second
-    /// or two, about as long as a guide's first compilation; waiting longer loses what it would have gained.
+    /// Rays that a guide is learnt from before --guide auto judges it, and that it waits for where no pilot
+    /// has told that light is hard to find; no option of the command line. They take two cores of a CPU a
+    /// second or two, about as long as a guide's first compilation.
     double guide_after_rays = 1 << 22;
     int shadow_rays = 4;      ///< of a vertex to lamps, sky, and every sun with a disc
     int gloss_rays = 4;       ///< of a vertex by a rough reflection

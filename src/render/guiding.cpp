@@ -15,22 +15,13 @@ namespace {
 
 /// Samples of each replicate before it is known whether to guide, at least.
 constexpr std::uint64_t PILOT_SAMPLES = 2;
-/// Squared relative error of one sample from which on a guide is tried, the geometric mean of both measures.
-/// Below it light is found without one (Cornell box: .5), and nothing is compiled. Rooms lit through windows
-/// have 4 to 12, one behind a door ajar 80.
-constexpr double WORTHWHILE_ERROR = 4;
-/// The part of the pilot in which a guide is learnt, again in which it is tried the first time, and the
-/// second.
-constexpr std::uint64_t TRIAL_PART = 16;
 /// What a guided ray costs beside one that is not: cells are looked up, and records written. Seven rooms on
 /// two cores with AVX-512: 1.43 to 1.69, median 1.49.
 constexpr double GUIDED_RAY_WORK = 1.5;
-/// The epoch after the pilot only teaches. At the end of each of the next ones the squared error of their
-/// samples times their work, over that of samples without a guide, may be so much: what unguided paths have
-/// taught is poor where light is hard to find, and what guided ones teach is better. One that passes the last
-/// of these stays.
-constexpr u32 LEARNING_EPOCH = 1;
-constexpr std::array<double, 3> LARGEST_COSTS = {1.5, 1.1, 1};
+/// At the end of the first epochs whose guide has learnt enough, the squared error of its samples times their
+/// work, over that of samples without a guide, may be so much: what unguided paths have taught is poor where
+/// light is hard to find, and what guided ones teach is better. One that passes the last of these stays.
+constexpr std::array<double, 2> LARGEST_COSTS = {1.1, 1};
 /// Of the variance, at least so much is left by a guide, whatever its gain is said to be.
 constexpr double SMALLEST_ERROR = 0.05;
 
@@ -76,6 +67,10 @@ void Guiding::start() {
         progress_.stage = GuideStage::ON;
         progress_.end = replicates;
         switch_on();
+    } else if (prepared_.guide) {
+        progress_ = *prepared_.guide;
+        if (progress_.stage == GuideStage::ON)
+            switch_on();
     } else {
         progress_.stage = GuideStage::PILOT;
         progress_.end = PILOT_SAMPLES * replicates;
@@ -119,32 +114,42 @@ void Guiding::end_pilot(std::uint64_t samples) {
     const Film& film = render_.film;
     progress_.pilot_error =
         std::sqrt(sample_error(film, ErrorMeasure::MSE) * sample_error(film, ErrorMeasure::RELATIVE));
-    progress_.stage = *progress_.pilot_error < WORTHWHILE_ERROR ? GuideStage::OFF : GuideStage::ON;
+    progress_.stage = *progress_.pilot_error < WORTHWHILE_GUIDE_ERROR ? GuideStage::OFF : GuideStage::ON;
     if (progress_.stage == GuideStage::ON)
         switch_on();
 }
 
 /// Whether the guide is on trial in this epoch.
 bool Guiding::is_trial() const {
-    return progress_.stage == GuideStage::ON && progress_.pilot_error && progress_.epoch > LEARNING_EPOCH &&
-           progress_.epoch <= LEARNING_EPOCH + LARGEST_COSTS.size();
+    return progress_.stage == GuideStage::ON && progress_.pilot_error && progress_.guided_from &&
+           progress_.judgements < LARGEST_COSTS.size();
+}
+
+/// Whether this epoch's guide tells what a guide is worth: it was learnt from enough rays, guided ones too.
+bool Guiding::has_learnt_enough(std::uint64_t samples, const RenderCounts& counts) const {
+    const double part = double(progress_.begin - progress_.pilot_end) / double(samples);
+    const double rays = progress_.taught_rays + part * double(counts.rays());
+    return progress_.begin > *progress_.guided_from &&
+           rays >= prepared_.planned->options.transport.guide_after_rays;
 }
 
 /// Compares the samples of a guided epoch with those that there would be without the guide.
-void Guiding::judge(std::uint64_t samples, double rays) {
-    // The film's samples scatter by what unguided ones would less the mean gain.
-    const double in_epoch = double(samples - progress_.begin), all = double(samples);
-    const double pixels = error_pixels(render_.film);
-    const double gain = progress_.gain / (pixels * in_epoch);
+void Guiding::judge(std::uint64_t samples, const RenderCounts& counts) {
     progress_.earlier_gain += progress_.gain;
+    if (!has_learnt_enough(samples, counts))
+        return;
+    // The film's samples scatter by what unguided ones would less the mean gain of the guided ones, the first
+    // of which after a pilot are not asked.
+    const double pixels = error_pixels(render_.film), all = double(samples);
+    const double plain_samples = double(*progress_.guided_from), guided_samples = all - plain_samples;
+    const double gain = progress_.gain / (pixels * double(samples - progress_.begin));
+    const double mean_gain = progress_.earlier_gain / (pixels * (all - double(progress_.asked_from)));
     const double plain =
-        sample_error(render_.film, ErrorMeasure::RELATIVE) + progress_.earlier_gain / (pixels * all);
+        sample_error(render_.film, ErrorMeasure::RELATIVE) + mean_gain * guided_samples / all;
     progress_.error = plain > 0 ? std::max(1 - gain / plain, SMALLEST_ERROR) : 1;
-    // Of n times as many samples as there are plain ones, (1 + (n - 1) x) / n is the factor of the rays a
-    // sample, x being that of guided samples.
-    const double n = all / double(progress_.guided_from);
-    progress_.work = GUIDED_RAY_WORK * (n * rays / progress_.plain_rays - 1) / (n - 1);
-    if (*progress_.error * *progress_.work > LARGEST_COSTS[progress_.epoch - LEARNING_EPOCH - 1]) {
+    const double guided_rays = all * rays_per_sample(counts) - plain_samples * progress_.plain_rays;
+    progress_.work = GUIDED_RAY_WORK * guided_rays / (guided_samples * progress_.plain_rays);
+    if (*progress_.error * *progress_.work > LARGEST_COSTS[progress_.judgements++]) {
         progress_.stage = GuideStage::OFF;
         progress_.guided_to = samples;
         progress_.guide.reset();
@@ -155,24 +160,24 @@ void Guiding::judge(std::uint64_t samples, double rays) {
 /// Ends a guided epoch, or one that taught only.
 void Guiding::end_epoch(std::uint64_t samples, const RenderCounts& counts) {
     read_back();
-    if (progress_.pilot_error && progress_.epoch == LEARNING_EPOCH)
+    if (!progress_.guided_from)
         progress_.plain_rays = rays_per_sample(counts);
-    if (is_trial())
-        judge(samples, rays_per_sample(counts));
+    if (!progress_.weights.empty())
+        judge(samples, counts);
     if (progress_.stage == GuideStage::OFF)
         return;
     progress_.guide->learn(progress_.sums);
     buffers_->write(*progress_.guide);
-    if (progress_.guided_from == 0)
+    if (!progress_.guided_from)
         progress_.guided_from = samples;
 }
 
-/// Where the epoch ends that begins here.
+/// Where the epoch ends that begins here: it is as long as all before it that taught.
 std::uint64_t Guiding::epoch_end(std::uint64_t samples) const {
-    if (!progress_.pilot_error || progress_.epoch > LEARNING_EPOCH + 2)
-        return 2 * samples;
+    if (samples > progress_.pilot_end)
+        return 2 * samples - progress_.pilot_end;
     const auto replicates = std::uint64_t(prepared_.planned->options.sampling.replicates);
-    return samples + (progress_.pilot_end / replicates + TRIAL_PART - 1) / TRIAL_PART * replicates;
+    return samples + (progress_.pilot_end / replicates + 1) / 2 * replicates;
 }
 
 /// Of the next samples, those that leave records enough where each has as many as in the last epoch, which
@@ -195,10 +200,12 @@ void Guiding::begin_epoch(std::uint64_t samples) {
     progress_.end = epoch_end(samples);
     progress_.gain = 0;
     progress_.weights = is_trial() ? tile_weights(render_.film) : std::vector<float>();
+    if (is_trial() && progress_.asked_from == 0)
+        progress_.asked_from = samples;
     launcher_->set_epoch(progress_.epoch);
     if (progress_.stage == GuideStage::ON) {
         start_gains();
-        if (progress_.guided_from > 0)
+        if (progress_.guided_from)
             progress_.teachers = next_teachers(length);
         launcher_->set_teachers(progress_.teachers);
     }
@@ -230,19 +237,48 @@ void Guiding::read_back() {
     progress_.gain = earlier_gain_ + buffers_->read_gain();
 }
 
+GuideProgress untaught_guide(int replicates, double error) {
+    GuideProgress guide;
+    guide.stage = GuideStage::ON;
+    guide.end = std::uint64_t(replicates);
+    guide.pilot_error = error;
+    return guide;
+}
+
+GuideProgress taught_guide(const GuideProgress& pilot, int replicates, double rays) {
+    GuideProgress guide = untaught_guide(replicates, *pilot.pilot_error);
+    guide.stage = pilot.stage;
+    guide.error = pilot.error;
+    guide.work = pilot.work;
+    if (guide.stage == GuideStage::OFF)
+        return guide;
+    guide.guided_from = 0;
+    guide.judgements = pilot.judgements;
+    guide.plain_rays = pilot.plain_rays;
+    guide.taught_rays = rays;
+    guide.guide = pilot.guide;
+    return guide;
+}
+
 std::string guide_text(const GuideProgress& guide) {
-    if (guide.guided_from == 0)
-        return guide.pilot_error && guide.stage == GuideStage::OFF
-                   ? fmt::format(
-                         "off: light is found without it (squared error of a sample {:.2g}, tried from {:g})",
-                         *guide.pilot_error, WORTHWHILE_ERROR)
-                   : "";
-    std::string text = fmt::format("from {} spp", guide.guided_from);
+    const std::string worth =
+        guide.error ? fmt::format("squared error of a sample {:.2f} times and work {:.2f} times that before",
+                                  *guide.error, *guide.work)
+                    : "";
+    if (!guide.guided_from) {
+        if (guide.stage != GuideStage::OFF || !guide.pilot_error)
+            return "";
+        return guide.error ? fmt::format("off: a pilot had {}", worth)
+                           : fmt::format("off: light is found without it (squared error of a sample {:.2g}, "
+                                         "tried from {:g})",
+                                         *guide.pilot_error, WORTHWHILE_GUIDE_ERROR);
+    }
+    std::string text = *guide.guided_from > 0 ? fmt::format("from {} spp", *guide.guided_from)
+                                              : "from the first sample, after a pilot";
     if (guide.stage == GuideStage::OFF)
         text += fmt::format(" to {}", guide.guided_to);
     if (guide.error)
-        text += fmt::format(", squared error of a sample {:.2f} times and work {:.2f} times that before",
-                            *guide.error, *guide.work);
+        text += ", " + worth;
     if (guide.guide)
         text += fmt::format("; {} cells, {:.0f} MB", guide.guide->lore().size(),
                             double(guide_device_bytes()) * 1e-6);

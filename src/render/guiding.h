@@ -6,10 +6,11 @@
 // is the truth given all that was before, replicates stay uncorrelated, and their spread is the error. All
 // samples weigh the same. Where there are more than it needs, only some samples of an epoch teach the guide.
 //
-// --guide auto starts with a pilot that is not guided. Where it is noisy, the guided program is compiled; a
-// short epoch teaches, and those after it are a trial: their samples tell what the variance would have been
-// without the guide (kernels/path/guide_gain.h), and the guide goes where that gains less than its work
-// costs. Work is counted in rays, never measured in seconds: the same picture comes out everywhere.
+// --guide auto begins with what pilots have found out (render/guide_choice.h). Without them the picture's
+// first samples are the pilot, and where they are noisy an epoch half as long teaches. The guided samples
+// that follow are a trial: they tell what the variance would have been without the guide
+// (kernels/path/guide_gain.h), and the guide goes where that gains less than its work costs. Work is counted
+// in rays, never measured in seconds: the same picture comes out everywhere.
 #pragma once
 
 #include "film/film_buffers.h"
@@ -21,6 +22,11 @@
 #include <optional>
 
 namespace clrt {
+
+/// Squared error of one sample from which on a guide is tried, the geometric mean of both measures. Below it
+/// light is found without one (Cornell box: .5), and nothing is compiled. Rooms lit through windows have 4 to
+/// 12, one behind a door ajar 80.
+constexpr double WORTHWHILE_GUIDE_ERROR = 4;
 
 /// Refers to the arguments of its constructor.
 class Guiding {
@@ -52,7 +58,8 @@ private:
     void end_pilot(std::uint64_t samples);
     void end_epoch(std::uint64_t samples, const RenderCounts& counts);
     bool is_trial() const;
-    void judge(std::uint64_t samples, double rays);
+    bool has_learnt_enough(std::uint64_t samples, const RenderCounts& counts) const;
+    void judge(std::uint64_t samples, const RenderCounts& counts);
 
     const PreparedScene& prepared_;
     const RenderParams& params_;
@@ -64,6 +71,12 @@ private:
     std::optional<GuideBuffers> buffers_;
     double earlier_gain_ = 0; ///< of this epoch, from earlier runs
 };
+
+/// What a picture begins with that learns a guide from its first sample on; squared error of one of its
+/// samples without a guide.
+GuideProgress untaught_guide(int replicates, double error);
+/// What one begins with after a pilot has learnt, or has found the guide not worth its work.
+GuideProgress taught_guide(const GuideProgress& pilot, int replicates, double rays);
 
 /// What a guide did for the picture, in words; empty where there is nothing to say.
 std::string guide_text(const GuideProgress& guide);

@@ -18,13 +18,6 @@ namespace clrt {
 
 namespace {
 
-/// Samples a pixel of a pilot: two a replicate, so that pixels are as small as they can be. What varies
-/// within a pixel counts as noise of both integrators and hides how they differ.
-constexpr std::uint32_t PILOT_SPP = 8;
-/// Fewer samples of all pixels together tell nothing reliable of caustics, more tell nothing new.
-constexpr double FEWEST_SAMPLES = 8192, MOST_PILOT_SAMPLES = 131072;
-/// Samples of path in a second that a slow machine takes, for renders that end by time.
-constexpr double SLOW_PACE = 2e5;
 /// An integrator that has path's techniques and more, and what it costs in rays of path: its own rays from
 /// the eye, of which every vertex is weighted against the other techniques and paths are followed one by one,
 /// those from the lights and those between both, and a light path besides, which is begun. `pilot_eye` and
@@ -71,16 +64,6 @@ double light_paths_a_sample(const Options& options) {
     const Crop window = render_window(options.film);
     return double(options.film.size.x) * double(options.film.size.y) /
            (double(window.x1 - window.x0) * double(window.y1 - window.y0));
-}
-
-/// Samples of all pixels that a render takes at least, as far as its options tell.
-double expected_samples(const Options& options) {
-    const Crop window = render_window(options.film);
-    const double pixels = double(window.x1 - window.x0) * double(window.y1 - window.y0);
-    const SamplingOptions& sampling = options.sampling;
-    const bool is_by_time = sampling.time_seconds && !sampling.spp;
-    const double samples = is_by_time ? HUGE_VAL : pixels * double(sampling.spp.value_or(DEFAULT_SPP));
-    return sampling.time_seconds ? std::min(samples, SLOW_PACE * *sampling.time_seconds) : samples;
 }
 
 /// The candidates between whom pilots decide.
@@ -134,13 +117,14 @@ void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned
 
 /// Whether path finds the light by itself, as its pilot tells. Caustics it may find so seldom that its pilot
 /// looks clean without them.
-bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, const PilotSize& size,
-                   PreparedParts& parts) {
+bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
+                   IntegratorChoice& choice) {
     if (has_caustics(*planned))
         return false;
     const PreparedScene prepared = prepare_render(device, planned, parts);
     parts = {prepared.tree, prepared.programs};
-    return path_pilot_error(prepared, size) < HARD_LIGHT_ERROR || stop_signal();
+    choice.path = run_path_pilot(prepared, choice.pilot);
+    return choice.path->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR || stop_signal();
 }
 
 /// Decides by pilots, a candidate after the other.
@@ -164,8 +148,10 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             choice.reason = "a pilot finds no light";
             break;
         }
-        if (choice.prices.empty())
+        if (choice.prices.empty()) {
+            choice.path = PathPilot{pilot.path, pilot.eye_rays};
             choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
+        }
         const IntegratorPrice price = price_of(candidate, pilot, planned->options);
         choice.prices.push_back(price);
         told.push_back(fmt::format("{} {:.2g}", name_of(price.integrator), price.efficiency));
@@ -181,16 +167,9 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
     take(choice.integrator, asked, *planned);
 }
 
-/// Size of the pilots, all of one; none where so small ones tell nothing.
-std::optional<PilotSize> size_of_pilots(const std::vector<Candidate>& candidates, const Options& options) {
-    const Crop window = render_window(options.film);
-    const double width = window.x1 - window.x0, height = window.y1 - window.y0;
-    const double samples = std::min(PILOT_SHARE / pilot_work(candidates, options) * expected_samples(options),
-                                    MOST_PILOT_SAMPLES);
-    if (samples < FEWEST_SAMPLES)
-        return std::nullopt;
-    const double scale = std::min(std::sqrt(samples / PILOT_SPP / (width * height)), 1.0);
-    return PilotSize{std::max(int(width * scale), 1), std::max(int(height * scale), 1), PILOT_SPP};
+/// Size of the pilots of all candidates; none where so small ones tell nothing.
+std::optional<PilotSize> pilots_of(const std::vector<Candidate>& candidates, const Options& options) {
+    return size_of_pilots(pilot_work(candidates, options), options);
 }
 
 /// Whether others than path are looked at where none is named: not for short renders, nor for parts of a
@@ -198,7 +177,7 @@ std::optional<PilotSize> size_of_pilots(const std::vector<Candidate>& candidates
 bool may_try(const std::vector<Candidate>& candidates, const Options& options) {
     if (!options.film_file.resume_path.empty())
         return true;
-    return options.run.given.count("--first-sample") == 0 && size_of_pilots(candidates, options);
+    return options.run.given.count("--first-sample") == 0 && pilots_of(candidates, options).has_value();
 }
 
 /// The integrator of a film that one of those chosen from has rendered; else path, which the film refuses.
@@ -224,7 +203,7 @@ bool decide_by_facts(const PlannedScene& planned, const std::vector<Candidate>& 
         choice.integrator = Integrator::PATH_LIGHT;
         choice.reason = fmt::format("path does not see {} ({})", planned.effects.paths.blind_spots[0].paths,
                                     planned.effects.paths.blind_spots[0].cause);
-    } else if (const auto size = size_of_pilots(candidates, planned.options)) {
+    } else if (const auto size = pilots_of(candidates, planned.options)) {
         choice.pilot = *size;
         return false;
     } else
@@ -235,7 +214,7 @@ bool decide_by_facts(const PlannedScene& planned, const std::vector<Candidate>& 
 } // namespace
 
 std::optional<PilotSize> pilot_size(const PlannedScene& planned) {
-    return size_of_pilots(candidates_of(planned), planned.options);
+    return pilots_of(candidates_of(planned), planned.options);
 }
 
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
@@ -254,7 +233,7 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
         take_integrator(choice.integrator, *planned);
     else {
         progress.update({"pilot", -1, 0, -1, -1});
-        if (wish == Toggle::ON || !path_suffices(device, planned, choice.pilot, parts)) {
+        if (wish == Toggle::ON || !path_suffices(device, planned, parts, choice)) {
             decide(device, planned, candidates, parts, choice);
             choice.is_told = true;
         }

@@ -23,9 +23,6 @@
 
 namespace clrt {
 
-/// Of a render's work, what pilots may take.
-constexpr double PILOT_SHARE = 0.05;
-
 /// What pilots say of an integrator, a sample a pixel.
 struct IntegratorPrice {
     Integrator integrator = Integrator::PATH;
@@ -42,6 +39,7 @@ struct IntegratorChoice {
     std::string reason;                  ///< in words, where it is told
     PilotSize pilot;                     ///< of each; 0 spp: there was none
     std::vector<IntegratorPrice> prices; ///< that it has found out
+    std::optional<PathPilot> path;       ///< what a pilot of path alone has told
     double seconds = 0; ///< of choosing, compilation and tree included; nothing depends on it
 };
 

@@ -5,6 +5,7 @@
 #include "film/error_measure.h"
 #include "film/film_buffers.h"
 #include "kernels/shared/moment_types.h"
+#include "render/guiding.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
 #include "render/render_params.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 namespace clrt {
 
@@ -24,10 +26,6 @@ constexpr std::uint32_t PILOT_SEED = 0x70696c6fu;
 
 /// Their spread is what splats and paths together scatter by; fewer samples each are no net.
 constexpr int PILOT_REPLICATES = 4;
-
-/// Of pilots of the sky.
-constexpr double MOST_SKY_PIXELS = 512, FEWEST_SKY_PIXELS = 256;
-constexpr std::uint32_t SKY_PILOT_SPP = 32;
 
 /// The options of the pilot's picture: the same view, coarser, without a pixel filter.
 Options pilot_options(const Options& options, const PilotSize& size) {
@@ -65,29 +63,39 @@ RenderParams begin_pilot(const PreparedScene& prepared, const PilotSize& size, F
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
     film.replicates = PILOT_REPLICATES;
-    film.ranges = {{0, size.spp}};
     film.sums.resize(PILOT_REPLICATES * film_plane(film));
     film.shown.assign(film_plane(film) / 3, 0);
     return params;
 }
 
-/// Renders its samples by a program, with so many layers, until a signal stops it.
+Launcher pilot_launcher(const PreparedScene& prepared, const Program& program, const RenderParams& params) {
+    return Launcher(prepared.device, program,
+                    integrator_kernel(prepared.planned->options.transport.integrator), params,
+                    prepared.buffers);
+}
+
+/// Renders samples from `begin` to `end` of all pixels, until a signal stops it.
+void launch_samples(Launcher& launcher, const RenderParams& params, u32 begin, u32 end,
+                    LaunchSize& launch_size) {
+    for (u32 first = 0, tiles = 0; first < params.tile_count && !stop_signal(); first += tiles) {
+        tiles = launch_size.tiles(end - begin, params.tile_count - first);
+        const auto start = std::chrono::steady_clock::now();
+        launcher.run(begin, end - begin, first, first + tiles);
+        launch_size.took(tiles, end - begin, seconds_since(start));
+    }
+}
+
+/// Renders all samples by a program, with so many layers.
 void launch_pilot(const PreparedScene& prepared, const Program& program, const RenderParams& params,
                   const PilotSize& size, size_t layers, RenderProgress& render) {
     const FilmBuffers buffers(prepared.device, params, layers);
-    Launcher launcher(prepared.device, program,
-                      integrator_kernel(prepared.planned->options.transport.integrator), params,
-                      prepared.buffers);
+    Launcher launcher = pilot_launcher(prepared, program, params);
     buffers.bind(launcher.kernel());
     LaunchSize launch_size(prepared.device.info.compute_units);
-    for (u32 first = 0, tiles = 0; first < params.tile_count && !stop_signal(); first += tiles) {
-        tiles = launch_size.tiles(size.spp, params.tile_count - first);
-        const auto start = std::chrono::steady_clock::now();
-        launcher.run(0, size.spp, first, first + tiles);
-        launch_size.took(tiles, size.spp, seconds_since(start));
-    }
+    launch_samples(launcher, params, 0, size.spp, launch_size);
     buffers.read_sums(render);
     buffers.read_shown(render.film);
+    render.film.ranges = {{0, size.spp}};
     render.counts = buffers.read_counts();
     render.counts.primary = size.samples();
 }
@@ -173,20 +181,40 @@ void count_rays(const PilotRender& pilot, PilotResult& result) {
 
 } // namespace
 
-std::optional<PilotSize> sky_pilot_size(const Options& options) {
-    const double pixels = double(options.film.size.x) * double(options.film.size.y);
-    if (pixels < FEWEST_SKY_PIXELS)
-        return std::nullopt;
-    const double scale = std::min(std::sqrt(MOST_SKY_PIXELS / pixels), 1.0);
-    return PilotSize{std::max(int(options.film.size.x * scale), 1),
-                     std::max(int(options.film.size.y * scale), 1), SKY_PILOT_SPP};
-}
-
-double path_pilot_error(const PreparedScene& prepared, const PilotSize& size) {
+PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size) {
     RenderProgress render;
     const RenderParams params = begin_pilot(prepared, size, render.film);
     launch_pilot(prepared, prepared.programs->picture, params, size, 0, render);
-    return film_error(render.film) ? sample_error(render.film, ErrorMeasure::RELATIVE) : HUGE_VAL;
+    PathPilot pilot{{HUGE_VAL, HUGE_VAL}, double(render.counts.rays()) / double(render.counts.primary)};
+    if (film_error(render.film))
+        for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
+            pilot.errors[size_t(measure)] = sample_error(render.film, measure);
+    return pilot;
+}
+
+GuideProgress run_guide_pilot(const PreparedScene& prepared, const PilotSize& size, double error) {
+    PreparedScene teaching = prepared;
+    teaching.guide = std::make_shared<GuideProgress>(untaught_guide(PILOT_REPLICATES, error));
+    Render render;
+    const RenderParams params = begin_pilot(prepared, size, render.film);
+    const FilmBuffers buffers(prepared.device, params, 0);
+    Guiding guiding(teaching, params, buffers, render);
+    LaunchSize launch_size(prepared.device.info.compute_units);
+    for (u32 begin = 0; begin < size.spp && guiding.launcher() && !stop_signal();) {
+        const u32 end = u32(std::min<std::uint64_t>(guiding.end(), size.spp));
+        launch_samples(*guiding.launcher(), params, begin, end, launch_size);
+        buffers.read_shown(render.film);
+        render.film.ranges = {{0, end}};
+        render.counts = buffers.read_counts();
+        render.counts.primary = std::uint64_t(size.width) * std::uint64_t(size.height) * end;
+        guiding.advance(end, render.counts);
+        begin = end;
+    }
+    return render.guide;
+}
+
+double path_pilot_error(const PreparedScene& prepared, const PilotSize& size) {
+    return run_path_pilot(prepared, size).errors[size_t(ErrorMeasure::RELATIVE)];
 }
 
 PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {

@@ -5,23 +5,21 @@
 
 #include "film/film.h"
 #include "film/render_progress.h"
+#include "render/pilot_size.h"
 #include "render/prepared_scene.h"
 
 #include <array>
-#include <cstdint>
-#include <optional>
 
 namespace clrt {
 
-/// Size of a pilot's picture, and samples a pixel.
-struct PilotSize {
-    int width = 0, height = 0;
-    std::uint32_t spp = 0;
-    std::uint64_t samples() const { return std::uint64_t(width) * std::uint64_t(height) * spp; }
-};
-
 /// Squared errors of one sample a pixel, by ErrorMeasure: the mean over pixels and channels of the variance.
 using SquaredErrors = std::array<double, 2>;
+
+/// What a pilot of path has found out, a sample a pixel.
+struct PathPilot {
+    SquaredErrors errors{}; ///< infinite: no light was found
+    double rays = 0;
+};
 
 /// What a pilot has found out, a sample a pixel.
 struct PilotResult {
@@ -33,13 +31,16 @@ struct PilotResult {
     bool is_black = false; ///< no light was found: there are no errors
 };
 
-/// Size of the pilots that compare ways to sample the sky; none for frames that are not worth one. Nets of
-/// eight samples, and pixels that are not too large, whose own contents would count as noise of all ways.
-std::optional<PilotSize> sky_pilot_size(const Options& options);
+/// The same of path, which the scene is prepared for with its programs. As independent of the rest as
+/// run_pilot, and throws the same.
+PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size);
 
-/// The relative squared error of one sample a pixel by path, which the scene is prepared for with its
-/// programs, in a picture of the pilot's size; infinite where it finds no light. As independent of the rest
-/// as run_pilot, and throws the same.
+/// What a guide has learnt, and what its samples tell of it (render/guiding.h), by a pilot that is guided as
+/// the picture is to be; `error` is that of unguided samples. The picture begins with it. As independent of
+/// the rest as run_pilot, and throws the same.
+GuideProgress run_guide_pilot(const PreparedScene& prepared, const PilotSize& size, double error);
+
+/// The relative squared error of a sample of path alone.
 double path_pilot_error(const PreparedScene& prepared, const PilotSize& size);
 
 /// Renders it with a program of its own; a signal stops it, and the result is then worth nothing. The scene

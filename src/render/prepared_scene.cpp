@@ -38,7 +38,12 @@ PreparedScene prepare_scene(const Device& device, std::shared_ptr<const PlannedS
                             PreparedParts parts) {
     parts = with_tree(device.info, *planned, std::move(parts));
     SceneBuffers buffers = upload_scene(device, planned->scene, parts.tree->bvh);
-    return {device, std::move(planned), std::move(parts.tree), std::move(buffers), std::move(parts.programs)};
+    return {device,
+            std::move(planned),
+            std::move(parts.tree),
+            std::move(buffers),
+            std::move(parts.programs),
+            std::move(parts.guide)};
 }
 
 PreparedScene prepare_render(const Device& device, std::shared_ptr<const PlannedScene> planned,

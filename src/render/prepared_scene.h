@@ -11,6 +11,7 @@
 #pragma once
 
 #include "effects/planned_scene.h"
+#include "guide/guide_progress.h"
 #include "kernels/shared/render_types.h"
 #include "render/kernels.h"
 #include "render/scene_buffers.h"
@@ -31,12 +32,15 @@ struct PreparedScene {
     std::shared_ptr<const SceneTree> tree;
     SceneBuffers buffers;
     std::shared_ptr<const RenderPrograms> programs; ///< null: for kernels of one's own, such as a replay's
+    /// What pictures begin with; null: they find it out themselves.
+    std::shared_ptr<const GuideProgress> guide;
 };
 
 /// What is there already and need not be made again.
 struct PreparedParts {
     std::shared_ptr<const SceneTree> tree; ///< over the same triangles; in another layout it is not taken
     std::shared_ptr<const RenderPrograms> programs; ///< for the same device, effects, paths and tree's layout
+    std::shared_ptr<const GuideProgress> guide = nullptr; ///< by choose_guide (render/guide_choice.h)
 };
 
 /// The tree of a plan in the layout that its options name, or that is the device's own.

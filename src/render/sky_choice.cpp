@@ -57,11 +57,11 @@ std::string comparison(double gain) {
 
 } // namespace
 
-void choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+bool choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>& planned,
                       PreparedParts& parts, Progress& progress) {
     const std::optional<PilotSize> size = size_of_sky_pilots(*planned);
     if (!size)
-        return;
+        return false;
     progress.update({"pilot", -1, 0, -1, -1});
     Environment& sky = planned->scene.environment;
     const std::optional<Crop> crop = std::exchange(planned->options.film.crop, std::nullopt);
@@ -82,11 +82,13 @@ void choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>&
     best.put_into(sky);
     planned->options.film.crop = crop;
     progress.finish();
-    if (sky.sampling != SkySampling::BY_TABLE_AND_BSDF)
+    const bool is_other = sky.sampling != SkySampling::BY_TABLE_AND_BSDF;
+    if (is_other)
         spdlog::info("sky: light samples by {} {}, by pilots of {} x {} pixels, {} spp",
                      sky.sampling == SkySampling::BY_TABLE ? "its whole radiance"
                                                            : "what exceeds four times its mean",
                      comparison(usual / error), size->width, size->height, size->spp);
+    return is_other;
 }
 
 } // namespace clrt

@@ -17,9 +17,10 @@
 namespace clrt {
 
 /// Gives the environment map of a plan another table than its integrator's if that has clearly less error,
-/// and says so; else, and where no pilot is worth its time, the plan stays as it is. `parts` are those of the
-/// plan that are there; what the pilots needed is added. Throws DeviceError, KernelBuildError and SceneError.
-void choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+/// says so and returns true; else, and where no pilot is worth its time, the plan stays as it is. `parts` are
+/// those of the plan that are there; what the pilots needed is added. Throws DeviceError, KernelBuildError
+/// and SceneError.
+bool choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>& planned,
                       PreparedParts& parts, Progress& progress);
 
 } // namespace clrt

@@ -4,6 +4,7 @@
 #include "console/progress.h"
 #include "exit_code.h"
 #include "render/dark_picture.h"
+#include "render/guide_choice.h"
 #include "render/portal_choice.h"
 #include "render/render_params.h"
 #include "render/sky_choice.h"
@@ -183,7 +184,9 @@ int run_render(Options options) {
     Job job{start, devices, plan_scene(std::move(scene), options), {}, {}, load_seconds};
     choose_portals(devices.front(), job.planned, job.parts, progress);
     job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
-    choose_sky_table(devices.front(), job.planned, job.parts, progress);
+    const bool is_other_sky = choose_sky_table(devices.front(), job.planned, job.parts, progress);
+    choose_guide(devices.front(), job.planned, job.parts, is_other_sky ? std::nullopt : job.choice.path,
+                 progress);
     announce(*job.planned);
     std::optional<Simulation> done;
     const int exit_code = options.camera.frames ? render_turn(job, progress, viewers, done)

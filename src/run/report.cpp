@@ -130,11 +130,11 @@ Json choice_json(const IntegratorChoice& choice) {
 
 /// Null where no sample is guided.
 Json guide_json(const GuideProgress& guide) {
-    if (guide.guided_from == 0)
+    if (!guide.guided_from)
         return nullptr;
     const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
     Json json;
-    json["from_spp"] = guide.guided_from;
+    json["from_spp"] = *guide.guided_from;
     json["pilot_squared_error"] = number(guide.pilot_error);
     json["squared_error"] = number(guide.error);
     json["work"] = number(guide.work);

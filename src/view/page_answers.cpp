@@ -137,8 +137,8 @@ HttpResponse the_path(PageBoard& board, const PageFacts& facts, const HttpReques
     StateJson json{{"error", answer.error.empty() ? StateJson(nullptr) : StateJson(answer.error)},
                    {"text", answer.text},
                    {"record", nullptr},
-                   {"guided", state.snapshot && state.snapshot->guided_from > 0 &&
-                                  question.sample >= state.snapshot->guided_from}};
+                   {"guided", state.snapshot && state.snapshot->guided_from &&
+                                  question.sample >= *state.snapshot->guided_from}};
     if (!answer.json.empty())
         json["record"] = StateJson::parse(answer.json);
     return {200, "application/json", json.dump(), {}};

@@ -5,7 +5,7 @@
 #include "options/guide_refusal.h"
 #include "probes/film_estimate.h"
 #include "render/guiding.h"
-#include "support/render_scene.h"
+#include "support/adjoining_rooms.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -13,21 +13,6 @@
 namespace clrt {
 
 namespace {
-
-/// Two rooms and a slit between them: a lamp in the one that the camera does not see, and of its walls
-/// neither what it shines at.
-void add_rooms(TestScene& scene) {
-    scene.build.material("white", "Kd 0.75 0.75 0.75").material("lamp", "Kd 0 0 0\nKe 40 36 30");
-    scene.build.material("gloss", "Kd 0.3 0.3 0.3\nKs 0.5 0.5 0.5\nNs 20\nillum 2");
-    scene.build.use("white");
-    scene.build.box({-3, 0, -2}, {3, 2.5, 2}, Facing::INWARD);
-    scene.build.polygon({{0, 0, -2}, {0, 0, 1.7}, {0, 2.5, 1.7}, {0, 2.5, -2}});
-    scene.build.use("gloss").icosphere({1.6, 0.5, 0}, 0.5, 2, Facing::OUTWARD, Shading::SMOOTH);
-    scene.build.use("lamp").polygon({{-2, 2.4, -1.2}, {-1.5, 2.4, -1.2}, {-1.5, 2.4, -0.7}, {-2, 2.4, -0.7}});
-    scene.look({2.8, 1.6, 1.6}, {1, 0.9, -0.8}, 60);
-    scene.options.film.size = {32, 24};
-    scene.options.effects.all = false; // many samples: the small program is the fast one
-}
 
 /// A lamp over a floor.
 void add_lit_floor(TestScene& scene) {
@@ -81,7 +66,7 @@ RenderProgress through_a_file(const Render& render, const TestScene& scene) {
 // biased by what they share, tiles would be off by more than their spread says.
 TEST(Guide, BringsTheSameLightWithLessNoise) {
     TestScene scene;
-    add_rooms(scene);
+    add_adjoining_rooms(scene);
     const std::vector<Estimate> plain = tile_means(render_guided(scene, Toggle::OFF, 2048, 64).film);
     const Render render = render_guided(scene, Toggle::ON, 2048, 64);
     const std::vector<Estimate> guided = tile_means(render.film);
@@ -99,7 +84,7 @@ TEST(Guide, BringsTheSameLightWithLessNoise) {
 
 TEST(Guide, KeepsItsBitsInPieces) {
     TestScene scene;
-    add_rooms(scene);
+    add_adjoining_rooms(scene);
     const Render whole = render_guided(scene, Toggle::ON, 24, 4);
     const Render again = render_guided(scene, Toggle::ON, 24, 4);
     EXPECT_EQ(whole.film.sums, again.film.sums);
@@ -124,39 +109,41 @@ TEST(Guide, AutoLeavesEasyScenesAlone) {
     const Render render = render_guided(scene, Toggle::AUTO, 64, 4);
     EXPECT_EQ(render.film.sums, plain.film.sums);
     EXPECT_EQ(render.guide.stage, GuideStage::OFF);
-    EXPECT_EQ(render.guide.guided_from, 0u);
+    EXPECT_FALSE(render.guide.guided_from);
     ASSERT_TRUE(render.guide.pilot_error);
     EXPECT_LT(*render.guide.pilot_error, 4);
 }
 
 TEST(Guide, AutoLeavesShortRendersAlone) {
     TestScene scene;
-    add_rooms(scene);
+    add_adjoining_rooms(scene);
     const Render render = render_guided(scene, Toggle::AUTO, 64, 4);
     EXPECT_EQ(render.film.sums, render_guided(scene, Toggle::OFF, 64, 4).film.sums);
     EXPECT_EQ(render.guide.stage, GuideStage::PILOT);
 }
 
-// The guided samples of the last epoch of the trial tell what the variance would be without their guide.
+// The guided samples of the last epoch that is judged tell what the variance would be without their guide.
 TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
     TestScene scene;
-    add_rooms(scene);
+    add_adjoining_rooms(scene);
     scene.options.transport.max_depth = 8;
     for (const int roulette_depth : {9, 2}) { // densities of directions alone differ, or survival, too
         scene.options.transport.roulette_depth = roulette_depth;
         scene.options.transport.guide_after_rays = 3e6;
         const GuideProgress guide = render_guided(scene, Toggle::AUTO, 4096, 16).guide;
         EXPECT_EQ(guide.stage, GuideStage::ON);
-        const auto pilot = u32(guide.pilot_end), begin = pilot / 16 * 19;
-        EXPECT_EQ(guide.guided_from, pilot / 16 * 17);
+        const auto pilot = u32(guide.pilot_end), begin = 3 * pilot,
+                   end = 5 * pilot; // of the second judgement
+        EXPECT_EQ(guide.guided_from, pilot / 2 * 3);
+        EXPECT_EQ(guide.judgements, 2u);
         ASSERT_TRUE(guide.error);
         EXPECT_LT(*guide.error * *guide.work, 1);
-        Film film = render_guided(scene, Toggle::AUTO, 2 * begin, 16).film;
+        Film film = render_guided(scene, Toggle::AUTO, end, 16).film;
         const Film before = render_guided(scene, Toggle::AUTO, begin, 16).film;
         for (size_t i = 0; i < film.sums.size(); ++i)
             film.sums[i] -= before.sums[i];
-        film.ranges = {{begin, 2 * begin}};
-        const Film plain = render_guided(scene, Toggle::OFF, begin, 16).film;
+        film.ranges = {{begin, end}};
+        const Film plain = render_guided(scene, Toggle::OFF, end - begin, 16).film;
         const auto error = [](const Film& of) {
             return film_error(of, ErrorPixels::SCENE, ErrorMeasure::RELATIVE)->relative_rmse;
         };
@@ -167,12 +154,12 @@ TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
 
 TEST(Guide, OnlySomeSamplesTeach) {
     TestScene scene;
-    add_rooms(scene);
-    const auto vertices = [&](u32 teachers) {
-        RenderProgress part = through_a_file(render_guided(scene, Toggle::ON, 40, 4), scene);
+    add_adjoining_rooms(scene);
+    const auto vertices = [&](u32 begin, u32 end, u32 teachers) {
+        RenderProgress part = through_a_file(render_guided(scene, Toggle::ON, begin, 4), scene);
         part.guide.teachers = teachers;
         std::fill(part.guide.sums.begin(), part.guide.sums.end(), 0);
-        scene.options.sampling.spp = 56; // in the middle of an epoch
+        scene.options.sampling.spp = end;
         RenderHooks hooks;
         hooks.resume = &part;
         const PreparedScene prepared = prepare_loaded(test_device(), scene.load(), scene.options);
@@ -183,12 +170,12 @@ TEST(Guide, OnlySomeSamplesTeach) {
             sum += render.guide.sums[cell + GUIDE_SUM_VERTICES];
         return double(sum);
     };
-    EXPECT_NEAR(vertices(NO_INDEX >> 1) / vertices(NO_INDEX), 0.5, 0.05);
+    EXPECT_NEAR(vertices(40, 56, NO_INDEX >> 1) / vertices(40, 56, NO_INDEX), 0.5, 0.05);
 }
 
 TEST(Guide, SamplesOfARangeAreNotGuided) {
     TestScene scene;
-    add_rooms(scene);
+    add_adjoining_rooms(scene);
     scene.options.transport.guide_after_rays = 1;
     scene.options.sampling.first_sample = 64;
     EXPECT_FALSE(may_guide(scene.options));

@@ -18,6 +18,7 @@ target_compile_definitions(far_scene_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_
 clrt_test(render film_range_test)
 clrt_test(render furnace_test)
 clrt_test(render glass_test)
+clrt_test(render guide_choice_test)
 clrt_test(render guide_test)
 clrt_test(render hit_layers_test)
 clrt_test(render instances_picture_test)

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/guide_choice.h"
+
+#include "console/signals.h"
+#include "options/guide_refusal.h"
+#include "render/guiding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clrt {
+
+namespace {
+
+/// Rays of a render that is guided at once, as a multiple of those that a guide is learnt from before it is
+/// judged: an epoch as long again is the trial, and the rest has the gain.
+constexpr double RAYS_BEYOND_LEARNING = 4;
+
+/// Samples a pixel of a pilot that teaches a guide and judges it: four replicates take one each without a
+/// guide, one with what these have taught, and two with what all have.
+constexpr std::uint32_t JUDGING_SPP = 16;
+/// Of a render's samples, those of all pixels that such a pilot takes, and how many of them it must be and
+/// can be.
+constexpr double JUDGING_SHARE = 1.0 / 16, FEWEST_JUDGING = 1 << 20, MOST_JUDGING = 1 << 21;
+
+/// In shorter renders samples that are dropped for a guide cost more than they gain, but where those that it
+/// is learnt from would be most of the picture's error: from this squared error on half such a pilot, and a
+/// smaller one, teaches, and the picture's samples judge.
+constexpr double LARGE_ERROR = 50;
+constexpr double TEACHING_SHARE = 1.0 / 16, FEWEST_TEACHING = 1 << 17, MOST_TEACHING = 1 << 18;
+
+/// Whether the options leave it open.
+bool is_open(const Options& options) {
+    return options.transport.guide == Toggle::AUTO && may_guide(options) &&
+           options.film_file.resume_path.empty();
+}
+
+/// Size of the pilot that teaches; none: the picture's own samples do.
+std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
+    const double judging = JUDGING_SHARE * expected_samples(options);
+    if (judging >= FEWEST_JUDGING)
+        return scaled_pilot(options, std::min(judging, MOST_JUDGING), JUDGING_SPP);
+    const double teaching = TEACHING_SHARE * expected_samples(options);
+    if (error >= LARGE_ERROR && teaching >= FEWEST_TEACHING)
+        return scaled_pilot(options, std::min(teaching, MOST_TEACHING), JUDGING_SPP / 2);
+    return std::nullopt;
+}
+
+} // namespace
+
+void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
+                  std::optional<PathPilot> path, Progress& progress) {
+    const Options& options = planned->options;
+    const std::optional<PilotSize> size = size_of_pilots(1, options);
+    if (!is_open(options) || planned->effects.paths.is_empty || (!path && !size))
+        return;
+    progress.update({"pilot", -1, 0, -1, -1});
+    const PreparedScene prepared = prepare_render(device, planned, parts);
+    parts = {prepared.tree, prepared.programs, nullptr};
+    if (!path)
+        path = run_path_pilot(prepared, *size);
+    const double error = std::sqrt(path->errors[0] * path->errors[1]);
+    const double rays = expected_samples(options) * path->rays;
+    const int replicates = options.sampling.replicates;
+    if (std::isfinite(error) && error >= WORTHWHILE_GUIDE_ERROR &&
+        rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays) {
+        GuideProgress guide = untaught_guide(replicates, error);
+        if (const auto teaching = teaching_pilot(options, error)) {
+            const GuideProgress pilot = run_guide_pilot(prepared, *teaching, error);
+            guide = taught_guide(pilot, replicates, path->rays * double(teaching->samples()));
+        }
+        parts.guide = std::make_shared<GuideProgress>(std::move(guide));
+    }
+    progress.finish();
+}
+
+} // namespace clrt

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether --guide auto guides a picture from its first samples on. A pilot of path says how noisy samples are
+// without a guide; its own samples are dropped. Where they are noisy, and the render is long enough for a
+// guide to be learnt, tried and used, none of its samples is spent on waiting (render/guiding.h).
+#pragma once
+
+#include "console/progress.h"
+#include "render/pilot.h"
+
+#include <memory>
+#include <optional>
+
+namespace clrt {
+
+/// Decides, and adds to `parts` what the picture is to begin with; nothing where its own first samples are to
+/// tell. `path`: what another pilot has told; none: one is taken where the options leave the choice. Throws
+/// as choose_integrator.
+void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
+                  std::optional<PathPilot> path, Progress& progress);
+
+} // namespace clrt
