@@ -47,11 +47,12 @@ static inline void guide_begin(GuidePath* path)
 #endif
 }
 
-/* Chooses whether cells learn from the path of this sample. */
+/* Chooses whether cells learn from the path of this sample: the same part of the samples of every pixel and
+   replicate, and of all pixels' where an epoch has only one of each. */
 static inline void guide_choose(const RenderParams* params, const Sampler* sampler, GuidePath* path)
 {
 #if PATH_GUIDE
-    path->teaches = sampler->index_reversed <= params->guide_learns;
+    path->teaches = sampler->index_reversed + sampler->key <= params->guide_learns;
 #endif
 }
 

@@ -58,7 +58,7 @@ typedef struct {
     u32 tile_stride;            /* coprime to tile_count: spreads neighbouring work-groups over the picture */
     u32 first_tile, end_tile;   /* this launch renders tiles first_tile .. end_tile - 1 of the spread order */
     u32 guide_learns;           /* paths teach the guide whose sample has at most this number within its
-                                   replicate, its bits reversed */
+                                   replicate, its bits reversed, plus the pixel's key, modulo 2^32 */
     u32 caster_count;           /* spheres at which emission is aimed, */
     float caster_squares;       /* and the sum of their squared radii */
     u32 light_path_count;       /* of a pass over the whole picture */

@@ -152,6 +152,7 @@ TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
     }
 }
 
+// In the middle of an epoch, and in one of a single sample of each replicate.
 TEST(Guide, OnlySomeSamplesTeach) {
     TestScene scene;
     add_adjoining_rooms(scene);
@@ -171,6 +172,7 @@ TEST(Guide, OnlySomeSamplesTeach) {
         return double(sum);
     };
     EXPECT_NEAR(vertices(40, 56, NO_INDEX >> 1) / vertices(40, 56, NO_INDEX), 0.5, 0.05);
+    EXPECT_NEAR(vertices(6, 8, NO_INDEX >> 2) / vertices(6, 8, NO_INDEX), 0.25, 0.05);
 }
 
 TEST(Guide, SamplesOfARangeAreNotGuided) {
