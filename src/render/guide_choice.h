@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether --guide auto guides a picture from its first samples on. A pilot of path says how noisy samples are
-// without a guide; its own samples are dropped. Where they are noisy, and the render is long enough for a
-// guide to be learnt, tried and used, none of its samples is spent on waiting (render/guiding.h).
+// without a guide. Where they are, and the render is long enough for a guide to be learnt, tried and used,
+// none of its samples is spent on waiting: a further pilot teaches the guide and judges it where the render
+// is so long that this costs little, teaches it alone where light is very hard to find, and else the
+// picture's samples do all (render/guiding.h). The pilots' samples are dropped: what they decide is
+// independent of the picture's.
 #pragma once
 
 #include "console/progress.h"

@@ -2,9 +2,10 @@
 // Path guiding over the epochs of a render (kernels/path/guide.h).
 //
 // An epoch is a range of samples whose guide stays the same and was learnt in the epochs before. Each is as
-// long as all before it together, and has nets of its own: so, whatever the guide, the mean of every sample
-// is the truth given all that was before, replicates stay uncorrelated, and their spread is the error. All
-// samples weigh the same. Where there are more than it needs, only some samples of an epoch teach the guide.
+// long as all before it that taught, and has nets of its own: so, whatever the guide, the mean of every
+// sample is the truth given all that was before, replicates stay uncorrelated, and their spread is the error.
+// All samples weigh the same. Where there are more than it needs, only some samples of an epoch teach the
+// guide.
 //
 // --guide auto begins with what pilots have found out (render/guide_choice.h). Without them the picture's
 // first samples are the pilot, and where they are noisy an epoch half as long teaches. The guided samples
