@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace clrt {
 
@@ -36,6 +35,18 @@ bool is_open(const Options& options) {
            options.film_file.resume_path.empty();
 }
 
+/// The squared error of a sample that decides.
+double error_of(const PathPilot& path) {
+    return std::sqrt(path.errors[0] * path.errors[1]);
+}
+
+/// Whether a guide may be worth its learning: light is hard to find, but is found, and there is time.
+bool is_promising(const PathPilot& path, const Options& options) {
+    const double rays = expected_samples(options) * path.rays;
+    return std::isfinite(error_of(path)) && error_of(path) >= WORTHWHILE_GUIDE_ERROR &&
+           rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
+}
+
 /// Size of the pilot that teaches; none: the picture's own samples do.
 std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
     const double judging = JUDGING_SHARE * expected_samples(options);
@@ -47,31 +58,34 @@ std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
     return std::nullopt;
 }
 
+/// What the picture begins with.
+GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& path) {
+    const Options& options = prepared.planned->options;
+    const int replicates = options.sampling.replicates;
+    const double error = error_of(path);
+    const std::optional<PilotSize> teaching = teaching_pilot(options, error);
+    if (!teaching)
+        return untaught_guide(replicates, error);
+    const GuideProgress pilot = run_guide_pilot(prepared, *teaching, error);
+    return taught_guide(pilot, replicates, path.rays * double(teaching->samples()));
+}
+
 } // namespace
 
 void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                   std::optional<PathPilot> path, Progress& progress) {
     const Options& options = planned->options;
     const std::optional<PilotSize> size = size_of_pilots(1, options);
-    if (!is_open(options) || planned->effects.paths.is_empty || (!path && !size))
+    if (!is_open(options) || planned->effects.paths.is_empty ||
+        (path ? !is_promising(*path, options) : !size))
         return;
     progress.update({"pilot", -1, 0, -1, -1});
     const PreparedScene prepared = prepare_render(device, planned, parts);
     parts = {prepared.tree, prepared.programs, nullptr};
     if (!path)
         path = run_path_pilot(prepared, *size);
-    const double error = std::sqrt(path->errors[0] * path->errors[1]);
-    const double rays = expected_samples(options) * path->rays;
-    const int replicates = options.sampling.replicates;
-    if (std::isfinite(error) && error >= WORTHWHILE_GUIDE_ERROR &&
-        rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays) {
-        GuideProgress guide = untaught_guide(replicates, error);
-        if (const auto teaching = teaching_pilot(options, error)) {
-            const GuideProgress pilot = run_guide_pilot(prepared, *teaching, error);
-            guide = taught_guide(pilot, replicates, path->rays * double(teaching->samples()));
-        }
-        parts.guide = std::make_shared<GuideProgress>(std::move(guide));
-    }
+    if (is_promising(*path, options) && !stop_signal())
+        parts.guide = std::make_shared<GuideProgress>(first_guide(prepared, *path));
     progress.finish();
 }
 

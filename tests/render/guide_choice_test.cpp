@@ -2,11 +2,11 @@
 // Whether pictures are guided from their first samples on: by a pilot that teaches and judges where the
 // render is long, by one that only teaches where light is very hard to find, by the picture's own samples, or
 // not.
-#include "film/film_file.h"
 #include "probes/film_estimate.h"
 #include "render/guide_choice.h"
 #include "render/guiding.h"
 #include "support/adjoining_rooms.h"
+#include "support/saved_render.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -107,15 +107,7 @@ TEST(GuideChoice, KeepsItsBitsInPieces) {
     const Render whole = choice.render(24);
     EXPECT_EQ(whole.guide.judgements, 2u);
     for (const u32 spp : {4u, 6u, 8u, 13u}) {
-        const Render part = choice.render(spp);
-        FilmFile film;
-        film.identity = {{"quantum", part.film.scale.quantum}, {"largest", part.film.scale.largest}};
-        film.identity["size"] = {part.film.width, part.film.height};
-        film.identity["window"] = {0, 0, part.film.width, part.film.height};
-        film.render = part;
-        const std::string path = scene.folder.file("part.film");
-        write_film_file(path, film);
-        const RenderProgress progress = read_film_file(path).render;
+        const RenderProgress progress = through_a_file(choice.render(spp), scene);
         RenderHooks hooks;
         hooks.resume = &progress;
         EXPECT_EQ(choice.render(24, hooks).film.sums, whole.film.sums) << spp;

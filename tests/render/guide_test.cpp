@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // --guide: guided paths bring the same light, with less noise where it is hard to find; the picture keeps its
 // bits however its samples are dealt out; a film goes on where it was; auto leaves easy scenes alone.
-#include "film/film_file.h"
 #include "options/guide_refusal.h"
 #include "probes/film_estimate.h"
 #include "render/guiding.h"
 #include "support/adjoining_rooms.h"
+#include "support/saved_render.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -46,18 +46,6 @@ double squares(const std::vector<Estimate>& tiles) {
     for (const Estimate& tile : tiles)
         sum += tile.error * tile.error;
     return sum;
-}
-
-/// The film's file, written and read back.
-RenderProgress through_a_file(const Render& render, const TestScene& scene) {
-    const std::string path = scene.folder.file("guided.film");
-    FilmFile film;
-    film.identity = {{"quantum", render.film.scale.quantum}, {"largest", render.film.scale.largest}};
-    film.identity["size"] = {render.film.width, render.film.height};
-    film.identity["window"] = {0, 0, render.film.width, render.film.height};
-    film.render = render;
-    write_film_file(path, film);
-    return read_film_file(path).render;
 }
 
 } // namespace
