@@ -23,7 +23,7 @@ using Json = FilmHeader;
 
 constexpr char MAGIC[] = "CLRTFILM";
 constexpr size_t MAGIC_BYTES = 8, START_BYTES = 16, CHECKSUM_BYTES = 16;
-constexpr std::uint32_t FORMAT_VERSION = 2;
+constexpr std::uint32_t FORMAT_VERSION = 3;
 /// Larger than any header; keeps a damaged length from asking for all memory.
 constexpr std::uint32_t LARGEST_HEADER = 1u << 26;
 

@@ -4,7 +4,7 @@
 //
 //   bytes        what
 //   8            "CLRTFILM"
-//   4            version of this format, 2
+//   4            version of this format, 3
 //   4            n, the length of the header
 //   n            the header, a JSON object in UTF-8 (film_header.h)
 //   8 r w h 3    the sums in units of identity.quantum, as 64-bit integers:

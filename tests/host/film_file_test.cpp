@@ -212,8 +212,8 @@ TEST_F(FilmFileTest, OtherFilesAreRefusedByWhatTheyAre) {
     expect_refused("\x76\x2f\x31\x01 is how a picture starts",
                    "expected a film file as --checkpoint writes it");
     std::string newer = bytes();
-    newer[8] = 3;
-    expect_refused(newer, "expected format version 2, found 3");
+    newer[8] = 4;
+    expect_refused(newer, "expected format version 3, found 4");
     EXPECT_EQ(refusal_of(folder.file("none.film")),
               folder.file("none.film") + ": the film file cannot be opened: No such file or directory");
     EXPECT_EQ(refusal_of(folder.file("")),

@@ -108,7 +108,7 @@ class Files(unittest.TestCase):
         flipped = bytearray(good)
         flipped[-100] ^= 1
         cases = [(good[:10], "truncated"), (good[:-9], "truncated"), (good + b"x", "damaged"), (bytes(flipped), "checksum"),
-                 (film_bytes(numpy.ones((2, 4, 4, 3), int), 1.0, [[0, 2]], version=1), "version 2, found 1"),
+                 (film_bytes(numpy.ones((2, 4, 4, 3), int), 1.0, [[0, 2]], version=1), "version 3, found 1"),
                  (good.replace(b"quantum", b"quantus"), "quantum")]
         for content, words in cases:
             with open(self.path, "wb") as file:

@@ -4,7 +4,7 @@ import json
 import struct
 
 MAGIC = b"CLRTFILM"
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 FRONT_BYTES = len(MAGIC) + 8
 
 
