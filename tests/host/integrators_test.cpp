@@ -72,8 +72,9 @@ TEST(Integrators, EachHasAKernelFileAndNoneIsForgotten) {
         expected.insert(integrator_file(row.value));
     }
     for (const auto& [file, text] : files)
-        if (holds(text, "#define INTEGRATOR_KERNEL"))
+        if (holds(text, "#define INTEGRATOR_KERNEL")) {
             EXPECT_TRUE(expected.count(file)) << file << " is no row of options/integrators.h";
+        }
 }
 
 TEST(Integrators, KernelsReadWhatTheirRowTakes) {
@@ -156,10 +157,11 @@ TEST(Integrators, PathsAreToldApartByThoseThatTakeThem) {
                                 (row.film == FilmAccess::SPLAT
                                      ? ", whose light paths are not told apart"
                                      : std::string(", which simulates '") + row.paths.all + "' alone"));
-            if (row.film == FilmAccess::SPLAT)
+            if (row.film == FilmAccess::SPLAT) {
                 EXPECT_EQ(refusal({"--adaptive", "-i", row.name, "s.obj"}),
                           std::string("option --adaptive: expected an integrator that gathers, found ") +
                               row.name + ", whose light paths reach all pixels at once");
+            }
         }
 }
 
