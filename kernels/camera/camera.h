@@ -149,7 +149,7 @@ static inline Ray camera_cone_ray(const RenderParams* params, const Sampler* sam
    filter. */
 static inline Ray camera_ray_at(const RenderParams* params, const Sampler* sampler, uint x, uint y, real2 u)
 {
-    const real2 offset = camera_filter_sample(params, u);
+    const real2 offset = camera_filter_sample(params, u) * (REAL(1.0) - (real)params->pixel_gap);
     const real2 film = camera_pixel_centre(params, x, y) + offset;
     const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
     const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_pair(sampler, 0u, SAMPLE_TIME).x : REAL(0.0);

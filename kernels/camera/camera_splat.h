@@ -47,6 +47,11 @@ static inline CameraSplat camera_splat(const RenderParams* params, real2 film, r
     const real radius = (real)params->filter_radius;
     if ((!HAS(EFFECT_FILTER) || params->filter == FILTER_BOX) && radius == REAL(0.5))
         return splat;
+    /* What falls beside the picture has no pixel, and may be so far away that a pixel's width is lost. */
+    const real2 beside =
+        fabs(film) - REAL(0.5) * (real2)((real)params->width, (real)params->height) - radius;
+    if (!(beside.x < REAL(0.0) && beside.y < REAL(0.0)))
+        return splat;
     /* Pixels' centres lie on whole numbers from that of the picture's first pixel. */
     const real2 first = (real2)(REAL(0.5)) - REAL(0.5) * (real2)((real)params->width, (real)params->height);
     const real2 lowest = ceil(film - first - radius) + first;

@@ -2,7 +2,8 @@
 // Path tracing and light tracing in one picture: hits, next-event estimation and splats are three ways to
 // find a path, weighted against each other (path/splat_weight.h); no vertex is kept, and no inner vertices
 // are connected. Simulates L(D|G|S)*E. Splats bring the caustics, LS(D|G|S)*(D|G)E, which paths from the eye
-// find by chance; light paths are aimed at what casts them.
+// find by chance; light paths are aimed at what casts them. Paths from the eye may be guided (path/guide.h):
+// weights on both ends are by densities of the BSDF, as if nothing were.
 #ifndef CLRT_INTEGRATORS_PATH_LIGHT_H
 #define CLRT_INTEGRATORS_PATH_LIGHT_H
 
@@ -18,6 +19,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     const real3 wo = -path->ray.direction;
     const Sampler* sampler = &sample->sampler;
     path->is_alive = path->is_connected = false;
+    guide_arrive(sample->radiance, &path->guided);
     if (path->hit.triangle == NO_INDEX) {
         path_absorb(scene, 0, path);
         splat_add_escape(scene, params, segment, path, weights, sample, rays);
@@ -42,7 +44,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     path_filter(scene, params, sampler, segment, &surface, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
-    Guide guide = guide_none();
+    Guide guide = guide_at(scene, guide_cell_of(&path->guided), &bsdf);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS
@@ -62,9 +64,11 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
     Path path;
     SplatWeights weights = {REAL(0.0), REAL(0.0)};
     path_begin(&path, &sample->ray);
+    guide_choose(params, &sample->sampler, &path.guided);
     for (uint segment = 1u; path.is_alive; ++segment) {
-        path.numbers = numbers_make(&sample->sampler, segment, 0u);
+        path.numbers = numbers_make(&sample->sampler, segment, params->epoch);
         path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray, &path.throughput);
+        guide_approach(scene, params, &path.ray, &path.hit, path.numbers.direction, &path.guided);
         path_light_vertex(scene, params, segment, &path, &weights, sample, rays);
         rays->secondary += path.is_alive ? 1u : 0u;
         rays->shadow += path.is_connected ? 1u : 0u;
@@ -77,6 +81,9 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
 #endif
     }
     nan_carry(scene, nan_of_vector(path.throughput + path.watched), &sample->radiance);
+#if PATH_GUIDE
+    sample->guide_gain = guide_learn(scene, params, sample->radiance, &path.guided);
+#endif
 }
 
 static CLRT_NOINLINE void path_light_radiance(const Scene* scene, const RenderParams* params,

@@ -38,6 +38,7 @@ typedef struct {
     float min_contribution;     /* whitted: smallest weight worth a ray */
     u32 filter;                 /* FILTER_* */
     float filter_radius;        /* pixels */
+    float pixel_gap;            /* of a pilot: share of the sides of its pixels that nothing is seen of */
     float scene_extent;         /* largest |coordinate| of the geometry */
 
     u32 emitter_count, light_count;
@@ -66,7 +67,7 @@ typedef struct {
     u32 texture_filter;         /* 1: lookups are filtered over the ray's footprint */
     u32 portal_count;           /* rectangles through which the sky is seen */
     float portal_share;         /* probability of sampling the sky through them */
-    u32 unused0, unused1, unused2;
+    u32 unused0, unused1;
 } RenderParams;
 ASSERT_SIZE(RenderParams, 432);
 

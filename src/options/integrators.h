@@ -159,7 +159,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_GUIDE},
     {Integrator::BDPT,
      "bdpt",
      "global illumination, paths from both ends",

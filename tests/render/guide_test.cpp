@@ -48,13 +48,9 @@ double squares(const std::vector<Estimate>& tiles) {
     return sum;
 }
 
-} // namespace
-
 // Sixty-four replicates of which each is a mean of the truth, though all learn together: where they were
 // biased by what they share, tiles would be off by more than their spread says.
-TEST(Guide, BringsTheSameLightWithLessNoise) {
-    TestScene scene;
-    add_adjoining_rooms(scene);
+void expect_same_light_with_less_noise(TestScene& scene) {
     const std::vector<Estimate> plain = tile_means(render_guided(scene, Toggle::OFF, 2048, 64).film);
     const Render render = render_guided(scene, Toggle::ON, 2048, 64);
     const std::vector<Estimate> guided = tile_means(render.film);
@@ -68,6 +64,24 @@ TEST(Guide, BringsTheSameLightWithLessNoise) {
     }
     EXPECT_LT(sum / double(plain.size()), 1.9);
     EXPECT_LT(squares(guided), 0.5 * squares(plain));
+}
+
+} // namespace
+
+TEST(Guide, BringsTheSameLightWithLessNoise) {
+    TestScene scene;
+    add_adjoining_rooms(scene);
+    expect_same_light_with_less_noise(scene);
+}
+
+// A mirror under the lamp throws its light at the slit: caustics, which splats bring beside guided paths.
+TEST(Guide, BringsTheSameLightBesideSplats) {
+    TestScene scene;
+    add_adjoining_rooms(scene);
+    scene.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror");
+    scene.build.icosphere({-1.6, 1.2, 0.2}, 0.5, 2, Facing::OUTWARD, Shading::SMOOTH);
+    scene.options.transport.integrator = Integrator::PATH_LIGHT;
+    expect_same_light_with_less_noise(scene);
 }
 
 TEST(Guide, KeepsItsBitsInPieces) {

@@ -162,6 +162,24 @@ TEST(LightPaths, SplatsAreSpreadByThePixelFilter) {
     }
 }
 
+// A patch just in front of the plane of the eye is seen a hundred million pixels beside the picture, where
+// the next pixel has the same coordinate.
+TEST(LightPaths, FiltersEndWhereAPixelsWidthIsLost) {
+    TestScene scene;
+    scene.build.material("lit", "Kd 0.7 0.7 0.7").use("lit");
+    const double z = 4 - std::ldexp(1.0, -21);
+    scene.build.polygon({{1, 0, z}, {2, 0, z}, {2, 1, z}, {1, 1, z}});
+    scene.options.light.points.push_back({{1.5, 0.5, 6}, {8, 8, 8}});
+    scene.options.light.environment = glm::dvec3(0);
+    scene.options.film.size = {24, 24};
+    scene.options.film.filter = Filter::TENT;
+    scene.options.transport.integrator = Integrator::LIGHT;
+    scene.look({0, 0, 4}, {0, 0, 0}, 33);
+    const Film film = scene.render().film;
+    for (const std::int64_t sum : film.sums)
+        ASSERT_EQ(sum, 0);
+}
+
 TEST(LightPaths, ACropIsAPartOfThePictureToTheBit) {
     expect_crop_is_a_part(Integrator::LIGHT);
 }
