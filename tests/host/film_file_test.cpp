@@ -140,7 +140,7 @@ TEST_F(FilmFileTest, PixelsOfTheSceneAreThoseOfTheWindowOrNotKnown) {
 TEST_F(FilmFileTest, TheLayoutIsTheDocumentedOne) {
     const std::string file = bytes();
     EXPECT_EQ(file.substr(0, 8), "CLRTFILM");
-    EXPECT_EQ(file.substr(8, 4), std::string("\2\0\0\0", 4));
+    EXPECT_EQ(file.substr(8, 4), std::string("\3\0\0\0", 4));
     const auto byte = [&](size_t i) { return size_t(static_cast<unsigned char>(file[i])); };
     const size_t header = byte(12) + 256 * byte(13);
     EXPECT_EQ(file[16], '{');
