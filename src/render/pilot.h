@@ -31,8 +31,8 @@ struct PilotResult {
     bool is_black = false; ///< no light was found: there are no errors
 };
 
-/// The same of path, which the scene is prepared for with its programs. As independent of the rest as
-/// run_pilot, and throws the same.
+/// The same of path, or of path+light where the scene is prepared for that, with its programs. As independent
+/// of the rest as run_pilot, and throws the same.
 PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size);
 
 /// What a guide has learnt, and what its samples tell of it (render/guiding.h), by a pilot that is guided as
