@@ -36,14 +36,14 @@ bool is_open(const Options& options) {
 }
 
 /// The squared error of a sample that decides.
-double error_of(const PathPilot& path) {
-    return std::sqrt(path.errors[0] * path.errors[1]);
+double error_of(const PathPilot& unguided) {
+    return std::sqrt(unguided.errors[0] * unguided.errors[1]);
 }
 
 /// Whether a guide may be worth its learning: light is hard to find, but is found, and there is time.
-bool is_promising(const PathPilot& path, const Options& options) {
-    const double rays = expected_samples(options) * path.rays;
-    return std::isfinite(error_of(path)) && error_of(path) >= WORTHWHILE_GUIDE_ERROR &&
+bool is_promising(const PathPilot& unguided, const Options& options) {
+    const double rays = expected_samples(options) * unguided.rays;
+    return std::isfinite(error_of(unguided)) && error_of(unguided) >= WORTHWHILE_GUIDE_ERROR &&
            rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
 }
 
@@ -59,33 +59,33 @@ std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
 }
 
 /// What the picture begins with.
-GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& path) {
+GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguided) {
     const Options& options = prepared.planned->options;
     const int replicates = options.sampling.replicates;
-    const double error = error_of(path);
+    const double error = error_of(unguided);
     const std::optional<PilotSize> teaching = teaching_pilot(options, error);
     if (!teaching)
         return untaught_guide(replicates, error);
     const GuideProgress pilot = run_guide_pilot(prepared, *teaching, error);
-    return taught_guide(pilot, replicates, path.rays * double(teaching->samples()));
+    return taught_guide(pilot, replicates, unguided.rays * double(teaching->samples()));
 }
 
 } // namespace
 
 void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
-                  std::optional<PathPilot> path, Progress& progress) {
+                  std::optional<PathPilot> unguided, Progress& progress) {
     const Options& options = planned->options;
     const std::optional<PilotSize> size = size_of_pilots(1, options);
     if (!is_open(options) || planned->effects.paths.is_empty ||
-        (path ? !is_promising(*path, options) : !size))
+        (unguided ? !is_promising(*unguided, options) : !size))
         return;
     progress.update({"pilot", -1, 0, -1, -1});
     const PreparedScene prepared = prepare_render(device, planned, parts);
     parts = {prepared.tree, prepared.programs, nullptr};
-    if (!path)
-        path = run_path_pilot(prepared, *size);
-    if (is_promising(*path, options) && !stop_signal())
-        parts.guide = std::make_shared<GuideProgress>(first_guide(prepared, *path));
+    if (!unguided)
+        unguided = run_path_pilot(prepared, *size);
+    if (is_promising(*unguided, options) && !stop_signal())
+        parts.guide = std::make_shared<GuideProgress>(first_guide(prepared, *unguided));
     progress.finish();
 }
 

@@ -16,9 +16,9 @@
 namespace clrt {
 
 /// Decides, and adds to `parts` what the picture is to begin with; nothing where its own first samples are to
-/// tell. `path`: what another pilot has told; none: one is taken where the options leave the choice. Throws
-/// as choose_integrator.
+/// tell. `unguided`: what another pilot has told of the plan's integrator; none: one is taken where the
+/// options leave the choice. Throws as choose_integrator.
 void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
-                  std::optional<PathPilot> path, Progress& progress);
+                  std::optional<PathPilot> unguided, Progress& progress);
 
 } // namespace clrt

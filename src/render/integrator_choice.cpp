@@ -125,8 +125,8 @@ bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& pl
         return false;
     const PreparedScene prepared = prepare_render(device, planned, parts);
     parts = {prepared.tree, prepared.programs};
-    choice.path = run_path_pilot(prepared, choice.pilot);
-    return choice.path->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR || stop_signal();
+    choice.unguided = run_path_pilot(prepared, choice.pilot);
+    return choice.unguided->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR || stop_signal();
 }
 
 /// Decides by pilots, a candidate after the other.
@@ -151,7 +151,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             break;
         }
         if (choice.prices.empty()) {
-            choice.path = PathPilot{pilot.path, pilot.eye_rays};
+            choice.unguided = PathPilot{pilot.path, pilot.eye_rays};
             choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
         }
         const IntegratorPrice price = price_of(candidate, pilot, planned->options);
@@ -160,6 +160,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         if (price.efficiency > std::max(best, smallest_gain(price, is_guided, planned->options))) {
             best = price.efficiency;
             choice.integrator = price.integrator;
+            choice.unguided = PathPilot{pilot.own, pilot.eye_rays};
         }
     }
     if (choice.reason.empty())

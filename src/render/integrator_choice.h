@@ -39,7 +39,7 @@ struct IntegratorChoice {
     std::string reason;                  ///< in words, where it is told
     PilotSize pilot;                     ///< of each; 0 spp: there was none
     std::vector<IntegratorPrice> prices; ///< that it has found out
-    std::optional<PathPilot> path;       ///< what the first of them has told of path
+    std::optional<PathPilot> unguided;   ///< what one of them has told of the integrator, without a guide
     double seconds = 0; ///< of choosing, compilation and tree included; nothing depends on it
 };
 

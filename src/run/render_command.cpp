@@ -185,7 +185,7 @@ int run_render(Options options) {
     choose_portals(devices.front(), job.planned, job.parts, progress);
     job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
     const bool is_other_sky = choose_sky_table(devices.front(), job.planned, job.parts, progress);
-    choose_guide(devices.front(), job.planned, job.parts, is_other_sky ? std::nullopt : job.choice.path,
+    choose_guide(devices.front(), job.planned, job.parts, is_other_sky ? std::nullopt : job.choice.unguided,
                  progress);
     announce(*job.planned);
     std::optional<Simulation> done;
