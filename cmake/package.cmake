@@ -6,7 +6,7 @@
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   set(CLRT_MAN_PAGES)
-  foreach(program clrt clrt-merge clrt-bench clrt-stability clrt-agree clrt-compare clrt-study clrt-mitsuba clrt-slurm)
+  foreach(program clrt clrt-merge clrt-bench clrt-stability clrt-agree clrt-compare clrt-study clrt-mitsuba clrt-cycles clrt-slurm)
     set(page ${CMAKE_BINARY_DIR}/${program}.1)
     if(TARGET ${program})
       set(path $<TARGET_FILE:${program}>)

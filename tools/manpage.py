@@ -17,6 +17,7 @@ SUMMARIES = {"clrt": "render OBJ and glTF scenes on any OpenCL device",
              "clrt-stability": "run clrt's catalogue of numerically hard cases",
              "clrt-agree": "test whether integrators agree and error bars hold",
              "clrt-compare": "compare two pictures by statistical tests",
+             "clrt-cycles": "render a scene of clrt with Blender's Cycles, to compare with",
              "clrt-mitsuba": "render a scene of clrt with Mitsuba 3, to compare with",
              "clrt-slurm": "render one picture on the machines of a Slurm cluster",
              "clrt-study": "measure what accuracy costs in time"}

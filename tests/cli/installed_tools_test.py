@@ -12,7 +12,7 @@ import unittest
 
 CMAKE, CPACK, BUILD = sys.argv[1:4] if len(sys.argv) > 3 else ("cmake", "cpack", "build")
 DEVICE = os.environ.get("CLRT_TEST_DEVICE", "pocl")
-PROGRAMS = ["clrt", "clrt-agree", "clrt-bench", "clrt-compare", "clrt-merge", "clrt-mitsuba", "clrt-slurm", "clrt-stability",
+PROGRAMS = ["clrt", "clrt-agree", "clrt-bench", "clrt-compare", "clrt-cycles", "clrt-merge", "clrt-mitsuba", "clrt-slurm", "clrt-stability",
             "clrt-study"]
 SECONDS = 300  # a program that takes longer hangs
 
@@ -97,9 +97,10 @@ class InstalledTools:
         with open(os.path.join(self.folder, "page.html"), encoding="utf-8") as file:
             self.assertIn("<svg", file.read())
 
-    def test_clrt_mitsuba_refuses_what_it_cannot_convert(self):
+    def test_what_other_renderers_show_otherwise_is_refused(self):
         glossy = os.path.join(self.prefix, "share", "clrt", "scenes", "glossy_plates", "glossy_plates.obj")
-        self.run_program("clrt-mitsuba", glossy, "-o", "series", code=1)
+        for program in ("clrt-mitsuba", "clrt-cycles"):
+            self.run_program(program, glossy, "-o", "series", code=1)
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_clrt_bench_compares_with_embree(self):

@@ -83,8 +83,8 @@ if(TARGET clrt-bench)
 endif()
 list(TRANSFORM clrt_documented_programs REPLACE "(.+)" "$<TARGET_FILE:\\1>")
 clrt_python_test(cli man_page_test ${clrt_documented_programs} ${PROJECT_SOURCE_DIR}/tools/clrt-compare
-  ${PROJECT_SOURCE_DIR}/tools/clrt-study ${PROJECT_SOURCE_DIR}/tools/clrt-mitsuba ${PROJECT_SOURCE_DIR}/tools/clrt-agree
-  ${PROJECT_SOURCE_DIR}/tools/clrt-slurm)
+  ${PROJECT_SOURCE_DIR}/tools/clrt-study ${PROJECT_SOURCE_DIR}/tools/clrt-mitsuba ${PROJECT_SOURCE_DIR}/tools/clrt-cycles
+  ${PROJECT_SOURCE_DIR}/tools/clrt-agree ${PROJECT_SOURCE_DIR}/tools/clrt-slurm)
 clrt_python_test(cli agree_command_test $<TARGET_FILE:clrt>)
 clrt_python_test(cli compare_command_test)
 clrt_python_test(cli installed_tools_test ${CMAKE_COMMAND} ${CMAKE_CPACK_COMMAND} ${CMAKE_BINARY_DIR})
@@ -95,4 +95,5 @@ endif()
 clrt_python_test(cli integrator_pairs_test $<TARGET_FILE:clrt>)
 clrt_python_test(cli slurm_command_test $<TARGET_FILE:clrt>)
 clrt_python_test(cli study_command_test $<TARGET_FILE:clrt>)
+clrt_python_test(cli cycles_command_test $<TARGET_FILE:clrt>)
 clrt_python_test(cli mitsuba_command_test $<TARGET_FILE:clrt>)

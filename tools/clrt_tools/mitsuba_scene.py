@@ -15,7 +15,7 @@ def scene_dictionary(scene, width, height, sampler, folder, look_at):
     words = {"type": "scene",
              "integrator": {"type": "path", "max_depth": int(depth), "rr_depth": int(roulette)},
              "sensor": {"type": "perspective", "fov_axis": "y", "fov": scene.field_of_view(width, height),
-                        "to_world": look_at(list(scene.numbers("--eye")), list(scene.numbers("--at")), list(_up(scene))),
+                        "to_world": look_at(list(scene.numbers("--eye")), list(scene.numbers("--at")), list(scene.up)),
                         "film": {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"}},
                         "sampler": {"type": sampler}}}
     if sum(scene.sky):
@@ -28,11 +28,6 @@ def scene_dictionary(scene, width, height, sampler, folder, look_at):
         write_mesh(path, triangles, smooth)
         words[f"mesh_{index}"] = {"type": "obj", "filename": path, "face_normals": not smooth, **_surface(scene.materials[name])}
     return words
-
-
-def _up(scene):
-    text = scene.options.get("--up", "y")
-    return {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}.get(text) or scene.numbers("--up")
 
 
 def _rgb(colour):

@@ -53,6 +53,12 @@ class PlainScene:
         numbers = self.numbers("--sun")
         return numbers and (numbers[:3], numbers[3:])
 
+    @property
+    def up(self):
+        """Direction."""
+        text = self.options.get("--up", "y")
+        return {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}.get(text) or self.numbers("--up")
+
     def field_of_view(self, width, height):
         """Of the height of the film, degrees."""
         if "--focal-length" not in self.options:
@@ -191,7 +197,7 @@ def _fan(corners, where):
         corners = corners[1:] + corners[:1]
     origin = corners[0][0]
     edges = [tuple(b - a for a, b in zip(origin, point)) for point, _ in corners[1:]]
-    crosses = [_cross(u, v) for u, v in zip(edges, edges[1:])]
+    crosses = [cross(u, v) for u, v in zip(edges, edges[1:])]
     total = tuple(map(sum, zip(*crosses)))
     length, size = math.hypot(*total), max((math.hypot(*edge) for edge in edges), default=0)
     bent = len(corners) > 4 and any(abs(_dot(edge, total)) > FLAT * size * length for edge in edges)
@@ -205,8 +211,15 @@ def _distance(a, b):
     return math.dist(a[0], b[0])
 
 
-def _cross(a, b):
+def cross(a, b):
+    """The cross product."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(a):
+    """The vector of length 1; a zero vector raises ZeroDivisionError."""
+    length = math.hypot(*a)
+    return tuple(part / length for part in a)
 
 
 def _dot(a, b):

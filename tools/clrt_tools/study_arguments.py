@@ -58,7 +58,7 @@ def _command_line():
         help="one picture, or two independent halves (default: renders both, path, single, sobol)")
     add("--against", metavar="DIR", action="append", default=[],
         help="another renderer's pictures of the scene, drawn and compared beside clrt's: a folder of EXR files and series.json, as "
-             "clrt-mitsuba writes them; their size is that of the study; repeatable")
+             "clrt-mitsuba and clrt-cycles write them; their size is that of the study; repeatable")
     add("--reference-spp", type=_count, metavar="N", help="samples of both halves (default 16 times the most; quick: 8 times)")
     add("--budget", type=_count, metavar="SECONDS",
         help="all renders end within so many seconds of wall time; what does not fit is dropped and named (default: no limit; "

@@ -12,7 +12,7 @@ import math
 import os
 import statistics
 
-from clrt_tools.mitsuba_series import LIST_FILE
+from clrt_tools.peer_series import LIST_FILE
 from clrt_tools.picture_file import UnreadableFile, read_picture
 from clrt_tools.study_runs import Point, Run
 
