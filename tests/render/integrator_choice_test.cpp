@@ -188,6 +188,29 @@ TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     EXPECT_LT(share, 2.1); // above 1: light paths are ended sooner than those from the eye
 }
 
+// Light that comes round a wide screen: the wider, the less paths from both ends gain, and a guide is to be
+// had as well.
+TEST(IntegratorChoice, WherePathMayBeGuidedBdptMustGainMore) {
+    struct Case {
+        double side;
+        Toggle guide;
+        Integrator expected;
+    };
+    for (const Case& c :
+         {Case{0.8, Toggle::AUTO, Integrator::BDPT}, Case{1.35, Toggle::OFF, Integrator::BDPT},
+          Case{1.35, Toggle::AUTO, Integrator::PATH}}) {
+        Box box;
+        box.options.sampling.spp = 1024;
+        box.options.transport.guide = c.guide;
+        box.add_lamp(c.side);
+        const double w = c.side + 0.3;
+        box.build.use("matte").polygon({{-w, 2.7, -w}, {-w, 2.7, w}, {w, 2.7, w}, {w, 2.7, -w}});
+        box.build.polygon({{-2, 3.3, -2}, {2, 3.3, -2}, {2, 3.3, 2}, {-2, 3.3, 2}});
+        const IntegratorChoice choice = box.choose().choice;
+        EXPECT_EQ(choice.integrator, c.expected) << c.side << ": " << choice.reason; // told 5.9, 2.4, 2.4
+    }
+}
+
 TEST(IntegratorChoice, ThePictureIsThatOfTheChosenOne) {
     for (const bool has_small_lamp : {false, true}) {
         Box box;
