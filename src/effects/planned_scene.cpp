@@ -57,11 +57,15 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
     }
     aim_emission(*planned);
     tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
-    if (planned->effects.needed & ~planned->effects.left_out & EFFECT_LIGHT_TREE)
-        planned->scene.light_tree =
-            build_light_tree(planned->scene, accepted_kinds(planned->effects.paths) &
-                                                 light_tree_kinds(planned->options.transport.integrator));
+    plan_light_tree(*planned);
     return planned;
+}
+
+void plan_light_tree(PlannedScene& planned) {
+    const unsigned kinds =
+        accepted_kinds(planned.effects.paths) & light_tree_kinds(planned.options.transport.integrator);
+    if (planned.effects.needed & ~planned.effects.left_out & EFFECT_LIGHT_TREE)
+        planned.scene.light_tree = build_light_tree(planned.scene, kinds);
 }
 
 bool has_caustics(const PlannedScene& planned) {

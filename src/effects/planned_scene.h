@@ -25,6 +25,10 @@ struct PlannedScene {
 /// too large.
 std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
 
+/// Builds the tree that lights are chosen by, where the plan has one: again, where the sky has got portals or
+/// lost them. Buffers that were prepared by then have the one before.
+void plan_light_tree(PlannedScene& planned);
+
 /// Whether the scene as it is rendered casts light by mirrors or smooth glass on a surface (LS+DE) within
 /// --max-depth.
 bool has_caustics(const PlannedScene& planned);

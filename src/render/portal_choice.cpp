@@ -42,10 +42,10 @@ constexpr double WORTHWHILE_PORTAL_GAIN = 2;
 bool may_have_portals(const PlannedScene& planned) {
     const auto& [scene, options, effects] = planned;
     const bool shines = clrt::luminance(scene.environment.radiance) > 0;
-    // The light tree holds a map, but no constant sky.
-    const bool can_choose = !scene.environment.texels.empty() || scene.light_tree.nodes.empty();
-    return shines && can_choose && options.transport.integrator == Integrator::PATH &&
-           !effects.paths.is_empty && (accepted_kinds(effects.paths) & KIND_SKY) &&
+    const Integrator integrator = options.transport.integrator;
+    const bool can_sample = integrator == Integrator::PATH || integrator == Integrator::PATH_LIGHT ||
+                            integrator == Integrator::BDPT;
+    return shines && can_sample && !effects.paths.is_empty && (accepted_kinds(effects.paths) & KIND_SKY) &&
            options.output.path_layers.empty() &&
            double(options.film.size.x) * double(options.film.size.y) >= FEWEST_PIXELS;
 }
@@ -67,7 +67,13 @@ std::vector<Escape> find_escapes(const PreparedScene& prepared) {
     return read_values<Escape>(device, doing, escapes, 0, ESCAPES);
 }
 
-/// Decides between no portals and these, with each share of the samples.
+/// Gives the plan portals, or none.
+void set_portals(std::vector<SkyPortal> portals, PlannedScene& planned) {
+    planned.scene.environment.portals = std::move(portals);
+    plan_light_tree(planned);
+}
+
+/// Decides between no portals and these, with each share of the samples, for path.
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
             std::vector<SkyPortal> portals) {
     Environment& sky = planned->scene.environment;
@@ -79,7 +85,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, 
     };
     const double usual = error_of();
     double least = usual / WORTHWHILE_PORTAL_GAIN, best = 0;
-    sky.portals = std::move(portals);
+    set_portals(std::move(portals), *planned);
     const bool is_map = !sky.texels.empty();
     for (const double share : is_map ? std::vector<double>(std::begin(SHARES_OF_MAP), std::end(SHARES_OF_MAP))
                                      : std::vector<double>{SHARE_OF_CONSTANT}) {
@@ -91,13 +97,27 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, 
     }
     sky.portal_share = best;
     if (best == 0)
-        sky.portals.clear();
+        set_portals({}, *planned);
     else
         spdlog::info(
             "sky: light samples through {} window{} have {:.2f} times less squared error, by pilots of "
             "{} x {} pixels, {} spp",
             sky.portals.size(), sky.portals.size() == 1 ? "" : "s", usual / least, size.width, size.height,
             size.spp);
+}
+
+/// The same where another integrator renders: all choose alike, so that it does not matter to the picture
+/// whether its integrator was named or chosen (render/integrator_choice.h).
+void decide_as_path(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
+                    std::vector<SkyPortal> portals) {
+    const Integrator integrator = planned->options.transport.integrator;
+    if (integrator == Integrator::PATH)
+        return decide(device, planned, parts, std::move(portals));
+    parts.programs.reset();
+    take_integrator(Integrator::PATH, *planned);
+    decide(device, planned, parts, std::move(portals));
+    take_integrator(integrator, *planned);
+    parts.programs.reset(); // path's
 }
 
 } // namespace
@@ -112,7 +132,7 @@ void choose_portals(const Device& device, const std::shared_ptr<PlannedScene>& p
     parts.tree = prepared.tree;
     std::vector<SkyPortal> portals = find_portals(find_escapes(prepared), scene_axes(planned->scene));
     if (!portals.empty())
-        decide(device, planned, parts, std::move(portals));
+        decide_as_path(device, planned, parts, std::move(portals));
     planned->options.film.crop = crop;
     progress.finish();
 }

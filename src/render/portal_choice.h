@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether path's light sampling looks for the sky through portals (kernels/lights/sky_portal.h).
+// Whether the light sampling of path, path+light and bdpt looks for the sky through portals
+// (kernels/lights/sky_portal.h).
 //
 // Paths that are followed out of the scene show where its windows are (scene/sky_portals.h). Pilots, as those
 // that choose the sky's table (sky_choice.h), tell whether light samples through them have less noise, and
-// what share of the samples they are to have. All of that depends on scene and frame alone, so parts of a
-// picture, and films that are gone on with, choose alike.
+// what share of the samples they are to have; pilots of path, whatever renders. All of that depends on scene
+// and frame alone, so parts of a picture, and films that are gone on with, choose alike.
 #pragma once
 
 #include "console/progress.h"

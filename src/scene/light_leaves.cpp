@@ -139,16 +139,20 @@ LightLeaf light_leaf(const Scene& scene, u32 index, u32 number) {
 }
 
 bool is_chosen(const Environment& sky, unsigned kinds) {
-    return (kinds & KIND_SKY) && !sky.texels.empty() && largest_component(sky.radiance) > 0;
+    const bool is_sampled = !sky.texels.empty() || !sky.portals.empty();
+    return (kinds & KIND_SKY) && is_sampled && largest_component(sky.radiance) > 0;
 }
 
 bool is_chosen(const Light& light, unsigned kinds) {
     return (kinds & (light.kind == LIGHT_SUN ? KIND_SUN : KIND_POINT)) != 0;
 }
 
-/// Of a map: what a surface gets whose normal points to the middle of its light, on average.
+/// What a surface gets whose normal points to the middle of a map's light, on average; or from a whole
+/// constant sky, however little of it portals show.
 double sky_irradiance(const Environment& sky) {
-    return 0.5 * sky.mean_radiance * sky.tabulated_share * 4 * PI;
+    const double mean =
+        sky.texels.empty() ? luminance(sky.radiance) : sky.mean_radiance * sky.tabulated_share;
+    return 0.5 * mean * 4 * PI;
 }
 
 void add_fans(const Scene& scene, std::vector<LightLeaf>& leaves) {

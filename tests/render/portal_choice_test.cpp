@@ -33,6 +33,13 @@ struct Room : TestScene {
         options.film.size = {96, 72};
         options.effects.all = false;
     }
+    /// Several lights, and a mirror that casts theirs.
+    void add_lamps_and_mirror() {
+        build.material("lamp", "Kd 0 0 0\nKe 2 2 2").use("lamp");
+        for (const double z : {-1.0, 1.0})
+            build.icosphere({-1, 2, z}, 0.1, 1, Facing::OUTWARD, Shading::FLAT);
+        build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror").floor(0.5, 0.3);
+    }
     std::shared_ptr<PlannedScene> plan(bool chooses) {
         const auto planned = plan_loaded(test_device(), load(), options);
         Progress silent(Toggle::OFF, true);
@@ -69,6 +76,31 @@ TEST(PortalChoice, ARoomGetsItsWindow) {
         const double scale = with->scene.normalisation.scale;
         EXPECT_NEAR(double(sky.portals[0].normal.w) / (scale * scale), 1, 0.04);
         EXPECT_NEAR(double(sky.portals[0].normal.x), -1, 1e-3);
+        const Film portal_film = film_of(with), plain_film = film_of(without);
+        const Estimate portal = mean_of(portal_film), plain = mean_of(plain_film);
+        EXPECT_LT(std::abs(portal.mean - plain.mean), 4 * std::hypot(portal.error, plain.error));
+        EXPECT_LT(sample_error(portal_film, ErrorMeasure::RELATIVE),
+                  0.5 * sample_error(plain_film, ErrorMeasure::RELATIVE));
+    }
+}
+
+// A constant sky is none of the lights that are chosen from until it has portals. All integrators that
+// connect to one light choose alike.
+TEST(PortalChoice, BesideLampsAndForLightPathsAsWell) {
+    std::optional<double> corner;
+    for (const Integrator integrator : {Integrator::PATH, Integrator::PATH_LIGHT, Integrator::BDPT}) {
+        SCOPED_TRACE(name_of(integrator));
+        Room room(true);
+        room.add_lamps_and_mirror();
+        room.options.transport.integrator = integrator;
+        room.options.transport.guide = Toggle::OFF;
+        const auto with = room.plan(true), without = room.plan(false);
+        EXPECT_FALSE(with->scene.light_tree.nodes.empty());
+        ASSERT_EQ(with->scene.environment.portals.size(), 1u);
+        EXPECT_EQ(with->options.transport.integrator, integrator);
+        const double found = double(with->scene.environment.portals[0].corner.x);
+        EXPECT_EQ(found, corner.value_or(found));
+        corner = found;
         const Film portal_film = film_of(with), plain_film = film_of(without);
         const Estimate portal = mean_of(portal_film), plain = mean_of(plain_film);
         EXPECT_LT(std::abs(portal.mean - plain.mean), 4 * std::hypot(portal.error, plain.error));
