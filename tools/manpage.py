@@ -49,6 +49,9 @@ REPORT = [
                "Pilots are coarse pictures of at most 5 % of the work, which is counted in rays; their samples are dropped, and "
                "the picture is the one that --integrator with this name gives. Without the line it is path: the picture takes too "
                "few samples for a pilot, is a part (--first-sample), or path finds the light by itself and there are no caustics to be."),
+    ("portals", "Where light samples look for the sky: rectangles in which paths that leave the scene have met nothing, such as windows, "
+     "doors and skylights, and the share of the samples that go through them; the others go to bright places of its map. They are "
+     "there where pilots found them to at least halve the squared error."),
     ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
      "of a sample; the cells of space that have learnt, and the memory that they take."),
     ("chains", "Of --integrator mlt: steps of Markov chains in this run, one for every sample of every pixel, or a few more so "

@@ -128,6 +128,12 @@ Json choice_json(const IntegratorChoice& choice) {
     return json;
 }
 
+/// Null where light samples do not look for the sky through portals.
+Json portals_json(const Environment& sky) {
+    return sky.portals.empty() ? Json(nullptr)
+                               : Json{{"count", sky.portals.size()}, {"share_of_samples", sky.portal_share}};
+}
+
 /// Null where no sample is guided.
 Json guide_json(const GuideProgress& guide) {
     if (!guide.guided_from)
@@ -232,6 +238,7 @@ std::string report_json(const Report& report) {
                                  : Json(film_samples(render.film) - render.passes);
     json["first_sample"] = report.options.sampling.first_sample;
     json["adaptive"] = adaptive_json(render);
+    json["portals"] = portals_json(report.scene.environment);
     json["guide"] = guide_json(render.guide);
     json["chains"] = chains_json(render.chains);
     json["sampler"] = name_of(report.options.sampling.sampler);

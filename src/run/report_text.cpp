@@ -58,6 +58,14 @@ std::string choice_line(const Report& report) {
     return text.empty() ? "" : fmt::format("chosen   {}\n", text);
 }
 
+std::string portal_line(const Report& report) {
+    const Environment& sky = report.scene.environment;
+    if (sky.portals.empty())
+        return "";
+    return fmt::format("portals  {:.0f} % of the light samples of the sky go through {} window{}\n",
+                       100 * sky.portal_share, sky.portals.size(), sky.portals.size() == 1 ? "" : "s");
+}
+
 std::string guide_line(const Report& report) {
     const std::string text = guide_text(report.render.guide);
     return text.empty() ? "" : fmt::format("guide    {}\n", text);
@@ -164,8 +172,8 @@ std::string proof_lines(const Report& report) {
 std::string format_report(const Report& report) {
     std::string text =
         picture_line(report) + lost_line(report) + choice_line(report) + adaptive_line(report) +
-        guide_line(report) + chain_line(report) + time_line(report) + share_lines(report) +
-        format_error_report(report.error) +
+        portal_line(report) + guide_line(report) + chain_line(report) + time_line(report) +
+        share_lines(report) + format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         bias_line(report) + left_out_lines(report) + bad_lines(report);

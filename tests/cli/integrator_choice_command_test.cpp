@@ -2,6 +2,7 @@
 // --integrator auto on the command line: what is said, that threads change nothing, and films that go on.
 #include "cli/clrt_command.h"
 #include "probes/scene_builder.h"
+#include "support/windowed_room.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -90,6 +91,28 @@ TEST_F(ChoiceCommand, WhatOnlyPathTakesIsTaken) {
     const auto result = clrt(small({"-i", "auto", "-s", "512", "--guide", "on", "-o", "a.exr"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.out, {"chosen   path: --guide on guides paths from the eye"}));
+}
+
+// A room with a window, and the same in the open.
+TEST_F(ChoiceCommand, PortalsAreReported) {
+    SceneBuilder build;
+    build.material("white", "Kd 0.75 0.75 0.75").use("white");
+    add_windowed_room(build);
+    folder.write("room.mtl", build.mtl());
+    folder.write("room.obj", build.obj("room.mtl", 1));
+    const std::vector<std::string> view = {
+        "--eye", "-2.8,1.6,1.6", "--at", "1,0.9,-0.8", "-r",    "96x72", "-s",      "4",
+        "--env", "1,0.9,0.8",    "-o",   "a.exr",      "--aov", "none",  "--stats", "a.json"};
+    const auto rendered = [&](const char* scene) {
+        std::vector<std::string> arguments = view;
+        arguments.push_back(scene);
+        return clrt(arguments);
+    };
+    EXPECT_TRUE(holds(rendered("room.obj").out,
+                      {"portals  100 % of the light samples of the sky go through 1 window\n"}));
+    EXPECT_EQ(statistics("a.json")["portals"], (nlohmann::json{{"count", 1}, {"share_of_samples", 1.0}}));
+    EXPECT_FALSE(holds(rendered("scene.obj").out, {"portals"}));
+    EXPECT_TRUE(statistics("a.json")["portals"].is_null());
 }
 
 } // namespace clrt
