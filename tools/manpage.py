@@ -47,8 +47,9 @@ REPORT = [
     ("chosen", "Where no integrator is named: the one that rendered the picture, and why: what the options or the scene "
                "leave, or the efficiency of each integrator (1 over squared error times work, that of path being 1) by a pilot. "
                "Pilots are coarse pictures of at most 5 % of the work, which is counted in rays; their samples are dropped, and "
-               "the picture is the one that --integrator with this name gives. Without the line it is path: the picture takes too "
-               "few samples for a pilot, is a part (--first-sample), or path finds the light by itself and there are no caustics to be."),
+               "the picture is the one that --integrator with this name gives where both guide paths or neither does. Without the "
+               "line it is path: the picture takes too few samples for a pilot, is a part (--first-sample), or path finds the light by "
+               "itself and there are no caustics to be."),
     ("portals", "Where light samples look for the sky: rectangles in which paths that leave the scene have met nothing, such as windows, "
      "doors and skylights, and the share of the samples that go through them; the others go to bright places of its map. They are "
      "there where pilots found them to at least halve the squared error."),
