@@ -53,6 +53,10 @@ REPORT = [
     ("portals", "Where light samples look for the sky: rectangles in which paths that leave the scene have met nothing, such as windows, "
      "doors and skylights, and the share of the samples that go through them; the others go to bright places of its map. They are "
      "there where pilots found them to at least halve the squared error."),
+    ("reuse", "Where light comes by detours, paths are expensive and what they find is light for the pixels around as well: what leaves "
+     "the second vertex of a path, if that is on a matte surface, is also connected to the first vertices of seven paths of pixels "
+     "nearby (multiple importance sampling; without bias). It is so where pilots tell that it lowers squared error times rays, or by "
+     "--path-reuse on. Pixels nearby then have noise in common."),
     ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
      "of a sample; the cells of space that have learnt, and the memory that they take."),
     ("chains", "Of --integrator mlt: steps of Markov chains in this run, one for every sample of every pixel, or a few more so "

@@ -94,8 +94,14 @@ static inline Sampler tile_sampler(const RenderParams* params, uint x, uint y, S
     return sampler_make(params->seed, tile_pixel_number(params, x, y), counter.replicate, counter.index);
 }
 
-/* The pixel of this work-item; false for padding. */
-static inline bool tile_pixel(const RenderParams* params, TilePixel* pixel)
+/* True for a pixel of the window, false for what fills up tiles at its sides. */
+static inline bool tile_is_inside(const RenderParams* params, TilePixel pixel)
+{
+    return pixel.x < params->crop_width && pixel.y < params->crop_height;
+}
+
+/* The pixel of this work-item, inside the window or not; false where the launch has no tile for it. */
+static inline bool tile_place(const RenderParams* params, TilePixel* pixel)
 {
     const uint group = params->first_tile + (uint)(get_group_id(1) * get_num_groups(0) + get_group_id(0));
     if (group >= params->end_tile)
@@ -106,7 +112,13 @@ static inline bool tile_pixel(const RenderParams* params, TilePixel* pixel)
     pixel->x = (tile % params->tiles_x) * TILE_SIZE + x;
     pixel->y = (tile / params->tiles_x) * TILE_SIZE + y;
     pixel->slot = tile * TILE_PIXELS + y * TILE_SIZE + x;
-    return pixel->x < params->crop_width && pixel->y < params->crop_height;
+    return true;
+}
+
+/* The pixel of this work-item; false for padding. */
+static inline bool tile_pixel(const RenderParams* params, TilePixel* pixel)
+{
+    return tile_place(params, pixel) && tile_is_inside(params, *pixel);
 }
 
 #endif

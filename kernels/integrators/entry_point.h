@@ -26,12 +26,17 @@
 #include "replay.h"
 #else
 
-/* Takes a pixel's samples of this launch. Out of line, because some compilers compile an entry point's
+#if PATH_REUSE
+#include "pixel_group.h"
+#else
+/* Takes the samples of this launch of a work-item's pixel. Out of line, because some compilers compile an entry point's
    body several times. */
-static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* params, TilePixel place,
-                                       global long* film, global uint* pixel_rays,
-                                       global volatile uint* counters)
+static CLRT_NOINLINE void work_item_render(const Scene* scene, const RenderParams* params, TilePixel place,
+                                           global long* film, global uint* pixel_rays,
+                                           global volatile uint* counters)
 {
+    if (!tile_is_inside(params, place))
+        return;
     PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
     const SampleRange range = tile_samples(params, pixel_rays, place.slot);
     SampleCounter counter = sample_counter_make(params, range.first);
@@ -49,17 +54,18 @@ static CLRT_NOINLINE void pixel_render(const Scene* scene, const RenderParams* p
     }
     film_add_counts(&rays, range.count, pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS));
 }
+#endif
 
 CLRT_KERNEL __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void INTEGRATOR_KERNEL(
     const RenderParams params, SCENE_PARAMS, global long* restrict film, global uint* restrict pixel_rays,
     global volatile uint* counters GUIDE_PARAMS)
 {
     TilePixel place;
-    if (!tile_pixel(&params, &place))
+    if (!tile_place(&params, &place))
         return;
     Scene scene = SCENE_MAKE;
     GUIDE_SET(scene);
-    pixel_render(&scene, &params, place, film, pixel_rays, counters);
+    work_item_render(&scene, &params, place, film, pixel_rays, counters);
 }
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "path/connect.h"
 #include "path/cut.h"
-#include "pixel.h"
+#include "path_reuse.h"
 
 /* Adds the light from outside the scene. */
 static inline void path_escape(const Scene* scene, const RenderParams* params, uint segment, const Path* path,
@@ -44,7 +44,8 @@ static inline void path_add_emission(const Scene* scene, const RenderParams* par
 /* Handles the vertex at the end of a segment: adds its emission, chooses the next direction, connects to a
    light, and goes on or ends the path. */
 static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* params, uint segment,
-                                      Path* path, CameraSample* sample, PixelRays* rays)
+                                      Path* path, CameraSample* sample, ReusedPath* reused,
+                                      PixelRays* rays)
 {
     const real3 wo = -path->ray.direction;
     const Sampler* sampler = &sample->sampler;
@@ -67,6 +68,8 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const bool continues = path_filter(scene, params, sampler, segment, &surface, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
+    reuse_keep_first(segment, &surface, &bsdf, path, reused);
+    reuse_keep_second(segment, &surface, &bsdf, path, &sample->radiance, reused);
     Guide guide = guide_at(scene, guide_cell_of(&path->guided), &bsdf);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
     path_connect(scene, params, &surface, &bsdf, &step, path);
@@ -123,7 +126,8 @@ static inline void path_draw_sky(const Scene* scene, const RenderParams* params,
 
 /* Advances the paths of a list by a segment and its vertex; leaves those in it that go on. */
 static inline void path_advance(const Scene* scene, const RenderParams* params, uint segment, Path* paths,
-                                CameraSample* samples, PathList* alive, PixelRays* rays)
+                                CameraSample* samples, ReusedPath* reused, PathList* alive,
+                                PixelRays* rays)
 {
     path_draw(scene, params, samples, segment, alive, paths);
 
@@ -151,13 +155,14 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
     next.count = connected.count = 0u;
     for (uint i = 0; i < alive->count; ++i) {
         const uint k = alive->at[i];
-        path_vertex(scene, params, segment, &paths[k], &samples[k], rays);
+        PixelRays* counts = pixel_rays_of(&samples[k], rays);
+        path_vertex(scene, params, segment, &paths[k], &samples[k], &reused[k], counts);
         path_list_add(&next, k, paths[k].is_alive);
         path_list_add(&connected, k, paths[k].is_connected);
+        counts->secondary += paths[k].is_alive ? 1u : 0u;
+        counts->shadow += paths[k].is_connected ? 1u : 0u;
     }
     *alive = next;
-    rays->secondary += next.count;
-    rays->shadow += connected.count;
 
     /* Add the light that nothing keeps away. */
     for (uint i = 0; i < connected.count; ++i) {
@@ -171,15 +176,18 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
                                         uint count, PixelRays* rays)
 {
     Path paths[SAMPLES_AT_ONCE];
+    ReusedPath reused[SAMPLES_AT_ONCE];
     PathList alive;
     alive.count = 0u;
     for (uint k = 0; k < count; ++k) {
         path_begin(&paths[k], &samples[k].ray);
+        reuse_begin(&reused[k]);
         guide_choose(params, &samples[k].sampler, &paths[k].guided);
         path_list_add(&alive, k, true);
     }
     for (uint segment = 1u; alive.count != 0u && segment <= PATH_SEGMENTS; ++segment)
-        path_advance(scene, params, segment, paths, samples, &alive, rays);
+        path_advance(scene, params, segment, paths, samples, reused, &alive, rays);
+    reuse_share(scene, params, count, reused, samples, rays);
     for (uint k = 0; k < count; ++k)
         nan_carry(scene, nan_of_vector(paths[k].throughput + paths[k].watched), &samples[k].radiance);
 #if PATH_GUIDE

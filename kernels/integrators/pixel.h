@@ -16,6 +16,10 @@
 #include "path/strategies.h"
 #include "path/visibility.h"
 
+#ifndef PATH_REUSE
+#define PATH_REUSE 0
+#endif
+
 /* One sample of a pixel: what an integrator gets and gives. */
 typedef struct {
     Sampler sampler;
@@ -25,6 +29,9 @@ typedef struct {
     real3 radiance;
 #if PATH_GUIDE
     real guide_gain; /* path/guide_gain.h */
+#endif
+#if PATH_REUSE
+    uint member; /* number of its pixel in the group (pixel_group.h) */
 #endif
 #if FILM_SPLATS
     global long* film; /* for pixel_splat; 0 in a replay, which only looks at splats */
@@ -36,6 +43,15 @@ typedef struct {
     Moments moments;
 #endif
 } CameraSample;
+
+/* What counts the rays of a sample's pixel, `rays` being those of its group, or of the pixel alone. */
+static inline PixelRays* pixel_rays_of(const CameraSample* sample, PixelRays* rays)
+{
+#if PATH_REUSE
+    rays += sample->member;
+#endif
+    return rays;
+}
 
 /* Aims `count` samples of the pixel (x, y) from the counter on; `film` takes their splats. */
 static CLRT_NOINLINE void pixel_aim(const Scene* scene, const RenderParams* params, global long* film, uint x,

@@ -61,6 +61,12 @@ using EffectMask = std::uint64_t;
 /* Effects of surfaces behind which the same ray goes on (path/visibility.h). */
 #define EFFECTS_PASSED (EFFECT_CUT_OUT | EFFECT_THIN_WALL | EFFECT_NESTED)
 
+/* Effects by which what a path finds is its own pixel's alone (integrators/path_reuse.h): rays with a time, a
+   colour or a footprint of their own, segments that lose light on their way, and paths that are told apart. */
+#define EFFECTS_OF_ONE_PIXEL                                                                                 \
+    (EFFECTS_PASSED | EFFECT_PATH_FILTER | EFFECT_MOTION_BLUR | EFFECT_ATTENUATION | EFFECT_DISPERSION |     \
+     EFFECT_TEXTURE_FILTER)
+
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS
 #define CLRT_EFFECTS EFFECT_ALL

@@ -81,6 +81,9 @@ ASSERT_SIZE(RenderParams, 432);
 #define TILE_SIZE 8
 #define TILE_PIXELS 64
 
+/* Pixels of a tile whose paths serve each other where paths are reused (integrators/path_reuse.h). */
+#define REUSE_PIXELS 8
+
 /* Counts of a pixel, over all its samples: these u32 a slot. */
 #define PIXEL_RAYS_WORDS 7
 #define PIXEL_RAYS_SECONDARY 0

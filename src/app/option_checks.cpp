@@ -6,7 +6,7 @@
 #include "app/option_values.h"
 #include "error.h"
 #include "film/adaptive.h"
-#include "options/guide_refusal.h"
+#include "options/path_refusals.h"
 #include "output/file_name.h"
 #include "output/image.h"
 #include "output/standard_streams.h"
@@ -168,15 +168,15 @@ void check_chains(const Options& options) {
 }
 
 /// What is asked for by name is done or refused.
-void check_guide(const Options& options) {
-    const std::optional<GuideRefusal> refusal = guide_refusal(options);
-    if (!refusal || options.transport.guide != Toggle::ON)
+void check_asked(const Options& options, IntegratorOption option, Toggle asked,
+                 const std::optional<PathRefusal>& refusal) {
+    if (!refusal || asked != Toggle::ON)
         return;
     std::string other = refusal->option;
-    if (!takes_option(options.transport.integrator, TAKES_GUIDE))
+    if (!takes_option(options.transport.integrator, option))
         other += std::string(" ") + name_of(options.transport.integrator);
-    reject(options,
-           "options --guide on and " + other + ": expected one of them, found both; " + refusal->reason);
+    reject(options, std::string("options ") + name_of(option) + " on and " + other +
+                        ": expected one of them, found both; " + refusal->reason);
 }
 
 /// Devices share samples that need none before them.
@@ -342,7 +342,8 @@ void check_combinations(const Options& options) {
     check_adaptive(options);
     check_denoise(options);
     check_chains(options);
-    check_guide(options);
+    check_asked(options, TAKES_PATH_REUSE, options.transport.path_reuse, reuse_refusal(options));
+    check_asked(options, TAKES_GUIDE, options.transport.guide, guide_refusal(options));
     check_devices(options);
     check_names(options);
     check_frames(options);

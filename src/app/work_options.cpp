@@ -3,6 +3,7 @@
 #include "app/integrator_help.h"
 #include "app/option_rows.h"
 #include "film/film.h"
+#include "kernels/shared/render_types.h"
 
 #include <fmt/format.h>
 
@@ -126,6 +127,14 @@ std::vector<OptionSpec> work_options() {
                          "--ledger, --pixel or fewer than 4 replicates (default auto)",
                          defaults.guide_after_rays * 1e-6),
          [](Options& o, const OptionValue& v) { o.transport.guide = parse_choice<Toggle>(v); }},
+        {group, "", "--path-reuse", "auto|on|off",
+         takers(TAKES_PATH_REUSE) +
+             fmt::format("give what a path finds behind its second vertex to {} pixels: off, on, or auto: "
+                         "where pilots tell that it lowers noise times rays; not with --guide on, --ledger, "
+                         "--pixel, a --crop across tiles of {} pixels, or a roulette from the first segment "
+                         "on (default auto)",
+                         REUSE_PIXELS, TILE_SIZE),
+         [](Options& o, const OptionValue& v) { o.transport.path_reuse = parse_choice<Toggle>(v); }},
         {group, "", "--roulette-depth", "N",
          fmt::format("{}first segment that Russian roulette may end (default {})",
                      takers(TAKES_ROULETTE_DEPTH), defaults.roulette_depth),

@@ -144,6 +144,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["sampler"] = name_of(options.sampling.sampler);
     identity["light_sampler"] = name_of(options.sampling.light_sampler);
     identity["guide"] = options.transport.guide == Toggle::ON;
+    identity["path_reuse"] = options.transport.path_reuse == Toggle::ON;
     identity["adaptive"] = false;
     if (options.sampling.adaptive)
         identity["adaptive"] = name_of(*options.sampling.adaptive);
@@ -187,6 +188,10 @@ Integrator film_integrator(const FilmIdentity& identity) {
                            ? find_named<Integrator>(name->get<std::string>())
                            : std::nullopt;
     return found.value_or(Integrator::PATH);
+}
+
+bool film_reuses_paths(const FilmIdentity& identity) {
+    return identity.value("path_reuse", FilmIdentity(false)) == true;
 }
 
 std::vector<std::string> film_layer_names(const FilmIdentity& identity) {

@@ -42,6 +42,9 @@ std::optional<ErrorMeasure> film_measure(const FilmIdentity& identity);
 /// The integrator of an identity's film; path where none is known by its name.
 Integrator film_integrator(const FilmIdentity& identity);
 
+/// Whether a film's paths were reused.
+bool film_reuses_paths(const FilmIdentity& identity);
+
 /// Names of the layers of paths of an identity's film.
 std::vector<std::string> film_layer_names(const FilmIdentity& identity);
 

@@ -25,6 +25,7 @@ enum IntegratorOption : unsigned {
     TAKES_TRANSLUCENT_RAYS = 64,
     TAKES_GUIDE = 128,
     TAKES_TEXTURE_FILTER = 256,
+    TAKES_PATH_REUSE = 512,
 };
 
 template <>
@@ -37,7 +38,8 @@ inline constexpr Named<IntegratorOption> NAMES<IntegratorOption>[] = {
     {TAKES_GLOSS_RAYS, "--gloss-rays"},
     {TAKES_TRANSLUCENT_RAYS, "--translucent-rays"},
     {TAKES_GUIDE, "--guide"},
-    {TAKES_TEXTURE_FILTER, "--texture-filter"}};
+    {TAKES_TEXTURE_FILTER, "--texture-filter"},
+    {TAKES_PATH_REUSE, "--path-reuse"}};
 
 /// Paths in path notation (paths/path_expression.h): those that an integrator simulates, and those that its
 /// techniques find. What is simulated and not found is a blind spot (paths/blind_spots.h).
@@ -149,7 +151,8 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE_AND_BSDF,
      Connections::ONE_LIGHT,
      FilmAccess::GATHER,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE | TAKES_TEXTURE_FILTER},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE | TAKES_TEXTURE_FILTER |
+         TAKES_PATH_REUSE},
     {Integrator::PATH_LIGHT,
      "path+light",
      "global illumination, caustics by light paths",

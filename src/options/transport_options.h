@@ -27,6 +27,9 @@ struct TransportOptions {
     /// has told that light is hard to find; no option of the command line. They take two cores of a CPU a
     /// second or two, about as long as a guide's first compilation.
     double guide_after_rays = 1 << 22;
+    /// What paths of other pixels have found (kernels/integrators/path_reuse.h); auto: until that is chosen
+    /// (render/reuse_choice.h), none.
+    Toggle path_reuse = Toggle::AUTO;
     int shadow_rays = 4;      ///< of a vertex to lamps, sky, and every sun with a disc
     int gloss_rays = 4;       ///< of a vertex by a rough reflection
     int translucent_rays = 4; ///< of a vertex by a rough dielectric, reflected and refracted

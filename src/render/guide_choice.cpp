@@ -2,7 +2,7 @@
 #include "render/guide_choice.h"
 
 #include "console/signals.h"
-#include "options/guide_refusal.h"
+#include "options/path_refusals.h"
 #include "render/guiding.h"
 
 #include <algorithm>

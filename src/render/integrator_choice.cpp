@@ -3,7 +3,7 @@
 
 #include "console/signals.h"
 #include "film/film_file.h"
-#include "options/guide_refusal.h"
+#include "options/path_refusals.h"
 #include "render/render_params.h"
 #include "seconds.h"
 

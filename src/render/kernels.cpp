@@ -4,6 +4,7 @@
 #include "denoise/denoise.h"
 #include "device/kernel_source.h"
 #include "film/film_buffers.h"
+#include "kernels/shared/render_types.h"
 #include "options/summed_layers.h"
 #include "output/image.h"
 #include "render/layer_table.h"
@@ -29,7 +30,7 @@ const std::string HIT_LAYERS_PROGRAM = "aov", ESCAPE_PROGRAM = "escapes", REPLAY
 constexpr int MOST_KEPT_VERTICES = 30;
 
 /// For programs that do not simulate several samples of a pixel side by side (kernels/integrators/pixel.h).
-const std::string ONE_SAMPLE_AT_ONCE = "SAMPLES_AT_ONCE=1";
+const std::string SAMPLES_AT_ONCE = "SAMPLES_AT_ONCE=", ONE_SAMPLE_AT_ONCE = SAMPLES_AT_ONCE + "1";
 
 void append(std::vector<std::string>& defines, const std::vector<std::string>& more) {
     defines.insert(defines.end(), more.begin(), more.end());
@@ -58,10 +59,23 @@ ProgramRequest launched_request(const Device& device, const KernelFiles& files, 
     ProgramRequest request = make_request(files, name, options, effects, layout);
     // A CPU's core fills the waits of one with the others, a GPU has other work-items for that; sums of
     // strategies are large.
-    if (device.info.type != "CPU" || strategy_segments(options) > 0)
+    const bool is_said = std::any_of(defines.begin(), defines.end(), [](const std::string& define) {
+        return define.rfind(SAMPLES_AT_ONCE, 0) == 0;
+    });
+    if (!is_said && (device.info.type != "CPU" || strategy_segments(options) > 0))
         request.defines.push_back(ONE_SAMPLE_AT_ONCE);
     append(request.defines, defines);
     return request;
+}
+
+/// What tells a program that it reuses paths: several of several pixels side by side.
+std::vector<std::string> reuse_defines(const Device& device, const TransportOptions& transport) {
+    if (transport.path_reuse != Toggle::ON || !takes_option(transport.integrator, TAKES_PATH_REUSE))
+        return {};
+    std::vector<std::string> defines = {"PATH_REUSE=1"};
+    if (device.info.type != "CPU")
+        defines.push_back(SAMPLES_AT_ONCE + std::to_string(REUSE_PIXELS));
+    return defines;
 }
 
 /// Whether pictures say which share of their samples hit something.
@@ -155,8 +169,9 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
                              launched_request(device, files, name, options, effects, layout, defines));
     };
     RenderPrograms programs;
-    programs.picture =
-        build(integrator_stem(options.transport.integrator), picture_defines(device, options, paths));
+    std::vector<std::string> defines = picture_defines(device, options, paths);
+    append(defines, reuse_defines(device, options.transport));
+    programs.picture = build(integrator_stem(options.transport.integrator), defines);
     if (wants_layers(options))
         programs.layers = build(HIT_LAYERS_PROGRAM, matte_defines(options));
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -5,7 +5,7 @@
 #include "device/opencl_error.h"
 #include "film/film_capacity.h"
 #include "film/sample_ranges.h"
-#include "options/guide_refusal.h"
+#include "options/path_refusals.h"
 #include "options/summed_layers.h"
 #include "render/error_text.h"
 #include "render/good_counts.h"

@@ -5,6 +5,7 @@
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/guide_choice.h"
+#include "render/reuse_choice.h"
 #include "render/portal_choice.h"
 #include "render/render_params.h"
 #include "render/sky_choice.h"
@@ -185,6 +186,7 @@ int run_render(Options options) {
     choose_portals(devices.front(), job.planned, job.parts, progress);
     job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
     const bool is_other_sky = choose_sky_table(devices.front(), job.planned, job.parts, progress);
+    choose_path_reuse(devices.front(), job.planned, job.parts, progress);
     choose_guide(devices.front(), job.planned, job.parts, is_other_sky ? std::nullopt : job.choice.unguided,
                  progress);
     announce(*job.planned);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --guide: guided paths bring the same light, with less noise where it is hard to find; the picture keeps its
 // bits however its samples are dealt out; a film goes on where it was; auto leaves easy scenes alone.
-#include "options/guide_refusal.h"
+#include "options/path_refusals.h"
 #include "probes/film_estimate.h"
 #include "render/guiding.h"
 #include "support/adjoining_rooms.h"

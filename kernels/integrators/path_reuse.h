@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path reuse (Bekaert, Sbert and Halton 2002): what a path has gathered behind its second vertex is light for
+// the first vertices of the paths of other pixels, too. For builds with -DPATH_REUSE=1.
+//
+// Let x_i be the first vertices of a group's paths and y_j the second ones, f_i the BSDF times cosine at x_i,
+// p_i its sampling density of the direction to y_j, V_ij visibility, c_ij the cosine at y_j over the squared
+// distance, and L_j what path j has found to leave y_j, emission apart. The estimate of pixel i is
+//     sum over j of  f_i c_ij V_ij L_j / sum over k of p_k c_kj V_kj,
+// the balance heuristic (Veach 1997) over all paths that could have come to y_j. It has no bias, and no
+// quotient is larger than the path's own.
+//
+// L_j must be the same for all: y_j is on a surface that is matte alone, and is seen from the side that path
+// j has seen. All else, such as emission that a path meets there, paths that leave x_j by a delta lobe, and
+// those that come to glossy surfaces, is its own pixel's alone. Which of both a path is depends on x and y
+// only, so that every light path is counted by one of them.
+#ifndef CLRT_INTEGRATORS_PATH_REUSE_H
+#define CLRT_INTEGRATORS_PATH_REUSE_H
+
+#include "path/walk.h"
+#include "pixel.h"
+
+#if PATH_REUSE
+/* A path's two vertices. */
+typedef struct {
+    bool has_first;  /* the first vertex is there: */
+    Surface surface; /* its surface, */
+    Bsdf bsdf;
+    real3 throughput; /* of the path that comes to it */
+    bool has_second;  /* the second is there, and is of use to others: */
+    Surface second;   /* its surface, */
+    real3 normal_s;   /* its shading normal */
+    real side;        /* 1 where the facet's normal points to the path, else -1 */
+    real3 before;     /* what the sample had gathered when the path came to it, */
+    real scale;       /* the throughput by which the rest has been gathered, */
+    real3 light;      /* and that rest over it: the radiance that leaves the second vertex */
+} ReusedPath;
+
+static inline void reuse_begin(ReusedPath* reused) { reused->has_first = reused->has_second = false; }
+
+/* Keeps the first vertex, which some lobe connects to others. */
+static inline void reuse_keep_first(uint segment, const Surface* surface, const Bsdf* bsdf, const Path* path,
+                                    ReusedPath* reused)
+{
+    if (segment != 1u || !bsdf_has_smooth_lobe(bsdf))
+        return;
+    reused->has_first = true;
+    reused->surface = *surface;
+    reused->bsdf = *bsdf;
+    reused->throughput = path->throughput;
+}
+
+/* Keeps the second vertex if it is of use to others: from then on the sample gathers what leaves it. */
+static inline void reuse_keep_second(uint segment, const Surface* surface, const Bsdf* bsdf, Path* path,
+                                     real3* radiance, ReusedPath* reused)
+{
+    if (segment != 2u || !reused->has_first || path->pdf_w == REAL(0.0) || path->has_crossed_curved)
+        return;
+    const real scale = vector_max_component(path->throughput);
+    if (bsdf->lobes != LOBE_MATTE || (bsdf->flags & (BSDF_BENT | BSDF_COUPLED)) || !(scale > REAL(0.0)))
+        return;
+    reused->has_second = true;
+    reused->second = *surface;
+    reused->normal_s = bsdf->frame.z;
+    reused->side = vector_dot(surface->normal_g, path->ray.direction) > REAL(0.0) ? REAL(-1.0) : REAL(1.0);
+    reused->before = *radiance;
+    reused->scale = scale;
+    *radiance = (real3)(REAL(0.0));
+    path->throughput = (real3)(scale);
+}
+
+/* At the end of the path: what it has gathered for itself stays the sample's, the rest is for all. */
+static inline void reuse_finish(real3* radiance, ReusedPath* reused)
+{
+    if (!reused->has_second)
+        return;
+    reused->light = *radiance / reused->scale;
+    *radiance = reused->before;
+}
+
+/* The segment from a first vertex to a second one, whose direction from the first is wi. */
+static inline Ray reuse_shadow_ray(const Surface* first, const Surface* second, real3 wi)
+{
+    Ray ray = surface_ray(first, surface_reflects(first, wi), wi);
+    ray.direction = surface_origin(second, surface_reflects(second, -wi)) - ray.origin;
+    ray.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
+    return ray;
+}
+
+/* What one path's first vertex makes of another's second one: BSDF times cosines over squared distance, and
+   its density there, per area; both 0 where it does not see it. `is_own`: both are of one path, which has
+   been there. */
+static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderParams* params,
+                                             const ReusedPath* eye, const ReusedPath* source, bool is_own,
+                                             PixelRays* rays)
+{
+    const BsdfValue nothing = bsdf_value_none();
+    const real3 way = source->second.position - surface_lifted(&eye->surface);
+    const real square = vector_dot(way, way);
+    if (!eye->has_first || square == REAL(0.0))
+        return nothing;
+    const real3 wi = way / real_sqrt(square);
+    const real cosine = -source->side * vector_dot(source->second.normal_g, wi);
+    if (!(cosine > REAL(0.0)) || !(vector_dot(source->normal_s, wi) < REAL(0.0)))
+        return nothing;
+    if (eye->surface.is_curved && !surface_reflects(&eye->surface, wi))
+        return nothing;
+    BsdfValue eval = bsdf_eval(&eye->bsdf, wi);
+    if (eval.pdf_w == REAL(0.0))
+        return nothing;
+    if (!is_own) {
+        ++rays->shadow;
+        const Ray shadow = reuse_shadow_ray(&eye->surface, &source->second, wi);
+        if (vector_is_black(visible_share(scene, params, &shadow)))
+            return nothing;
+    }
+    eval.value *= eye->throughput * (cosine / square);
+    eval.pdf_w *= cosine / square;
+    return eval;
+}
+
+/* Shares what the second vertex of one path has found among the samples of its group, which lie `stride`
+   apart. */
+static inline void reuse_share_one(const Scene* scene, const RenderParams* params, const ReusedPath* source,
+                                   const ReusedPath* reused, uint members, uint stride, CameraSample* samples,
+                                   PixelRays* rays)
+{
+    real3 values[REUSE_PIXELS];
+    real density = REAL(0.0);
+    for (uint i = 0; i < members; ++i) {
+        const ReusedPath* eye = &reused[i * stride];
+        const BsdfValue eval = reuse_connect(scene, params, eye, source, eye == source, rays + i);
+        values[i] = eval.value;
+        density += eval.pdf_w;
+    }
+    if (!(density > REAL(0.0)))
+        return;
+    for (uint i = 0; i < members; ++i)
+        samples[i * stride].radiance += values[i] * source->light / density;
+}
+
+/* Shares what finished paths have found: those of equal number among the samples of each pixel. */
+static CLRT_NOINLINE void reuse_share(const Scene* scene, const RenderParams* params, uint count,
+                                      ReusedPath* reused, CameraSample* samples, PixelRays* rays)
+{
+    const uint members = samples[count - 1u].member + 1u;
+    const uint stride = count / members;
+    for (uint k = 0; k < count; ++k)
+        reuse_finish(&samples[k].radiance, &reused[k]);
+    for (uint k = 0; k < count; ++k)
+        if (reused[k].has_second)
+            reuse_share_one(scene, params, &reused[k], reused + k % stride, members, stride,
+                            samples + k % stride, rays);
+}
+#else
+typedef struct {
+    uint unused;
+} ReusedPath;
+
+static inline void reuse_begin(ReusedPath* reused) {}
+
+static inline void reuse_keep_first(uint segment, const Surface* surface, const Bsdf* bsdf, const Path* path,
+                                    ReusedPath* reused)
+{
+}
+
+static inline void reuse_keep_second(uint segment, const Surface* surface, const Bsdf* bsdf, Path* path,
+                                     real3* radiance, ReusedPath* reused)
+{
+}
+
+static inline void reuse_share(const Scene* scene, const RenderParams* params, uint count, ReusedPath* reused,
+                               CameraSample* samples, PixelRays* rays)
+{
+}
+#endif
+
+#endif
