@@ -21,8 +21,8 @@ static inline uint group_number(void)
 
 /* The pixel that a group has in cell number `cell` of a tile, whose first pixel is `corner`; false for
    padding. `dealt`: a random word of the tile. */
-static inline bool group_pixel(const RenderParams* params, TilePixel corner, uint dealt, uint group, uint cell,
-                               TilePixel* pixel)
+static inline bool group_pixel(const RenderParams* params, TilePixel corner, uint dealt, uint group,
+                               uint cell, TilePixel* pixel)
 {
     const uint place = group ^ (dealt >> (3u * cell) & (CELL_PIXELS - 1u));
     const uint x = cell % CELLS_IN_ROW * CELL_COLUMNS + place % CELL_COLUMNS;

@@ -17,8 +17,9 @@ bool is_tile_side(int x, int size) {
 
 /// Whether the window is made of whole tiles of the picture.
 bool has_whole_tiles(const FilmOptions& film) {
-    return !film.crop || (film.crop->x0 % TILE_SIZE == 0 && film.crop->y0 % TILE_SIZE == 0 &&
-                          is_tile_side(film.crop->x1, film.size.x) && is_tile_side(film.crop->y1, film.size.y));
+    return !film.crop ||
+           (film.crop->x0 % TILE_SIZE == 0 && film.crop->y0 % TILE_SIZE == 0 &&
+            is_tile_side(film.crop->x1, film.size.x) && is_tile_side(film.crop->y1, film.size.y));
 }
 
 } // namespace
@@ -29,17 +30,16 @@ std::optional<PathRefusal> guide_refusal(const Options& options) {
     if (options.transport.path_reuse == Toggle::ON)
         return PathRefusal{"--path-reuse on", "paths learn from what is their own"};
     if (options.sampling.first_sample != 0)
-        return PathRefusal{"--first-sample",
-                            "guided samples need those before them; render other parts of a "
-                            "picture with other seeds"};
+        return PathRefusal{"--first-sample", "guided samples need those before them; render other parts of a "
+                                             "picture with other seeds"};
     if (options.sampling.adaptive)
         return PathRefusal{"--adaptive",
-                            "its halves decide for each other and must not share what paths have learnt"};
+                           "its halves decide for each other and must not share what paths have learnt"};
     if (options.sampling.replicates < FEWEST_GUIDED_REPLICATES)
         return PathRefusal{"--replicates", "the spread of four or more tells what a guide is worth"};
     if (shares_picture(options.device))
         return PathRefusal{"--device with several names",
-                            "guided samples need all those before them, which devices take at once"};
+                           "guided samples need all those before them, which devices take at once"};
     if (options.run.ledger != LedgerOf::NOTHING)
         return PathRefusal{"--ledger", "the ledger compares pictures of the same samples"};
     if (options.run.pixel)
@@ -55,8 +55,9 @@ std::optional<PathRefusal> reuse_refusal(const Options& options) {
     if (options.transport.roulette_depth < 2)
         return PathRefusal{"--roulette-depth 1", "a path that ends at its first vertex leaves nothing"};
     if (!has_whole_tiles(options.film))
-        return PathRefusal{"--crop", "paths serve the pixels of a tile, so the window must be of whole tiles of "
-                                     "8 x 8 pixels"};
+        return PathRefusal{"--crop",
+                           "paths serve the pixels of a tile, so the window must be of whole tiles of "
+                           "8 x 8 pixels"};
     if (options.run.ledger != LedgerOf::NOTHING)
         return PathRefusal{"--ledger", "the ledger tells what effects cost where every path is its own"};
     if (options.run.pixel)

@@ -55,6 +55,8 @@ std::optional<std::string> reason_for_path(const Options& options) {
         return "--adaptive gives samples to tiles, and light paths reach all of them at once";
     if (options.transport.guide == Toggle::ON)
         return "--guide on guides paths from the eye";
+    if (options.transport.path_reuse == Toggle::ON)
+        return "--path-reuse on gives paths from the eye to several pixels";
     if (options.scene.texture_filter != TextureFilter::NONE)
         return "--texture-filter follows paths from the eye";
     return std::nullopt;

@@ -24,11 +24,12 @@ constexpr double PILOTS_WORK = 2.5;
 
 /// Takes what the scene does not allow: refuses where it is asked for.
 bool is_allowed(const PlannedScene& planned) {
-    const EffectMask against = planned.effects.mask & EFFECTS_OF_ONE_PIXEL;
+    const EffectMask against = planned.effects.needed & ~planned.effects.left_out & EFFECTS_OF_ONE_PIXEL;
     if (against != 0 && planned.options.transport.path_reuse == Toggle::ON)
-        throw UsageError(fmt::format("option --path-reuse on: expected a scene without {0}, found {0}; a path "
-                                     "there is of use to its own pixel alone",
-                                     fmt::join(effect_names(against), ", ")));
+        throw UsageError(
+            fmt::format("option --path-reuse on: expected a scene without {0}, found {0}; a path "
+                        "there is of use to its own pixel alone",
+                        fmt::join(effect_names(against), ", ")));
     return against == 0 && !reuse_refusal(planned.options);
 }
 

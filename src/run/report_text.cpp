@@ -69,7 +69,8 @@ std::string portal_line(const Report& report) {
 std::string reuse_line(const Report& report) {
     if (report.options.transport.path_reuse != Toggle::ON)
         return "";
-    return fmt::format("reuse    what a path finds behind its second vertex serves {} pixels\n", REUSE_PIXELS);
+    return fmt::format("reuse    what a path finds behind its second vertex serves {} pixels\n",
+                       REUSE_PIXELS);
 }
 
 std::string guide_line(const Report& report) {
@@ -178,8 +179,8 @@ std::string proof_lines(const Report& report) {
 std::string format_report(const Report& report) {
     std::string text =
         picture_line(report) + lost_line(report) + choice_line(report) + adaptive_line(report) +
-        portal_line(report) + reuse_line(report) + guide_line(report) + chain_line(report) + time_line(report) +
-        share_lines(report) + format_error_report(report.error) +
+        portal_line(report) + reuse_line(report) + guide_line(report) + chain_line(report) +
+        time_line(report) + share_lines(report) + format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         bias_line(report) + left_out_lines(report) + bad_lines(report);

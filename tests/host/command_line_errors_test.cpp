@@ -313,6 +313,14 @@ TEST(CommandLine, ContradictionsAreNamed) {
         expect({"--guide", "on", "-i", name},
                "options --guide on and --integrator " + name +
                    ": expected one of them, found both; its paths are not guided");
+    expect({"--path-reuse", "on", "--guide", "on"},
+           "options --path-reuse on and --guide on: expected one of them, found both; paths learn from what");
+    expect({"--path-reuse", "on", "-i", "bdpt"},
+           "options --path-reuse on and --integrator bdpt: expected one of them, found both");
+    expect({"--path-reuse", "on", "--crop", "4,0,16,8"},
+           "options --path-reuse on and --crop: expected one of them, found both; paths serve the pixels");
+    expect({"--path-reuse", "on", "--pixel", "1,1"},
+           "options --path-reuse on and --pixel: expected one of them, found both; a replay shows");
     expect({"--guide", "on", "--adaptive"},
            "options --guide on and --adaptive: expected one of them, found both; its halves");
     expect({"--guide", "on", "--replicates", "2"}, "options --guide on and --replicates: expected one of");

@@ -25,6 +25,7 @@ const std::map<std::string, std::string>& samples() {
         {"--denoised-error", "5%"},
         {"--max-depth", "12"},
         {"--guide", "auto"},
+        {"--path-reuse", "on"},
         {"--roulette-depth", "9"},
         {"--min-contribution", "0.5%"},
         {"--shadow-rays", "8"},

@@ -265,6 +265,7 @@ TEST(IntegratorChoice, WhatOptionsNeedComesFirst) {
     EXPECT_EQ(reason([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "--aov");
     EXPECT_EQ(reason([](Options& o) { o.sampling.adaptive = ErrorMeasure::RELATIVE; }), "--adaptive");
     EXPECT_EQ(reason([](Options& o) { o.transport.guide = Toggle::ON; }), "--guide");
+    EXPECT_EQ(reason([](Options& o) { o.transport.path_reuse = Toggle::ON; }), "--path-reuse");
     EXPECT_EQ(reason([](Options& o) { o.scene.texture_filter = TextureFilter::FOOTPRINT; }),
               "--texture-filter");
     EXPECT_EQ(reason([](Options& o) { o.sampling.spp = 8; }), "too");

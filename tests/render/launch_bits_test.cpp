@@ -20,7 +20,7 @@ struct Launch {
 };
 
 /// Glass, a rough ball, a sky and a lamp: all kinds of light, long and short paths side by side.
-PreparedScene make_scene(Integrator integrator) {
+PreparedScene make_scene(Integrator integrator, Toggle path_reuse) {
     TestScene scene;
     scene.build.material("white", "Kd 0.7 0.7 0.7").material("glass", "Ni 1.5\nillum 7");
     scene.build.material("rough", "Kd 0.2 0.2 0.2\nKs 0.6 0.6 0.6\nNs 30\nillum 2")
@@ -34,6 +34,7 @@ PreparedScene make_scene(Integrator integrator) {
     scene.options.film.size = {44, 29}; // tiles at the edges are not whole
     scene.options.sampling.replicates = 4;
     scene.options.transport.integrator = integrator;
+    scene.options.transport.path_reuse = path_reuse;
     scene.look({0, 1.5, 3}, {0, 0.4, 0}, 45);
     return prepare_loaded(test_device(), scene.load(), scene.options);
 }
@@ -41,8 +42,8 @@ PreparedScene make_scene(Integrator integrator) {
 /// A prepared scene and the films that launches leave.
 class LaunchedScene {
 public:
-    explicit LaunchedScene(Integrator integrator)
-        : prepared_(make_scene(integrator)), params_(launch_params(*prepared_.planned)) {}
+    explicit LaunchedScene(Integrator integrator, Toggle path_reuse = Toggle::OFF)
+        : prepared_(make_scene(integrator, path_reuse)), params_(launch_params(*prepared_.planned)) {}
 
     u32 tiles() const { return params_.tile_count; }
 
@@ -98,10 +99,15 @@ TEST(Launcher, CountsTheDevicesOwnSeconds) {
 }
 
 TEST(LaunchBits, DoNotDependOnTheSizesOrTheOrderOfLaunches) {
-    for (const Integrator integrator :
-         {Integrator::PATH, Integrator::DISTRIBUTION, Integrator::WHITTED, Integrator::RAYCAST,
-          Integrator::LIGHT, Integrator::PATH_LIGHT, Integrator::BDPT}) {
-        const LaunchedScene scene(integrator);
+    for (const auto& [integrator, path_reuse] : {std::pair{Integrator::PATH, Toggle::OFF},
+                                                 {Integrator::PATH, Toggle::ON},
+                                                 {Integrator::DISTRIBUTION, Toggle::OFF},
+                                                 {Integrator::WHITTED, Toggle::OFF},
+                                                 {Integrator::RAYCAST, Toggle::OFF},
+                                                 {Integrator::LIGHT, Toggle::OFF},
+                                                 {Integrator::PATH_LIGHT, Toggle::OFF},
+                                                 {Integrator::BDPT, Toggle::OFF}}) {
+        const LaunchedScene scene(integrator, path_reuse);
         const u32 tiles = scene.tiles();
         const std::vector<std::int64_t> at_once = scene.sums({{0, SAMPLES, 0, tiles}});
         EXPECT_NE(at_once, std::vector<std::int64_t>(at_once.size(), 0));

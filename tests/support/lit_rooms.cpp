@@ -99,15 +99,16 @@ void Room::add_steep_normals() {
     build.use("steep glass").textured_quad({{-1, 0.5, 1.5}, {0, 0.5, 1.5}, {0, 0.5, 0.2}, {-1, 0.5, 0.2}});
 }
 
-void expect_crop_is_a_part(Integrator integrator) {
+void expect_crop_is_a_part(Integrator integrator, const Crop& crop, Toggle path_reuse) {
     Room room;
     room.add_lamp();
     room.options.film.size = {32, 32};
     room.options.transport.integrator = integrator;
+    room.options.transport.path_reuse = path_reuse;
     room.options.sampling.spp = 16;
     room.options.sampling.replicates = 8;
     const Film whole = room.render().film;
-    room.options.film.crop = Crop{5, 9, 24, 30};
+    room.options.film.crop = crop;
     const Film window = room.render().film;
     const auto at = [](const Film& film, int replicate, int x, int y) {
         const size_t pixel = size_t(y) * size_t(film.width) + size_t(x);
@@ -116,7 +117,8 @@ void expect_crop_is_a_part(Integrator integrator) {
     for (int replicate = 0; replicate < 8; ++replicate)
         for (int y = 0; y < window.height; ++y)
             for (int x = 0; x < window.width; ++x)
-                ASSERT_EQ(at(window, replicate, x, y), at(whole, replicate, x + 5, y + 9)) << x << "," << y;
+                ASSERT_EQ(at(window, replicate, x, y), at(whole, replicate, x + crop.x0, y + crop.y0))
+                    << x << "," << y;
 }
 
 const std::vector<Lighting>& lightings() {

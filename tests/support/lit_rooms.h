@@ -34,7 +34,8 @@ struct Room : TestScene {
 };
 
 /// Whether a window of a lit room has the bits that it has in the whole picture.
-void expect_crop_is_a_part(Integrator integrator);
+void expect_crop_is_a_part(Integrator integrator, const Crop& window = {5, 9, 24, 30},
+                           Toggle path_reuse = Toggle::OFF);
 
 /// A way to light a room.
 struct Lighting {

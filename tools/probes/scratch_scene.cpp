@@ -33,8 +33,9 @@ void write_texture(const std::string& path, int width, int height, int channels,
 std::shared_ptr<const RenderPrograms> programs_for(const ProbeDevice& device, const PlannedScene& planned) {
     const Options& options = planned.options;
     const std::string key = fmt::format(
-        "render: {} {} {} {:#x} {} {} {} {} {} {} {} {}", int(options.transport.integrator),
-        int(options.device.precision), int(options.sampling.sampler), planned.effects.mask,
+        "render: {} {} {} {} {:#x} {} {} {} {} {} {} {} {}", int(options.transport.integrator),
+        options.transport.path_reuse == Toggle::ON, int(options.device.precision),
+        int(options.sampling.sampler), planned.effects.mask,
         int(choose_layout(options.bvh.layout, device.info)), wants_layers(options), wants_mattes(options),
         fmt::join(path_defines(planned.effects.paths), " "),
         fmt::join(branch_defines(options.transport), " "), fmt::join(vertex_defines(options.transport), " "),
