@@ -25,6 +25,29 @@ void expect_same_light(const Room& room, double sharpness) {
                  tile_means(room, room.options, Integrator::PATH, ""), sharpness);
 }
 
+/// The mean over pixels of their squared difference with and without reuse over its variance: light that is
+/// given to the wrong pixel of a tile changes no mean of the tile.
+double mean_square_z(TestScene& scene) {
+    scene.options.sampling.replicates = 32;
+    const Film alone = scene.render().film;
+    scene.options.transport.path_reuse = Toggle::ON;
+    scene.options.sampling.seed = 1;
+    const Film reusing = scene.render().film;
+    double sum = 0;
+    for (int y = 0; y < alone.height; ++y)
+        for (int x = 0; x < alone.width; ++x) {
+            const Estimate a = film_estimate(alone, 0, {x, y, x + 1, y + 1});
+            const Estimate b = film_estimate(reusing, 0, {x, y, x + 1, y + 1});
+            const double variance = a.error * a.error + b.error * b.error;
+            sum += variance > 0 ? (a.mean - b.mean) * (a.mean - b.mean) / variance : 0;
+        }
+    return sum / (alone.width * alone.height);
+}
+
+/// Of Student's distribution with 31 degrees of freedom or more it is at most 31 / 29; pixels have some noise
+/// in common.
+constexpr double LARGEST_MEAN_SQUARE_Z = 1.2;
+
 /// A render, its squared error of a sample times its rays.
 struct Cost {
     Render render;
@@ -89,6 +112,31 @@ TEST(PathReuse, ChangesNoMeanWherePathsEndEarly) {
     room.options.transport.roulette_depth = 5;
     room.options.transport.max_depth = 3;
     expect_same_light(room, 0.08);
+}
+
+// Poles before the walls of a room: of pixels side by side one sees what the other does not.
+TEST(PathReuse, ChangesNoMeanWhereSurfacesAreHidden) {
+    Lit room(true);
+    for (double x = -1.8; x < 1; x += 0.3)
+        room.build.use("white").box({x, 0, -1.9}, {x + 0.1, 2.4, -1.7});
+    room.look({0.3, 1.2, 1.9}, {0, 1.2, -2}, 50);
+    room.options.film.size = {48, 48};
+    room.options.sampling.spp = 256;
+    EXPECT_LT(mean_square_z(room), LARGEST_MEAN_SQUARE_Z);
+}
+
+// What leaves a glossy wall depends on the direction.
+TEST(PathReuse, ChangesNoMeanBetweenGlossyWalls) {
+    TestScene room;
+    room.build.material("gloss", "Kd 0.2 0.2 0.2\nKs 0.7 0.7 0.7\nNs 30\nillum 2");
+    room.build.material("lamp", "Kd 0 0 0\nKe 9 9 9").use("gloss");
+    room.build.box({-2, 0, -2}, {2, 2.5, 2}, Facing::INWARD);
+    room.build.use("lamp").polygon({{-1, 2.4, -1}, {0, 2.4, -1}, {0, 2.4, 0}, {-1, 2.4, 0}});
+    room.look({1.8, 1.6, 1.8}, {0, 0.8, 0}, 60);
+    room.options.film.size = {24, 24};
+    room.options.sampling.spp = 2048;
+    room.options.effects.all = false;
+    EXPECT_LT(mean_square_z(room), LARGEST_MEAN_SQUARE_Z);
 }
 
 TEST(PathReuse, LowersNoiseTimesRays) {
