@@ -19,7 +19,7 @@ inline std::string entry_points(const std::vector<std::string>& integrators) {
         for (const char* guard : {"CLRT_INTEGRATORS_ENTRY_POINT_H", "CLRT_INTEGRATORS_REPLAY_H",
                                   "INTEGRATOR_KERNEL", "INTEGRATOR_RADIANCE"})
             text += fmt::format("#undef {}\n", guard);
-        for (const char* function : {"pixel_render", "trace_counter", "trace_film", "trace_finish",
+        for (const char* function : {"work_item_render", "trace_counter", "trace_film", "trace_finish",
                                      "replay_sample", "replay_samples"})
             text += fmt::format("#undef {0}\n#define {0} {1}_{0}\n", function, name);
         text += fmt::format("#include \"integrators/{}.cl\"\n", name);

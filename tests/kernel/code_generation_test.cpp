@@ -125,6 +125,12 @@ TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
                                               {fmt::format("-DBVH_LAYOUT={}", int(layout))});
 }
 
+TEST_F(CodeGeneration, OfPathReuse) {
+    for (const EffectMask effects : {EFFECT_ALL & ~EFFECTS_OF_ONE_PIXEL, EffectMask(EFFECT_MATTE)})
+        expect_clean(fmt::format("path reuse, effects {:#x}", effects), entry_points({"path"}),
+                     {"-DPATH_REUSE=1", fmt::format("-DCLRT_EFFECTS={:#x}u", effects)});
+}
+
 TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
     const std::string file = folder.write("kernels.cl", include({"integrators/path.cl"}));
     for (const Target& target : {AVX2, AVX512})

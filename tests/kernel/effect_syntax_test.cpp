@@ -74,6 +74,14 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
     }
 }
 
+TEST(EffectSyntax, PathReuseCompilesInEverySetOfEffects) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("reuse.cl", "#define PATH_REUSE 1\n" + entry_points({"path"}));
+    for (const EffectMask mask : masks())
+        if ((mask & EFFECTS_OF_ONE_PIXEL) == 0)
+            EXPECT_EQ(complaints(file, "CL1.2", mask), "") << describe_effects(mask);
+}
+
 TEST(EffectSyntax, TheDenoisingFilterCompilesToo) {
     const ScratchFolder folder;
     for (const char* precision : {"", "#define REAL_IS_DOUBLE\n"}) {
