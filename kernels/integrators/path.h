@@ -69,8 +69,8 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     if (bsdf.lobes == 0u)
         return;
     reuse_keep_first(segment, &surface, &bsdf, path, reused);
-    reuse_keep_second(segment, &surface, &bsdf, path, &sample->radiance, reused);
-    Guide guide = guide_at(scene, guide_cell_of(&path->guided), &bsdf);
+    reuse_keep_second(scene, segment, &surface, &bsdf, path, &sample->radiance, reused);
+    Guide guide = guide_of(scene, &bsdf, &path->guided);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
     path_connect(scene, params, &surface, &bsdf, &step, path);
     if (next.is_valid && continues)

@@ -44,7 +44,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     path_filter(scene, params, sampler, segment, &surface, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
-    Guide guide = guide_at(scene, guide_cell_of(&path->guided), &bsdf);
+    Guide guide = guide_of(scene, &bsdf, &path->guided);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS

@@ -3,16 +3,18 @@
 // the first vertices of the paths of other pixels, too. For builds with -DPATH_REUSE=1.
 //
 // Let x_i be the first vertices of a group's paths and y_j the second ones, f_i the BSDF times cosine at x_i,
-// p_i its sampling density of the direction to y_j, V_ij visibility, c_ij the cosine at y_j over the squared
-// distance, and L_j what path j has found to leave y_j, emission apart. The estimate of pixel i is
-//     sum over j of  f_i c_ij V_ij L_j / sum over k of p_k c_kj V_kj,
+// p_i its sampling density of the direction to y_j, V_ij the share of light that gets from y_j to x_i, P_ij the
+// probability with which paths do, c_ij the cosine at y_j over the squared distance, and L_j what path j has
+// found to leave y_j, emission apart. The estimate of pixel i is
+//     sum over j of  f_i c_ij V_ij L_j / sum over k of p_k c_kj P_kj,
 // the balance heuristic (Veach 1997) over all paths that could have come to y_j. It has no bias, and no
-// quotient is larger than the path's own.
+// quotient is larger than the path's own. V and P are both 0 or 1 but for cut-outs and panes.
 //
 // L_j must be the same for all: y_j is on a surface that is matte alone, and is seen from the side that path
 // j has seen. All else, such as emission that a path meets there, paths that leave x_j by a delta lobe, and
-// those that come to glossy surfaces, is its own pixel's alone. Which of both a path is depends on x and y
-// only, so that every light path is counted by one of them.
+// those that come to glossy surfaces or panes, that leave x_j into an absorbing solid or with one colour of
+// three, is its own pixel's alone. Which of both a path is depends on x and y only, so that every light path
+// is counted by one of them.
 #ifndef CLRT_INTEGRATORS_PATH_REUSE_H
 #define CLRT_INTEGRATORS_PATH_REUSE_H
 
@@ -49,11 +51,20 @@ static inline void reuse_keep_first(uint segment, const Surface* surface, const 
     reused->throughput = path->throughput;
 }
 
-/* Keeps the second vertex if it is of use to others: from then on the sample gathers what leaves it. */
-static inline void reuse_keep_second(uint segment, const Surface* surface, const Bsdf* bsdf, Path* path,
-                                     real3* radiance, ReusedPath* reused)
+/* Whether others may be connected in a direction to a first vertex. */
+static inline bool reuse_leaves(const Scene* scene, const Surface* surface, const Bsdf* bsdf, real3 wi)
 {
-    if (segment != 2u || !reused->has_first || path->pdf_w == REAL(0.0) || path->has_crossed_curved)
+    const bool reflects = surface_reflects(surface, wi);
+    return (reflects || !surface->is_curved) && !dispersion_splits(bsdf, reflects) &&
+           solid_beside(scene, surface, reflects) == NO_INDEX;
+}
+
+/* Keeps the second vertex if it is of use to others: from then on the sample gathers what leaves it. */
+static inline void reuse_keep_second(const Scene* scene, uint segment, const Surface* surface,
+                                     const Bsdf* bsdf, Path* path, real3* radiance, ReusedPath* reused)
+{
+    if (segment != 2u || !reused->has_first || path->pdf_w == REAL(0.0) ||
+        !reuse_leaves(scene, &reused->surface, &reused->bsdf, path->ray.direction))
         return;
     const real scale = vector_max_component(path->throughput);
     if (bsdf->lobes != LOBE_MATTE || (bsdf->flags & (BSDF_BENT | BSDF_COUPLED)) || !(scale > REAL(0.0)))
@@ -86,9 +97,22 @@ static inline Ray reuse_shadow_ray(const Surface* first, const Surface* second, 
     return ray;
 }
 
+/* How a first vertex sees a second one. `is_own`: both are of one path, which has been there; where paths pass
+   surfaces by chance it must still be told with which probability it came. */
+static inline Passage reuse_passage(const Scene* scene, const RenderParams* params, const Surface* first,
+                                    const Surface* second, real3 wi, bool is_own, PixelRays* rays)
+{
+    const Passage open = {(real3)(REAL(1.0)), REAL(1.0)};
+    if (is_own && !HAS(EFFECTS_PASSED))
+        return open;
+    ++rays->shadow;
+    const Ray shadow = reuse_shadow_ray(first, second, wi);
+    const Passage passage = visible_passage(scene, params, &shadow);
+    return is_own && passage.passing == REAL(0.0) ? open : passage;
+}
+
 /* What one path's first vertex makes of another's second one: BSDF times cosines over squared distance, and
-   its density there, per area; both 0 where it does not see it. `is_own`: both are of one path, which has
-   been there. */
+   its density there, per area; both 0 where it does not see it. `is_own`: both are of one path. */
 static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderParams* params,
                                              const ReusedPath* eye, const ReusedPath* source, bool is_own,
                                              PixelRays* rays)
@@ -102,19 +126,15 @@ static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderPar
     const real cosine = -source->side * vector_dot(source->second.normal_g, wi);
     if (!(cosine > REAL(0.0)) || !(vector_dot(source->normal_s, wi) < REAL(0.0)))
         return nothing;
-    if (eye->surface.is_curved && !surface_reflects(&eye->surface, wi))
+    if (!reuse_leaves(scene, &eye->surface, &eye->bsdf, wi))
         return nothing;
     BsdfValue eval = bsdf_eval(&eye->bsdf, wi);
     if (eval.pdf_w == REAL(0.0))
         return nothing;
-    if (!is_own) {
-        ++rays->shadow;
-        const Ray shadow = reuse_shadow_ray(&eye->surface, &source->second, wi);
-        if (vector_is_black(visible_share(scene, params, &shadow)))
-            return nothing;
-    }
-    eval.value *= eye->throughput * (cosine / square);
-    eval.pdf_w *= cosine / square;
+    const Passage passage =
+        reuse_passage(scene, params, &eye->surface, &source->second, wi, is_own, rays);
+    eval.value *= eye->throughput * passage.share * (cosine / square);
+    eval.pdf_w *= passage.passing * (cosine / square);
     return eval;
 }
 
@@ -132,7 +152,7 @@ static inline void reuse_share_one(const Scene* scene, const RenderParams* param
         values[i] = eval.value;
         density += eval.pdf_w;
     }
-    if (!(density > REAL(0.0)))
+    if (density == REAL(0.0))
         return;
     for (uint i = 0; i < members; ++i)
         samples[i * stride].radiance += values[i] * source->light / density;
@@ -163,8 +183,8 @@ static inline void reuse_keep_first(uint segment, const Surface* surface, const 
 {
 }
 
-static inline void reuse_keep_second(uint segment, const Surface* surface, const Bsdf* bsdf, Path* path,
-                                     real3* radiance, ReusedPath* reused)
+static inline void reuse_keep_second(const Scene* scene, uint segment, const Surface* surface,
+                                     const Bsdf* bsdf, Path* path, real3* radiance, ReusedPath* reused)
 {
 }
 

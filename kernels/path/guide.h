@@ -12,8 +12,15 @@
 #include "guide_bins.h"
 #include "scattering/bsdf.h"
 
-/* Lobes sharper than this are sampled by themselves alone. */
+/* Lobes sharper than this are sampled by themselves alone. So is rough glass: paths stay in it for long, and
+   what guides do to their weights multiplies. */
 #define GUIDE_SMALLEST_ALPHA REAL(0.15)
+#define GUIDE_ROUGH_LOBES (LOBE_GLOSSY | LOBE_PANE)
+
+/* A path that weighs more than four times what it would without guides, as one does that goes on where they
+   seldom send it, is sampled by the BSDF alone from there on. Weights that multiply over many vertices are
+   fireflies, and none of the samples that judge a guide may show them. */
+#define GUIDE_SMALLEST_RATIO REAL(0.25)
 
 /* Of those that random numbers are: 1 - 2^-24. */
 #define GUIDE_LARGEST_NUMBER REAL(0.999999940395355224609375)
@@ -31,7 +38,7 @@ typedef struct {
 static inline bool guide_suits(const Bsdf* bsdf)
 {
     return (HAS(EFFECT_MATTE) && (bsdf->lobes & LOBE_MATTE)) ||
-           ((bsdf->lobes & LOBES_ROUGH) && fmin(bsdf->alpha_x, bsdf->alpha_y) >= GUIDE_SMALLEST_ALPHA);
+           ((bsdf->lobes & GUIDE_ROUGH_LOBES) && fmin(bsdf->alpha_x, bsdf->alpha_y) >= GUIDE_SMALLEST_ALPHA);
 }
 
 /* Of a vertex that is not guided. */
@@ -66,15 +73,15 @@ static inline uint guide_find_cell(const Scene* scene, const RenderParams* param
 }
 #endif
 
-/* The guide of a vertex in a cell. */
-static inline Guide guide_at(const Scene* scene, uint cell, const Bsdf* bsdf)
+/* The guide of a vertex in a cell. `ratio`: density of the path so far over that without guides. */
+static inline Guide guide_at(const Scene* scene, uint cell, real ratio, const Bsdf* bsdf)
 {
     Guide guide = guide_none();
 #if PATH_GUIDE
     if (!guide_suits(bsdf))
         return guide;
     guide.cell = cell;
-    guide.share = (real)scene->guide.cells[guide.cell].share;
+    guide.share = ratio < GUIDE_SMALLEST_RATIO ? REAL(0.0) : (real)scene->guide.cells[guide.cell].share;
     guide.radiance = (real)scene->guide.cells[guide.cell].radiance;
 #endif
     return guide;

@@ -102,12 +102,13 @@ static inline void guide_approach(const Scene* scene, const RenderParams* params
 #endif
 }
 
-static inline uint guide_cell_of(const GuidePath* path)
+/* The guide of the path's vertex there. */
+static inline Guide guide_of(const Scene* scene, const Bsdf* bsdf, const GuidePath* path)
 {
 #if PATH_GUIDE
-    return path->cell;
+    return guide_at(scene, path->cell, path->gain.ratio, bsdf);
 #else
-    return NO_INDEX;
+    return guide_none();
 #endif
 }
 

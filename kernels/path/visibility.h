@@ -188,21 +188,31 @@ static inline Surface visible_surface(const Scene* scene, const RenderParams* pa
     return surface;
 }
 
-/* What cut-outs and panes let pass of the light to the ray's end. */
-static inline real3 visible_share_of_layers(const Scene* scene, const RenderParams* params, const Ray* ray)
+/* How a ray gets from its origin to its end. */
+typedef struct {
+    real3 share;  /* of light that does */
+    real passing; /* probability that a path does (visible_hit) */
+} Passage;
+
+/* What cut-outs and panes let pass. */
+static inline Passage visible_passage_of_layers(const Scene* scene, const RenderParams* params,
+                                                const Ray* ray)
 {
-    real3 share = (real3)(REAL(1.0));
+    Passage passage = {(real3)(REAL(1.0)), REAL(1.0)};
     Hit after = hit_none(REAL(0.0));
     Ray going = *ray;
-    while (vector_max_component(share) > REAL(0.0)) {
+    while (vector_max_component(passage.share) > REAL(0.0)) {
         const Hit hit = scene_closest_hit(scene, params, ray, &after);
         if (hit.triangle == NO_INDEX)
             break;
-        if (!visibility_goes_on(scene, &hit, &going))
-            share *= visibility_crossing(scene, &hit, ray, true).share;
+        if (!visibility_goes_on(scene, &hit, &going)) {
+            const Crossing crossing = visibility_crossing(scene, &hit, ray, true);
+            passage.share *= crossing.share;
+            passage.passing *= REAL(1.0) - crossing.stop;
+        }
         after = hit;
     }
-    return share;
+    return passage;
 }
 
 /* A direction along no axis and no diagonal, of unit length. */
@@ -234,20 +244,28 @@ static CLRT_NOINLINE void visible_find_nest(const Scene* scene, const RenderPara
 #endif
 }
 
-/* The share of light that reaches the ray's end: 0 or 1, or the product of what cut-outs and panes let pass;
-   a NaN for a ray that is not finite. */
-static CLRT_NOINLINE real3 visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+/* Whether a ray reaches its end: 0 or 1, or what cut-outs and panes let pass; NaNs for a ray that is not
+   finite. */
+static inline Passage visible_passage(const Scene* scene, const RenderParams* params, const Ray* ray)
 {
-    real3 share = (real3)(REAL_NAN);
+    Passage passage = {(real3)(REAL_NAN), REAL_NAN};
     if (vector_is_finite(ray->origin) && vector_is_finite(ray->direction)) {
         if (HAS(EFFECTS_PASSED))
-            share = visible_share_of_layers(scene, params, ray);
-        else
-            share = (real3)(scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0));
+            passage = visible_passage_of_layers(scene, params, ray);
+        else {
+            passage.passing = scene_any_hit(scene, params, ray) ? REAL(0.0) : REAL(1.0);
+            passage.share = (real3)(passage.passing);
+        }
     }
-    TRACE_CHOICE(scene, TRACE_VISIBLE, vector_max_component(share) > REAL(0.0) ? 1u : 0u);
-    TRACE_NUMBER(scene, TRACE_SHARE, vector_max_component(share));
-    return share;
+    TRACE_CHOICE(scene, TRACE_VISIBLE, vector_max_component(passage.share) > REAL(0.0) ? 1u : 0u);
+    TRACE_NUMBER(scene, TRACE_SHARE, vector_max_component(passage.share));
+    return passage;
+}
+
+/* The share of light that reaches the ray's end. */
+static CLRT_NOINLINE real3 visible_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+{
+    return visible_passage(scene, params, ray).share;
 }
 
 #endif

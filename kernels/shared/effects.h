@@ -62,10 +62,8 @@ using EffectMask = std::uint64_t;
 #define EFFECTS_PASSED (EFFECT_CUT_OUT | EFFECT_THIN_WALL | EFFECT_NESTED)
 
 /* Effects by which what a path finds is its own pixel's alone (integrators/path_reuse.h): rays with a time, a
-   colour or a footprint of their own, segments that lose light on their way, and paths that are told apart. */
-#define EFFECTS_OF_ONE_PIXEL                                                                                 \
-    (EFFECTS_PASSED | EFFECT_PATH_FILTER | EFFECT_MOTION_BLUR | EFFECT_ATTENUATION | EFFECT_DISPERSION |     \
-     EFFECT_TEXTURE_FILTER)
+   footprint or solids around them of their own, and paths that are told apart. */
+#define EFFECTS_OF_ONE_PIXEL (EFFECT_NESTED | EFFECT_PATH_FILTER | EFFECT_MOTION_BLUR | EFFECT_TEXTURE_FILTER)
 
 #ifndef __cplusplus
 #ifndef CLRT_EFFECTS

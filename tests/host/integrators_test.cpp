@@ -85,7 +85,7 @@ TEST(Integrators, KernelsReadWhatTheirRowTakes) {
         {TAKES_SHADOW_RAYS, "DISTRIBUTION_SHADOW_RAYS"},
         {TAKES_GLOSS_RAYS, "DISTRIBUTION_GLOSS_RAYS"},
         {TAKES_TRANSLUCENT_RAYS, "DISTRIBUTION_TRANSLUCENT_RAYS"},
-        {TAKES_GUIDE, "guide_at(scene"}};
+        {TAKES_GUIDE, "guide_of(scene"}};
     for (const IntegratorRow& row : INTEGRATOR_ROWS)
         for (const auto& [option, use] : uses) {
             // Chains walk the paths of others, whose roulette is off (render/render_params.cpp).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --guide: guided paths bring the same light, with less noise where it is hard to find; the picture keeps its
 // bits however its samples are dealt out; a film goes on where it was; auto leaves easy scenes alone.
+#include "film/film_error.h"
 #include "options/path_refusals.h"
 #include "probes/film_estimate.h"
 #include "render/guiding.h"
@@ -30,6 +31,27 @@ Render render_guided(TestScene& scene, Toggle guide, u32 spp, int replicates) {
     scene.options.sampling.replicates = replicates;
     return scene.render();
 }
+
+/// A room with a lamp, which guides cannot make easier, and a block in it.
+struct BrightRoom : TestScene {
+    BrightRoom(const std::string& walls, const std::string& block) {
+        build.material("wall", walls).material("block", block).material("lamp", "Kd 0 0 0\nKe 9 9 9");
+        build.use("wall")
+            .box({-2, 0, -2}, {2, 2.5, 2}, Facing::INWARD)
+            .box({-0.6, 0.3, -0.6}, {0.2, 0.6, 0.2});
+        build.use("block").box({-1.5, 0.1, -1.5}, {1, 1, 1});
+        build.use("lamp").polygon({{-1, 2.4, -1}, {0, 2.4, -1}, {0, 2.4, 0}, {-1, 2.4, 0}});
+        look({1.8, 1.6, 1.8}, {0, 0.8, 0}, 60);
+        options.film.size = {24, 24};
+        options.effects.all = false;
+    }
+    /// Squared error of a guided sample over that of one without a guide.
+    double cost_of_guide() {
+        const Film alone = render_guided(*this, Toggle::OFF, 1024, 32).film;
+        const Film guided = render_guided(*this, Toggle::ON, 1024, 32).film;
+        return sample_error(guided, ErrorMeasure::MSE) / sample_error(alone, ErrorMeasure::MSE);
+    }
+};
 
 /// Mean and squared standard error of a tile of 8 x 8 pixels and channel, over the replicates.
 std::vector<Estimate> tile_means(const Film& film) {
@@ -155,6 +177,17 @@ TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
 }
 
 // In the middle of an epoch, and in one of a single sample of each replicate.
+// Paths of many vertices: what a guide makes of the weight at each of them multiplies.
+TEST(Guide, WeightsOfLongPathsStayBounded) {
+    BrightRoom room("Kd 0.95 0.95 0.95", "Kd 0.95 0.95 0.95");
+    EXPECT_LT(room.cost_of_guide(), 12);
+}
+
+TEST(Guide, LeavesRoughGlassAlone) {
+    BrightRoom room("Kd 0.75 0.75 0.75", "Ni 1.5\nillum 7\nPr 0.4");
+    EXPECT_LT(room.cost_of_guide(), 2);
+}
+
 TEST(Guide, OnlySomeSamplesTeach) {
     TestScene scene;
     add_adjoining_rooms(scene);

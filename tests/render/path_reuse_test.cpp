@@ -18,17 +18,20 @@ namespace {
 
 /// Whether a room has the same light in every tile with and without reuse.
 void expect_same_light(const Room& room, double sharpness) {
-    Options reusing = room.options;
+    Options alone = room.options;
+    alone.transport.guide = Toggle::OFF;
+    Options reusing = alone;
     reusing.transport.path_reuse = Toggle::ON;
     reusing.sampling.seed = 1;
     expect_equal(tile_means(room, reusing, Integrator::PATH, ""),
-                 tile_means(room, room.options, Integrator::PATH, ""), sharpness);
+                 tile_means(room, alone, Integrator::PATH, ""), sharpness);
 }
 
 /// The mean over pixels of their squared difference with and without reuse over its variance: light that is
 /// given to the wrong pixel of a tile changes no mean of the tile.
 double mean_square_z(TestScene& scene) {
     scene.options.sampling.replicates = 32;
+    scene.options.transport.guide = Toggle::OFF;
     const Film alone = scene.render().film;
     scene.options.transport.path_reuse = Toggle::ON;
     scene.options.sampling.seed = 1;
@@ -139,6 +142,31 @@ TEST(PathReuse, ChangesNoMeanBetweenGlossyWalls) {
     EXPECT_LT(mean_square_z(room), LARGEST_MEAN_SQUARE_Z);
 }
 
+// A veil over half of the floor, tinted panes across the room: paths pass them by chance, each its own.
+TEST(PathReuse, ChangesNoMeanBehindCutOutsAndPanes) {
+    Lit room(true);
+    room.build.material("veil", "Kd 0.5 0.5 0.5\nd 0.4")
+        .material("pane", "Ni 1.5\nillum 7\nTf 0.9 0.3 0.6\nthin_walled 1");
+    room.build.use("veil").polygon({{-2, 0.4, -2}, {-2, 0.4, 2}, {0.3, 0.4, 2}, {0.3, 0.4, -2}});
+    room.build.use("pane").polygon({{-1, 0, -2}, {-1, 2.4, -2}, {-1, 2.4, 1}, {-1, 0, 1}});
+    room.build.polygon({{-2, 0.2, 0.5}, {-2, 0.2, 2}, {2, 0.2, 2}, {2, 0.2, 0.5}});
+    room.options.film.size = {24, 24};
+    room.options.sampling.spp = 2048;
+    EXPECT_LT(mean_square_z(room), LARGEST_MEAN_SQUARE_Z);
+}
+
+// What is seen in rough glass, and what it sends to the walls.
+TEST(PathReuse, ChangesNoMeanAroundGlassThatAbsorbsOrDisperses) {
+    for (const char* kind : {"attenuation 0.5 1.5 3", "abbe 10"}) {
+        Lit room(true);
+        room.build.material("resin", std::string("Ni 1.5\nillum 7\nPr 0.4\n") + kind).use("resin");
+        room.build.box({-1.5, 0.1, -1.5}, {1, 1, 1}).use("white").box({-0.6, 0.3, -0.6}, {0.2, 0.6, 0.2});
+        room.options.film.size = {24, 24};
+        room.options.sampling.spp = 1024;
+        EXPECT_LT(mean_square_z(room), LARGEST_MEAN_SQUARE_Z) << kind;
+    }
+}
+
 TEST(PathReuse, LowersNoiseTimesRays) {
     TestScene rooms;
     add_adjoining_rooms(rooms);
@@ -191,7 +219,11 @@ TEST(PathReuse, IsNotChosenForParts) {
 
 TEST(PathReuse, IsRefusedWhereAPathIsOfUseToItsPixelAlone) {
     Lit room(true);
-    room.build.material("veil", "Kd 0.5 0.5 0.5\nd 0.5").use("veil").floor(0.5, 1);
+    room.options.scene.texture_filter = TextureFilter::FOOTPRINT;
+    room.texture8("wood.png", 2, 2, 1, {90, 180, 180, 90});
+    room.build.material("wood", "Kd 0.5 0.5 0.5\nmap_Kd wood.png")
+        .use("wood")
+        .textured_quad({{-1, 0.1, 1}, {1, 0.1, 1}, {1, 0.1, -1}, {-1, 0.1, -1}});
     EXPECT_EQ(room.chosen(), Toggle::OFF);
     room.options.transport.path_reuse = Toggle::ON;
     EXPECT_THROW(room.chosen(), UsageError);
