@@ -39,11 +39,12 @@ constexpr double HARD_LIGHT_ERROR = 2;
 
 /// What is expected to gain less than this is not taken: pilots were up to a third off.
 constexpr double WORTHWHILE_GAIN = 1.1;
-/// The same of bdpt where path may be guided, whose error without a guide is as in HARD_LIGHT_ERROR. A guide
-/// makes path 1.2 to 3.5 times as efficient there, which no pilot so small can tell. It said 2.2 of a door
-/// ajar and 2.7 of a stairwell, where .6 and 1.6 of the guided path's were true; 5.1 and 6.5 of hidden strips
-/// and of lamps in shades, where 4.9 and 9 were; and less than 1 of what is lit from the sky.
-constexpr double WORTHWHILE_GAIN_OVER_GUIDE = 3;
+/// The same of bdpt where path may be guided or reuse paths, and its error without either is as in
+/// HARD_LIGHT_ERROR. That makes path 1.2 to 4 times as efficient there, which no pilot so small can tell. It
+/// said 3.2 of a door ajar and 2.7 of a stairwell, where .7 and 1.6 of what path came to were true; 5.1, 6.5
+/// and 12 of hidden strips and of lamps in shades, where 4.9, 9 and 5 were; and less than 1 of what is lit
+/// from the sky.
+constexpr double WORTHWHILE_GAIN_OVER_GUIDE = 4;
 
 /// Why the options leave nothing but path; none: they do not.
 std::optional<std::string> reason_for_path(const Options& options) {
