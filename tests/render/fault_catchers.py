@@ -95,6 +95,7 @@ CAUGHT_BY = {
     "a layer's choice weighs on the picture": "Paths.LayersLeaveThePictureAlone",
     "all layers in one plane": "Paths.ALayerIsAPartOfThePicture",
     "reflection and refraction swapped": "Paths.ReflectionAndRefractionOfGlassAreToldApart",
+    "reused through walls": "PathReuse.ChangesNoMeanWhereSurfacesAreHidden",
     "cut paths not counted": "CutPaths.WhiteWallsHaveNoBound",
     "a lobe not recorded": "Replay.LongPathsAreRecordedWhole",
     "bad samples of a pixel not counted": "Replay.PlantedFaultsAreFoundWhereTheyArePlanted",
