@@ -3,8 +3,8 @@
 // the first vertices of the paths of other pixels, too. For builds with -DPATH_REUSE=1.
 //
 // Let x_i be the first vertices of a group's paths and y_j the second ones, f_i the BSDF times cosine at x_i,
-// p_i its sampling density of the direction to y_j, V_ij the share of light that gets from y_j to x_i, P_ij the
-// probability with which paths do, c_ij the cosine at y_j over the squared distance, and L_j what path j has
+// p_i its sampling density of the direction to y_j, V_ij the share of light that gets from y_j to x_i, P_ij
+// the probability with which paths do, c_ij the cosine at y_j over the squared distance, and L_j what path j has
 // found to leave y_j, emission apart. The estimate of pixel i is
 //     sum over j of  f_i c_ij V_ij L_j / sum over k of p_k c_kj P_kj,
 // the balance heuristic (Veach 1997) over all paths that could have come to y_j. It has no bias, and no

@@ -176,7 +176,6 @@ TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
     }
 }
 
-// In the middle of an epoch, and in one of a single sample of each replicate.
 // Paths of many vertices: what a guide makes of the weight at each of them multiplies.
 TEST(Guide, WeightsOfLongPathsStayBounded) {
     BrightRoom room("Kd 0.95 0.95 0.95", "Kd 0.95 0.95 0.95");
@@ -188,6 +187,7 @@ TEST(Guide, LeavesRoughGlassAlone) {
     EXPECT_LT(room.cost_of_guide(), 2);
 }
 
+// In the middle of an epoch, and in one of a single sample of each replicate.
 TEST(Guide, OnlySomeSamplesTeach) {
     TestScene scene;
     add_adjoining_rooms(scene);
