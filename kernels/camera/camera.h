@@ -145,12 +145,25 @@ static inline Ray camera_cone_ray(const RenderParams* params, const Sampler* sam
     return ray;
 }
 
+/* The film position of a sample of pixel (x, y) of the whole picture; `u` chooses the point in the pixel's
+   filter. Patches of a pilot shrink about their centres. */
+static inline real2 camera_sample_position(const RenderParams* params, uint x, uint y, real2 u)
+{
+    const real2 centre = camera_pixel_centre(params, x, y);
+    const real2 offset = camera_filter_sample(params, u);
+    const uint last = params->patch_last;
+    const int to_right = 2 * (int)((x - params->crop_x) & last) - (int)last,
+              down = 2 * (int)((y - params->crop_y) & last) - (int)last;
+    const real2 from_patch_centre = (real2)((real)to_right, (real)down) * REAL(0.5);
+    return centre - from_patch_centre +
+           (from_patch_centre + offset) * (REAL(1.0) - (real)params->patch_gap);
+}
+
 /* The ray of a sample through pixel (x, y) of the whole picture; `u` chooses the point in the pixel's
    filter. */
 static inline Ray camera_ray_at(const RenderParams* params, const Sampler* sampler, uint x, uint y, real2 u)
 {
-    const real2 offset = camera_filter_sample(params, u) * (REAL(1.0) - (real)params->pixel_gap);
-    const real2 film = camera_pixel_centre(params, x, y) + offset;
+    const real2 film = camera_sample_position(params, x, y, u);
     const real2 lens = sampler_pair(sampler, 0u, SAMPLE_LENS);
     const real time = HAS(EFFECT_MOTION_BLUR) ? sampler_pair(sampler, 0u, SAMPLE_TIME).x : REAL(0.0);
     if (!camera_moves(&params->camera))

@@ -38,7 +38,9 @@ typedef struct {
     float min_contribution;     /* whitted: smallest weight worth a ray */
     u32 filter;                 /* FILTER_* */
     float filter_radius;        /* pixels */
-    float pixel_gap;            /* of a pilot: share of the sides of its pixels that nothing is seen of */
+    float patch_gap;            /* of a pilot: share of the sides of its patches that nothing is seen of; */
+    u32 patch_last;             /* last pixel of a row or column of a patch: 0, or up to TILE_SIZE - 1 a
+                                   power of two less 1 */
     float scene_extent;         /* largest |coordinate| of the geometry */
 
     u32 emitter_count, light_count;
@@ -67,7 +69,7 @@ typedef struct {
     u32 texture_filter;         /* 1: lookups are filtered over the ray's footprint */
     u32 portal_count;           /* rectangles through which the sky is seen */
     float portal_share;         /* probability of sampling the sky through them */
-    u32 unused0, unused1;
+    u32 unused0;
 } RenderParams;
 ASSERT_SIZE(RenderParams, 432);
 

@@ -5,6 +5,7 @@
 #include "film/film_file.h"
 #include "options/path_refusals.h"
 #include "render/render_params.h"
+#include "render/reuse_choice.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -131,6 +132,25 @@ bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& pl
     return choice.unguided->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR || stop_signal();
 }
 
+/// Goes back from a candidate to path where reusing paths gains as much there, by pilots, and says what those
+/// tell. Path is planned then and `parts` are its own.
+void try_path_reuse(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+                    std::optional<int> asked, double efficiency, PreparedParts& parts,
+                    IntegratorChoice& choice, std::vector<std::string>& told) {
+    take(Integrator::PATH, asked, *planned);
+    PreparedParts reusing{parts.tree, nullptr};
+    const double gain = reuse_gain(device, planned, reusing);
+    if (gain > 0)
+        told.push_back(fmt::format("path that reuses paths {:.2g}", gain));
+    if (gain < efficiency)
+        return;
+    choice.integrator = Integrator::PATH;
+    choice.unguided.reset();
+    parts = reusing;
+    if (!planned->options.run.pixel)
+        planned->options.transport.path_reuse = Toggle::ON;
+}
+
 /// Decides by pilots, a candidate after the other.
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             const std::vector<Candidate>& candidates, PreparedParts& parts, IntegratorChoice& choice) {
@@ -165,6 +185,8 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             choice.unguided = PathPilot{pilot.own, pilot.eye_rays};
         }
     }
+    if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < REUSE_PIXELS)
+        try_path_reuse(device, planned, asked, best, parts, choice, told);
     if (choice.reason.empty())
         choice.reason =
             fmt::format("efficiency {} by pilots of {} x {} pixels, {} spp", fmt::join(told, ", "),

@@ -54,11 +54,11 @@ struct PilotRender {
     double light_paths = 0;
 };
 
-/// Of the sides of a pilot's pixels, the share that lies between those of the picture: samples keep to pixels
+/// Of the sides of a pilot's patches, the share that lies between them in the picture: samples keep to pixels
 /// as large as the picture's, because what varies within larger ones, such as the edges of lamps, would count
 /// as noise of all integrators and hide how they differ. Splats fall on the whole, of which they tell the
 /// mean.
-double pixel_gap(const Options& options, const PilotSize& size) {
+double patch_gap(const Options& options, const PilotSize& size) {
     const Crop window = render_window(options.film);
     return std::max(1 - double(size.width) / (window.x1 - window.x0), 0.0);
 }
@@ -68,7 +68,8 @@ RenderParams begin_pilot(const PreparedScene& prepared, const PilotSize& size, F
     const PlannedScene& planned = *prepared.planned;
     film.scale = film_scale(planned.scene);
     RenderParams params = make_render_params(planned.scene, pilot_options(planned.options, size), film.scale);
-    params.pixel_gap = float(pixel_gap(planned.options, size));
+    params.patch_gap = float(patch_gap(planned.options, size));
+    params.patch_last = u32(size.patch - 1);
     restrict_lights(planned.effects.paths, params);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);

@@ -56,6 +56,11 @@ std::optional<PilotSize> size_of_pilots(double work, const Options& options) {
     return scaled_size(window_width(options), window_height(options), pixels, PILOT_SPP);
 }
 
+PilotSize in_tiles(PilotSize size) {
+    const auto whole = [](int pixels) { return std::max(pixels / TILE_SIZE, 1) * TILE_SIZE; };
+    return {whole(size.width), whole(size.height), size.spp, TILE_SIZE};
+}
+
 PilotSize scaled_pilot(const Options& options, double samples, std::uint32_t spp) {
     return scaled_size(window_width(options), window_height(options), samples / spp, spp);
 }

@@ -16,11 +16,16 @@ constexpr double PILOT_SHARE = 0.05;
 struct PilotSize {
     int width = 0, height = 0;
     std::uint32_t spp = 0;
+    int patch =
+        1; ///< so many pixels square lie side by side as in the picture, a power of two up to TILE_SIZE
     std::uint64_t samples() const { return std::uint64_t(width) * std::uint64_t(height) * spp; }
 };
 
 /// Samples of all pixels that a render takes at least, as far as its options tell.
 double expected_samples(const Options& options);
+
+/// The same with whole tiles, each of pixels that lie side by side as in the picture.
+PilotSize in_tiles(PilotSize size);
 
 /// Size of pilots of which a sample each takes the work of so many samples of the picture, all of one size
 /// and at most PILOT_SHARE of its work; none where so small ones tell nothing.

@@ -2,11 +2,11 @@
 // Whether what a path has found serves other pixels (kernels/integrators/path_reuse.h).
 //
 // It lowers the noise of light that comes by detours, several times in rooms, and costs shadow rays. What it
-// is worth, two pilots of the same samples tell, one by each program: small pictures, so that their pixels
-// lie further apart than those of the picture and the gain is rather told too small. Work is counted in rays,
-// never in seconds: the same picture comes out everywhere. The pilots are there where the render is long
-// enough for them; a part of a picture (--first-sample) is rendered as it is asked for, and a film that is
-// gone on with as it began.
+// is worth, two pilots of the same samples tell, one by each program: tiles of the picture, spread over it,
+// because paths serve pixels side by side the better. Work is counted in rays, those to other pixels' paths
+// as a part of one, never in seconds: the same picture comes out everywhere. The pilots are there where the
+// render is long enough for them; a part of a picture (--first-sample) is rendered as it is asked for, and a
+// film that is gone on with as it began.
 #pragma once
 
 #include "console/progress.h"
@@ -16,8 +16,13 @@
 
 namespace clrt {
 
-/// Squared error times rays without reuse over that with it, from which on it is taken.
+/// Squared error times work without reuse over that with it, from which on it is taken.
 constexpr double WORTHWHILE_REUSE_GAIN = 1.1;
+
+/// How many times less the squared error times work of a sample of path is with reuse, by pilots; 0 where it
+/// may not be or is too small a render to tell, and where a signal stops it. The plan is for path and stays
+/// as it was; `parts` has its tree, and gets programs with reuse. Throws DeviceError and KernelBuildError.
+double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts);
 
 /// Decides `--path-reuse auto` of a plan, says so, and leaves on or off in its options. `parts` are those of
 /// the plan that are there; what the pilots needed is added, and programs of the other kind are taken out.

@@ -151,12 +151,12 @@ const Layout RENDER_PARAMS = {
     {M(camera), M(environment), M(background), M(width), M(height),
      M(crop_x), M(crop_y), M(crop_width), M(crop_height), M(first_sample), M(sample_count), M(replicates), M(first_replicate),
      M(dealt_replicates),
-     M(film_replicates), M(seed), M(epoch), M(max_depth), M(min_contribution), M(filter), M(filter_radius), M(pixel_gap),
+     M(film_replicates), M(seed), M(epoch), M(max_depth), M(min_contribution), M(filter), M(filter_radius), M(patch_gap), M(patch_last),
      M(scene_extent), M(emitter_count), M(light_count), M(environment_width), M(environment_height),
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(emit_emitter), M(emit_environment), M(emit_light), M(emission_radius), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
      M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(caster_count), M(caster_squares), M(light_path_count),
-     M(environment_format), M(texture_filter), M(portal_count), M(portal_share), M(unused0), M(unused1)}};
+     M(environment_format), M(texture_filter), M(portal_count), M(portal_share), M(unused0)}};
 #undef M
 #define M(name) MEMBER(SkyPortal, name)
 const Layout SKY_PORTAL = {

@@ -3,6 +3,7 @@
 // the picture is that of the one that is chosen.
 #include "film/film_error.h"
 #include "render/integrator_choice.h"
+#include "support/adjoining_rooms.h"
 #include "support/render_scene.h"
 
 #include <gtest/gtest.h>
@@ -202,6 +203,7 @@ TEST(IntegratorChoice, WherePathMayBeGuidedBdptMustGainMore) {
         Box box;
         box.options.sampling.spp = 1024;
         box.options.transport.guide = c.guide;
+        box.options.transport.path_reuse = Toggle::OFF;
         box.add_lamp(c.side);
         const double w = c.side + 0.3;
         box.build.use("matte").polygon({{-w, 2.7, -w}, {-w, 2.7, w}, {w, 2.7, w}, {w, 2.7, -w}});
@@ -314,6 +316,35 @@ TEST(IntegratorChoice, PilotsAreAShareOfTheRender) {
     EXPECT_TRUE(size());
     box.options.film.size = {7, 1};
     EXPECT_TRUE(size()->width <= 7 && size()->height == 1);
+}
+
+// Light from the next room: paths from both ends find more of it, and those that serve other pixels, too.
+TEST(IntegratorChoice, PathThatReusesPathsIsTakenWhereItGainsMore) {
+    TestScene rooms;
+    add_adjoining_rooms(rooms);
+    rooms.options.film.size = {160, 120};
+    rooms.options.sampling.spp = 128;
+    rooms.options.transport.choose = Toggle::AUTO;
+    rooms.options.transport.guide = Toggle::OFF;
+    const auto chosen = [&] {
+        const auto planned = plan_loaded(test_device(), rooms.load(), rooms.options);
+        Progress silent(Toggle::OFF, true);
+        PreparedParts parts;
+        const IntegratorChoice choice = choose_integrator(test_device(), planned, parts, silent);
+        return std::pair(choice, planned->options.transport.path_reuse);
+    };
+    const auto [with, reuse] = chosen();
+    EXPECT_EQ(with.integrator, Integrator::PATH) << with.reason;
+    EXPECT_EQ(reuse, Toggle::ON) << with.reason;
+    rooms.options.transport.path_reuse = Toggle::OFF;
+    const auto [without, off] = chosen();
+    EXPECT_NE(without.integrator, Integrator::PATH) << without.reason;
+    EXPECT_EQ(off, Toggle::OFF);
+    rooms.options.transport.path_reuse = Toggle::AUTO;
+    rooms.options.run.pixel = glm::ivec2(10, 10);
+    const auto [replayed, alone] = chosen();
+    EXPECT_EQ(replayed.integrator, Integrator::PATH) << "a replay is of the picture's integrator";
+    EXPECT_EQ(alone, Toggle::AUTO);
 }
 
 } // namespace clrt

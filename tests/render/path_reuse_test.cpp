@@ -202,6 +202,25 @@ TEST(PathReuse, IsChosenWhereLightComesByDetours) {
     EXPECT_EQ(Lit(false).chosen(), Toggle::OFF);
 }
 
+// The pixels of pilots are as near to each other as those of the picture.
+TEST(PathReuse, PilotsTellWhatItGains) {
+    Lit room(true);
+    room.options.film.size = {320, 240};
+    room.options.transport.guide = Toggle::OFF;
+    room.planned = plan_loaded(test_device(), room.load(), room.options);
+    const double told = reuse_gain(test_device(), room.planned, room.parts);
+    EXPECT_EQ(room.planned->options.transport.path_reuse, Toggle::AUTO);
+    room.options.sampling.spp = 8; // as the pilots
+    room.options.sampling.replicates = 4;
+    const Cost alone(room, Toggle::OFF), reusing(room, Toggle::ON);
+    const double errors = sample_error(alone.render.film, ErrorMeasure::RELATIVE) /
+                          sample_error(reusing.render.film, ErrorMeasure::RELATIVE);
+    const double rays = double(reusing.render.counts.rays()) / double(alone.render.counts.rays());
+    EXPECT_GT(told, 0.8 * errors / rays);
+    EXPECT_LT(told, errors);
+    EXPECT_NEAR(told, errors / (1 + 0.35 * (rays - 1)), 0.15 * told);
+}
+
 TEST(PathReuse, IsNotChosenForParts) {
     Lit room(true);
     room.options.run.given["--first-sample"] = "";
