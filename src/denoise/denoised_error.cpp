@@ -82,10 +82,9 @@ SquaredErrors measure_pixels(const Film& film, const std::array<DenoisedHalf, 2>
         for (size_t i = 3 * errors.pixels[n]; i < 3 * errors.pixels[n] + 3; ++i) {
             const auto [of_raw, of_denoised] =
                 squared_errors(replicates, i, halves[0].radiance[i], halves[1].radiance[i], means);
-            const double weight_of_value = weights.of(i);
-            raw += weight_of_value * of_raw;
-            denoised += weight_of_value * of_denoised;
-            weight += weight_of_value / 3;
+            raw += weights.of(i) * of_raw;
+            denoised += weights.of(i) * of_denoised;
+            weight += weights.of(i) / 3;
         }
         errors.raw[n] = raw;
         errors.denoised[n] = denoised;

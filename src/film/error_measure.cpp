@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tbb/parallel_for.h>
 
 namespace clrt {
@@ -37,23 +36,10 @@ BlockSums block_sums(const Film& film, const PixelChoice& choice, size_t across)
     return sums;
 }
 
-/// The mean of a value over its replicates without the one in which it is brightest; 0 of one alone.
-double mean_without_brightest(const ReplicateMeans& replicates, size_t i) {
-    thread_local std::vector<double> means;
-    means.resize(replicates.count());
-    if (means.size() < 2)
-        return 0;
-    replicates.read(i, means.data());
-    const double brightest = *std::max_element(means.begin(), means.end());
-    const double sum = std::accumulate(means.begin(), means.end(), 0.0);
-    return (sum - brightest) / double(means.size() - 1);
-}
-
 } // namespace
 
 ErrorWeights::ErrorWeights(const Film& film, const PixelChoice& choice, ErrorMeasure measure)
-    : replicates_(film), width_(size_t(film.width)),
-      across_((width_ + ERROR_BLOCK_SIZE - 1) / ERROR_BLOCK_SIZE) {
+    : width_(size_t(film.width)), across_((width_ + ERROR_BLOCK_SIZE - 1) / ERROR_BLOCK_SIZE) {
     if (measure == ErrorMeasure::MSE)
         return;
     const BlockSums sums = block_sums(film, choice, across_);
@@ -62,21 +48,13 @@ ErrorWeights::ErrorWeights(const Film& film, const PixelChoice& choice, ErrorMea
         total += block[0] + block[1] + block[2];
         pixels += block[3];
     }
-    mean_ = total / (3 * pixels);
-    if (!(mean_ > 0))
+    const double mean = total / (3 * pixels);
+    if (!(mean > 0))
         return;
-    radiances_.reserve(3 * sums.size());
+    weights_.reserve(3 * sums.size());
     for (const std::array<double, 4>& block : sums)
         for (size_t c = 0; c < 3; ++c)
-            radiances_.push_back(block[c] / std::max(block[3], 1.0));
-}
-
-double ErrorWeights::of(size_t i) const {
-    if (radiances_.empty())
-        return 1;
-    const double around = radiances_[3 * block(i / 3) + i % 3];
-    const double own = mean_without_brightest(replicates_, i);
-    return relative_weight(own > STANDS_OUT * around ? own : around, mean_);
+            weights_.push_back(relative_weight(block[c] / std::max(block[3], 1.0), mean));
 }
 
 } // namespace clrt

@@ -11,9 +11,7 @@
 // from deciding. Since 1 / r^2 of a noisy pixel says more of its noise than of its brightness, and is small
 // where the pixel is bright by chance, r is taken from the tile around it: of ERROR_BLOCK_SIZE x
 // ERROR_BLOCK_SIZE pixels of the picture. What bright samples add to it takes some of their weight: an error
-// of 15 % is told right, one of 36 % 4 % too low (rooms of error_bar_test). A pixel that stands out from its
-// tile, such as a lamp's, has its own r, where that is more than STANDS_OUT times the tile's: its mean
-// without the brightest replicate, which a single bright sample does not move. The error is the root of this.
+// of 15 % is told right, one of 36 % 4 % too low (rooms of error_bar_test). The error is the root of this.
 #pragma once
 
 #include "film/error_pixels.h"
@@ -23,9 +21,6 @@ namespace clrt {
 
 /// Of the picture's mean radiance: what is darker counts as if it were nearly as bright.
 constexpr double RELATIVE_FLOOR = 0.1;
-
-/// Times the brightness of its tile above which a pixel counts by its own: noise alone hardly gets there.
-constexpr double STANDS_OUT = 2;
 
 /// Side of the tiles over which brightness is averaged, pixels: 192 values.
 constexpr int ERROR_BLOCK_SIZE = 8;
@@ -37,23 +32,21 @@ inline double relative_weight(double radiance, double mean) {
     return mean * mean / (radiance * radiance + floor * floor);
 }
 
-/// What squared errors weigh in a picture: 1 by the measure MSE. Refers to the film.
+/// What squared errors weigh in a picture: 1 by the measure MSE.
 class ErrorWeights {
 public:
     /// Averages over the pixels that `choice` has.
     ErrorWeights(const Film& film, const PixelChoice& choice, ErrorMeasure measure);
     /// Of value `i` (pixel and channel) of a plane.
-    double of(size_t i) const;
+    double of(size_t i) const { return weights_.empty() ? 1 : weights_[3 * block(i / 3) + i % 3]; }
 
 private:
     size_t block(size_t pixel) const {
         return pixel / width_ / ERROR_BLOCK_SIZE * across_ + pixel % width_ / ERROR_BLOCK_SIZE;
     }
 
-    ReplicateMeans replicates_;
     size_t width_, across_;
-    std::vector<double> radiances_; ///< of a block's channels, block by block; empty: all weights are 1
-    double mean_ = 0;               ///< of the picture
+    std::vector<double> weights_; ///< of a block's channels, block by block; empty: all are 1
 };
 
 } // namespace clrt

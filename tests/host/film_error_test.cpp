@@ -8,7 +8,6 @@
 #include "probes/statistics.h"
 #include "support/noise_film.h"
 
-#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -96,30 +95,6 @@ TEST(FilmError, RelativeErrorsAreWeighedByTheBrightnessOfTiles) {
     EXPECT_NEAR(squared->mean_radiance, mean, 1e-9);
     EXPECT_NEAR(film_error(film, ErrorPixels::SCENE, ErrorMeasure::RELATIVE)->relative_rmse,
                 std::sqrt(expected), 1e-3 * std::sqrt(expected));
-}
-
-TEST(FilmError, APixelThatStandsOutCountsByItsOwnBrightness) {
-    const auto told = [](const std::array<double, 8>& of_first_pixel) {
-        std::mt19937 random(3);
-        Film film = empty_film(8, 8, 8, 0, 8);
-        fill_with_noise(film, 1, 0, random);
-        for (size_t r = 0; r < 8; ++r)
-            for (size_t c = 0; c < 3; ++c)
-                film.sums[r * film_plane(film) + c] = std::llround(of_first_pixel[r] / film.scale.quantum);
-        return film_error(film, ErrorPixels::SCENE, ErrorMeasure::RELATIVE)->relative_rmse;
-    };
-    // A lamp, of mean 102.5; without the brightest replicate 710 / 7.
-    const double mean = (102.5 + 63) / 64, floor = 0.01 * mean * mean;
-    const std::array<double, 8> values{100, 100, 100, 100, 100, 100, 110, 110};
-    double squares = 0;
-    for (const double value : values)
-        squares += (value - 102.5) * (value - 102.5) / (8 * 7);
-    EXPECT_NEAR(told(values), std::sqrt(squares / 64 / (710.0 / 7 * 710 / 7 + floor)), 1e-6);
-    // One bright sample of eight: the tile tells how bright the pixel is.
-    const double with_outlier = (1 + 80 / 8.0 - 1 / 8.0 + 63) / 64;
-    const double outlier = 79 * 79 / 64.0; // variance of the mean of seven 1 and one 80
-    EXPECT_NEAR(told({1, 1, 1, 1, 80, 1, 1, 1}),
-                std::sqrt(outlier / 64 / (1.01 * with_outlier * with_outlier)), 1e-6);
 }
 
 TEST(FilmError, TheErrorIsRootMeanSquareOverTheMean) {
