@@ -54,7 +54,7 @@ struct PilotRender {
     double light_paths = 0;
 };
 
-/// Of the sides of a pilot's patches, the share that lies between them in the picture: samples keep to pixels
+/// Of the sides of a pilot's patches, the share that is left out between them: samples keep to pixels
 /// as large as the picture's, because what varies within larger ones, such as the edges of lamps, would count
 /// as noise of all integrators and hide how they differ. Splats fall on the whole, of which they tell the
 /// mean.

@@ -16,8 +16,8 @@ constexpr double PILOT_SHARE = 0.05;
 struct PilotSize {
     int width = 0, height = 0;
     std::uint32_t spp = 0;
-    int patch =
-        1; ///< so many pixels square lie side by side as in the picture, a power of two up to TILE_SIZE
+    /// So many pixels square lie side by side as in the picture: a power of two up to TILE_SIZE.
+    int patch = 1;
     std::uint64_t samples() const { return std::uint64_t(width) * std::uint64_t(height) * spp; }
 };
 
