@@ -68,7 +68,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const bool continues = path_filter(scene, params, sampler, segment, &surface, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
-    reuse_keep_first(segment, &surface, &bsdf, path, reused);
+    reuse_keep_first(params, segment, &surface, &bsdf, path, reused);
     reuse_keep_second(scene, segment, &surface, &bsdf, path, &sample->radiance, reused);
     Guide guide = guide_of(scene, &bsdf, &path->guided);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);

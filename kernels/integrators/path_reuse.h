@@ -39,11 +39,11 @@ typedef struct {
 
 static inline void reuse_begin(ReusedPath* reused) { reused->has_first = reused->has_second = false; }
 
-/* Keeps the first vertex, which some lobe connects to others. */
-static inline void reuse_keep_first(uint segment, const Surface* surface, const Bsdf* bsdf, const Path* path,
-                                    ReusedPath* reused)
+/* Keeps the first vertex, which some lobe connects to others; without it nothing is shared. */
+static inline void reuse_keep_first(const RenderParams* params, uint segment, const Surface* surface,
+                                    const Bsdf* bsdf, const Path* path, ReusedPath* reused)
 {
-    if (segment != 1u || !bsdf_has_smooth_lobe(bsdf))
+    if (params->shares_paths == 0u || segment != 1u || !bsdf_has_smooth_lobe(bsdf))
         return;
     reused->has_first = true;
     reused->surface = *surface;
@@ -178,8 +178,8 @@ typedef struct {
 
 static inline void reuse_begin(ReusedPath* reused) {}
 
-static inline void reuse_keep_first(uint segment, const Surface* surface, const Bsdf* bsdf, const Path* path,
-                                    ReusedPath* reused)
+static inline void reuse_keep_first(const RenderParams* params, uint segment, const Surface* surface,
+                                    const Bsdf* bsdf, const Path* path, ReusedPath* reused)
 {
 }
 

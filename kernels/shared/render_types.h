@@ -69,7 +69,7 @@ typedef struct {
     u32 texture_filter;         /* 1: lookups are filtered over the ray's footprint */
     u32 portal_count;           /* rectangles through which the sky is seen */
     float portal_share;         /* probability of sampling the sky through them */
-    u32 unused0;
+    u32 shares_paths;           /* 1: paths serve other pixels, in programs that can (path_reuse.h) */
 } RenderParams;
 ASSERT_SIZE(RenderParams, 432);
 

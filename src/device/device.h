@@ -12,6 +12,7 @@ namespace clrt {
 
 struct DeviceOptions;
 class DriverCacheFolder;
+class CompileAhead;
 
 /// What clrt asks a device about itself; nothing is guessed from names.
 struct DeviceInfo {
@@ -71,6 +72,7 @@ struct Device {
     cl::Device handle;
     cl::Context context;
     cl::CommandQueue queue;
+    std::shared_ptr<CompileAhead> ahead; ///< compiles what will be wanted (compile_ahead.h), or null
 };
 
 /// Opens a device. Throws DeviceError.

@@ -3,6 +3,7 @@
 #include "device/program.h"
 
 #include "console/address_space.h"
+#include "device/compile_ahead.h"
 #include "device/program_cache.h"
 
 #include <algorithm>
@@ -192,6 +193,7 @@ std::string build_options(const DeviceInfo& device, Precision precision) {
 
 Program build_program(const Device& device, const ProgramRequest& request) {
     const auto start = std::chrono::steady_clock::now();
+    const auto turn = device.ahead ? device.ahead->take(request) : nullptr;
     const std::string options = all_options(device, request);
     if (!request.dump_folder.empty())
         dump(request, options);

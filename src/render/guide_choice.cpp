@@ -80,6 +80,8 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
         (unguided ? !is_promising(*unguided, options) : !size))
         return;
     progress.update({"pilot", -1, 0, -1, -1});
+    if (unguided)
+        expect_program(device, *planned, true);
     const PreparedScene prepared = prepare_render(device, planned, parts);
     parts = {prepared.tree, prepared.programs, nullptr};
     if (!unguided)

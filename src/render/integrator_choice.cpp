@@ -35,7 +35,7 @@ constexpr Candidate CANDIDATES[] = {{Integrator::PATH_LIGHT, 1.35, 1, 0, 1.3, 1.
                                     {Integrator::BDPT, 1.25, 1.2, 1, 1.3, 1.7, 1.5}};
 
 /// Squared relative error of one sample of path from which on others are tried where none is named. Below it
-/// light is found without them.
+/// light is found without them, caustics apart, which path+light finds as well as bdpt.
 constexpr double HARD_LIGHT_ERROR = 2;
 
 /// What is expected to gain less than this is not taken: pilots were up to a third off.
@@ -126,10 +126,17 @@ bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& pl
                    IntegratorChoice& choice) {
     if (has_caustics(*planned))
         return false;
-    const PreparedScene prepared = prepare_render(device, planned, parts);
-    parts = {prepared.tree, prepared.programs};
+    const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
     choice.unguided = run_path_pilot(prepared, choice.pilot);
     return choice.unguided->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR || stop_signal();
+}
+
+/// Whether the pilots so far have told that a candidate is not worth one, nor the program that is compiled
+/// for it.
+bool is_out(const Candidate& candidate, const Options& options, const IntegratorChoice& choice) {
+    return candidate.integrator == Integrator::BDPT && options.transport.choose == Toggle::AUTO &&
+           !choice.prices.empty() &&
+           choice.prices[0].errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR;
 }
 
 /// Goes back from a candidate to path where reusing paths gains as much there, by pilots, and says what those
@@ -138,15 +145,14 @@ void try_path_reuse(const Device& device, const std::shared_ptr<PlannedScene>& p
                     std::optional<int> asked, double efficiency, PreparedParts& parts,
                     IntegratorChoice& choice, std::vector<std::string>& told) {
     take(Integrator::PATH, asked, *planned);
-    PreparedParts reusing{parts.tree, nullptr};
-    const double gain = reuse_gain(device, planned, reusing);
+    const double gain = reuse_gain(device, planned, parts);
     if (gain > 0)
         told.push_back(fmt::format("path that reuses paths {:.2g}", gain));
     if (gain < efficiency)
         return;
     choice.integrator = Integrator::PATH;
     choice.unguided.reset();
-    parts = reusing;
+    parts.programs = parts.reusing;
     if (!planned->options.run.pixel)
         planned->options.transport.path_reuse = Toggle::ON;
 }
@@ -159,6 +165,8 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
     std::vector<std::string> told = {"path 1"};
     double best = WORTHWHILE_GAIN;
     for (const Candidate& candidate : candidates) {
+        if (is_out(candidate, planned->options, choice))
+            continue;
         take(candidate.integrator, asked, *planned);
         const PreparedScene prepared = prepare_scene(device, planned, {parts.tree, nullptr});
         parts.tree = prepared.tree;
@@ -185,8 +193,11 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             choice.unguided = PathPilot{pilot.own, pilot.eye_rays};
         }
     }
-    if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < REUSE_PIXELS)
+    if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < REUSE_PIXELS) {
+        take(choice.integrator, asked, *planned);
+        expect_program(device, *planned);
         try_path_reuse(device, planned, asked, best, parts, choice, told);
+    }
     if (choice.reason.empty())
         choice.reason =
             fmt::format("efficiency {} by pilots of {} x {} pixels, {} spp", fmt::join(told, ", "),

@@ -160,33 +160,36 @@ bool wants_mattes(const Options& options) {
            });
 }
 
+ProgramRequest picture_request(const Device& device, const Options& options, EffectMask effects,
+                               BvhLayout layout, const PathPlan& paths) {
+    std::vector<std::string> defines = picture_defines(device, options, paths);
+    append(defines, reuse_defines(device, options.transport));
+    return launched_request(device, kernel_files(options.device.kernels_folder),
+                            integrator_stem(options.transport.integrator), options, effects, layout, defines);
+}
+
 RenderPrograms build_render_programs(const Device& device, const Options& options, EffectMask effects,
                                      BvhLayout layout, const PathPlan& paths) {
     const auto start = std::chrono::steady_clock::now();
-    const KernelFiles files = kernel_files(options.device.kernels_folder);
-    const auto build = [&](const std::string& name, const std::vector<std::string>& defines) {
-        return build_program(device,
-                             launched_request(device, files, name, options, effects, layout, defines));
-    };
     RenderPrograms programs;
-    std::vector<std::string> defines = picture_defines(device, options, paths);
-    append(defines, reuse_defines(device, options.transport));
-    programs.picture = build(integrator_stem(options.transport.integrator), defines);
+    programs.picture = build_program(device, picture_request(device, options, effects, layout, paths));
     if (wants_layers(options))
-        programs.layers = build(HIT_LAYERS_PROGRAM, matte_defines(options));
+        programs.layers = build_program(
+            device, launched_request(device, kernel_files(options.device.kernels_folder), HIT_LAYERS_PROGRAM,
+                                     options, effects, layout, matte_defines(options)));
     programs.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return programs;
 }
 
-Program build_guided_program(const Device& device, const Options& options, EffectMask effects,
-                             BvhLayout layout, const PathPlan& paths) {
+ProgramRequest guided_request(const Device& device, const Options& options, EffectMask effects,
+                              BvhLayout layout, const PathPlan& paths) {
     std::vector<std::string> defines = picture_defines(device, options, paths);
     append(defines, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
     ProgramRequest request =
         launched_request(device, kernel_files(options.device.kernels_folder),
                          integrator_stem(options.transport.integrator), options, effects, layout, defines);
     request.name += GUIDED_ENDING;
-    return build_program(device, request);
+    return request;
 }
 
 Program build_escape_program(const Device& device, const Options& options, EffectMask effects,

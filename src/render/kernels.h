@@ -49,14 +49,18 @@ std::vector<std::string> strategy_defines(const Options& options);
 /// What --dump-kernels may write, a replay included; empty without it.
 std::vector<std::string> dumped_files(const Options& options);
 
-/// Compiles what the options ask for with this effects mask and, where paths are told apart, the automaton of
-/// the plan.
+/// What is compiled for the picture: the integrator with this effects mask and, where paths are told apart,
+/// the automaton of the plan.
+ProgramRequest picture_request(const Device& device, const Options& options, EffectMask effects,
+                               BvhLayout layout, const PathPlan& paths);
+
+/// The same integrator so that it guides paths (kernels/path/guide.h).
+ProgramRequest guided_request(const Device& device, const Options& options, EffectMask effects,
+                              BvhLayout layout, const PathPlan& paths);
+
+/// Compiles the picture's program, and that of the layers where they are wanted.
 RenderPrograms build_render_programs(const Device& device, const Options& options, EffectMask effects,
                                      BvhLayout layout, const PathPlan& paths = {});
-
-/// Compiles the same integrator so that it guides paths (kernels/path/guide.h).
-Program build_guided_program(const Device& device, const Options& options, EffectMask effects,
-                             BvhLayout layout, const PathPlan& paths);
 
 /// Compiles what finds ways out of the scene (kernels/integrators/escapes.cl).
 Program build_escape_program(const Device& device, const Options& options, EffectMask effects,

@@ -9,6 +9,7 @@
 #include "render/launcher.h"
 #include "render/pilot.h"
 #include "render/render_params.h"
+#include "render/reuse_choice.h"
 #include "scene/sky_portals.h"
 
 #include <algorithm>
@@ -78,11 +79,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, 
             std::vector<SkyPortal> portals) {
     Environment& sky = planned->scene.environment;
     const PilotSize size = *sky_pilot_size(planned->options);
-    const auto error_of = [&] {
-        const PreparedScene prepared = prepare_render(device, planned, parts);
-        parts = {prepared.tree, prepared.programs};
-        return path_pilot_error(prepared, size);
-    };
+    const auto error_of = [&] { return path_pilot_error(prepare_path_pilot(device, planned, parts), size); };
     const double usual = error_of();
     double least = usual / WORTHWHILE_PORTAL_GAIN, best = 0;
     set_portals(std::move(portals), *planned);

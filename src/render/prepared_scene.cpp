@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/prepared_scene.h"
 
+#include "device/compile_ahead.h"
 #include "render/render_params.h"
 
 #include <future>
@@ -21,11 +22,33 @@ PreparedParts with_tree(const DeviceInfo& device, const PlannedScene& planned, P
     return parts;
 }
 
+ProgramRequest planned_picture(const Device& device, const PlannedScene& planned) {
+    return picture_request(device, planned.options, planned.effects.mask, layout_of(device.info, planned),
+                           planned.effects.paths);
+}
+
+ProgramRequest planned_guide(const Device& device, const PlannedScene& planned) {
+    return guided_request(device, planned.options, planned.effects.mask, layout_of(device.info, planned),
+                          planned.effects.paths);
+}
+
 } // namespace
 
 std::shared_ptr<const SceneTree> plan_tree(const DeviceInfo& device, const PlannedScene& planned) {
     return std::make_shared<SceneTree>(
         build_scene_tree(planned.scene, planned.options, layout_of(device, planned)));
+}
+
+void expect_no_other(const Device& device, const PlannedScene& planned) {
+    if (device.ahead)
+        device.ahead->forget_all_but(planned_picture(device, planned));
+}
+
+void expect_program(const Device& device, const PlannedScene& planned, bool is_guided) {
+    if (!device.ahead || planned.effects.paths.is_empty)
+        return;
+    device.ahead->expect(is_guided ? planned_guide(device, planned) : planned_picture(device, planned),
+                         integrator_kernel(planned.options.transport.integrator));
 }
 
 std::shared_ptr<const RenderPrograms> plan_programs(const Device& device, const PlannedScene& planned) {
@@ -58,8 +81,7 @@ PreparedScene prepare_render(const Device& device, std::shared_ptr<const Planned
 
 Program build_guided_program(const PreparedScene& prepared) {
     const PlannedScene& planned = *prepared.planned;
-    return build_guided_program(prepared.device, planned.options, planned.effects.mask,
-                                prepared.tree->bvh.layout, planned.effects.paths);
+    return build_program(prepared.device, planned_guide(prepared.device, planned));
 }
 
 Program build_escape_program(const PreparedScene& prepared) {

@@ -41,10 +41,18 @@ struct PreparedParts {
     std::shared_ptr<const SceneTree> tree; ///< over the same triangles; in another layout it is not taken
     std::shared_ptr<const RenderPrograms> programs; ///< for the same device, effects, paths and tree's layout
     std::shared_ptr<const GuideProgress> guide = nullptr; ///< by choose_guide (render/guide_choice.h)
+    /// Path's that reuse paths and do without, too: by prepare_path_pilot (render/reuse_choice.h).
+    std::shared_ptr<const RenderPrograms> reusing = nullptr;
 };
 
 /// The tree of a plan in the layout that its options name, or that is the device's own.
 std::shared_ptr<const SceneTree> plan_tree(const DeviceInfo& device, const PlannedScene& planned);
+
+/// Has the program of the picture compiled ahead, or the one that guides its paths, if the device does so.
+void expect_program(const Device& device, const PlannedScene& planned, bool is_guided = false);
+
+/// Of all that is compiled ahead so far, nothing but the program of the picture is wanted any more.
+void expect_no_other(const Device& device, const PlannedScene& planned);
 
 /// Compiles what renders a plan: for its effects, its paths and the layout of its tree.
 std::shared_ptr<const RenderPrograms> plan_programs(const Device& device, const PlannedScene& planned);

@@ -128,6 +128,7 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
         integrator.takes & TAKES_ROULETTE_DEPTH ? u32(options.transport.roulette_depth) : NO_ROULETTE;
     params.texture_filter =
         options.scene.texture_filter == TextureFilter::FOOTPRINT && (integrator.takes & TAKES_TEXTURE_FILTER);
+    params.shares_paths = options.transport.path_reuse == Toggle::ON ? 1 : 0;
     params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);

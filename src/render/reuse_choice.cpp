@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 #include <optional>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace clrt {
 
@@ -22,9 +23,14 @@ namespace {
 /// Work of both pilots together, in samples of path.
 constexpr double PILOTS_WORK = 2.5;
 
-/// Takes what the scene does not allow: refuses where it is asked for.
+/// Effects of the scene that keep a path from being of use to other pixels.
+EffectMask effects_against(const PlannedScene& planned) {
+    return planned.effects.needed & ~planned.effects.left_out & EFFECTS_OF_ONE_PIXEL;
+}
+
+/// Whether scene and options let paths be reused; refuses where it is asked for and the scene does not.
 bool is_allowed(const PlannedScene& planned) {
-    const EffectMask against = planned.effects.needed & ~planned.effects.left_out & EFFECTS_OF_ONE_PIXEL;
+    const EffectMask against = effects_against(planned);
     if (against != 0 && planned.options.transport.path_reuse == Toggle::ON)
         throw UsageError(
             fmt::format("option --path-reuse on: expected a scene without {0}, found {0}; a path "
@@ -53,21 +59,22 @@ std::optional<PilotSize> size_of_reuse_pilots(const PlannedScene& planned) {
     return size ? std::optional(in_tiles(*size)) : std::nullopt;
 }
 
-/// What pilots of the same samples tell of a plan for path; 0 where a signal stops them. `parts` has programs
-/// without reuse, or none, and gets those; `reusing` gets those with it.
-double pilot_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, const PilotSize& size,
-                  PreparedParts& parts, PreparedParts& reusing) {
-    const auto pilot_when = [&](Toggle value, PreparedParts& with) {
-        planned->options.transport.path_reuse = value;
-        const PreparedScene prepared = prepare_render(device, planned, with);
-        with = {prepared.tree, prepared.programs};
-        return run_path_pilot(prepared, size);
-    };
-    const PathPilot alone = pilot_when(Toggle::OFF, parts);
-    reusing = {parts.tree, nullptr};
-    if (stop_signal())
-        return 0;
-    const double gain = gain_of(pilot_when(Toggle::ON, reusing), alone, planned->options);
+/// Whether pilots are to decide.
+bool is_open(const PlannedScene& planned) {
+    const Options& options = planned.options;
+    return options.transport.path_reuse == Toggle::AUTO && options.film_file.resume_path.empty() &&
+           effects_against(planned) == 0 && !reuse_refusal(options) && size_of_reuse_pilots(planned);
+}
+
+/// What two pilots of the same samples tell of a plan for path that is open; 0 where a signal stops them.
+double pilot_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts) {
+    const PilotSize size = *size_of_reuse_pilots(*planned);
+    const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
+    const PathPilot alone = run_path_pilot(prepared, size);
+    planned->options.transport.path_reuse = Toggle::ON;
+    const PathPilot reusing = run_path_pilot(prepared, size);
+    planned->options.transport.path_reuse = Toggle::AUTO;
+    const double gain = gain_of(reusing, alone, planned->options);
     if (!std::isfinite(gain) || stop_signal())
         return 0;
     spdlog::info("path reuse: {:.2f} times the efficiency, by pilots of {} x {} pixels, {} spp", gain,
@@ -77,17 +84,36 @@ double pilot_gain(const Device& device, const std::shared_ptr<PlannedScene>& pla
 
 } // namespace
 
-double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts) {
-    Options& options = planned->options;
-    const Options asked = options;
-    options.run.pixel.reset(); // a replay is of the picture's integrator
-    double gain = 0;
-    if (const std::optional<PilotSize> size = size_of_reuse_pilots(*planned);
-        size && options.transport.path_reuse == Toggle::AUTO && is_allowed(*planned)) {
-        PreparedParts alone{parts.tree, nullptr};
-        gain = pilot_gain(device, planned, *size, alone, parts);
+void expect_path_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned) {
+    Toggle& reuse = planned->options.transport.path_reuse;
+    if (is_open(*planned)) {
+        reuse = Toggle::ON;
+        expect_program(device, *planned);
+        reuse = Toggle::AUTO;
     }
-    options = asked;
+    expect_program(device, *planned);
+}
+
+PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+                                 PreparedParts& parts) {
+    const bool may_reuse = is_open(*planned);
+    std::shared_ptr<const RenderPrograms>& programs = may_reuse ? parts.reusing : parts.programs;
+    Toggle& reuse = planned->options.transport.path_reuse;
+    const Toggle asked = reuse;
+    if (may_reuse)
+        reuse = Toggle::ON; // what is compiled
+    PreparedScene prepared = prepare_render(device, planned, {parts.tree, programs});
+    reuse = asked;
+    parts.tree = prepared.tree;
+    programs = prepared.programs;
+    return prepared;
+}
+
+double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts) {
+    // A replay is of the picture's integrator.
+    const auto pixel = std::exchange(planned->options.run.pixel, std::nullopt);
+    const double gain = is_open(*planned) ? pilot_gain(device, planned, parts) : 0;
+    planned->options.run.pixel = pixel;
     return gain;
 }
 
@@ -103,13 +129,11 @@ void choose_path_reuse(const Device& device, const std::shared_ptr<PlannedScene>
         const FilmIdentity film = read_film_content(options.film_file.resume_path).identity;
         reuse = film_reuses_paths(film) ? Toggle::ON : Toggle::OFF;
         parts.programs = nullptr;
-    } else if (const std::optional<PilotSize> size = size_of_reuse_pilots(*planned)) {
+    } else if (is_open(*planned)) {
         progress.update({"pilot", -1, 0, -1, -1});
-        PreparedParts reusing;
-        const double gain = pilot_gain(device, planned, *size, parts, reusing);
-        reuse = gain >= WORTHWHILE_REUSE_GAIN ? Toggle::ON : Toggle::OFF;
+        reuse = pilot_gain(device, planned, parts) >= WORTHWHILE_REUSE_GAIN ? Toggle::ON : Toggle::OFF;
         if (reuse == Toggle::ON)
-            parts = reusing;
+            parts.programs = parts.reusing;
         progress.finish();
     } else {
         reuse = Toggle::OFF;

@@ -19,9 +19,20 @@ namespace clrt {
 /// Squared error times work without reuse over that with it, from which on it is taken.
 constexpr double WORTHWHILE_REUSE_GAIN = 1.1;
 
+/// Has the programs compiled ahead that a plan of path will probably want: with reuse where that is open, and
+/// without.
+void expect_path_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned);
+
+/// Prepares a plan of path for pilots without reuse. Where reuse is open they are rendered by programs that
+/// reuse paths where they are told to (RenderParams::shares_paths), so that a pilot with it, and the picture,
+/// need no others. `parts` are those of the plan that are there, and get what was made. Throws what
+/// prepare_render throws.
+PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+                                 PreparedParts& parts);
+
 /// How many times less the squared error times work of a sample of path is with reuse, by pilots; 0 where it
 /// may not be or is too small a render to tell, and where a signal stops it. The plan is for path and stays
-/// as it was; `parts` has its tree, and gets programs with reuse. Throws DeviceError and KernelBuildError.
+/// as it was; `parts` are as prepare_path_pilot leaves them. Throws DeviceError and KernelBuildError.
 double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts);
 
 /// Decides `--path-reuse auto` of a plan, says so, and leaves on or off in its options. `parts` are those of

@@ -3,6 +3,7 @@
 
 #include "console/signals.h"
 #include "render/pilot.h"
+#include "render/reuse_choice.h"
 #include "scene/sky_table.h"
 
 #include <algorithm>
@@ -67,9 +68,7 @@ bool choose_sky_table(const Device& device, const std::shared_ptr<PlannedScene>&
     const std::optional<Crop> crop = std::exchange(planned->options.film.crop, std::nullopt);
     const auto error_by = [&](SkySampling sampling) {
         tabulate_sky(sky, sampling);
-        const PreparedScene prepared = prepare_render(device, planned, parts);
-        parts = {prepared.tree, prepared.programs};
-        return path_pilot_error(prepared, *size);
+        return path_pilot_error(prepare_path_pilot(device, planned, parts), *size);
     };
     const double usual = error_by(SkySampling::BY_TABLE_AND_BSDF);
     Table best(sky);

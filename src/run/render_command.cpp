@@ -2,12 +2,13 @@
 #include "run/render_command.h"
 
 #include "console/progress.h"
+#include "device/compile_ahead.h"
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/guide_choice.h"
-#include "render/reuse_choice.h"
 #include "render/portal_choice.h"
 #include "render/render_params.h"
+#include "render/reuse_choice.h"
 #include "render/sky_choice.h"
 #include "run/denoising.h"
 #include "run/report.h"
@@ -179,14 +180,18 @@ int run_render(Options options) {
     check_denoiser(options);
     Progress progress(options.run.progress, options.run.verbosity < 0);
     Viewers viewers(options, progress);
-    const std::vector<Device> devices = open_chosen_devices(options);
+    std::vector<Device> devices = open_chosen_devices(options);
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
+    devices.front().ahead =
+        compile_ahead(devices.front().info, {options.device.cache, options.device.cache_folder});
     Job job{start, devices, plan_scene(std::move(scene), options), {}, {}, load_seconds};
+    expect_path_programs(devices.front(), job.planned);
     choose_portals(devices.front(), job.planned, job.parts, progress);
     job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
     const bool is_other_sky = choose_sky_table(devices.front(), job.planned, job.parts, progress);
     choose_path_reuse(devices.front(), job.planned, job.parts, progress);
+    expect_no_other(devices.front(), *job.planned);
     choose_guide(devices.front(), job.planned, job.parts, is_other_sky ? std::nullopt : job.choice.unguided,
                  progress);
     announce(*job.planned);

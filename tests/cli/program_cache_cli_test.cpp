@@ -4,6 +4,7 @@
 #include "support/instruction_sets.h"
 
 #include <fstream>
+#include <thread>
 
 namespace clrt {
 
@@ -68,6 +69,26 @@ TEST_F(ProgramCacheCommand, ADamagedEntryIsAMissAndNoErrorAndOffKeepsNothing) {
     EXPECT_FALSE(holds(clrt(cached("c.ppm")).err, {"is damaged"}));
     EXPECT_EQ(clrt(quick({"scene.obj", "--no-cache", "--cache-dir", "none"})).exit_code, 0);
     EXPECT_FALSE(exists("none"));
+}
+
+// A room long enough for pilots, of which several programs are wanted.
+TEST_F(ProgramCacheCommand, WhatWillBeWantedIsCompiledAheadWhereNothingIsCached) {
+    write_square("scene");
+    std::vector<std::string> room = {"scene.obj", "-s", "64", "-r", "192x144", "-v"};
+    room.insert(room.end(), {"-o", "a.ppm"});
+    const CommandSettings cold = cold_cache("pocl");
+    const CommandResult first = clrt(room, cold);
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    const CommandResult second = clrt(room, cold);
+    EXPECT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_FALSE(holds(second.err, {"compiled ahead"}));
+    if (test_device_name() == "pocl" && std::thread::hardware_concurrency() > 1) {
+        EXPECT_TRUE(holds(first.err, {"was compiled ahead in"})) << first.err;
+    }
+    const std::string picture = folder.read("a.ppm");
+    room.emplace_back("--no-cache");
+    EXPECT_FALSE(holds(clrt(room).err, {"compiled ahead"}));
+    EXPECT_EQ(folder.read("a.ppm"), picture);
 }
 
 // Compilers count their warnings on stderr whoever asked for the program. On processors without 512-bit or

@@ -168,6 +168,19 @@ TEST(IntegratorChoice, WhereNoneIsNamedOthersAreTriedWherePathMayNotSuffice) {
     }
 }
 
+// Its program takes seconds to compile.
+TEST(IntegratorChoice, WherePathFindsTheLightBdptIsNotTriedUnasked) {
+    Box box;
+    box.add_lamp(2.6);
+    box.add_glass();
+    for (const Toggle choose : {Toggle::AUTO, Toggle::ON}) {
+        box.options.transport.choose = choose;
+        const IntegratorChoice choice = box.choose().choice;
+        EXPECT_EQ(choice.integrator, Integrator::PATH);
+        EXPECT_EQ(choice.prices.size(), choose == Toggle::AUTO ? 2u : 3u) << choice.reason;
+    }
+}
+
 TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     // A lamp in a tube: nearly all that is seen comes off a small spot of the ceiling, and what paths from
     // the eye would scatter by is told by connections to it.

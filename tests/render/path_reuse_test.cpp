@@ -4,6 +4,7 @@
 // detours falls; and it is chosen where that pays.
 #include "error.h"
 #include "film/film_error.h"
+#include "render/pilot.h"
 #include "render/reuse_choice.h"
 #include "support/adjoining_rooms.h"
 #include "support/film_agrees.h"
@@ -219,6 +220,27 @@ TEST(PathReuse, PilotsTellWhatItGains) {
     EXPECT_GT(told, 0.8 * errors / rays);
     EXPECT_LT(told, errors);
     EXPECT_NEAR(told, errors / (1 + 0.35 * (rays - 1)), 0.15 * told);
+}
+
+// So that one program serves both pilots and the picture.
+TEST(PathReuse, ProgramsThatCanDoWithoutTakeTheSameSamples) {
+    Lit room(true);
+    room.planned = plan_loaded(test_device(), room.load(), room.options);
+    const PilotSize size = in_tiles({64, 48, 8});
+    const PreparedScene able = prepare_path_pilot(test_device(), room.planned, room.parts);
+    EXPECT_TRUE(room.parts.reusing);
+    EXPECT_FALSE(room.parts.programs);
+    const PathPilot without = run_path_pilot(able, size);
+    room.planned->options.transport.path_reuse = Toggle::ON;
+    const PathPilot with = run_path_pilot(able, size);
+    room.planned->options.transport.path_reuse = Toggle::OFF;
+    const PathPilot unable =
+        run_path_pilot(prepare_path_pilot(test_device(), room.planned, room.parts), size);
+    EXPECT_TRUE(room.parts.programs);
+    EXPECT_EQ(without.errors, unable.errors);
+    EXPECT_EQ(without.rays, unable.rays);
+    EXPECT_LT(with.errors[size_t(ErrorMeasure::RELATIVE)], unable.errors[size_t(ErrorMeasure::RELATIVE)]);
+    EXPECT_GT(with.rays, unable.rays);
 }
 
 TEST(PathReuse, IsNotChosenForParts) {
