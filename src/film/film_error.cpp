@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -13,6 +15,7 @@ namespace clrt {
 
 namespace {
 
+constexpr double TRIMMED_SHARE = 0.99;    ///< of the pixels, those with the least noise
 constexpr size_t FEWEST_FOR_INTERVAL = 4; ///< replicates
 constexpr size_t PIXELS_AT_ONCE =
     1u << 13;                     ///< of a parallel sum: its order, and so its bits, follow from this
@@ -251,6 +254,32 @@ std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels, ErrorM
 double sample_error(const Film& film, ErrorMeasure measure) {
     const auto error = film_error(film, ErrorPixels::SCENE, measure);
     return error ? error->relative_rmse * error->relative_rmse * double(film_samples(film)) : 0;
+}
+
+double trimmed_sample_error(const Film& film) {
+    const ReplicateMeans replicates(film);
+    const size_t count = replicates.count();
+    const PixelChoice choice(film, ErrorPixels::SCENE);
+    const ErrorWeights weights(film, choice, ErrorMeasure::RELATIVE);
+    std::vector<double> deviations(count), errors; // of pixels, squared
+    double mean = 0;
+    for (size_t pixel = 0; count > 1 && pixel < film_plane(film) / 3; ++pixel) {
+        if (!choice.has(pixel))
+            continue;
+        errors.push_back(0);
+        for (size_t c = 0; c < 3; ++c) {
+            double squares = 0;
+            mean += read_weighted(replicates, weights, 3 * pixel + c, deviations.data(), squares);
+            errors.back() += squares / double(count * (count - 1));
+        }
+    }
+    if (!(mean > 0))
+        return 0;
+    mean /= double(errors.size());
+    const auto kept = errors.begin() + std::ptrdiff_t(std::ceil(TRIMMED_SHARE * double(errors.size())));
+    std::nth_element(errors.begin(), kept - 1, errors.end());
+    const double sum = std::accumulate(errors.begin(), kept, 0.0);
+    return 3 * sum / (double(kept - errors.begin()) * mean * mean) * double(film_samples(film));
 }
 
 } // namespace clrt

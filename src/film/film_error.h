@@ -76,4 +76,8 @@ std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels = Error
 /// Squared relative error of one sample a pixel, as if noise fell by their number; 0 where none can be told.
 double sample_error(const Film& film, ErrorMeasure measure);
 
+/// The same by the relative measure without the noisiest hundredth of the pixels that show the scene: of what
+/// most of the picture is like, where a few bright samples decide the mean.
+double trimmed_sample_error(const Film& film);
+
 } // namespace clrt

@@ -37,7 +37,7 @@ bool is_open(const Options& options) {
 
 /// The squared error of a sample that decides.
 double error_of(const PathPilot& unguided) {
-    return std::sqrt(unguided.errors[0] * unguided.errors[1]);
+    return guide_error(unguided.errors[0], unguided.errors[1], unguided.trimmed);
 }
 
 /// Whether a guide may be worth its learning: light is hard to find, but is found, and there is time.

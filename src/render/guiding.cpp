@@ -22,6 +22,7 @@ constexpr double GUIDED_RAY_WORK = 1.5;
 /// work, over that of samples without a guide, may be so much: what unguided paths have taught is poor where
 /// light is hard to find, and what guided ones teach is better. One that passes the last of these stays.
 constexpr std::array<double, 2> LARGEST_COSTS = {1.1, 1};
+constexpr double MOST_OVER_TRIMMED = 4;
 /// Of the variance, at least so much is left by a guide, whatever its gain is said to be.
 constexpr double SMALLEST_ERROR = 0.05;
 
@@ -49,6 +50,10 @@ std::vector<float> tile_weights(const Film& film) {
 }
 
 } // namespace
+
+double guide_error(double mse, double relative, double trimmed) {
+    return std::min(std::sqrt(mse * relative), MOST_OVER_TRIMMED * trimmed);
+}
 
 Guiding::Guiding(const PreparedScene& prepared, const RenderParams& params, const FilmBuffers& film,
                  Render& render)
@@ -113,7 +118,8 @@ void Guiding::end_pilot(std::uint64_t samples) {
     progress_.pilot_end = samples;
     const Film& film = render_.film;
     progress_.pilot_error =
-        std::sqrt(sample_error(film, ErrorMeasure::MSE) * sample_error(film, ErrorMeasure::RELATIVE));
+        guide_error(sample_error(film, ErrorMeasure::MSE), sample_error(film, ErrorMeasure::RELATIVE),
+                    trimmed_sample_error(film));
     progress_.stage = *progress_.pilot_error < WORTHWHILE_GUIDE_ERROR ? GuideStage::OFF : GuideStage::ON;
     if (progress_.stage == GuideStage::ON)
         switch_on();

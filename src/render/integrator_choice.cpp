@@ -181,7 +181,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             break;
         }
         if (choice.prices.empty()) {
-            choice.unguided = PathPilot{pilot.path, pilot.eye_rays};
+            choice.unguided = PathPilot{pilot.path, pilot.eye_rays, pilot.trimmed};
             choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
         }
         const IntegratorPrice price = price_of(candidate, pilot, planned->options);
@@ -190,7 +190,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         if (price.efficiency > std::max(best, smallest_gain(price, is_guided, planned->options))) {
             best = price.efficiency;
             choice.integrator = price.integrator;
-            choice.unguided = PathPilot{pilot.own, pilot.eye_rays};
+            choice.unguided = PathPilot{pilot.own, pilot.eye_rays, pilot.trimmed};
         }
     }
     if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < REUSE_PIXELS) {

@@ -200,6 +200,7 @@ PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size) {
     if (film_error(render.film))
         for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
             pilot.errors[size_t(measure)] = sample_error(render.film, measure);
+    pilot.trimmed = trimmed_sample_error(render.film);
     return pilot;
 }
 
@@ -234,6 +235,7 @@ PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {
     PilotResult result;
     for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
         set_errors(render, measure, result);
+    result.trimmed = trimmed_sample_error(render.film);
     count_rays(pilot, result);
     return result;
 }

@@ -19,6 +19,7 @@ using SquaredErrors = std::array<double, 2>;
 struct PathPilot {
     SquaredErrors errors{}; ///< infinite: no light was found
     double rays = 0;
+    double trimmed = 0; ///< the relative one without the noisiest pixels (trimmed_sample_error)
 };
 
 /// What a pilot has found out, a sample a pixel.
@@ -28,6 +29,7 @@ struct PilotResult {
     double light_rays = 0;       ///< of paths from the lights, and from them to the camera
     double inner_rays = 0;       ///< between both
     double light_paths = 0;
+    double trimmed = 0;    ///< relative squared error of the integrator without its noisiest pixels
     bool is_black = false; ///< no light was found: there are no errors
 };
 

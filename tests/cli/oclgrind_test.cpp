@@ -29,8 +29,8 @@ protected:
     }
 
     void expect_no_finding(const std::string& integrator, const std::string& layout,
-                           const std::string& precision) const {
-        SCOPED_TRACE(integrator + ", " + layout + ", " + precision);
+                           const std::string& precision, const std::string& path_reuse = "off") const {
+        SCOPED_TRACE(integrator + ", " + layout + ", " + precision + ", path reuse " + path_reuse);
         CommandSettings settings;
         settings.folder = path();
         settings.environment["CLRT_DEVICE"] = "oclgrind";
@@ -53,6 +53,8 @@ protected:
                                                   layout,
                                                   "--precision",
                                                   precision,
+                                                  "--path-reuse",
+                                                  path_reuse,
                                                   "-r",
                                                   "16x16",
                                                   "-s",
@@ -83,7 +85,7 @@ protected:
 
 TEST_F(Oclgrind, FindsNothingInAnyKernel) {
     if (!tests_are_long()) {
-        expect_no_finding("path", "bvh8", "single");
+        expect_no_finding("path", "bvh8", "single", "on");
         expect_no_finding("whitted", "bvh2", "double");
         expect_no_finding("distribution", "bvh8", "double");
         expect_no_finding("raycast", "cwbvh", "single");
@@ -93,6 +95,7 @@ TEST_F(Oclgrind, FindsNothingInAnyKernel) {
         for (const char* layout : {"bvh8", "bvh2", "cwbvh"})
             for (const char* precision : {"single", "double", "fast"})
                 expect_no_finding(integrator, layout, precision);
+    expect_no_finding("path", "bvh8", "single", "on");
 }
 
 } // namespace clrt

@@ -124,6 +124,22 @@ TEST(FilmError, TheErrorIsRootMeanSquareOverTheMean) {
     EXPECT_GT(probability_of(*error->high, degrees), 0.9755);
 }
 
+TEST(FilmError, TheTrimmedErrorIsThatOfMostPixels) {
+    std::mt19937 random(7);
+    Film film = empty_film(40, 40, 8, 0, 64);
+    fill_with_noise(film, 10, 1, random);
+    const double clean = sample_error(film, ErrorMeasure::RELATIVE);
+    EXPECT_NEAR(trimmed_sample_error(film), clean, 0.05 * clean);
+    EXPECT_LT(trimmed_sample_error(film), clean);
+    std::normal_distribution<double> noise(0, 640 / film.scale.quantum);
+    for (size_t pixel = 0; pixel < 1600; pixel += 110) // 15 of 1600
+        for (size_t r = 0; r < 8; ++r)
+            film.sums[r * film_plane(film) + 3 * pixel] += std::llround(noise(random));
+    EXPECT_GT(sample_error(film, ErrorMeasure::RELATIVE), 10 * clean);
+    EXPECT_NEAR(trimmed_sample_error(film), clean, 0.05 * clean);
+    EXPECT_EQ(trimmed_sample_error(empty_film(8, 8, 8, 0, 64)), 0);
+}
+
 TEST(FilmError, DegreesOfFreedomCountPixelsAndChannelsThatGoTogetherOnce) {
     std::mt19937 random(12);
     double degrees = 0;

@@ -37,7 +37,7 @@ struct Choice {
 constexpr u32 LONG_SPP = 24000, SHORT_SPP = 3000;
 
 /// What a pilot tells where light is very hard to find.
-constexpr PathPilot HARD{{80, 80}, 20};
+constexpr PathPilot HARD{{80, 80}, 20, 80};
 
 Estimate mean_of(const Film& film) {
     return film_estimate(film, 1, {0, 0, film.width, film.height});
@@ -143,7 +143,8 @@ TEST(GuideChoice, ElsewhereThePictureFindsOut) {
     add_adjoining_rooms(scene);
     EXPECT_FALSE(Choice(scene).parts.guide) << "a short render";
     scene.options.sampling.spp = LONG_SPP;
-    EXPECT_FALSE(Choice(scene, PathPilot{{1, 1}, 20}).parts.guide) << "light is found";
+    EXPECT_FALSE(Choice(scene, PathPilot{{1, 1}, 20, 1}).parts.guide) << "light is found";
+    EXPECT_FALSE(Choice(scene, PathPilot{{80, 80}, 20, 0.2}).parts.guide) << "but for few pixels";
     EXPECT_FALSE(Choice(scene, PathPilot{{HUGE_VAL, HUGE_VAL}, 20}).parts.guide) << "there is none";
     for (const Toggle guide : {Toggle::ON, Toggle::OFF}) {
         scene.options.transport.guide = guide;
