@@ -4,18 +4,21 @@
 #include "device/compile_ahead.h"
 #include "exit_code.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <iterator>
 #include <spdlog/spdlog.h>
 #include <string>
+#include <sys/prctl.h>
 
 int main(int argc, char**) {
     if (argc > 1) {
         std::fputs("clrt-compile: clrt runs it by itself; there is nothing to do for you\n", stderr);
         return clrt::EXIT_USAGE;
     }
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // what is compiled is of use to the run alone that asked for it
     spdlog::set_level(spdlog::level::off);
     try {
         clrt::compile_from_text(

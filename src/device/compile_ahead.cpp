@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sched.h>
 #include <signal.h>
@@ -40,12 +40,8 @@ nlohmann::json program_json(const ProgramRequest& request) {
             {"cache_folder", request.cache.folder}};
 }
 
-std::string text_of(const nlohmann::json& json) {
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string program_text(const ProgramRequest& request) {
-    return text_of(program_json(request));
+    return program_json(request).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 ProgramRequest program_from(const nlohmann::json& json) {
@@ -119,6 +115,16 @@ unsigned usable_processors() {
     return unsigned(CPU_COUNT(&processors));
 }
 
+/// Whether what another process compiles will be found.
+bool keeps_programs(const DeviceInfo& device, const ProgramCache& cache) {
+    if (cache.use == Toggle::OFF)
+        return false;
+    if (uses_program_cache(cache, device))
+        return !program_cache_folder(cache).empty() && program_cache_obstacle(cache).empty();
+    const char* const pocl = std::getenv("POCL_KERNEL_CACHE");
+    return driver_caches_programs(device) && !(pocl && std::string(pocl) == "0");
+}
+
 } // namespace
 
 CompileAhead::CompileAhead(const DeviceInfo& device, std::string helper, unsigned processes)
@@ -136,12 +142,16 @@ CompileAhead::~CompileAhead() {
 }
 
 void CompileAhead::expect(const ProgramRequest& request, const std::string& kernel) {
-    const nlohmann::json text = {{"platform", device_.platform_index},
+    const nlohmann::json json = {{"platform", device_.platform_index},
                                  {"device", device_.device_index},
                                  {"kernel", kernel},
                                  {"program", program_json(request)}};
     const std::lock_guard<std::mutex> lock(mutex_);
-    jobs_.push_back({request.name, program_text(request), text_of(text)});
+    try {
+        jobs_.push_back({request.name, program_text(request), json.dump()});
+    } catch (const nlohmann::json::type_error&) { // the cache's folder has a name that is no UTF-8
+        return;
+    }
     try {
         if (workers_.size() < std::min<size_t>(processes_, jobs_.size()))
             workers_.emplace_back([this] { work(); });
@@ -233,8 +243,8 @@ void CompileAhead::run(Job& job, std::unique_lock<std::mutex>& lock) {
         job.stage = Stage::DONE;
         int status = 0;
         waitpid(job.process, &status, 0);
-        spdlog::debug("the program {} was compiled ahead in {:.1f} s{}", job.name, seconds_since(start),
-                      status == 0 ? "" : ", without success");
+        if (status == 0)
+            spdlog::debug("the program {} was compiled ahead in {:.1f} s", job.name, seconds_since(start));
     }
     changed_.notify_all();
 }
@@ -256,11 +266,13 @@ std::string compile_helper() {
     return {};
 }
 
-std::shared_ptr<CompileAhead> compile_ahead(const DeviceInfo& device, const ProgramCache& cache) {
-    const bool is_kept =
-        cache.use != Toggle::OFF && (driver_caches_programs(device) || uses_program_cache(cache, device));
-    const unsigned processes = std::min(usable_processors() - 1, MOST_PROCESSES);
-    const std::string helper = is_kept && processes > 0 ? compile_helper() : std::string();
+std::shared_ptr<CompileAhead> compile_ahead(const DeviceInfo& device, const ProgramCache& cache,
+                                            unsigned processors) {
+    const unsigned usable = usable_processors();
+    const unsigned processes =
+        std::min((processors == 0 ? usable : std::min(processors, usable)) - 1, MOST_PROCESSES);
+    const std::string helper =
+        keeps_programs(device, cache) && processes > 0 ? compile_helper() : std::string();
     return helper.empty() ? nullptr : std::make_shared<CompileAhead>(device, helper, processes);
 }
 

@@ -9,7 +9,7 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <deque>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -75,8 +75,8 @@ private:
     unsigned processes_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Job> jobs_; ///< grows only, so that jobs stay where they are
-    int builders_ = 0;     ///< that compile now
+    std::list<Job> jobs_;                                        ///< grows only
+    int builders_ = 0;                                           ///< that compile now
     std::optional<std::chrono::steady_clock::time_point> begun_; ///< when the first of them began
     bool is_needed_ = false, is_over_ = false;
     unsigned started_ = 0;
@@ -86,9 +86,10 @@ private:
 /// Where clrt-compile is: beside the running program, or installed with it. Empty: nowhere.
 std::string compile_helper();
 
-/// For a device of a run, or null: where compiled programs are not kept, with a processor alone, and without
-/// clrt-compile.
-std::shared_ptr<CompileAhead> compile_ahead(const DeviceInfo& device, const ProgramCache& cache);
+/// For a device of a run on so many processors (0: all), or null: where compiled programs are not kept, with
+/// one processor, and without clrt-compile.
+std::shared_ptr<CompileAhead> compile_ahead(const DeviceInfo& device, const ProgramCache& cache,
+                                            unsigned processors);
 
 /// What clrt-compile does with the text that it reads: builds the program, and launches the kernel without
 /// work, for some drivers compile it no earlier. Throws std::exception.

@@ -15,7 +15,8 @@ namespace clrt {
 
 namespace {
 
-constexpr double TRIMMED_SHARE = 0.99;    ///< of the pixels, those with the least noise
+/// Of the pixels, those with the least noise: caustics and rims of lamps are in the others.
+constexpr double TRIMMED_SHARE = 0.99;
 constexpr size_t FEWEST_FOR_INTERVAL = 4; ///< replicates
 constexpr size_t PIXELS_AT_ONCE =
     1u << 13;                     ///< of a parallel sum: its order, and so its bits, follow from this
@@ -275,6 +276,11 @@ double trimmed_sample_error(const Film& film) {
     }
     if (!(mean > 0))
         return 0;
+    // Light that few samples find is in few pixels yet, and there is nothing to trim.
+    const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    if (*middle == 0)
+        return sample_error(film, ErrorMeasure::RELATIVE);
     mean /= double(errors.size());
     const auto kept = errors.begin() + std::ptrdiff_t(std::ceil(TRIMMED_SHARE * double(errors.size())));
     std::nth_element(errors.begin(), kept - 1, errors.end());

@@ -77,7 +77,8 @@ std::optional<FilmError> film_error(const Film& film, ErrorPixels pixels = Error
 double sample_error(const Film& film, ErrorMeasure measure);
 
 /// The same by the relative measure without the noisiest hundredth of the pixels that show the scene: of what
-/// most of the picture is like, where a few bright samples decide the mean.
+/// most of the picture is like, where a few bright samples decide the mean. Nothing is left out where most
+/// pixels have no noise: they may not have seen the light yet.
 double trimmed_sample_error(const Film& film);
 
 } // namespace clrt

@@ -23,7 +23,7 @@ struct GuideProgress {
     std::uint64_t pilot_end = 0;      ///< likewise
     std::optional<std::uint64_t> guided_from; ///< samples before any were guided; none: none are
     std::uint64_t guided_to = 0;              ///< where that ended; 0: it has not
-    std::optional<double> pilot_error;        ///< squared relative error of a sample before there was a guide
+    std::optional<double> pilot_error;        ///< by guide_error (render/guiding.h), before there was a guide
     double plain_rays = 0;                    ///< of a sample then
     double taught_rays = 0;                   ///< of a pilot that the guide has been learnt from
     u32 teachers = NO_INDEX;                  ///< the last sample that teaches (RenderParams::guide_learns)

@@ -22,6 +22,7 @@ constexpr double GUIDED_RAY_WORK = 1.5;
 /// work, over that of samples without a guide, may be so much: what unguided paths have taught is poor where
 /// light is hard to find, and what guided ones teach is better. One that passes the last of these stays.
 constexpr std::array<double, 2> LARGEST_COSTS = {1.1, 1};
+/// What guide_error allows the error to be over that of most pixels.
 constexpr double MOST_OVER_TRIMMED = 4;
 /// Of the variance, at least so much is left by a guide, whatever its gain is said to be.
 constexpr double SMALLEST_ERROR = 0.05;

@@ -181,7 +181,8 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             break;
         }
         if (choice.prices.empty()) {
-            choice.unguided = PathPilot{pilot.path, pilot.eye_rays, pilot.trimmed};
+            const double trimmed = choice.unguided ? choice.unguided->trimmed : pilot.trimmed;
+            choice.unguided = PathPilot{pilot.path, pilot.eye_rays, trimmed};
             choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
         }
         const IntegratorPrice price = price_of(candidate, pilot, planned->options);

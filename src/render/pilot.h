@@ -9,6 +9,7 @@
 #include "render/prepared_scene.h"
 
 #include <array>
+#include <cmath>
 
 namespace clrt {
 
@@ -19,7 +20,7 @@ using SquaredErrors = std::array<double, 2>;
 struct PathPilot {
     SquaredErrors errors{}; ///< infinite: no light was found
     double rays = 0;
-    double trimmed = 0; ///< the relative one without the noisiest pixels (trimmed_sample_error)
+    double trimmed = HUGE_VAL; ///< the relative one without the noisiest pixels (trimmed_sample_error)
 };
 
 /// What a pilot has found out, a sample a pixel.
@@ -34,8 +35,9 @@ struct PilotResult {
 };
 
 /// The same of path, or of path+light where the scene is prepared for that, with its programs. As independent
-/// of the rest as run_pilot, and throws the same.
-PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size);
+/// of the rest as run_pilot, and throws the same. `reuses_paths`: the programs do so if they can; else none
+/// does, whatever the plan says.
+PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size, bool reuses_paths = false);
 
 /// What a guide has learnt, and what its samples tell of it (render/guiding.h), by a pilot that is guided as
 /// the picture is to be; `error` is that of unguided samples. The picture begins with it. As independent of

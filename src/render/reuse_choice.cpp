@@ -71,9 +71,7 @@ double pilot_gain(const Device& device, const std::shared_ptr<PlannedScene>& pla
     const PilotSize size = *size_of_reuse_pilots(*planned);
     const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
     const PathPilot alone = run_path_pilot(prepared, size);
-    planned->options.transport.path_reuse = Toggle::ON;
-    const PathPilot reusing = run_path_pilot(prepared, size);
-    planned->options.transport.path_reuse = Toggle::AUTO;
+    const PathPilot reusing = run_path_pilot(prepared, size, true);
     const double gain = gain_of(reusing, alone, planned->options);
     if (!std::isfinite(gain) || stop_signal())
         return 0;

@@ -2,11 +2,11 @@
 // Whether what a path has found serves other pixels (kernels/integrators/path_reuse.h).
 //
 // It lowers the noise of light that comes by detours, several times in rooms, and costs shadow rays. What it
-// is worth, two pilots of the same samples tell, one by each program: tiles of the picture, spread over it,
-// because paths serve pixels side by side the better. Work is counted in rays, those to other pixels' paths
-// as a part of one, never in seconds: the same picture comes out everywhere. The pilots are there where the
-// render is long enough for them; a part of a picture (--first-sample) is rendered as it is asked for, and a
-// film that is gone on with as it began.
+// is worth, two pilots of the same samples tell, one with it and one without: tiles of the picture, spread
+// over it, because paths serve pixels side by side the better. Work is counted in rays, those to other
+// pixels' paths as a part of one, never in seconds: the same picture comes out everywhere. The pilots are
+// there where the render is long enough for them; a part of a picture (--first-sample) is rendered as it is
+// asked for, and a film that is gone on with as it began.
 #pragma once
 
 #include "console/progress.h"
@@ -23,10 +23,10 @@ constexpr double WORTHWHILE_REUSE_GAIN = 1.1;
 /// without.
 void expect_path_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned);
 
-/// Prepares a plan of path for pilots without reuse. Where reuse is open they are rendered by programs that
-/// reuse paths where they are told to (RenderParams::shares_paths), so that a pilot with it, and the picture,
-/// need no others. `parts` are those of the plan that are there, and get what was made. Throws what
-/// prepare_render throws.
+/// Prepares a plan of path for pilots. Where reuse is open they are rendered by programs that reuse paths
+/// where they are told to (RenderParams::shares_paths), so that pilots with and without it, and the picture
+/// with it, need no others; else by the picture's. `parts` are those of the plan that are there, and get what
+/// was made. Throws what prepare_render throws.
 PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<PlannedScene>& planned,
                                  PreparedParts& parts);
 

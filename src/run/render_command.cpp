@@ -184,7 +184,8 @@ int run_render(Options options) {
     Scene scene = load_for_run(options, progress);
     const double load_seconds = seconds_since(start);
     devices.front().ahead =
-        compile_ahead(devices.front().info, {options.device.cache, options.device.cache_folder});
+        compile_ahead(devices.front().info, {options.device.cache, options.device.cache_folder},
+                      unsigned(options.device.threads));
     Job job{start, devices, plan_scene(std::move(scene), options), {}, {}, load_seconds};
     expect_path_programs(devices.front(), job.planned);
     choose_portals(devices.front(), job.planned, job.parts, progress);

@@ -81,7 +81,6 @@ TEST_F(ProgramCacheCommand, WhatWillBeWantedIsCompiledAheadWhereNothingIsCached)
     EXPECT_EQ(first.exit_code, 0) << first.err;
     const CommandResult second = clrt(room, cold);
     EXPECT_EQ(second.exit_code, 0) << second.err;
-    EXPECT_FALSE(holds(second.err, {"compiled ahead"}));
     if (test_device_name() == "pocl" && std::thread::hardware_concurrency() > 1) {
         EXPECT_TRUE(holds(first.err, {"was compiled ahead in"})) << first.err;
     }

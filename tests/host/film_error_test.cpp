@@ -137,6 +137,11 @@ TEST(FilmError, TheTrimmedErrorIsThatOfMostPixels) {
             film.sums[r * film_plane(film) + 3 * pixel] += std::llround(noise(random));
     EXPECT_GT(sample_error(film, ErrorMeasure::RELATIVE), 10 * clean);
     EXPECT_NEAR(trimmed_sample_error(film), clean, 0.05 * clean);
+    Film rare = empty_film(40, 40, 8, 0, 64);
+    for (size_t pixel = 0; pixel < 1600; pixel += 110)
+        rare.sums[3 * pixel] = std::llround(100 / film.scale.quantum);
+    EXPECT_GT(sample_error(rare, ErrorMeasure::RELATIVE), 10);
+    EXPECT_EQ(trimmed_sample_error(rare), sample_error(rare, ErrorMeasure::RELATIVE));
     EXPECT_EQ(trimmed_sample_error(empty_film(8, 8, 8, 0, 64)), 0);
 }
 

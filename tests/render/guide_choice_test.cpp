@@ -88,7 +88,7 @@ TEST(GuideChoice, APilotOnlyTeachesWhereLightIsVeryHardToFind) {
     ASSERT_TRUE(hard.parts.guide && hard.parts.guide->guide);
     EXPECT_EQ(hard.parts.guide->guided_from, 0u);
     EXPECT_EQ(hard.parts.guide->judgements, 0u);
-    const Choice noisy(scene, PathPilot{{20, 20}, 20}); // the picture's own samples teach
+    const Choice noisy(scene, PathPilot{{20, 20}, 20, 20}); // the picture's own samples teach
     ASSERT_TRUE(noisy.parts.guide);
     EXPECT_EQ(noisy.parts.guide->stage, GuideStage::ON);
     EXPECT_FALSE(noisy.parts.guide->guided_from);

@@ -231,8 +231,7 @@ TEST(PathReuse, ProgramsThatCanDoWithoutTakeTheSameSamples) {
     EXPECT_TRUE(room.parts.reusing);
     EXPECT_FALSE(room.parts.programs);
     const PathPilot without = run_path_pilot(able, size);
-    room.planned->options.transport.path_reuse = Toggle::ON;
-    const PathPilot with = run_path_pilot(able, size);
+    const PathPilot with = run_path_pilot(able, size, true);
     room.planned->options.transport.path_reuse = Toggle::OFF;
     const PathPilot unable =
         run_path_pilot(prepare_path_pilot(test_device(), room.planned, room.parts), size);
