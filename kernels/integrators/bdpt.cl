@@ -2,6 +2,7 @@
 // Entry point of the bidirectional path tracer.
 #define SPLATS_ARE_WEIGHTED 1
 #define INNER_CONNECTIONS 1
+#define CONNECTS_THROUGH_SLABS 1
 #include "bdpt.h"
 
 #define INTEGRATOR_KERNEL render_bdpt

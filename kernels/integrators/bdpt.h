@@ -52,6 +52,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     path->is_alive = path->is_connected = false;
     if (path->hit.triangle == NO_INDEX) {
         path_absorb(scene, 0, path);
+        path_skip_slabs(params, path);
         splat_add_escape(scene, params, segment, path, weights, sample, rays);
         bdpt_book(params, 0u, segment + 1u, sample);
         return;
@@ -109,7 +110,7 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
         rays->shadow += path.is_connected ? 1u : 0u;
         if (!path.is_connected)
             continue;
-        const real3 share = visible_share(scene, params, &path.shadow);
+        const real3 share = path_connection_share(scene, params, segment, &path, rays);
         path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
         bdpt_book(params, 1u, segment + 1u, sample);
 #if FILM_MOMENTS

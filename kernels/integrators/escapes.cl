@@ -6,6 +6,22 @@
 #include "path/visibility.h"
 #include "shared/escape_types.h"
 
+/* The next surface along a ray, seen straight through slabs as through panes without a thickness. */
+static inline Hit escapes_hit(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                              uint segment, Ray* ray)
+{
+    for (;;) {
+        real3 carried = (real3)(REAL(1.0));
+        Hit hit = visible_hit(scene, params, sampler, segment, ray, &carried);
+        if (!(params->path_choices & SLABS_ARE_CROSSED) || hit.triangle == NO_INDEX)
+            return hit;
+        if (!(scene->materials[scene->triangles[hit.triangle].material].flags & MATERIAL_SLAB))
+            return hit;
+        const Surface surface = visible_surface(scene, params, ray, &hit);
+        *ray = surface_ray(&surface, false, ray->direction);
+    }
+}
+
 /* Follows a path from the pixel (x, y) of the picture. */
 static CLRT_NOINLINE Escape escapes_follow(const Scene* scene, const RenderParams* params, uint x, uint y,
                                            const Sampler* sampler)
@@ -15,11 +31,11 @@ static CLRT_NOINLINE Escape escapes_follow(const Scene* scene, const RenderParam
     if (HAS(EFFECT_NESTED))
         visible_find_nest(scene, params, &ray);
     for (uint segment = 1u; segment <= ESCAPE_SEGMENTS; ++segment) {
-        real3 carried = (real3)(REAL(1.0));
-        Hit hit = visible_hit(scene, params, sampler, segment, &ray, &carried);
+        const real3 origin = ray.origin;
+        Hit hit = escapes_hit(scene, params, sampler, segment, &ray);
         if (hit.triangle == NO_INDEX) {
             const real3 sky = environment_eval(scene, params, ray.direction);
-            escape.origin = (float4)(convert_float3(ray.origin), (float)(segment - 1u));
+            escape.origin = (float4)(convert_float3(origin), (float)(segment - 1u));
             escape.direction = (float4)(convert_float3(ray.direction), (float)vector_luminance(sky));
             break;
         }

@@ -53,6 +53,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     guide_arrive(sample->radiance, &path->guided);
     if (path->hit.triangle == NO_INDEX) {
         path_absorb(scene, 0, path);
+        path_skip_slabs(params, path);
         path_escape(scene, params, segment, path, sample, rays);
         return;
     }
@@ -167,7 +168,8 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
     /* Add the light that nothing keeps away. */
     for (uint i = 0; i < connected.count; ++i) {
         const uint k = connected.at[i];
-        const real3 share = visible_share(scene, params, &paths[k].shadow);
+        PixelRays* counts = pixel_rays_of(&samples[k], rays);
+        const real3 share = path_connection_share(scene, params, segment, &paths[k], counts);
         path_add_connection(scene, &paths[k], share, &samples[k].radiance, &samples[k].layers);
     }
 }

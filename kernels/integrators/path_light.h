@@ -22,6 +22,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     guide_arrive(sample->radiance, &path->guided);
     if (path->hit.triangle == NO_INDEX) {
         path_absorb(scene, 0, path);
+        path_skip_slabs(params, path);
         splat_add_escape(scene, params, segment, path, weights, sample, rays);
         return;
     }
@@ -74,7 +75,7 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
         rays->shadow += path.is_connected ? 1u : 0u;
         if (!path.is_connected)
             continue;
-        const real3 share = visible_share(scene, params, &path.shadow);
+        const real3 share = path_connection_share(scene, params, segment, &path, rays);
         path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
 #if FILM_MOMENTS
         moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);

@@ -43,7 +43,7 @@ static inline void reuse_begin(ReusedPath* reused) { reused->has_first = reused-
 static inline void reuse_keep_first(const RenderParams* params, uint segment, const Surface* surface,
                                     const Bsdf* bsdf, const Path* path, ReusedPath* reused)
 {
-    if (params->shares_paths == 0u || segment != 1u || !bsdf_has_smooth_lobe(bsdf))
+    if (!(params->path_choices & PATHS_ARE_SHARED) || segment != 1u || !bsdf_has_smooth_lobe(bsdf))
         return;
     reused->has_first = true;
     reused->surface = *surface;

@@ -57,6 +57,34 @@ static inline LightSample path_light(const Scene* scene, const RenderParams* par
                          path->numbers.alias);
 }
 
+/* The path is connected to a light. `with_others`: the weight of the connection beside light paths over what
+   it is without them. */
+static inline void path_note_connection(const LightSample* light, real with_others, Path* path)
+{
+    path->is_connected = true;
+#if HAS_SLABS
+    path->is_to_distant = light->is_distant;
+    path->connects_with_others = with_others;
+#endif
+}
+
+/* The share of the connection that arrives, as far as one of its segment's path may within max_depth. What
+   comes through slabs is not weighted against light paths. */
+static inline real3 path_connection_share(const Scene* scene, const RenderParams* params, uint segment,
+                                          Path* path, PixelRays* rays)
+{
+    real3 share = visible_share(scene, params, &path->shadow);
+#if HAS_SLABS
+    if ((params->path_choices & SLABS_ARE_CROSSED) && path->is_to_distant && vector_is_black(share)) {
+        share = slab_share(scene, params, params->max_depth - 1u - segment, &path->shadow, rays);
+        path->connection /= path->connects_with_others;
+        TRACE_CHOICE(scene, TRACE_VISIBLE, vector_is_black(share) ? 0u : 1u);
+        TRACE_NUMBER(scene, TRACE_SHARE, vector_max_component(share));
+    }
+#endif
+    return share;
+}
+
 /* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling.
    Nothing where delta lobes or the automaton keep a light from being found so. */
 static inline void path_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
@@ -86,7 +114,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, weight);
     TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
     path->shadow = light_shadow_ray(surface, &light);
-    path->is_connected = true;
+    path_note_connection(&light, REAL(1.0), path);
     path_connect_layers(bsdf, step, &light, path->throughput * light.radiance * (weight / light.pdf_w), path);
 }
 

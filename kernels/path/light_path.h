@@ -13,6 +13,7 @@
 #include "light_bent.h"
 #include "light_vertices.h"
 #include "roulette.h"
+#include "slab.h"
 #include "splat_weight.h"
 #include "strategies.h"
 
@@ -37,6 +38,9 @@ typedef struct {
     real3 throughput; /* product of BSDF times cosine over pdf */
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     uint solid; /* as in Path */
+#endif
+#if HAS_SLABS
+    SlabChain slabs; /* since it has begun */
 #endif
     SplatWeights weights;
 #if FILM_MOMENTS
@@ -80,6 +84,12 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     path->throughput = (real3)(REAL(1.0));
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = NO_INDEX;
+#endif
+#if HAS_SLABS
+    slab_begin(path->ray.direction, &path->slabs);
+    const bool is_sky = path->emission.light == light_of_sky(params);
+    if (!path->emission.is_distant || (is_sky && !slab_sky_is_sampled(params)))
+        slab_end(&path->slabs);
 #endif
     TRACE_CHOICE(scene, TRACE_LIGHT_KIND, emission_kind(scene, params, path->emission.light));
     TRACE_VECTOR(scene, TRACE_LIGHT_RADIANCE, path->emission.power);
@@ -193,6 +203,17 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
    else is looked for. */
 static inline bool light_path_is_at_caster(uint segment) { return EMISSION_IS_AIMED && segment == 1u; }
 
+/* Whether paths from the eye are left to find what comes from where this one has, by lobes with a density at
+   the end of its segment (slab.h). */
+static inline bool light_path_is_behind_slabs(const RenderParams* params, const LightPath* path)
+{
+#if HAS_SLABS
+    return slab_is_behind(params, &path->slabs, path->ray.direction);
+#else
+    return false;
+#endif
+}
+
 /* The vertex at the end of a segment; false where nothing is scattered on. */
 static inline bool light_path_meet(const Scene* scene, const RenderParams* params, uint segment, Hit* hit,
                                    LightPath* path, LightVertex* vertex, real3* watched)
@@ -235,7 +256,8 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     *watched += next.wi;
     if (!next.is_valid)
         return false;
-    if (light_path_is_at_caster(segment) && next.pdf_w > REAL(0.0))
+    if (next.pdf_w > REAL(0.0) &&
+        (light_path_is_at_caster(segment) || light_path_is_behind_slabs(params, path)))
         return false;
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
     TRACE_VECTOR(scene, TRACE_WI, next.wi);
@@ -252,6 +274,12 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
 #if FILM_MOMENTS
     splat_weights_leave(bsdf, next.wi, next.pdf_w, &path->alone);
     path->alone.open = REAL(0.0);
+#endif
+#if HAS_SLABS
+    if (next.pdf_w == REAL(0.0))
+        slab_leave(scene, &vertex->surface, next.reflects, next.eta, &path->slabs);
+    else
+        slab_end(&path->slabs);
 #endif
     path->ray = surface_ray(&vertex->surface, next.reflects, next.wi);
     dispersion_leave(dispersion_splits(bsdf, next.reflects), &path->ray);
@@ -282,7 +310,8 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     LightVertex vertex;
     if (!light_path_meet(scene, params, segment, hit, path, &vertex, &sink->watched))
         return false;
-    if (bsdf_has_smooth_lobe(&vertex.bsdf) && !light_path_is_at_caster(segment)) {
+    if (bsdf_has_smooth_lobe(&vertex.bsdf) && !light_path_is_at_caster(segment) &&
+        !light_path_is_behind_slabs(params, path)) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
         light_path_keep(segment, hit, path, sink->kept);
     }

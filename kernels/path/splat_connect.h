@@ -57,6 +57,17 @@ static inline bool splat_competes(real pdf_w, const SplatWeights* weights)
     return weights->closed > REAL(0.0);
 }
 
+/* The same of light from outside, which next-event estimation finds too or does not. Behind slabs it is left
+   to that (slab.h), if it does. */
+static inline bool splat_competes_outside(const Path* path, bool is_connected_to, const SplatWeights* weights)
+{
+#if HAS_SLABS
+    if (path->is_behind_slabs)
+        return !is_connected_to && weights->closed > REAL(0.0);
+#endif
+    return splat_competes(path->pdf_w, weights);
+}
+
 /* The weight of a hit: `light_pdf_w` is the density of next-event estimation, `emission_pdf` that of the ray
    from the light. */
 static inline real splat_hit_weight(const Path* path, const SplatWeights* weights, real light_pdf_w,
@@ -96,9 +107,11 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
     const real3 wi = path->ray.direction;
     const LightView* view = &path->view;
     real3 radiance = (real3)(REAL(0.0));
-    const bool competes = splat_competes(path->pdf_w, weights);
-    const real disc_pdf_a =
-        competes ? emission_disc_ray_pdf_a(scene, params, path->ray.origin, wi) : REAL(0.0);
+    const bool sky_competes = splat_competes_outside(path, slab_sky_is_sampled(params), weights);
+    const bool suns_compete = splat_competes_outside(path, true, weights);
+    const real disc_pdf_a = sky_competes || suns_compete
+                                ? emission_disc_ray_pdf_a(scene, params, path->ray.origin, wi)
+                                : REAL(0.0);
     if (HAS(EFFECT_ENVIRONMENT)) {
         const real2 place = environment_place(params, wi);
         real light_pdf_w = REAL(0.0);
@@ -107,7 +120,8 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
                 light_probability_of_sky(scene, params, view) * sky_pdf_w(scene, params, view, wi, place);
         radiance = environment_eval_at(scene, params, place) *
                    splat_hit_weight(path, weights, light_pdf_w,
-                                    emission_sky_pdf_w(scene, params, wi) * disc_pdf_a);
+                                    sky_competes ? emission_sky_pdf_w(scene, params, wi) * disc_pdf_a
+                                                 : REAL(0.0));
     }
     for (uint i = 0; HAS(EFFECT_DELTA_LIGHT) && i < params->light_count; ++i) {
         if (!delta_light_covers(scene, i, wi))
@@ -118,7 +132,8 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
                           warp_cone_pdf_w((real)scene->lights[i].one_minus_cos);
         radiance += vector_from(scene->lights[i].emission) *
                     splat_hit_weight(path, weights, light_pdf_w,
-                                     emission_sun_pdf_w(scene, params, i) * disc_pdf_a);
+                                     suns_compete ? emission_sun_pdf_w(scene, params, i) * disc_pdf_a
+                                                  : REAL(0.0));
     }
     return radiance;
 }
@@ -167,7 +182,7 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, light.pdf_w / (light.pdf_w + hit + splat));
     TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
     path->shadow = light_shadow_ray(surface, &light);
-    path->is_connected = true;
+    path_note_connection(&light, (light.pdf_w + hit) / (light.pdf_w + hit + splat), path);
 }
 
 #endif

@@ -33,6 +33,13 @@ static inline bool visibility_is_pane(const Scene* scene, const Hit* hit)
     return HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE) && material->alpha_x == 0.0f;
 }
 
+/* The surface at a hit, where it is no part of a replay's record. */
+static CLRT_NOINLINE void visibility_set_surface(const Scene* scene, const Hit* hit, const Ray* ray,
+                                                 Surface* surface)
+{
+    *surface = surface_at(scene, hit, ray);
+}
+
 /* True if a hit is on no surface, because the same solid is there on both sides. */
 static CLRT_NOINLINE bool visibility_is_within(const Scene* scene, const Hit* hit, const Ray* ray, Nest* nest)
 {
@@ -40,7 +47,8 @@ static CLRT_NOINLINE bool visibility_is_within(const Scene* scene, const Hit* hi
     const uint material = scene->triangles[hit->triangle].material;
     if (!nest_takes(scene, material))
         return false;
-    const Surface surface = surface_at(scene, hit, ray);
+    Surface surface;
+    visibility_set_surface(scene, hit, ray, &surface);
     *nest = surface.beyond;
     return nest_is_alike(scene, surface.inside, material, surface.front);
 #else
@@ -71,14 +79,22 @@ typedef struct {
 /* A pane that shines is seen by the paths that stop there: at least by half of them. */
 #define VISIBILITY_SHINING_STOP REAL(0.5)
 
+/* The same with its BSDF. */
+static inline void visibility_set_bsdf(const Scene* scene, const Hit* hit, const Ray* ray, Surface* surface,
+                                       Bsdf* bsdf)
+{
+    visibility_set_surface(scene, hit, ray, surface);
+    material_set_bsdf_apart(scene, surface, -ray->direction, TRANSPORT_RADIANCE, bsdf);
+}
+
 /* What a pane lets pass, and with which probability paths do. */
 static CLRT_NOINLINE void visibility_cross_pane(const Scene* scene, const Hit* hit, const Ray* ray,
                                                 Crossing* crossing)
 {
     const Ray unit = ray_make(ray->origin, vector_normalize(ray->direction), ray_time(ray));
-    const Surface surface = surface_at(scene, hit, &unit);
+    Surface surface;
     Bsdf bsdf;
-    material_set_bsdf_apart(scene, &surface, -unit.direction, TRANSPORT_RADIANCE, &bsdf);
+    visibility_set_bsdf(scene, hit, &unit, &surface, &bsdf);
     const real coverage = crossing->coverage;
     const real3 passes = bsdf_pane_passes(&bsdf);
     real stop = REAL(1.0) - bsdf_pane_passing(&bsdf);

@@ -10,6 +10,7 @@
 #include "numbers.h"
 #include "roulette.h"
 #include "sky.h"
+#include "slab.h"
 #include "vertex.h"
 
 /* A path on its way. */
@@ -30,6 +31,14 @@ typedef struct {
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     uint solid; /* that the ray goes through from where it left; NO_INDEX: none is known there */
 #endif
+#if HAS_SLABS
+    SlabChain slabs;           /* since its last lobe with a density, */
+    LightView before_slabs;    /* whence the surface there looked at lights, */
+    real pdf_w_before_slabs;   /* and that density */
+    bool is_behind_slabs;      /* it has left the scene through some; */
+    bool is_to_distant;        /* the shadow ray has no end, */
+    real connects_with_others; /* and is weighted against what does not cross slabs by this */
+#endif
     LayerPath layers;
     GuidePath guided;
     bool is_alive, is_connected;
@@ -48,6 +57,9 @@ static inline void path_begin(Path* path, const Ray* ray)
     path->state = STATE_START;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = NO_INDEX;
+#endif
+#if HAS_SLABS
+    slab_end(&path->slabs);
 #endif
     layers_begin_path(&path->layers);
     guide_begin(&path->guided);
@@ -139,6 +151,33 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
     return true;
 }
 
+/* Notes what a path that leaves a surface may cross; its view and density are of that surface already. */
+static inline void path_leave_slabs(const Scene* scene, const Surface* surface, const BsdfSample* next,
+                                    Path* path)
+{
+#if HAS_SLABS
+    if (next->pdf_w == REAL(0.0)) {
+        slab_leave(scene, surface, next->reflects, next->eta, &path->slabs);
+        return;
+    }
+    slab_begin(next->wi, &path->slabs);
+    path->before_slabs = path->view;
+    path->pdf_w_before_slabs = next->pdf_w;
+#endif
+}
+
+/* A path that leaves the scene behind slabs counts as one from the vertex before them. */
+static inline void path_skip_slabs(const RenderParams* params, Path* path)
+{
+#if HAS_SLABS
+    path->is_behind_slabs = slab_is_behind(params, &path->slabs, path->ray.direction);
+    if (!path->is_behind_slabs)
+        return;
+    path->view = path->before_slabs;
+    path->pdf_w = path->pdf_w_before_slabs;
+#endif
+}
+
 /* Leaves a vertex in a sampled direction, unless nothing can be found there or Russian roulette ends the
    path. */
 static inline void path_leave(const Scene* scene, const RenderParams* params, const Sampler* sampler,
@@ -159,6 +198,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     ray_cone_scatter(params, sampler, next->pdf_w, &path->ray);
     dispersion_leave(dispersion_splits(bsdf, next->reflects), &path->ray);
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
+    path_leave_slabs(scene, surface, next, path);
     path->has_crossed_curved = surface->is_curved && !next->reflects;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = solid_beside(scene, surface, next->reflects);

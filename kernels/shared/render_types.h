@@ -69,9 +69,14 @@ typedef struct {
     u32 texture_filter;         /* 1: lookups are filtered over the ray's footprint */
     u32 portal_count;           /* rectangles through which the sky is seen */
     float portal_share;         /* probability of sampling the sky through them */
-    u32 shares_paths;           /* 1: paths serve other pixels, in programs that can (path_reuse.h) */
+    u32 path_choices;           /* what paths do, in programs that can: */
 } RenderParams;
 ASSERT_SIZE(RenderParams, 432);
+
+/* Paths serve other pixels, too (integrators/path_reuse.h). */
+#define PATHS_ARE_SHARED 1u
+/* Vertices are connected to light at infinity through slabs of glass (path/slab.h). */
+#define SLABS_ARE_CROSSED 2u
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)

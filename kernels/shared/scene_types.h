@@ -54,6 +54,7 @@ ASSERT_SIZE(Instance, 112);
 #define MATERIAL_TURNED 64u        /* the stretched highlight is turned against the texture coordinates */
 #define MATERIAL_DISPERSES 128u    /* the index of refraction depends on the colour */
 #define MATERIAL_NESTED 256u       /* a solid that others may lie in, or overlap */
+#define MATERIAL_SLAB 512u         /* smooth clear glass of which most facets have a parallel one behind them */
 
 typedef struct {
     vec4 matte;        /* rgb: Kd in [0,1]; w: MATERIAL_COVERAGE */

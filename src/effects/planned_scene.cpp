@@ -6,6 +6,7 @@
 #include "scene/light_tables.h"
 #include "scene/light_tree.h"
 #include "scene/sky_table.h"
+#include "scene/slabs.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -55,6 +56,7 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
         take_out_effects(planned->effects.left_out, planned->scene, planned->options);
         planned->effects.paths = plan_paths(planned->scene, planned->options);
     }
+    mark_slabs(planned->scene);
     aim_emission(*planned);
     tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
     plan_light_tree(*planned);

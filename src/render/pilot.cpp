@@ -195,7 +195,8 @@ void count_rays(const PilotRender& pilot, PilotResult& result) {
 PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size, bool reuses_paths) {
     RenderProgress render;
     RenderParams params = begin_pilot(prepared, size, render.film);
-    params.shares_paths = reuses_paths ? 1 : 0;
+    params.path_choices &= ~PATHS_ARE_SHARED;
+    params.path_choices |= reuses_paths ? PATHS_ARE_SHARED : 0;
     launch_pilot(prepared, prepared.programs->picture, params, size, 0, render);
     PathPilot pilot{{HUGE_VAL, HUGE_VAL}, double(render.counts.rays()) / double(render.counts.primary)};
     if (film_error(render.film))

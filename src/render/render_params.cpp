@@ -4,6 +4,7 @@
 #include "scene/camera_params.h"
 #include "scene/casters.h"
 #include "scene/light_tables.h"
+#include "scene/slabs.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -100,10 +101,23 @@ bool fits(const Environment& sky, const IntegratorRow& integrator) {
     return sky.sampling == SkySampling::BY_TABLE || (sky.sampling && integrator.sky != SkySampling::BY_TABLE);
 }
 
+u32 path_choices(const Scene& scene, const Options& options) {
+    return (options.transport.path_reuse == Toggle::ON ? PATHS_ARE_SHARED : 0) |
+           (crosses_slabs(scene, options) ? SLABS_ARE_CROSSED : 0);
+}
+
 } // namespace
 
 Crop render_window(const FilmOptions& film) {
     return film.crop.value_or(Crop{0, 0, film.size.x, film.size.y});
+}
+
+bool crosses_slabs(const Scene& scene, const Options& options) {
+    const Integrator integrator = options.transport.integrator;
+    const bool can = integrator == Integrator::PATH || integrator == Integrator::PATH_LIGHT ||
+                     integrator == Integrator::BDPT;
+    return can && options.transport.paths.empty() && options.output.path_layers.empty() &&
+           has_slabs_before_the_sky(scene);
 }
 
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {
@@ -128,7 +142,7 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
         integrator.takes & TAKES_ROULETTE_DEPTH ? u32(options.transport.roulette_depth) : NO_ROULETTE;
     params.texture_filter =
         options.scene.texture_filter == TextureFilter::FOOTPRINT && (integrator.takes & TAKES_TEXTURE_FILTER);
-    params.shares_paths = options.transport.path_reuse == Toggle::ON ? 1 : 0;
+    params.path_choices = path_choices(scene, options);
     params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);

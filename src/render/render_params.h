@@ -13,6 +13,10 @@ namespace clrt {
 /// The window of pixels that the options ask for: the crop, or the whole picture.
 Crop render_window(const FilmOptions& film);
 
+/// Whether connections to light from outside go through slabs of glass (kernels/path/slab.h): the scene has
+/// some, the integrator can, and neither --paths nor layers tell paths apart, whose letters they would skip.
+bool crosses_slabs(const Scene& scene, const Options& options);
+
 /// Everything but the samples and tiles of a single launch, which are 0.
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale);
 

@@ -24,7 +24,7 @@ constexpr double WORTHWHILE_REUSE_GAIN = 1.1;
 void expect_path_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned);
 
 /// Prepares a plan of path for pilots. Where reuse is open they are rendered by programs that reuse paths
-/// where they are told to (RenderParams::shares_paths), so that pilots with and without it, and the picture
+/// where they are told to (PATHS_ARE_SHARED), so that pilots with and without it, and the picture
 /// with it, need no others; else by the picture's. `parts` are those of the plan that are there, and get what
 /// was made. Throws what prepare_render throws.
 PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<PlannedScene>& planned,

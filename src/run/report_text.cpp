@@ -6,6 +6,7 @@
 #include "render/error_text.h"
 #include "render/guiding.h"
 #include "render/metropolis.h"
+#include "render/render_params.h"
 #include "run/denoising.h"
 #include "run/report.h"
 #include "run/report_facts.h"
@@ -64,6 +65,17 @@ std::string portal_line(const Report& report) {
         return "";
     return fmt::format("portals  {:.0f} % of the light samples of the sky go through {} window{}\n",
                        100 * sky.portal_share, sky.portals.size(), sky.portals.size() == 1 ? "" : "s");
+}
+
+std::string slab_line(const Report& report) {
+    if (!crosses_slabs(report.scene, report.options))
+        return "";
+    std::vector<std::string> names;
+    for (size_t i = 0; i < report.scene.materials.size(); ++i)
+        if (report.scene.materials[i].flags & MATERIAL_SLAB)
+            names.push_back(fmt::format("\"{}\"", report.scene.material_names[i]));
+    return fmt::format("slabs    light from outside is connected to through panes of {}\n",
+                       fmt::join(names, ", "));
 }
 
 std::string reuse_line(const Report& report) {
@@ -179,8 +191,8 @@ std::string proof_lines(const Report& report) {
 std::string format_report(const Report& report) {
     std::string text =
         picture_line(report) + lost_line(report) + choice_line(report) + adaptive_line(report) +
-        portal_line(report) + reuse_line(report) + guide_line(report) + chain_line(report) +
-        time_line(report) + share_lines(report) + format_error_report(report.error) +
+        portal_line(report) + slab_line(report) + reuse_line(report) + guide_line(report) +
+        chain_line(report) + time_line(report) + share_lines(report) + format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         bias_line(report) + left_out_lines(report) + bad_lines(report);

@@ -156,7 +156,7 @@ const Layout RENDER_PARAMS = {
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(emit_emitter), M(emit_environment), M(emit_light), M(emission_radius), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
      M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(caster_count), M(caster_squares), M(light_path_count),
-     M(environment_format), M(texture_filter), M(portal_count), M(portal_share), M(shares_paths)}};
+     M(environment_format), M(texture_filter), M(portal_count), M(portal_share), M(path_choices)}};
 #undef M
 #define M(name) MEMBER(SkyPortal, name)
 const Layout SKY_PORTAL = {

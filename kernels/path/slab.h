@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plane-parallel slabs of clear glass, such as panes that have a thickness. Each of their facets bends light,
+// but behind both it goes on in the direction that it had, only shifted. So what comes from outside the scene
+// in a direction reaches a point behind slabs by a path that leaves the point in that same direction: the
+// connection of manifold next-event estimation (Hanika, Droske and Fascione 2015), which for light at infinity
+// needs no search here, and whose Jacobian is 1.
+//
+// Of light that crosses a chain of facets so, next-event estimation at the vertex before the chain is one way
+// to find it, and a path that is refracted at every facet by chance is the other (multiple importance
+// sampling, Veach 1997). Light paths leave it to them: a chain is told from both its ends by the same rule, so
+// splats and inner connections do without what begins with one. Which materials make slabs, the host has
+// found (src/scene/slabs.h); whether connections cross them, it says in RenderParams.
+#ifndef CLRT_PATH_SLAB_H
+#define CLRT_PATH_SLAB_H
+
+#include "film/film.h"
+#include "vertex.h"
+
+/* Whether the integrator connects vertices through slabs. */
+#ifndef CONNECTS_THROUGH_SLABS
+#define CONNECTS_THROUGH_SLABS 0
+#endif
+
+#define HAS_SLABS                                                                                            \
+    (CONNECTS_THROUGH_SLABS && HAS(EFFECT_REFRACTION) && HAS(EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHT))
+
+/* Directions before and behind a chain are the same within so many radians, a fiftieth of the sun's radius:
+   facets of panes are parallel but for the roundings of their corners. */
+#define SLAB_LARGEST_TURN REAL(1e-4)
+/* Behind a chain is what was before it, air or whatever it is, but for so much of its index. */
+#define SLAB_LARGEST_INDEX_RATIO REAL(1e-4)
+/* Facets in a row. */
+#define SLAB_MOST_FACETS 16u
+#define SLAB_NO_CHAIN 0xffffffffu
+
+/* True if next-event estimation samples the sky: an even one is left to paths, but where it is seen through
+   portals. */
+static inline bool slab_sky_is_sampled(const RenderParams* params)
+{
+    return params->choose_environment > 0.0f;
+}
+
+#if HAS_SLABS
+/* Facets that a path has crossed, one after the other and nothing else between them. */
+typedef struct {
+    real3 direction; /* before them, unit */
+    real eta;        /* product of the index ratios */
+    uint facets;     /* their number; SLAB_NO_CHAIN: something else has been met */
+} SlabChain;
+
+static inline void slab_begin(real3 direction, SlabChain* chain)
+{
+    chain->direction = direction;
+    chain->eta = REAL(1.0);
+    chain->facets = 0u;
+}
+
+static inline void slab_end(SlabChain* chain) { chain->facets = SLAB_NO_CHAIN; }
+
+/* True if the material's facets belong to slabs. */
+static inline bool slab_is_of(const Scene* scene, uint material)
+{
+    return (scene->materials[material].flags & MATERIAL_SLAB) != 0u;
+}
+
+/* The path leaves a surface by a delta lobe. `eta`: the index ratio that it crosses. */
+static inline void slab_leave(const Scene* scene, const Surface* surface, bool reflects, real eta,
+                              SlabChain* chain)
+{
+    if (reflects || chain->facets >= SLAB_MOST_FACETS || !slab_is_of(scene, surface->material))
+        slab_end(chain);
+    else {
+        chain->eta *= eta;
+        ++chain->facets;
+    }
+}
+
+/* True if the chain that the path has come through is of slabs. `direction`: of the path behind it. */
+static inline bool slab_is_behind(const RenderParams* params, const SlabChain* chain, real3 direction)
+{
+    if (!(params->path_choices & SLABS_ARE_CROSSED) || chain->facets == 0u || chain->facets == SLAB_NO_CHAIN)
+        return false;
+    const real3 turn = direction - chain->direction;
+    return vector_dot(turn, turn) <= SLAB_LARGEST_TURN * SLAB_LARGEST_TURN &&
+           fabs(chain->eta - REAL(1.0)) <= SLAB_LARGEST_INDEX_RATIO;
+}
+
+/* The direction behind a facet, of which the BSDF is smooth glass; multiplies what passes. */
+static inline real3 slab_refract(const Bsdf* bsdf, real3* share)
+{
+    const real cos_o = clamp(bsdf->wo.z, REAL(0.0), REAL(1.0));
+    real cos_t;
+    const real f = fresnel_dielectric(cos_o, bsdf->eta, &cos_t);
+    const real3 normal = vector_make(REAL(0.0), REAL(0.0), REAL(1.0));
+    *share *= bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
+    return frame_to_world(&bsdf->frame, fresnel_refract(bsdf->wo, normal, cos_o, cos_t, bsdf->eta));
+}
+
+/* The next surface along a ray that cut-outs and panes without a thickness do not let it pass; multiplies by
+   what those before it do. */
+static inline Hit slab_next_hit(const Scene* scene, const RenderParams* params, const Ray* ray, real3* share)
+{
+    Hit after = hit_none(REAL(0.0));
+    for (;;) {
+        const Hit hit = scene_closest_hit(scene, params, ray, &after);
+        if (!HAS(EFFECTS_PASSED) || hit.triangle == NO_INDEX ||
+            slab_is_of(scene, scene->triangles[hit.triangle].material))
+            return hit;
+        const Crossing crossing = visibility_crossing(scene, &hit, ray, true);
+        if (vector_is_black(crossing.share))
+            return hit;
+        *share *= crossing.share;
+        after = hit;
+    }
+}
+
+/* The share of light at infinity that reaches the origin of a ray towards it through slabs of at most `most`
+   facets; 0 where anything else is in between. */
+static CLRT_NOINLINE real3 slab_share(const Scene* scene, const RenderParams* params, uint most,
+                                      const Ray* towards, PixelRays* rays)
+{
+    const real3 nothing = (real3)(REAL(0.0));
+    real3 share = (real3)(REAL(1.0));
+    Ray ray = *towards;
+    uint solid = NO_INDEX;
+    SlabChain chain;
+    slab_begin(ray.direction, &chain);
+    while (vector_max_component(share) > REAL(0.0)) {
+        const Hit hit = slab_next_hit(scene, params, &ray, &share);
+        ++rays->shadow;
+        if (hit.triangle == NO_INDEX)
+            return slab_is_behind(params, &chain, ray.direction) ? share : nothing;
+        if (chain.facets >= most || !slab_is_of(scene, scene->triangles[hit.triangle].material))
+            return nothing;
+        Surface surface;
+        Bsdf bsdf;
+        visibility_set_bsdf(scene, &hit, &ray, &surface, &bsdf);
+        solid_arrive(scene, solid, &surface, hit.t, &share);
+        const real3 wi = slab_refract(&bsdf, &share);
+        slab_leave(scene, &surface, false, bsdf.eta, &chain);
+        if (chain.facets == SLAB_NO_CHAIN)
+            return nothing;
+        ray = surface_ray(&surface, false, wi);
+        solid = solid_beside(scene, &surface, false);
+    }
+    return nothing;
+}
+#endif
+
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glass that connections to distant light cross (kernels/path/slab.h).
+#pragma once
+
+#include "scene/scene.h"
+
+namespace clrt {
+
+/// Marks the materials whose facets make plane-parallel slabs (MATERIAL_SLAB), such as panes that have a
+/// thickness: smooth glass and nothing else, on flat triangles of few directions, most of whose area faces
+/// another part of it back to back. Other materials lose the mark.
+void mark_slabs(Scene& scene);
+
+/// Whether connections to light at infinity are to look for slabs: there are some, and such light, and no
+/// solids lie within each other, which only the whole path before can tell apart.
+bool has_slabs_before_the_sky(const Scene& scene);
+
+} // namespace clrt
