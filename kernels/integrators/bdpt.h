@@ -112,7 +112,7 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
             continue;
         const real3 share = path_connection_share(scene, params, segment, &path, rays);
         path_add_connection(scene, &path, share, &sample->radiance, &sample->layers);
-        bdpt_book(params, 1u, segment + 1u, sample);
+        bdpt_book(params, 1u, segment + 1u + path_connection_facets(&path), sample);
 #if FILM_MOMENTS
         moments_gather(path.connection * share, sample->moments.connection * share, &sample->moments);
 #endif

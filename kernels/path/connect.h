@@ -57,13 +57,15 @@ static inline LightSample path_light(const Scene* scene, const RenderParams* par
                          path->numbers.alias);
 }
 
-/* The path is connected to a light. `with_others`: the weight of the connection beside light paths over what
+/* The path is connected from a surface to a light. `with_others`: the weight of the connection beside light paths over what
    it is without them. */
-static inline void path_note_connection(const LightSample* light, real with_others, Path* path)
+static inline void path_note_connection(const Scene* scene, const Surface* surface, const LightSample* light,
+                                        real with_others, Path* path)
 {
     path->is_connected = true;
 #if HAS_SLABS
-    path->is_to_distant = light->is_distant;
+    path->facets = 0u;
+    path->may_cross_slabs = light->is_distant && solid_beside(scene, surface, light->reflects) == NO_INDEX;
     path->connects_with_others = with_others;
 #endif
 }
@@ -75,14 +77,29 @@ static inline real3 path_connection_share(const Scene* scene, const RenderParams
 {
     real3 share = visible_share(scene, params, &path->shadow);
 #if HAS_SLABS
-    if ((params->path_choices & SLABS_ARE_CROSSED) && path->is_to_distant && vector_is_black(share)) {
-        share = slab_share(scene, params, params->max_depth - 1u - segment, &path->shadow, rays);
-        path->connection /= path->connects_with_others;
-        TRACE_CHOICE(scene, TRACE_VISIBLE, vector_is_black(share) ? 0u : 1u);
-        TRACE_NUMBER(scene, TRACE_SHARE, vector_max_component(share));
-    }
+    const uint most = params->max_depth - 1u - segment;
+    if (!(params->path_choices & SLABS_ARE_CROSSED) || !path->may_cross_slabs || most < SLAB_FEWEST_FACETS ||
+        !vector_is_black(share))
+        return share;
+    share = slab_share(scene, params, most, &path->shadow, &path->facets, rays);
+    if (vector_is_black(share) || !(path->connects_with_others > REAL(0.0)))
+        return share;
+    path->connection /= path->connects_with_others;
+    TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
+    TRACE_CHOICE(scene, TRACE_VISIBLE, 1u);
+    TRACE_NUMBER(scene, TRACE_SHARE, vector_max_component(share));
 #endif
     return share;
+}
+
+/* Segments of a connection beyond its one: facets of slabs that it has crossed. */
+static inline uint path_connection_facets(const Path* path)
+{
+#if HAS_SLABS
+    return path->facets;
+#else
+    return 0u;
+#endif
 }
 
 /* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling.
@@ -114,7 +131,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, weight);
     TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
     path->shadow = light_shadow_ray(surface, &light);
-    path_note_connection(&light, REAL(1.0), path);
+    path_note_connection(scene, surface, &light, REAL(1.0), path);
     path_connect_layers(bsdf, step, &light, path->throughput * light.radiance * (weight / light.pdf_w), path);
 }
 

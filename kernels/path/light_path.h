@@ -204,11 +204,13 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
 static inline bool light_path_is_at_caster(uint segment) { return EMISSION_IS_AIMED && segment == 1u; }
 
 /* Whether paths from the eye are left to find what comes from where this one has, by lobes with a density at
-   the end of its segment (slab.h). */
-static inline bool light_path_is_behind_slabs(const RenderParams* params, const LightPath* path)
+   the surface that it has met (slab.h). */
+static inline bool light_path_is_behind_slabs(const Scene* scene, const RenderParams* params,
+                                              const Surface* met, const LightPath* path)
 {
 #if HAS_SLABS
-    return slab_is_behind(params, &path->slabs, path->ray.direction);
+    return slab_is_behind(params, &path->slabs, path->ray.direction) &&
+           solid_beside(scene, met, true) == NO_INDEX;
 #else
     return false;
 #endif
@@ -257,7 +259,8 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     if (!next.is_valid)
         return false;
     if (next.pdf_w > REAL(0.0) &&
-        (light_path_is_at_caster(segment) || light_path_is_behind_slabs(params, path)))
+        (light_path_is_at_caster(segment) ||
+         light_path_is_behind_slabs(scene, params, &vertex->surface, path)))
         return false;
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);
     TRACE_VECTOR(scene, TRACE_WI, next.wi);
@@ -311,7 +314,7 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
     if (!light_path_meet(scene, params, segment, hit, path, &vertex, &sink->watched))
         return false;
     if (bsdf_has_smooth_lobe(&vertex.bsdf) && !light_path_is_at_caster(segment) &&
-        !light_path_is_behind_slabs(params, path)) {
+        !light_path_is_behind_slabs(scene, params, &vertex.surface, path)) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
         light_path_keep(segment, hit, path, sink->kept);
     }

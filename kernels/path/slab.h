@@ -10,6 +10,9 @@
 // sampling, Veach 1997). Light paths leave it to them: a chain is told from both its ends by the same rule, so
 // splats and inner connections do without what begins with one. Which materials make slabs, the host has
 // found (src/scene/slabs.h); whether connections cross them, it says in RenderParams.
+//
+// Facets are parallel as far as their corners are written: light may come out turned by SLAB_LARGEST_TURN,
+// and a connection takes it from the direction that it began in.
 #ifndef CLRT_PATH_SLAB_H
 #define CLRT_PATH_SLAB_H
 
@@ -30,6 +33,7 @@
 /* Behind a chain is what was before it, air or whatever it is, but for so much of its index. */
 #define SLAB_LARGEST_INDEX_RATIO REAL(1e-4)
 /* Facets in a row. */
+#define SLAB_FEWEST_FACETS 2u
 #define SLAB_MOST_FACETS 16u
 #define SLAB_NO_CHAIN 0xffffffffu
 
@@ -78,7 +82,8 @@ static inline void slab_leave(const Scene* scene, const Surface* surface, bool r
 /* True if the chain that the path has come through is of slabs. `direction`: of the path behind it. */
 static inline bool slab_is_behind(const RenderParams* params, const SlabChain* chain, real3 direction)
 {
-    if (!(params->path_choices & SLABS_ARE_CROSSED) || chain->facets == 0u || chain->facets == SLAB_NO_CHAIN)
+    if (!(params->path_choices & SLABS_ARE_CROSSED) || chain->facets < SLAB_FEWEST_FACETS ||
+        chain->facets == SLAB_NO_CHAIN)
         return false;
     const real3 turn = direction - chain->direction;
     return vector_dot(turn, turn) <= SLAB_LARGEST_TURN * SLAB_LARGEST_TURN &&
@@ -115,9 +120,9 @@ static inline Hit slab_next_hit(const Scene* scene, const RenderParams* params, 
 }
 
 /* The share of light at infinity that reaches the origin of a ray towards it through slabs of at most `most`
-   facets; 0 where anything else is in between. */
+   facets, and their number; 0 where anything else is in between, NaNs where a coverage is one. */
 static CLRT_NOINLINE real3 slab_share(const Scene* scene, const RenderParams* params, uint most,
-                                      const Ray* towards, PixelRays* rays)
+                                      const Ray* towards, uint* facets, PixelRays* rays)
 {
     const real3 nothing = (real3)(REAL(0.0));
     real3 share = (real3)(REAL(1.0));
@@ -125,11 +130,14 @@ static CLRT_NOINLINE real3 slab_share(const Scene* scene, const RenderParams* pa
     uint solid = NO_INDEX;
     SlabChain chain;
     slab_begin(ray.direction, &chain);
+    *facets = 0u;
     while (vector_max_component(share) > REAL(0.0)) {
         const Hit hit = slab_next_hit(scene, params, &ray, &share);
         ++rays->shadow;
-        if (hit.triangle == NO_INDEX)
+        if (hit.triangle == NO_INDEX) {
+            *facets = chain.facets;
             return slab_is_behind(params, &chain, ray.direction) ? share : nothing;
+        }
         if (chain.facets >= most || !slab_is_of(scene, scene->triangles[hit.triangle].material))
             return nothing;
         Surface surface;
@@ -143,7 +151,7 @@ static CLRT_NOINLINE real3 slab_share(const Scene* scene, const RenderParams* pa
         ray = surface_ray(&surface, false, wi);
         solid = solid_beside(scene, &surface, false);
     }
-    return nothing;
+    return share;
 }
 #endif
 

@@ -182,7 +182,7 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, light.pdf_w / (light.pdf_w + hit + splat));
     TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
     path->shadow = light_shadow_ray(surface, &light);
-    path_note_connection(&light, (light.pdf_w + hit) / (light.pdf_w + hit + splat), path);
+    path_note_connection(scene, surface, &light, (light.pdf_w + hit) / (light.pdf_w + hit + splat), path);
 }
 
 #endif

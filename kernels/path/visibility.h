@@ -40,6 +40,14 @@ static CLRT_NOINLINE void visibility_set_surface(const Scene* scene, const Hit* 
     *surface = surface_at(scene, hit, ray);
 }
 
+/* The same with its BSDF. */
+static inline void visibility_set_bsdf(const Scene* scene, const Hit* hit, const Ray* ray, Surface* surface,
+                                       Bsdf* bsdf)
+{
+    visibility_set_surface(scene, hit, ray, surface);
+    material_set_bsdf_apart(scene, surface, -ray->direction, TRANSPORT_RADIANCE, bsdf);
+}
+
 /* True if a hit is on no surface, because the same solid is there on both sides. */
 static CLRT_NOINLINE bool visibility_is_within(const Scene* scene, const Hit* hit, const Ray* ray, Nest* nest)
 {
@@ -78,14 +86,6 @@ typedef struct {
 
 /* A pane that shines is seen by the paths that stop there: at least by half of them. */
 #define VISIBILITY_SHINING_STOP REAL(0.5)
-
-/* The same with its BSDF. */
-static inline void visibility_set_bsdf(const Scene* scene, const Hit* hit, const Ray* ray, Surface* surface,
-                                       Bsdf* bsdf)
-{
-    visibility_set_surface(scene, hit, ray, surface);
-    material_set_bsdf_apart(scene, surface, -ray->direction, TRANSPORT_RADIANCE, bsdf);
-}
 
 /* What a pane lets pass, and with which probability paths do. */
 static CLRT_NOINLINE void visibility_cross_pane(const Scene* scene, const Hit* hit, const Ray* ray,

@@ -36,8 +36,9 @@ typedef struct {
     LightView before_slabs;    /* whence the surface there looked at lights, */
     real pdf_w_before_slabs;   /* and that density */
     bool is_behind_slabs;      /* it has left the scene through some; */
-    bool is_to_distant;        /* the shadow ray has no end, */
-    real connects_with_others; /* and is weighted against what does not cross slabs by this */
+    bool may_cross_slabs;      /* the shadow ray may; */
+    uint facets;               /* it has crossed so many, */
+    real connects_with_others; /* and is weighted against light paths by this */
 #endif
     LayerPath layers;
     GuidePath guided;
@@ -161,6 +162,8 @@ static inline void path_leave_slabs(const Scene* scene, const Surface* surface, 
         return;
     }
     slab_begin(next->wi, &path->slabs);
+    if (solid_beside(scene, surface, next->reflects) != NO_INDEX)
+        slab_end(&path->slabs);
     path->before_slabs = path->view;
     path->pdf_w_before_slabs = next->pdf_w;
 #endif

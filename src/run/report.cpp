@@ -239,6 +239,7 @@ std::string report_json(const Report& report) {
     json["first_sample"] = report.options.sampling.first_sample;
     json["adaptive"] = adaptive_json(render);
     json["portals"] = portals_json(report.scene.environment);
+    json["slabs"] = crossed_slabs(report.scene, report.options);
     json["path_reuse"] = report.options.transport.path_reuse == Toggle::ON;
     json["guide"] = guide_json(render.guide);
     json["chains"] = chains_json(render.chains);

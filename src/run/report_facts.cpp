@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/report_facts.h"
 
+#include "render/render_params.h"
+
 #include <algorithm>
 
 namespace clrt {
@@ -14,6 +16,19 @@ std::vector<std::string> names_of_effects(const Effects& effects, bool present) 
     for (const Effect& effect : effects.list)
         if (effect.present == present && !(effects.left_out & effect.bit))
             names.push_back(effect.name);
+    return names;
+}
+
+std::vector<std::string> crossed_slabs(const Scene& scene, const Options& options) {
+    const Environment& sky = scene.environment;
+    const bool is_sampled = !sky.texels.empty() || !sky.portals.empty();
+    const bool has_suns = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                      [](const Light& light) { return light.kind != LIGHT_POINT; });
+    std::vector<std::string> names;
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        if ((is_sampled || has_suns) && crosses_slabs(scene, options) &&
+            (scene.materials[i].flags & MATERIAL_SLAB))
+            names.push_back(scene.material_names[i]);
     return names;
 }
 

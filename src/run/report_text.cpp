@@ -6,7 +6,6 @@
 #include "render/error_text.h"
 #include "render/guiding.h"
 #include "render/metropolis.h"
-#include "render/render_params.h"
 #include "run/denoising.h"
 #include "run/report.h"
 #include "run/report_facts.h"
@@ -68,12 +67,9 @@ std::string portal_line(const Report& report) {
 }
 
 std::string slab_line(const Report& report) {
-    if (!crosses_slabs(report.scene, report.options))
+    const std::vector<std::string> names = crossed_slabs(report.scene, report.options);
+    if (names.empty())
         return "";
-    std::vector<std::string> names;
-    for (size_t i = 0; i < report.scene.materials.size(); ++i)
-        if (report.scene.materials[i].flags & MATERIAL_SLAB)
-            names.push_back(fmt::format("\"{}\"", report.scene.material_names[i]));
     return fmt::format("slabs    light from outside is connected to through panes of {}\n",
                        fmt::join(names, ", "));
 }

@@ -14,7 +14,7 @@ namespace {
 /// ones of them, and every shadow ray would look for it.
 constexpr size_t MOST_DIRECTIONS = 24;
 /// Two normals are alike within so many radians.
-constexpr double LARGEST_ANGLE = 1e-3;
+constexpr double LARGEST_ANGLE = 2e-4;
 /// Of the area, what has a parallel part.
 constexpr double SMALLEST_SHARE = 0.5;
 
@@ -24,7 +24,7 @@ public:
     /// `cross`: the normal, twice the area long.
     void add(const glm::dvec3& cross) {
         const double length = glm::length(cross);
-        if (!(length > 0))
+        if (!(length > 0) || directions_.size() > MOST_DIRECTIONS)
             return;
         const glm::dvec3 normal = cross / length;
         total_ += length;
@@ -33,8 +33,7 @@ public:
                 direction.area += length;
                 return;
             }
-        if (directions_.size() <= MOST_DIRECTIONS)
-            directions_.push_back({normal, length});
+        directions_.push_back({normal, length});
     }
     bool are_slabs() const {
         if (directions_.size() > MOST_DIRECTIONS)
