@@ -32,7 +32,7 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
         return;
     ++rays->shadow;
     const real ways = (real)count * light_vertices_share(kept);
-    const real3 share = ways * visible_share(scene, params, &connection.shadow);
+    const real3 share = ways * slab_straight_share(scene, params, &connection.shadow);
     vertex_add(scene, throughput * connection.light * share, &sample->radiance);
     bdpt_book(params, kept->at[chosen].segment + 1u, segment + 1u, sample);
 #if FILM_MOMENTS

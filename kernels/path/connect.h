@@ -57,16 +57,15 @@ static inline LightSample path_light(const Scene* scene, const RenderParams* par
                          path->numbers.alias);
 }
 
-/* The path is connected from a surface to a light. `with_others`: the weight of the connection beside light paths over what
-   it is without them. */
+/* The path is connected from a surface to a light. `with_others`: the weight of the connection beside light
+   paths over what it is without them. */
 static inline void path_note_connection(const Scene* scene, const Surface* surface, const LightSample* light,
                                         real with_others, Path* path)
 {
     path->is_connected = true;
 #if HAS_SLABS
-    path->facets = 0u;
-    path->may_cross_slabs = light->is_distant && solid_beside(scene, surface, light->reflects) == NO_INDEX;
-    path->connects_with_others = with_others;
+    const bool may_cross = light->is_distant && solid_beside(scene, surface, light->reflects) == NO_INDEX;
+    path->connects_with_others = may_cross ? with_others : REAL(0.0);
 #endif
 }
 
@@ -75,21 +74,19 @@ static inline void path_note_connection(const Scene* scene, const Surface* surfa
 static inline real3 path_connection_share(const Scene* scene, const RenderParams* params, uint segment,
                                           Path* path, PixelRays* rays)
 {
-    real3 share = visible_share(scene, params, &path->shadow);
 #if HAS_SLABS
-    const uint most = params->max_depth - 1u - segment;
-    if (!(params->path_choices & SLABS_ARE_CROSSED) || !path->may_cross_slabs || most < SLAB_FEWEST_FACETS ||
-        !vector_is_black(share))
-        return share;
-    share = slab_share(scene, params, most, &path->shadow, &path->facets, rays);
-    if (vector_is_black(share) || !(path->connects_with_others > REAL(0.0)))
+    const uint most = path->connects_with_others > REAL(0.0) ? params->max_depth - 1u - segment : 0u;
+    const real3 share = slab_share(scene, params, most, &path->shadow, &path->facets, rays);
+    if (path->facets == 0u || vector_is_black(share))
         return share;
     path->connection /= path->connects_with_others;
     TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
     TRACE_CHOICE(scene, TRACE_VISIBLE, 1u);
     TRACE_NUMBER(scene, TRACE_SHARE, vector_max_component(share));
-#endif
     return share;
+#else
+    return visible_share(scene, params, &path->shadow);
+#endif
 }
 
 /* Segments of a connection beyond its one: facets of slabs that it has crossed. */

@@ -86,7 +86,7 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     path->solid = NO_INDEX;
 #endif
 #if HAS_SLABS
-    slab_begin(path->ray.direction, &path->slabs);
+    slab_begin(&path->slabs);
     const bool is_sky = path->emission.light == light_of_sky(params);
     if (!path->emission.is_distant || (is_sky && !slab_sky_is_sampled(params)))
         slab_end(&path->slabs);
@@ -154,7 +154,7 @@ static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderPar
     shadow.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
     ++rays->shadow;
     arriving->film = splat.film;
-    arriving->radiance = radiance * splat.weight * visible_share(scene, params, &shadow);
+    arriving->radiance = radiance * splat.weight * slab_straight_share(scene, params, &shadow);
     TRACE_VECTOR(scene, TRACE_CONNECTION, arriving->radiance);
 #if FILM_MOMENTS
     arriving->slot = slot;
@@ -209,7 +209,7 @@ static inline bool light_path_is_behind_slabs(const Scene* scene, const RenderPa
                                               const Surface* met, const LightPath* path)
 {
 #if HAS_SLABS
-    return slab_is_behind(params, &path->slabs, path->ray.direction) &&
+    return slab_is_behind(params, &path->slabs, path->emission.ray.direction, path->ray.direction) &&
            solid_beside(scene, met, true) == NO_INDEX;
 #else
     return false;

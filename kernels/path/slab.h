@@ -47,14 +47,12 @@ static inline bool slab_sky_is_sampled(const RenderParams* params)
 #if HAS_SLABS
 /* Facets that a path has crossed, one after the other and nothing else between them. */
 typedef struct {
-    real3 direction; /* before them, unit */
-    real eta;        /* product of the index ratios */
-    uint facets;     /* their number; SLAB_NO_CHAIN: something else has been met */
+    real eta;    /* product of the index ratios */
+    uint facets; /* their number; SLAB_NO_CHAIN: something else has been met */
 } SlabChain;
 
-static inline void slab_begin(real3 direction, SlabChain* chain)
+static inline void slab_begin(SlabChain* chain)
 {
-    chain->direction = direction;
     chain->eta = REAL(1.0);
     chain->facets = 0u;
 }
@@ -79,26 +77,31 @@ static inline void slab_leave(const Scene* scene, const Surface* surface, bool r
     }
 }
 
-/* True if the chain that the path has come through is of slabs. `direction`: of the path behind it. */
-static inline bool slab_is_behind(const RenderParams* params, const SlabChain* chain, real3 direction)
+/* True if the chain that the path has come through is of slabs. `before`, `behind`: its directions there. */
+static inline bool slab_is_behind(const RenderParams* params, const SlabChain* chain, real3 before,
+                                  real3 behind)
 {
     if (!(params->path_choices & SLABS_ARE_CROSSED) || chain->facets < SLAB_FEWEST_FACETS ||
         chain->facets == SLAB_NO_CHAIN)
         return false;
-    const real3 turn = direction - chain->direction;
+    const real3 turn = behind - before;
     return vector_dot(turn, turn) <= SLAB_LARGEST_TURN * SLAB_LARGEST_TURN &&
            fabs(chain->eta - REAL(1.0)) <= SLAB_LARGEST_INDEX_RATIO;
 }
 
-/* The direction behind a facet, of which the BSDF is smooth glass; multiplies what passes. */
-static inline real3 slab_refract(const Bsdf* bsdf, real3* share)
+/* The direction behind a facet, which is of smooth glass in air and nothing else, and its index ratio;
+   multiplies what passes. The ratio's square, which scales radiance, is left out: over slabs it cancels. */
+static inline real3 slab_refract(const Scene* scene, const Surface* surface, real3 wo, real* eta,
+                                 real3* share)
 {
-    const real cos_o = clamp(bsdf->wo.z, REAL(0.0), REAL(1.0));
+    global const Material* glass = scene->materials + surface->material;
+    const real index = (real)MATERIAL_INDEX(*glass);
+    *eta = surface->front ? REAL(1.0) / index : index;
+    const real cos_o = clamp(vector_dot(wo, surface->normal_g), REAL(0.0), REAL(1.0));
     real cos_t;
-    const real f = fresnel_dielectric(cos_o, bsdf->eta, &cos_t);
-    const real3 normal = vector_make(REAL(0.0), REAL(0.0), REAL(1.0));
-    *share *= bsdf->transmission * bsdf_cross(bsdf, REAL(1.0) - f);
-    return frame_to_world(&bsdf->frame, fresnel_refract(bsdf->wo, normal, cos_o, cos_t, bsdf->eta));
+    const real f = fresnel_dielectric(cos_o, *eta, &cos_t);
+    *share *= vector_from(glass->transmission) * (REAL(1.0) - f);
+    return fresnel_refract(wo, surface->normal_g, cos_o, cos_t, *eta);
 }
 
 /* The next surface along a ray that cut-outs and panes without a thickness do not let it pass; multiplies by
@@ -119,33 +122,36 @@ static inline Hit slab_next_hit(const Scene* scene, const RenderParams* params, 
     }
 }
 
-/* The share of light at infinity that reaches the origin of a ray towards it through slabs of at most `most`
-   facets, and their number; 0 where anything else is in between, NaNs where a coverage is one. */
+/* The share of light that reaches the end of a shadow ray, or its origin from infinity, straight or through
+   slabs of at most `most` facets, 0 where there is an end; and their number. 0 where anything else is in
+   between, NaNs where a coverage is one. */
 static CLRT_NOINLINE real3 slab_share(const Scene* scene, const RenderParams* params, uint most,
                                       const Ray* towards, uint* facets, PixelRays* rays)
 {
+    *facets = 0u;
+    const real3 straight = visible_passage(scene, params, towards).share;
+    if (!(params->path_choices & SLABS_ARE_CROSSED) || most < SLAB_FEWEST_FACETS || !vector_is_black(straight))
+        return straight;
     const real3 nothing = (real3)(REAL(0.0));
     real3 share = (real3)(REAL(1.0));
     Ray ray = *towards;
     uint solid = NO_INDEX;
     SlabChain chain;
-    slab_begin(ray.direction, &chain);
-    *facets = 0u;
+    slab_begin(&chain);
     while (vector_max_component(share) > REAL(0.0)) {
         const Hit hit = slab_next_hit(scene, params, &ray, &share);
         ++rays->shadow;
         if (hit.triangle == NO_INDEX) {
             *facets = chain.facets;
-            return slab_is_behind(params, &chain, ray.direction) ? share : nothing;
+            return slab_is_behind(params, &chain, towards->direction, ray.direction) ? share : nothing;
         }
         if (chain.facets >= most || !slab_is_of(scene, scene->triangles[hit.triangle].material))
             return nothing;
-        Surface surface;
-        Bsdf bsdf;
-        visibility_set_bsdf(scene, &hit, &ray, &surface, &bsdf);
+        const Surface surface = surface_at(scene, &hit, &ray);
         solid_arrive(scene, solid, &surface, hit.t, &share);
-        const real3 wi = slab_refract(&bsdf, &share);
-        slab_leave(scene, &surface, false, bsdf.eta, &chain);
+        real eta;
+        const real3 wi = slab_refract(scene, &surface, -ray.direction, &eta, &share);
+        slab_leave(scene, &surface, false, eta, &chain);
         if (chain.facets == SLAB_NO_CHAIN)
             return nothing;
         ray = surface_ray(&surface, false, wi);
@@ -154,5 +160,16 @@ static CLRT_NOINLINE real3 slab_share(const Scene* scene, const RenderParams* pa
     return share;
 }
 #endif
+
+/* The share of light that reaches the end of a shadow ray straight on. */
+static inline real3 slab_straight_share(const Scene* scene, const RenderParams* params, const Ray* ray)
+{
+#if HAS_SLABS
+    uint facets;
+    return slab_share(scene, params, 0u, ray, &facets, 0);
+#else
+    return visible_share(scene, params, ray);
+#endif
+}
 
 #endif

@@ -33,21 +33,6 @@ static inline bool visibility_is_pane(const Scene* scene, const Hit* hit)
     return HAS(EFFECT_THIN_WALL) && (material->lobes & LOBE_PANE) && material->alpha_x == 0.0f;
 }
 
-/* The surface at a hit, where it is no part of a replay's record. */
-static CLRT_NOINLINE void visibility_set_surface(const Scene* scene, const Hit* hit, const Ray* ray,
-                                                 Surface* surface)
-{
-    *surface = surface_at(scene, hit, ray);
-}
-
-/* The same with its BSDF. */
-static inline void visibility_set_bsdf(const Scene* scene, const Hit* hit, const Ray* ray, Surface* surface,
-                                       Bsdf* bsdf)
-{
-    visibility_set_surface(scene, hit, ray, surface);
-    material_set_bsdf_apart(scene, surface, -ray->direction, TRANSPORT_RADIANCE, bsdf);
-}
-
 /* True if a hit is on no surface, because the same solid is there on both sides. */
 static CLRT_NOINLINE bool visibility_is_within(const Scene* scene, const Hit* hit, const Ray* ray, Nest* nest)
 {
@@ -55,8 +40,7 @@ static CLRT_NOINLINE bool visibility_is_within(const Scene* scene, const Hit* hi
     const uint material = scene->triangles[hit->triangle].material;
     if (!nest_takes(scene, material))
         return false;
-    Surface surface;
-    visibility_set_surface(scene, hit, ray, &surface);
+    const Surface surface = surface_at(scene, hit, ray);
     *nest = surface.beyond;
     return nest_is_alike(scene, surface.inside, material, surface.front);
 #else
@@ -92,9 +76,9 @@ static CLRT_NOINLINE void visibility_cross_pane(const Scene* scene, const Hit* h
                                                 Crossing* crossing)
 {
     const Ray unit = ray_make(ray->origin, vector_normalize(ray->direction), ray_time(ray));
-    Surface surface;
+    const Surface surface = surface_at(scene, hit, &unit);
     Bsdf bsdf;
-    visibility_set_bsdf(scene, hit, &unit, &surface, &bsdf);
+    material_set_bsdf_apart(scene, &surface, -unit.direction, TRANSPORT_RADIANCE, &bsdf);
     const real coverage = crossing->coverage;
     const real3 passes = bsdf_pane_passes(&bsdf);
     real stop = REAL(1.0) - bsdf_pane_passing(&bsdf);

@@ -19,7 +19,8 @@ typedef struct {
     Hit hit;                 /* where it ended */
     PathNumbers numbers;     /* of the vertex there */
     SkySample sky;           /* drawn for it, where light_is_drawn */
-    LightView view;          /* whence the surface that it left looked at lights; unused for camera rays */
+    LightView view;          /* whence the surface that it left looked at lights; unused for camera rays and
+                                delta lobes */
     bool has_crossed_curved; /* it did not start there but at the plane below */
     real3 throughput;        /* of the path so far: product of BSDF times cosine over pdf */
     real eta_squared;        /* product of the squared index ratios crossed */
@@ -33,12 +34,12 @@ typedef struct {
 #endif
 #if HAS_SLABS
     SlabChain slabs;           /* since its last lobe with a density, */
-    LightView before_slabs;    /* whence the surface there looked at lights, */
-    real pdf_w_before_slabs;   /* and that density */
-    bool is_behind_slabs;      /* it has left the scene through some; */
-    bool may_cross_slabs;      /* the shadow ray may; */
-    uint facets;               /* it has crossed so many, */
-    real connects_with_others; /* and is weighted against light paths by this */
+    real3 before_slabs;        /* its direction there, */
+    real pdf_w_before_slabs;   /* and that density; `view` is kept meanwhile */
+    bool is_behind_slabs;      /* it has left the scene through some */
+    real connects_with_others; /* weight of the connection beside light paths over that without; 0: it cannot
+                                  cross slabs, */
+    uint facets;               /* of which it has crossed so many */
 #endif
     LayerPath layers;
     GuidePath guided;
@@ -152,31 +153,31 @@ static inline bool path_survives(const Scene* scene, const RenderParams* params,
     return true;
 }
 
-/* Notes what a path that leaves a surface may cross; its view and density are of that surface already. */
-static inline void path_leave_slabs(const Scene* scene, const Surface* surface, const BsdfSample* next,
-                                    Path* path)
+/* Notes whence a path looks at lights that leaves a surface, and what it may cross. */
+static inline void path_look(const Scene* scene, const Surface* surface, const Bsdf* bsdf,
+                             const BsdfSample* next, Path* path)
 {
 #if HAS_SLABS
     if (next->pdf_w == REAL(0.0)) {
         slab_leave(scene, surface, next->reflects, next->eta, &path->slabs);
         return;
     }
-    slab_begin(next->wi, &path->slabs);
+    slab_begin(&path->slabs);
     if (solid_beside(scene, surface, next->reflects) != NO_INDEX)
         slab_end(&path->slabs);
-    path->before_slabs = path->view;
+    path->before_slabs = next->wi;
     path->pdf_w_before_slabs = next->pdf_w;
 #endif
+    path->view = lights_view(surface, bsdf_light_normal(bsdf));
 }
 
 /* A path that leaves the scene behind slabs counts as one from the vertex before them. */
 static inline void path_skip_slabs(const RenderParams* params, Path* path)
 {
 #if HAS_SLABS
-    path->is_behind_slabs = slab_is_behind(params, &path->slabs, path->ray.direction);
+    path->is_behind_slabs = slab_is_behind(params, &path->slabs, path->before_slabs, path->ray.direction);
     if (!path->is_behind_slabs)
         return;
-    path->view = path->before_slabs;
     path->pdf_w = path->pdf_w_before_slabs;
 #endif
 }
@@ -200,8 +201,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     path->ray = surface_ray(surface, next->reflects, next->wi);
     ray_cone_scatter(params, sampler, next->pdf_w, &path->ray);
     dispersion_leave(dispersion_splits(bsdf, next->reflects), &path->ray);
-    path->view = lights_view(surface, bsdf_light_normal(bsdf));
-    path_leave_slabs(scene, surface, next, path);
+    path_look(scene, surface, bsdf, next, path);
     path->has_crossed_curved = surface->is_curved && !next->reflects;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = solid_beside(scene, surface, next->reflects);
