@@ -13,6 +13,7 @@ target_compile_definitions(error_report_test PRIVATE CLRT_SCENES_FOLDER="${PROJE
 add_dependencies(error_report_test clrt-merge)
 clrt_command_test(camera_command_test)
 clrt_command_test(compile_time_test)
+target_compile_definitions(compile_time_test PRIVATE CLRT_CLANG="${CLRT_CLANG}")
 # A device that fails in the middle, by LD_PRELOAD.
 add_library(failing_launches MODULE support/failing_launches.cpp)
 clrt_command_test(devices_command_test)
