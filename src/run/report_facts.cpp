@@ -2,6 +2,7 @@
 #include "run/report_facts.h"
 
 #include "render/render_params.h"
+#include "scene/slabs.h"
 
 #include <algorithm>
 
@@ -21,13 +22,12 @@ std::vector<std::string> names_of_effects(const Effects& effects, bool present) 
 
 std::vector<std::string> crossed_slabs(const Scene& scene, const Options& options) {
     const Environment& sky = scene.environment;
-    const bool is_sampled = !sky.texels.empty() || !sky.portals.empty();
-    const bool has_suns = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                      [](const Light& light) { return light.kind != LIGHT_POINT; });
+    const bool is_sky_sampled = !sky.texels.empty() || !sky.portals.empty();
     std::vector<std::string> names;
+    if (!crosses_slabs(scene, options) || !(is_sky_sampled || has_suns(scene)))
+        return names;
     for (size_t i = 0; i < scene.materials.size(); ++i)
-        if ((is_sampled || has_suns) && crosses_slabs(scene, options) &&
-            (scene.materials[i].flags & MATERIAL_SLAB))
+        if (scene.materials[i].flags & MATERIAL_SLAB)
             names.push_back(scene.material_names[i]);
     return names;
 }

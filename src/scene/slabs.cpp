@@ -105,16 +105,19 @@ void mark_slabs(Scene& scene) {
     }
 }
 
+bool has_suns(const Scene& scene) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [](const Light& light) { return light.kind == LIGHT_SUN; });
+}
+
 bool has_slabs_before_the_sky(const Scene& scene) {
     const auto any = [&](u32 flag) {
         return std::any_of(scene.materials.begin(), scene.materials.end(),
                            [&](const Material& material) { return (material.flags & flag) != 0; });
     };
-    const bool has_suns = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                      [](const Light& light) { return light.kind != LIGHT_POINT; });
     const Environment& sky = scene.environment;
     const bool has_sky = (sky.texels.empty() ? luminance(sky.radiance) : sky.mean_radiance) > 0;
-    return (has_suns || has_sky) && any(MATERIAL_SLAB) && !any(MATERIAL_NESTED);
+    return (has_suns(scene) || has_sky) && any(MATERIAL_SLAB) && !any(MATERIAL_NESTED);
 }
 
 } // namespace clrt

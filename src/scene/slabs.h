@@ -11,6 +11,9 @@ namespace clrt {
 /// another part of it back to back. Other materials lose the mark.
 void mark_slabs(Scene& scene);
 
+/// Whether some of the lights are suns.
+bool has_suns(const Scene& scene);
+
 /// Whether connections to light at infinity are to look for slabs: there are some, and such light, and no
 /// solids lie within each other, which only the whole path before can tell apart.
 bool has_slabs_before_the_sky(const Scene& scene);
