@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/camera_checks.h"
 
+#include "output/standard_streams.h"
 #include "scene/camera_params.h"
 
 #include <cmath>
@@ -105,10 +106,16 @@ Fault find_lens_fault(const Options& options) {
 
 Fault find_shutter_fault(const Options& options) {
     const CameraOptions& camera = options.camera;
-    if (camera.shutter && !camera.end_eye && !camera.end_at && !camera.end_up &&
-        options.scene.end_path.empty())
-        return "option --shutter: expected together with what moves, --end, --end-eye, --end-at or --end-up, "
-               "found alone";
+    if (camera.shutter && !camera.end_eye && !camera.end_at && !camera.end_up && !end_option(options.scene))
+        return "option --shutter: expected together with what moves, --end, --animation-time T,T2, "
+               "--end-eye, "
+               "--end-at or --end-up, found alone";
+    if (options.scene.end_time && !options.scene.end_path.empty())
+        return "options --end and --animation-time T,T2: expected one scene at time 1, found two";
+    if (options.scene.end_time && is_standard_input(options.scene.path))
+        return "option --animation-time T,T2: expected the name of a file, which is read twice, found '-'";
+    if (is_given(options, "--animation") && !options.scene.gltf.time)
+        return "option --animation: expected together with --animation-time, found alone";
     if (camera.frames && camera.end_up)
         return "options --frames and --end-up: expected one of them, found both; a turn keeps its axis";
     return std::nullopt;

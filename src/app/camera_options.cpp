@@ -53,6 +53,15 @@ glm::dvec2 parse_shutter(const OptionValue& v) {
     return {times[0], times[1]};
 }
 
+void set_animation_times(SceneOptions& scene, const OptionValue& v) {
+    const std::string expected = "one time in seconds, or two, T,T2 with T <= T2";
+    const std::vector<double> times = parse_numbers(v, 1, 2, expected);
+    if (times.back() < times.front())
+        reject_value(v, expected);
+    scene.gltf.time = times.front();
+    scene.end_time = times.size() == 2 ? std::optional(times.back()) : std::nullopt;
+}
+
 /// Where the picture is taken from and how it is projected.
 std::vector<OptionSpec> view_options(const char* group) {
     return {
@@ -145,6 +154,13 @@ std::vector<OptionSpec> shutter_options(const char* group) {
         {group, "", "--end", "FILE",
          "the scene at time 1: the same vertices and faces at other places; vertices go straight there",
          [](Options& o, const OptionValue& v) { o.scene.end_path = parse_path(v); }},
+        {group, "", "--animation-time", "T[,T2]",
+         "the moment of a glTF file's animations that is shown, seconds (default: the scene as it stands); "
+         "with T2 its nodes, cameras among them, go straight to where they are then, at time 1",
+         [](Options& o, const OptionValue& v) { set_animation_times(o.scene, v); }},
+        {group, "", "--animation", "NAME|N",
+         "which of the file's animations is played, by its name or its number from 1 (default: all together)",
+         [](Options& o, const OptionValue& v) { o.scene.gltf.animation = v.text; }},
         {group, "", "--shutter", "OPEN,CLOSE",
          "the times between which the picture is taken, from 0 to 1 (default 0,1)",
          [](Options& o, const OptionValue& v) { o.camera.shutter = parse_shutter(v); }},

@@ -308,18 +308,23 @@ void find_light_tree(const Scene& scene, const Options& options, unsigned kinds,
 
 void find_motion_blur(const Scene& scene, const Options& options, EffectFinder& finder) {
     const CameraOptions& camera = options.camera;
-    const char* const camera_option = camera.end_eye ? "--end-eye" : camera.end_at ? "--end-at" : "--end-up";
-    const char* const option = scene.position_moves.empty() ? camera_option : "--end";
-    const bool given = camera.end_eye || camera.end_at || camera.end_up || !options.scene.end_path.empty();
+    const char* const scene_option = end_option(options.scene);
+    const bool camera_given = camera.end_eye || camera.end_at || camera.end_up;
+    const char* const camera_option = !camera_given && scene_option ? scene_option
+                                      : camera.end_eye              ? "--end-eye"
+                                      : camera.end_at               ? "--end-at"
+                                                                    : "--end-up";
+    const char* const option = scene.position_moves.empty() ? camera_option : scene_option;
     std::vector<std::string> parts;
     if (!scene.position_moves.empty())
-        parts.push_back("triangles move by " + describe_option(options, "--end"));
+        parts.push_back("triangles move by " + describe_option(options, scene_option));
     if (scene.camera.end)
         parts.push_back("the camera moves by " + describe_option(options, camera_option));
     const bool has_motion = !parts.empty();
     if (!has_motion)
-        parts.emplace_back(given ? "nothing moves while the shutter is open"
-                                 : "no --end, --end-eye, --end-at or --end-up");
+        parts.emplace_back(camera_given || scene_option
+                               ? "nothing moves while the shutter is open"
+                               : "no --end, --animation-time T,T2, --end-eye, --end-at or --end-up");
     finder.fact(EFFECT_MOTION_BLUR, has_motion, fmt::format("{}", fmt::join(parts, ", ")),
                 has_motion ? place_of(options, option) : SourcePlace{});
 }

@@ -6,6 +6,7 @@
 #include "options/toggle.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace clrt {
@@ -50,16 +51,24 @@ constexpr size_t LEAST_COPIED_TRIANGLES = 1000000;
 struct GltfReading {
     GltfLights lights = GltfLights::BLENDER;
     bool solid_glass = false; ///< transmission without volume refracts, where the standard has a thin wall
+    std::optional<double> time{}; ///< seconds, of animations; absent: they are not played
+    std::string animation{};      ///< name or number (from 1) of the one to play; empty: all
 };
 
 struct SceneOptions {
     std::string path;                  ///< a file; "-": the standard input
-    std::string end_path;              ///< the same scene at time 1; empty: nothing moves
+    std::string end_path;              ///< the same scene at time 1; empty: see end_time
     MtlReading mtl = MtlReading::AUTO; ///< auto: as the writers of libraries mean them
     MaterialOverride material_override = MaterialOverride::NONE;
     Toggle instances = Toggle::AUTO; ///< meshes that are used several times are shared, not copied
     GltfReading gltf{};
+    std::optional<double> end_time{}; ///< seconds: the scene's own animations show it at time 1
     TextureFilter texture_filter = TextureFilter::NONE;
 };
+
+/// The option that tells where things are at time 1; null: nothing moves.
+inline const char* end_option(const SceneOptions& scene) {
+    return !scene.end_path.empty() ? "--end" : scene.end_time ? "--animation-time" : nullptr;
+}
 
 } // namespace clrt

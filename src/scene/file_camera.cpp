@@ -62,6 +62,17 @@ void take_projection(const Camera& camera, CameraOptions& options) {
         options.fov_degrees = camera.fov_degrees;
 }
 
+/// Where the camera is at time 1; it looks as far ahead as at time 0. An up that is asked for stays.
+void take_motion(const Camera& end, CameraOptions& options) {
+    if (options.end_eye || options.end_at || options.end_up)
+        return;
+    const double depth = glm::distance(*options.eye, *options.at);
+    options.end_eye = end.eye;
+    options.end_at = end.eye + depth * glm::normalize(end.at - end.eye);
+    if (!options.up)
+        options.end_up = end.up;
+}
+
 glm::ivec2 size_of_aspect(double aspect, glm::ivec2 most) {
     const double width = std::min(double(most.x), most.y * aspect);
     return glm::ivec2(std::max(1, int(std::lround(width))), std::max(1, int(std::lround(width / aspect))));
@@ -69,7 +80,8 @@ glm::ivec2 size_of_aspect(double aspect, glm::ivec2 most) {
 
 } // namespace
 
-std::optional<glm::ivec2> take_file_camera(const std::vector<FileCamera>& cameras, const Bounds& bounds,
+std::optional<glm::ivec2> take_file_camera(const std::vector<FileCamera>& cameras,
+                                           const std::vector<FileCamera>& end_cameras, const Bounds& bounds,
                                            SceneRequest& request, NoticeList& notices) {
     CameraOptions& options = request.camera;
     if (cameras.empty() && !options.file_camera.empty())
@@ -80,6 +92,8 @@ std::optional<glm::ivec2> take_file_camera(const std::vector<FileCamera>& camera
     const FileCamera& file = cameras[chosen];
     options.eye = file.camera.eye;
     options.at = point_ahead(file.camera, bounds);
+    if (!end_cameras.empty())
+        take_motion(end_cameras[chosen].camera, options);
     options.up = options.up.value_or(file.camera.up);
     take_projection(file.camera, options);
     notices.add(fmt::format(

@@ -14,10 +14,12 @@
 namespace clrt {
 
 /// Fills in what the options leave open of the camera with the one that --camera names, else with the first;
-/// not where --eye, --at or --view ask for another place. Returns the picture's size where no option gives
+/// not where --eye, --at or --view ask for another place. `end_cameras`: the same cameras at time 1, or none;
+/// the way there is taken where no option gives one. Returns the picture's size where no option gives
 /// it and the camera has an aspect: the largest of this aspect within the default size. Throws UsageError
 /// where the file has no such camera.
-std::optional<glm::ivec2> take_file_camera(const std::vector<FileCamera>& cameras, const Bounds& bounds,
+std::optional<glm::ivec2> take_file_camera(const std::vector<FileCamera>& cameras,
+                                           const std::vector<FileCamera>& end_cameras, const Bounds& bounds,
                                            SceneRequest& request, NoticeList& notices);
 
 } // namespace clrt

@@ -108,7 +108,7 @@ SceneDescription read_scene(const SceneOptions& options, Progress& progress, Pic
     const SceneReader& reader = find_reader(file);
     SceneDescription description =
         reader.read(std::move(file), {progress, notices, facts, options.mtl, options.gltf,
-                                      options.end_path.empty() ? options.instances : Toggle::OFF});
+                                      end_option(options) ? Toggle::OFF : options.instances});
     statistics.obj_seconds = watch.seconds() - statistics.texture_seconds;
     statistics.dropped_faces = description.dropped_faces;
     return description;
@@ -244,21 +244,53 @@ CameraOptions with_up(const CameraOptions& given, const FoundUp& found, const st
     return camera;
 }
 
-/// Reads the scene's file at time 1, for its geometry alone.
-void add_end_frame(const SceneRequest& request, Progress& progress, Mesh& mesh, std::vector<NamedFile>& files,
-                   NoticeList& notices) {
-    SceneFile file = read_scene_file(request.scene.end_path);
+/// Says which lights move in an animation: they are taken as they are at its first moment.
+void note_moving_lights(const SceneDescription& start, const SceneDescription& end, NoticeList& notices) {
+    bool moves = false;
+    for (size_t i = 0; i < start.points.size(); ++i)
+        moves = moves || start.points[i].position != end.points[i].position;
+    for (size_t i = 0; i < start.suns.size(); ++i)
+        moves = moves || start.suns[i].towards != end.suns[i].towards;
+    if (moves)
+        notices.add(
+            "--animation-time T,T2: point lights, spots and suns that move are shown where they are at T");
+}
+
+/// The file that holds the scene at time 1.
+const std::string& end_file(const SceneOptions& scene) {
+    return scene.end_path.empty() ? scene.path : scene.end_path;
+}
+
+/// The scene at time 1; pictures are not looked at.
+SceneDescription read_end(const SceneRequest& request, Progress& progress) {
+    SceneFile file = read_scene_file(end_file(request.scene));
     const SceneReader& reader = find_reader(file);
+    GltfReading gltf = request.scene.gltf;
+    if (request.scene.end_time)
+        gltf.time = request.scene.end_time;
     NoticeList unused; // what is wrong with materials is said of the first file
     const PictureFacts facts = {[](const TextureUse&, TextureRole) { return true; },
                                 [](const TextureUse&) { return false; },
                                 [](const TextureUse&) { return false; }};
-    SceneDescription end = reader.read(
-        std::move(file), {progress, unused, facts, request.scene.mtl, request.scene.gltf, Toggle::OFF});
-    add_motion({input_name(request.scene.path), request.scene.end_path}, shutter_times(request.camera), mesh,
+    return reader.read(std::move(file), {progress, unused, facts, request.scene.mtl, gltf, Toggle::OFF});
+}
+
+/// Moves the scene's mesh to where another file or a later moment has it at time 1. Returns the cameras of
+/// that moment; of another file none.
+std::vector<FileCamera> add_end_frame(const SceneRequest& request, Progress& progress,
+                                      SceneDescription& start, std::vector<NamedFile>& files,
+                                      NoticeList& notices) {
+    SceneDescription end = read_end(request, progress);
+    const std::string& path = end_file(request.scene);
+    add_motion({input_name(request.scene.path), path}, shutter_times(request.camera), start.mesh,
                std::move(end.mesh), notices);
-    files.push_back({"the scene at time 1", request.scene.end_path});
+    if (request.scene.end_time) {
+        note_moving_lights(start, end, notices);
+        return end.cameras;
+    }
+    files.push_back({"the scene at time 1", path});
     files.insert(files.end(), end.files.begin(), end.files.end());
+    return {};
 }
 
 Scene load_all(SceneRequest request, Progress& progress) {
@@ -272,12 +304,13 @@ Scene load_all(SceneRequest request, Progress& progress) {
     scene.object_names = mesh.object_names;
     scene.files = description.files;
 
-    if (!request.scene.end_path.empty())
-        add_end_frame(request, progress, mesh, scene.files, notices);
+    std::vector<FileCamera> end_cameras;
+    if (end_option(request.scene))
+        end_cameras = add_end_frame(request, progress, description, scene.files, notices);
 
     // The frame, then everything that is measured in it.
     const Bounds bounds = bounds_with_instances(description, bounds_of_triangles(mesh));
-    scene.picture_size = take_file_camera(description.cameras, bounds, request, notices);
+    scene.picture_size = take_file_camera(description.cameras, end_cameras, bounds, request, notices);
     if (!request.camera.up && !description.is_y_up)
         request.camera =
             with_up(request.camera, find_up(mesh, bounds, description.z_up_reason), path, notices);
@@ -303,7 +336,7 @@ Scene load_all(SceneRequest request, Progress& progress) {
     note_inside_out_glass(scene, notices);
     split_emitters(scene);
     store_vertex_colours(scene, path);
-    finish_moves(request.scene.end_path, scene);
+    finish_moves(end_file(request.scene), scene);
     scene.notices = notices.lines();
     return scene;
 }

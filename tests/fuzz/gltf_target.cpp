@@ -15,12 +15,20 @@ void check_gltf(const SceneDescription& scene) {
         promise(camera.camera.eye != camera.camera.at, "cameras look somewhere");
 }
 
+/// A moment of the file's animations.
+SceneDescription read_moment(SceneFile file, const ReadContext& context) {
+    ReadContext moment = context;
+    moment.gltf.time = 0.5;
+    return read_gltf_scene(std::move(file), moment);
+}
+
 } // namespace
 
 } // namespace clrt
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
     using namespace clrt;
-    check_reader({"a glTF", ".gltf", is_gltf, read_gltf_scene}, "a.glb", as_text(data, size), check_gltf);
+    for (const auto read : {read_gltf_scene, read_moment})
+        check_reader({"a glTF", ".gltf", is_gltf, read}, "a.glb", as_text(data, size), check_gltf);
     return 0;
 }

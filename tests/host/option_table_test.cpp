@@ -74,6 +74,8 @@ const std::map<std::string, std::string>& samples() {
         {"--focus", "1,2,3"},
         {"--blades", "6"},
         {"--end", "end.obj"},
+        {"--animation-time", "1.5,1.54"},
+        {"--animation", "walk"},
         {"--end-eye", "1,2,3"},
         {"--end-at", "1,2,3"},
         {"--end-up", "z"},
@@ -132,6 +134,8 @@ std::vector<std::string> companions(const std::string& option) {
         return {"--aperture", "0.1"};
     if (option == "--shutter")
         return {"--end-eye", "1,2,3"};
+    if (option == "--animation")
+        return {"--animation-time", "2"};
     if (option == "--sample")
         return {"--pixel", "3,4"};
     return {};

@@ -36,10 +36,12 @@ glm::dvec4 rotation_of(const JsonValue& node) {
     return {q[0], q[1], q[2], q[3]};
 }
 
-glm::dmat4 local_transform(const JsonValue& node) {
+glm::dmat4 local_transform(const JsonValue& node, const GltfPose& pose) {
     if (const std::optional<JsonValue> matrix = node.find("matrix"))
         return matrix_of(*matrix);
-    return gltf_transform(vector_of(node, "translation", 0), rotation_of(node), vector_of(node, "scale", 1));
+    return gltf_transform(pose.translation ? *pose.translation : vector_of(node, "translation", 0),
+                          pose.rotation ? *pose.rotation : rotation_of(node),
+                          pose.scale ? *pose.scale : vector_of(node, "scale", 1));
 }
 
 std::vector<JsonValue> children_of(const JsonValue& node) {
@@ -58,7 +60,8 @@ struct Visit {
 /// Walks down from roots, depth first.
 class NodeWalk {
 public:
-    explicit NodeWalk(const JsonDocument& json) : json_(json), reached_(json.elements("nodes").size()) {}
+    NodeWalk(const JsonDocument& json, const GltfPoses& poses)
+        : json_(json), poses_(poses), reached_(json.elements("nodes").size()) {}
 
     void add(const JsonValue& root, size_t number, const JsonValue& reference) {
         std::vector<Visit> open = {{root, number, reference, glm::dmat4(1)}};
@@ -80,12 +83,15 @@ private:
             visit.reference.fail("a node that nothing else leads to: the nodes are a forest",
                                  fmt::format("node {}, reached before", visit.number));
         reached_[visit.number] = true;
-        const glm::dmat4 world = visit.parent * local_transform(visit.node);
+        const auto pose = poses_.find(visit.number);
+        const glm::dmat4 world =
+            visit.parent * local_transform(visit.node, pose == poses_.end() ? GltfPose{} : pose->second);
         nodes_.push_back({visit.node, world, visit.node.text("name")});
         return world;
     }
 
     const JsonDocument& json_;
+    const GltfPoses& poses_;
     std::vector<bool> reached_;
     std::vector<GltfNode> nodes_;
 };
@@ -114,8 +120,8 @@ std::vector<bool> find_children(const JsonDocument& json, const std::vector<Json
 
 } // namespace
 
-std::vector<GltfNode> read_gltf_nodes(const JsonDocument& json) {
-    NodeWalk walk(json);
+std::vector<GltfNode> read_gltf_nodes(const JsonDocument& json, const GltfPoses& poses) {
+    NodeWalk walk(json, poses);
     if (const std::optional<std::vector<JsonValue>> roots = scene_roots(json)) {
         for (const JsonValue& root : *roots)
             walk.add(json.element("nodes", root), root.whole(), root);

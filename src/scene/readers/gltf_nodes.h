@@ -8,6 +8,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +21,20 @@ struct GltfNode {
     std::string name;
 };
 
+/// What an animation puts in the place of a node's own transform, in part or in whole.
+struct GltfPose {
+    std::optional<glm::dvec3> translation;
+    std::optional<glm::dvec4> rotation; ///< a quaternion x, y, z, w
+    std::optional<glm::dvec3> scale;
+};
+
+/// Poses by the nodes' indices.
+using GltfPoses = std::map<size_t, GltfPose>;
+
 /// The nodes of the scene that is shown: that of `scene`, else the first, else all. Parents come before
 /// children, in the order of the file. Throws SceneError for a node that is reached twice: the graph is a
 /// forest.
-std::vector<GltfNode> read_gltf_nodes(const JsonDocument& json);
+std::vector<GltfNode> read_gltf_nodes(const JsonDocument& json, const GltfPoses& poses = {});
 
 /// Translation times rotation (a quaternion x, y, z, w of any length but 0) times scale.
 glm::dmat4 gltf_transform(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);

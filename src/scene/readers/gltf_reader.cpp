@@ -2,6 +2,7 @@
 #include "scene/readers/gltf_reader.h"
 
 #include "error.h"
+#include "scene/readers/gltf_animation.h"
 #include "scene/readers/gltf_cameras.h"
 #include "scene/readers/gltf_extensions.h"
 #include "scene/readers/gltf_flatten.h"
@@ -35,14 +36,13 @@ SceneDescription read_gltf_scene(SceneFile source, const ReadContext& context) {
     GltfBuffers buffers(file, scene.files);
     GltfMaterials materials(buffers, context);
     GltfMeshes meshes(buffers, materials, context.notices);
-    const std::vector<GltfNode> nodes = read_gltf_nodes(file.json());
+    const std::vector<GltfNode> nodes =
+        read_gltf_nodes(file.json(), read_gltf_poses(buffers, context.gltf, context.notices));
     for (const GltfNode& node : nodes) {
         add_gltf_camera(file.json(), node, scene);
         add_gltf_light(file.json(), node, context.gltf.lights, scene);
     }
     note_light_units(scene, context.gltf.lights, file.name(), context.notices);
-    if (!file.json().elements("animations").empty())
-        context.notices.add("animations are ignored: the scene is shown as it stands", {file.name(), 0});
     flatten_gltf(nodes, buffers, meshes, materials, context, scene);
     if (scene.mesh.triangles.empty() && scene.instances.empty())
         throw SceneError(file.name(), 0,
