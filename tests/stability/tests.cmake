@@ -13,7 +13,7 @@ endif()
 # The catalogue, a ctest entry for the cases of some letters: so they run side by side and none runs long.
 add_executable(catalogue_test stability/catalogue_test.cpp)
 target_link_libraries(catalogue_test PRIVATE clrt_stability_core clrt_test_support GTest::gtest GTest::gtest_main)
-clrt_precompiled_as(catalogue_test clrt_test_headers)
+clrt_compile_as_test(catalogue_test)
 foreach(letters IN ITEMS I SC DG TRF PLE AB KMXV)
   # GoogleTest's patterns know no sets of characters: one pattern a letter.
   string(REGEX REPLACE "(.)" "Case/Catalogue.Holds/\\1*:" patterns ${letters})
