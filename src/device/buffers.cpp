@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device buffers, checked against what the device can hold before they are made.
+#include "device/buffer_size.h"
 #include "device/device.h"
-
 #include "device/opencl_error.h"
 
 #include <algorithm>
@@ -98,9 +98,13 @@ cl::Buffer upload_pieces(const Device& device, const char* name, const std::vect
     });
 }
 
+void check_picture_buffer(const DeviceInfo& device, const char* name, size_t bytes) {
+    check_size(device, name, bytes, SMALLER_PICTURE);
+}
+
 cl::Buffer create_buffer(const Device& device, const char* name, size_t bytes) {
     const size_t size = bytes == 0 ? EMPTY_BUFFER_BYTES : bytes;
-    check_size(device.info, name, size, SMALLER_PICTURE);
+    check_picture_buffer(device.info, name, size);
     return check_opencl(making(name, size), [&] {
         cl::Buffer buffer(device.context, CL_MEM_READ_WRITE, size);
         // Written in pieces, not by enqueueFillBuffer: Oclgrind takes filled memory for uninitialised.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film_buffers.h"
 
+#include "device/buffer_size.h"
 #include "device/buffer_values.h"
 #include "device/opencl_error.h"
 
@@ -48,6 +49,7 @@ int fitting_replicates(const Device& device, const RenderParams& params, size_t 
         spdlog::warn(
             "the film of {} replicates does not fit the device: {} are kept apart, the error is coarser",
             params.replicates, replicates);
+    check_picture_buffer(device.info, "film", (size_t(replicates) + layers) * plane);
     return replicates;
 }
 

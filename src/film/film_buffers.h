@@ -15,7 +15,7 @@ namespace clrt {
 std::vector<std::string> film_defines(const DeviceInfo& device, FilmAccess access);
 
 /// Halves the number of replicates kept apart until their sums and those of `layers` layers of paths fit the
-/// device.
+/// device. Throws DeviceError where not even one does.
 int fitting_replicates(const Device& device, const RenderParams& params, size_t layers);
 
 /// Film, ray counts and counters on the device.

@@ -106,6 +106,10 @@ SceneDescription read_scene(const SceneOptions& options, Progress& progress, Pic
     statistics.obj_bytes = file.bytes.size();
     const PictureFacts facts = pictures.facts();
     const SceneReader& reader = find_reader(file);
+    if (options.gltf.time && !reader.plays_animations)
+        throw SceneError(
+            file.name, 0,
+            fmt::format("--animation-time: expected a glTF file with animations, found {}", reader.name));
     SceneDescription description =
         reader.read(std::move(file), {progress, notices, facts, options.mtl, options.gltf,
                                       end_option(options) ? Toggle::OFF : options.instances});

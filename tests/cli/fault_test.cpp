@@ -259,8 +259,11 @@ TEST_F(Fault, KillsAtAnyMomentLeaveWholeFilesAndOneTemporaryFileAtMost) {
 }
 
 TEST_F(Fault, AFilmThatNoDeviceHoldsIsAnErrorOfTheDevice) {
+    CommandSettings settings;
+    if (!IS_SANITIZED)
+        settings.limits[RLIMIT_AS] = 3072 * MEBIBYTE; // less than a byte a pixel: none of it is made before
     const CommandResult result =
-        clrt({"scene.obj", "-i", "raycast", "-s", "1", "-r", "65535x65535", "-o", "a.pfm"});
+        clrt({"scene.obj", "-i", "raycast", "-s", "1", "-r", "65535x65535", "-o", "a.pfm"}, settings);
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_TRUE(holds(result.err, {"clrt: error: ", "\"film\" needs", "Choose a smaller --size (--crop"}));
     EXPECT_EQ(listing(), (std::vector<std::string>{"scene.obj"}));

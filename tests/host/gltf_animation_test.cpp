@@ -152,6 +152,20 @@ TEST(GltfAnimation, WhatIsLeftOutIsSaid) {
     AnimatedFile file;
     EXPECT_NE(file.error().find("--animation-time: expected a file with animations, found none"),
               std::string::npos);
+    const TemporaryFolder folder;
+    Options options;
+    options.scene.path = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    options.scene.gltf.time = 0;
+    Progress silent(Toggle::OFF, true);
+    try {
+        load_scene(options, silent);
+        ADD_FAILURE();
+    } catch (const SceneError& fault) {
+        EXPECT_NE(
+            std::string(fault.what()).find("expected a glTF file with animations, found a Wavefront OBJ"),
+            std::string::npos)
+            << fault.what();
+    }
     file.animate("translation", {0}, {1, 0, 0});
     const ReadGltf still(file.glb());
     expect_near(still.corner(0, 0), {0, 0, 0});

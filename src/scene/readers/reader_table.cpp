@@ -30,7 +30,7 @@ std::string extension_of(const std::string& name) {
 
 const std::vector<SceneReader>& scene_readers() {
     static const std::vector<SceneReader> readers = {
-        {"a glTF file", ".glb", is_gltf, read_gltf_scene},
+        {"a glTF file", ".glb", is_gltf, read_gltf_scene, true},
         {"a PLY file", ".ply", is_ply, read_ply_scene},
         {"an STL file", ".stl", is_stl, read_stl_scene},
         {"a Wavefront OBJ", ".obj", nullptr, read_obj_scene},

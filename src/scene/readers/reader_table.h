@@ -31,6 +31,7 @@ struct SceneReader {
     bool (*recognises)(std::string_view bytes);
     /// Understands any bytes or throws SceneError: file, line or byte, what was expected and what was found.
     SceneDescription (*read)(SceneFile file, const ReadContext& context);
+    bool plays_animations = false; ///< it takes GltfReading::time
 };
 
 /// All formats that can be read; the last takes what no other one knows.
