@@ -55,7 +55,7 @@ TEST_F(Pipe, FilesAndStatisticsMayGoBeside) {
 }
 
 TEST_F(Pipe, StatisticsGoToTheStandardOutput) {
-    for (const std::string arguments : {"-o a.png", "-q", "--pixel 3,3", "-i raycast --ledger"}) {
+    for (const std::string arguments : {"-o a.png", "-q", "--pixel 3,3"}) {
         const CommandResult result = shell("clrt scene.obj --stats - " + arguments);
         ASSERT_EQ(result.exit_code, 0) << result.err;
         const auto json = nlohmann::json::parse(result.out, nullptr, false);
