@@ -37,7 +37,7 @@ bool GltfAttributes::has(const char* name) const {
 
 GltfNumbers GltfAttributes::unpacked(const JsonValue& attribute, size_t place, GltfElement element) const {
     const DracoAttribute& from = draco_->attributes[place];
-    const size_t wanted = element == GltfElement::VEC2 ? 2 : 3;
+    const size_t wanted = element == GltfElement::VEC2 ? 2 : element == GltfElement::VEC4 ? 4 : 3;
     const bool fits = from.components == wanted || (element == GltfElement::COLOUR && from.components == 4);
     if (!fits)
         attribute.fail(fmt::format("{} components", wanted), fmt::format("{}, by Draco", from.components));

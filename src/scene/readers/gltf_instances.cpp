@@ -2,6 +2,7 @@
 #include "scene/readers/gltf_instances.h"
 
 #include "scene/place_instances.h"
+#include "scene/readers/gltf_skins.h"
 #include "scene/vectors.h"
 
 #include <algorithm>
@@ -153,15 +154,16 @@ std::vector<GltfInstance> find_gltf_instances(const std::vector<GltfNode>& nodes
         const std::optional<JsonValue> index = node.json.find("mesh");
         if (!index)
             continue;
-        if (node.json.find("skin"))
-            context.notices.add("skins are ignored: meshes are shown as they were bound", node.json.place());
         const std::vector<GltfPrimitive>& primitives = meshes.find(*index);
         const u32 object = u32(mesh.object_names.size());
         const JsonValue shape = buffers.file().json().element("meshes", *index);
         mesh.object_names.push_back(node.name.empty() ? shape.text("name") : node.name);
         const std::optional<JsonValue> extensions = node.json.find("extensions");
         const auto places = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-        if (!places)
+        if (node.json.find("skin"))
+            add({&meshes.keep(bend_by_skin(primitives, node, nodes, buffers, context.notices)), glm::dmat4(1),
+                 object});
+        else if (!places)
             add({&primitives, node.world, object});
         else
             for (const glm::dmat4& place : gpu_instances(*places, buffers))

@@ -86,7 +86,7 @@ private:
         const auto pose = poses_.find(visit.number);
         const glm::dmat4 world =
             visit.parent * local_transform(visit.node, pose == poses_.end() ? GltfPose{} : pose->second);
-        nodes_.push_back({visit.node, world, visit.node.text("name")});
+        nodes_.push_back({visit.node, world, visit.node.text("name"), visit.number});
         return world;
     }
 

@@ -19,6 +19,7 @@ struct GltfNode {
     JsonValue json;
     glm::dmat4 world; ///< from the node's frame
     std::string name;
+    size_t number; ///< into the file's nodes
 };
 
 /// What an animation puts in the place of a node's own transform, in part or in whole.

@@ -10,6 +10,9 @@ namespace clrt {
 
 namespace {
 
+/// More sets of four joints a vertex are not read.
+constexpr size_t MOST_JOINT_SETS = 4;
+
 enum PrimitiveMode : size_t { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6, MODE_COUNT = 7 };
 
 /// Corners of the triangles of a list, a strip or a fan; those that join the parts of a strip are no
@@ -49,13 +52,44 @@ std::vector<glm::vec2> coordinates_of(const std::optional<GltfNumbers>& numbers)
     return coordinates;
 }
 
+void check_count(const JsonValue& primitive, const char* name, size_t count, size_t vertices) {
+    if (count != vertices)
+        primitive.at("attributes")
+            .at(name)
+            .fail(fmt::format("{} elements as in POSITION", vertices), fmt::format("{}", count));
+}
+
 template <typename T>
 void check_length(const JsonValue& primitive, const char* name, const std::vector<T>& values,
                   size_t vertices) {
-    if (!values.empty() && values.size() != vertices)
-        primitive.at("attributes")
-            .at(name)
-            .fail(fmt::format("{} elements as in POSITION", vertices), fmt::format("{}", values.size()));
+    if (!values.empty())
+        check_count(primitive, name, values.size(), vertices);
+}
+
+/// The joints of all vertices, by every set of JOINTS_n and WEIGHTS_n.
+std::vector<GltfInfluence> influences_of(GltfAttributes& attributes, const JsonValue& primitive,
+                                         size_t vertices) {
+    std::vector<GltfNumbers> joints, weights;
+    for (size_t set = 0; set < MOST_JOINT_SETS; ++set) {
+        const std::string joint_name = fmt::format("JOINTS_{}", set),
+                          weight_name = fmt::format("WEIGHTS_{}", set);
+        if (!attributes.has(joint_name.c_str()) || !attributes.has(weight_name.c_str()))
+            break;
+        joints.push_back(*attributes.find(joint_name.c_str(), GltfElement::VEC4));
+        weights.push_back(*attributes.find(weight_name.c_str(), GltfElement::VEC4));
+        check_count(primitive, joint_name.c_str(), joints.back().count(), vertices);
+        check_count(primitive, weight_name.c_str(), weights.back().count(), vertices);
+    }
+    std::vector<GltfInfluence> influences;
+    influences.reserve(joints.size() * 4 * vertices);
+    for (size_t i = 0; i < vertices; ++i)
+        for (size_t set = 0; set < joints.size(); ++set)
+            for (size_t c = 0; c < 4; ++c) {
+                const float joint = joints[set].at(i, c), weight = weights[set].at(i, c);
+                const bool is_index = joint >= 0 && joint < float(1 << 16);
+                influences.push_back({is_index ? u32(joint) : NO_INDEX, weight > 0 ? weight : 0});
+            }
+    return influences;
 }
 
 void clamp_colours(std::vector<glm::vec3>& colours) {
@@ -76,6 +110,10 @@ const std::vector<GltfPrimitive>& GltfMeshes::find(const JsonValue& index) {
     if (is_new)
         known->second = read_mesh(mesh);
     return known->second;
+}
+
+const std::vector<GltfPrimitive>& GltfMeshes::keep(std::vector<GltfPrimitive> primitives) {
+    return made_.emplace_back(std::move(primitives));
 }
 
 std::vector<GltfPrimitive> GltfMeshes::read_mesh(const JsonValue& mesh) {
@@ -116,6 +154,7 @@ std::optional<GltfPrimitive> GltfMeshes::read_primitive(const JsonValue& json) {
     primitive.colours = vectors_of(attributes.find("COLOR_0", GltfElement::COLOUR));
     check_length(json, "COLOR_0", primitive.colours, vertices);
     clamp_colours(primitive.colours);
+    primitive.influences = influences_of(attributes, json, vertices);
     primitive.corners =
         triangle_corners(attributes.order(vertices), attributes.is_draco() ? MODE_TRIANGLES : mode);
     return primitive;

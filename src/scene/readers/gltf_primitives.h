@@ -7,18 +7,26 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <list>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace clrt {
 
+/// A joint of a skin that a vertex follows.
+struct GltfInfluence {
+    u32 joint; ///< into the skin's joints
+    float weight;
+};
+
 /// Attributes are empty where absent, else one a position.
 struct GltfPrimitive {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> uvs; ///< from the lower left
     std::vector<glm::vec3> colours;
-    std::vector<u32> corners; ///< three a triangle, below the number of positions
+    std::vector<GltfInfluence> influences; ///< the same number for each position, one after the other
+    std::vector<u32> corners;              ///< three a triangle, below the number of positions
     u32 material = 0;
 };
 
@@ -31,6 +39,9 @@ public:
     /// The primitives of a mesh that have triangles. Throws SceneError: JSON path, expected, found.
     const std::vector<GltfPrimitive>& find(const JsonValue& index);
 
+    /// Keeps what was made of a mesh as long as this.
+    const std::vector<GltfPrimitive>& keep(std::vector<GltfPrimitive> primitives);
+
 private:
     std::vector<GltfPrimitive> read_mesh(const JsonValue& mesh);
     std::optional<GltfPrimitive> read_primitive(const JsonValue& json);
@@ -40,6 +51,7 @@ private:
     GltfMaterials& materials_;
     NoticeList& notices_;
     std::map<std::string, std::vector<GltfPrimitive>> meshes_; // by path
+    std::list<std::vector<GltfPrimitive>> made_;
 };
 
 } // namespace clrt
