@@ -237,6 +237,12 @@ TEST(GltfCameras, StandAtTheirNodes) {
     EXPECT_EQ(plan.aspect, 1.5);
     expect_near(plan.camera.at - plan.camera.eye, {0, -1, 0});
     expect_near(plan.camera.up, {0, 0, -1});
+    const Json place = file.json["nodes"][1]["translation"];
+    file.json["nodes"][1]["translation"] = {0, 0, 1e20};
+    EXPECT_NE(gltf_error(file.glb()).find("nodes[1]: expected a camera so near the origin that a step of 1"),
+              std::string::npos)
+        << gltf_error(file.glb());
+    file.json["nodes"][1]["translation"] = place;
     file.json["cameras"][0]["perspective"]["yfov"] = 0;
     EXPECT_NE(gltf_error(file.glb()).find("cameras[0].perspective.yfov: expected a number above 0, found 0"),
               std::string::npos);

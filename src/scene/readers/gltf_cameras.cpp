@@ -112,6 +112,9 @@ void add_gltf_camera(const JsonDocument& json, const GltfNode& node, SceneDescri
         type.fail("perspective or orthographic");
     result.camera.eye = place_of(node);
     result.camera.at = result.camera.eye + axis_of(node, {0, 0, -1});
+    if (result.camera.at == result.camera.eye)
+        node.json.fail("a camera so near the origin that a step of 1 moves it",
+                       fmt::format("one at a distance of {:.3g}", glm::length(result.camera.eye)));
     result.camera.up = axis_of(node, {0, 1, 0});
     scene.cameras.push_back(result);
 }
