@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 namespace clrt {
 
@@ -44,19 +46,23 @@ glm::dvec4 turn_between(const glm::dvec4& from, glm::dvec4 to, double t) {
     return (std::sin((1 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle);
 }
 
-/// A value over time: key frames and what lies between them.
+/// A value over time: key frames and what lies between them. A value is some numbers.
 class Track {
 public:
-    /// The sampler of an animation; `element`: what its values are.
+    using Value = std::vector<double>;
+
+    /// The sampler of an animation. `element`: what its values are; SCALAR: any number of weights each.
     Track(GltfBuffers& buffers, const JsonValue& sampler, GltfElement element)
         : interpolation_(interpolation_of(sampler)), is_rotation_(element == GltfElement::VEC4),
           times_(read_gltf_numbers(buffers, sampler.at("input"), GltfElement::SCALAR)),
           values_(read_gltf_numbers(buffers, sampler.at("output"), element)) {
-        check(sampler);
+        check_times(sampler.at("input"));
+        check_values(sampler.at("output"), element == GltfElement::SCALAR);
+        width_ = values_.values.size() / (times_.count() * frame_size());
     }
 
-    /// A rotation has length 1; x, y, z of other values.
-    glm::dvec4 at(double time) const {
+    /// A rotation has length 1.
+    Value at(double time) const {
         const auto begin = times_.values.begin(), end = times_.values.end();
         const size_t next = size_t(std::upper_bound(begin, end, time) - begin);
         if (next == 0 || next == times_.count())
@@ -66,58 +72,84 @@ public:
         if (interpolation_ == Interpolation::STEP)
             return value(next - 1);
         if (interpolation_ == Interpolation::CUBICSPLINE)
-            return normalised(spline(next, t, length));
-        return is_rotation_ ? turn_between(value(next - 1), value(next), t)
-                            : glm::mix(value(next - 1), value(next), t);
+            return spline(next, t, length);
+        return is_rotation_ ? turned(value(next - 1), value(next), t)
+                            : sum({{1 - t, value(next - 1)}, {t, value(next)}});
     }
 
 private:
-    void check(const JsonValue& sampler) const {
+    void check_times(const JsonValue& input) const {
         const std::vector<float>& times = times_.values;
         if (times.empty())
-            sampler.at("input").fail("a key frame", "none");
+            input.fail("a key frame", "none");
         if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
-            sampler.at("input").fail("times that increase", "others");
-        const size_t expected = times.size() * frame_size();
-        if (values_.count() != expected)
-            sampler.at("output").fail(fmt::format("{} values for {} times", expected, times.size()),
-                                      fmt::format("{}", values_.count()));
-        const auto is_wrong = [](float number) { return !std::isfinite(number); };
-        if (std::any_of(values_.values.begin(), values_.values.end(), is_wrong))
-            sampler.at("output").fail("finite values", "others");
-        for (size_t frame = 0; is_rotation_ && frame < times.size(); ++frame)
-            if (is_zero(element(frame * frame_size() + value_offset())))
-                sampler.at("output").fail("quaternions other than 0", "0,0,0,0");
+            input.fail("times that increase", "others");
     }
 
-    static bool is_zero(const glm::dvec4& q) { return q == glm::dvec4(0); }
+    void check_values(const JsonValue& output, bool of_any_width) const {
+        const size_t expected = times_.count() * frame_size(), found = values_.count();
+        const bool fits = of_any_width ? found > 0 && found % expected == 0 : found == expected;
+        if (!fits)
+            output.fail(fmt::format("{}{} values for {} times", of_any_width ? "a multiple of " : "",
+                                    expected, times_.count()),
+                        fmt::format("{}", found));
+        const std::vector<float>& values = values_.values;
+        if (!std::all_of(values.begin(), values.end(), [](float number) { return std::isfinite(number); }))
+            output.fail("finite values", "others");
+        for (size_t i = value_offset(); is_rotation_ && i < found; i += frame_size())
+            if (values_.vec4(i) == glm::vec4(0))
+                output.fail("quaternions other than 0", "0,0,0,0");
+    }
 
-    /// A frame of a spline is its incoming tangent, its value, its outgoing tangent.
+    /// A frame of a spline is its incoming tangents, its values, its outgoing tangents.
     size_t frame_size() const { return interpolation_ == Interpolation::CUBICSPLINE ? 3 : 1; }
     size_t value_offset() const { return interpolation_ == Interpolation::CUBICSPLINE ? 1 : 0; }
 
-    glm::dvec4 element(size_t i) const {
-        return is_rotation_ ? glm::dvec4(values_.vec4(i)) : glm::dvec4(values_.vec3(i), 0);
+    Value element(size_t i) const {
+        const auto first = values_.values.begin() + std::ptrdiff_t(i * width_);
+        return Value(first, first + std::ptrdiff_t(width_));
     }
-    glm::dvec4 value(size_t frame) const {
-        return normalised(element(frame * frame_size() + value_offset()));
-    }
-    glm::dvec4 normalised(const glm::dvec4& found) const {
-        const double length = glm::length(found);
-        return is_rotation_ && length > 0 ? found / length : found;
+    Value value(size_t frame) const { return sum({{1, element(frame * frame_size() + value_offset())}}); }
+
+    /// Elements by factors; a rotation is brought to length 1.
+    Value sum(const std::vector<std::pair<double, Value>>& parts) const {
+        Value result(width_, 0);
+        for (const auto& [factor, part] : parts)
+            for (size_t i = 0; i < width_; ++i)
+                result[i] += factor * part[i];
+        const double length = std::sqrt(std::inner_product(result.begin(), result.end(), result.begin(), 0.));
+        for (size_t i = 0; is_rotation_ && length > 0 && i < width_; ++i)
+            result[i] /= length;
+        return result;
     }
 
-    glm::dvec4 spline(size_t next, double t, double length) const {
+    static Value turned(const Value& a, const Value& b, double t) {
+        const glm::dvec4 q = turn_between({a[0], a[1], a[2], a[3]}, {b[0], b[1], b[2], b[3]}, t);
+        return {q.x, q.y, q.z, q.w};
+    }
+
+    Value spline(size_t next, double t, double length) const {
         const double t2 = t * t, t3 = t2 * t;
         const size_t from = 3 * (next - 1), to = 3 * next;
-        return (2 * t3 - 3 * t2 + 1) * element(from + 1) + length * (t3 - 2 * t2 + t) * element(from + 2) +
-               (3 * t2 - 2 * t3) * element(to + 1) + length * (t3 - t2) * element(to);
+        return sum({{2 * t3 - 3 * t2 + 1, element(from + 1)},
+                    {length * (t3 - 2 * t2 + t), element(from + 2)},
+                    {3 * t2 - 2 * t3, element(to + 1)},
+                    {length * (t3 - t2), element(to)}});
     }
 
     Interpolation interpolation_;
     bool is_rotation_;
     GltfNumbers times_, values_;
+    size_t width_ = 0; ///< numbers a value
 };
+
+glm::dvec3 as_vector(const Track::Value& value) {
+    return {value[0], value[1], value[2]};
+}
+
+glm::dvec4 as_rotation(const Track::Value& value) {
+    return {value[0], value[1], value[2], value[3]};
+}
 
 /// Plays animations at one moment.
 class Player {
@@ -143,35 +175,35 @@ private:
             return;
         check_node(*node);
         GltfPose& pose = poses_[node->whole()];
-        const JsonValue& sampler = samplers[index.whole()];
         const std::string path = target.at("path").text();
-        if (path == "translation")
-            set(pose.translation, sampler, GltfElement::VEC3, channel);
-        else if (path == "rotation")
-            set(pose.rotation, sampler, GltfElement::VEC4, channel);
-        else if (path == "scale")
-            set(pose.scale, sampler, GltfElement::VEC3, channel);
-        else
-            notices_.add(path == "weights" ? "animated morph targets are left out"
-                                           : "an animation of what is no node's place is left out",
-                         channel.place());
+        const auto value = [&](GltfElement element) {
+            return Track(buffers_, samplers[index.whole()], element).at(time_);
+        };
+        if (path == "translation" && is_free(pose.translation.has_value(), channel))
+            pose.translation = as_vector(value(GltfElement::VEC3));
+        else if (path == "rotation" && is_free(pose.rotation.has_value(), channel))
+            pose.rotation = as_rotation(value(GltfElement::VEC4));
+        else if (path == "scale" && is_free(pose.scale.has_value(), channel))
+            pose.scale = as_vector(value(GltfElement::VEC3));
+        else if (path == "weights" && is_free(!pose.weights.empty(), channel))
+            pose.weights = value(GltfElement::SCALAR);
+        else if (path == "pointer")
+            notices_.add("an animation of what is no node's is left out", channel.place());
+    }
+
+    /// Whether no animation has set a property before.
+    bool is_free(bool is_set, const JsonValue& channel) {
+        if (is_set)
+            notices_.add(
+                "two animations move the same node: the first is taken; --animation NAME chooses one",
+                channel.place());
+        return !is_set;
     }
 
     void check_node(const JsonValue& index) const {
         const JsonValue node = buffers_.file().json().element("nodes", index);
         if (const std::optional<JsonValue> matrix = node.find("matrix"))
             matrix->fail("translation, rotation and scale of a node that is animated", "a matrix");
-    }
-
-    template <typename Vector>
-    void set(std::optional<Vector>& property, const JsonValue& sampler, GltfElement element,
-             const JsonValue& channel) {
-        if (property)
-            notices_.add(
-                "two animations move the same node: the first is taken; --animation NAME chooses one",
-                channel.place());
-        else
-            property = Vector(Track(buffers_, sampler, element).at(time_));
     }
 
     GltfBuffers& buffers_;

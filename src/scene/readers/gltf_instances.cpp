@@ -2,6 +2,7 @@
 #include "scene/readers/gltf_instances.h"
 
 #include "scene/place_instances.h"
+#include "scene/readers/gltf_morph.h"
 #include "scene/readers/gltf_skins.h"
 #include "scene/vectors.h"
 
@@ -154,20 +155,24 @@ std::vector<GltfInstance> find_gltf_instances(const std::vector<GltfNode>& nodes
         const std::optional<JsonValue> index = node.json.find("mesh");
         if (!index)
             continue;
-        const std::vector<GltfPrimitive>& primitives = meshes.find(*index);
-        const u32 object = u32(mesh.object_names.size());
         const JsonValue shape = buffers.file().json().element("meshes", *index);
+        const std::vector<GltfPrimitive>* primitives = &meshes.find(*index);
+        const std::vector<double> weights = morph_weights(*primitives, node, shape);
+        if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; }))
+            primitives = &meshes.keep(morph(*primitives, weights));
+        if (node.json.find("skin"))
+            primitives = &meshes.keep(bend_by_skin(*primitives, node, nodes, buffers, context.notices));
+        const u32 object = u32(mesh.object_names.size());
         mesh.object_names.push_back(node.name.empty() ? shape.text("name") : node.name);
         const std::optional<JsonValue> extensions = node.json.find("extensions");
         const auto places = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-        if (node.json.find("skin"))
-            add({&meshes.keep(bend_by_skin(primitives, node, nodes, buffers, context.notices)), glm::dmat4(1),
-                 object});
+        if (node.json.find("skin")) // in the world's frame already
+            add({primitives, glm::dmat4(1), object});
         else if (!places)
-            add({&primitives, node.world, object});
+            add({primitives, node.world, object});
         else
             for (const glm::dmat4& place : gpu_instances(*places, buffers))
-                add({&primitives, node.world * place, object});
+                add({primitives, node.world * place, object});
     }
     if (vanished)
         context.notices.add(

@@ -98,6 +98,13 @@ std::vector<JsonValue> JsonValue::elements() const {
     return result;
 }
 
+std::vector<double> JsonValue::all_numbers() const {
+    std::vector<double> result;
+    for (const JsonValue& element : elements())
+        result.push_back(element.number());
+    return result;
+}
+
 double JsonValue::number() const {
     if (!value_->is_number())
         fail("a number");

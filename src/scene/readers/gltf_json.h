@@ -38,6 +38,7 @@ public:
 
     // Of an array.
     std::vector<JsonValue> elements() const;
+    std::vector<double> all_numbers() const;
 
     // Of a scalar; numbers are finite.
     double number() const;

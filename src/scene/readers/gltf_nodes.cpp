@@ -44,6 +44,11 @@ glm::dmat4 local_transform(const JsonValue& node, const GltfPose& pose) {
                           pose.scale ? *pose.scale : vector_of(node, "scale", 1));
 }
 
+std::vector<double> weights_of(const JsonValue& node, const GltfPose& pose) {
+    const std::optional<JsonValue> own = node.find("weights");
+    return !pose.weights.empty() || !own ? pose.weights : own->all_numbers();
+}
+
 std::vector<JsonValue> children_of(const JsonValue& node) {
     const std::optional<JsonValue> children = node.find("children");
     return children ? children->elements() : std::vector<JsonValue>();
@@ -83,10 +88,11 @@ private:
             visit.reference.fail("a node that nothing else leads to: the nodes are a forest",
                                  fmt::format("node {}, reached before", visit.number));
         reached_[visit.number] = true;
-        const auto pose = poses_.find(visit.number);
-        const glm::dmat4 world =
-            visit.parent * local_transform(visit.node, pose == poses_.end() ? GltfPose{} : pose->second);
-        nodes_.push_back({visit.node, world, visit.node.text("name"), visit.number});
+        const auto posed = poses_.find(visit.number);
+        const GltfPose pose = posed == poses_.end() ? GltfPose{} : posed->second;
+        const glm::dmat4 world = visit.parent * local_transform(visit.node, pose);
+        nodes_.push_back(
+            {visit.node, world, visit.node.text("name"), visit.number, weights_of(visit.node, pose)});
         return world;
     }
 

@@ -19,7 +19,8 @@ struct GltfNode {
     JsonValue json;
     glm::dmat4 world; ///< from the node's frame
     std::string name;
-    size_t number; ///< into the file's nodes
+    size_t number;               ///< into the file's nodes
+    std::vector<double> weights; ///< of its mesh's morph targets; empty: the mesh's own
 };
 
 /// What an animation puts in the place of a node's own transform, in part or in whole.
@@ -27,6 +28,7 @@ struct GltfPose {
     std::optional<glm::dvec3> translation;
     std::optional<glm::dvec4> rotation; ///< a quaternion x, y, z, w
     std::optional<glm::dvec3> scale;
+    std::vector<double> weights; ///< of its mesh's morph targets; empty: not animated
 };
 
 /// Poses by the nodes' indices.

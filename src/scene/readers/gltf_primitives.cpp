@@ -66,6 +66,25 @@ void check_length(const JsonValue& primitive, const char* name, const std::vecto
         check_count(primitive, name, values.size(), vertices);
 }
 
+std::vector<GltfMorphTarget> targets_of(GltfBuffers& buffers, const JsonValue& primitive, size_t vertices) {
+    std::vector<GltfMorphTarget> targets;
+    const std::optional<JsonValue> given = primitive.find("targets");
+    for (const JsonValue& target : given ? given->elements() : std::vector<JsonValue>()) {
+        const auto read = [&](const char* name) {
+            const std::optional<JsonValue> index = target.find(name);
+            std::vector<glm::vec3> moves;
+            if (index)
+                moves = vectors_of(read_gltf_numbers(buffers, *index, GltfElement::VEC3));
+            if (index && moves.size() != vertices)
+                index->fail(fmt::format("{} elements as in POSITION", vertices),
+                            fmt::format("{}", moves.size()));
+            return moves;
+        };
+        targets.push_back({read("POSITION"), read("NORMAL")});
+    }
+    return targets;
+}
+
 /// The joints of all vertices, by every set of JOINTS_n and WEIGHTS_n.
 std::vector<GltfInfluence> influences_of(GltfAttributes& attributes, const JsonValue& primitive,
                                          size_t vertices) {
@@ -137,8 +156,6 @@ std::optional<GltfPrimitive> GltfMeshes::read_primitive(const JsonValue& json) {
         notice("primitives without POSITION are ignored", json);
         return std::nullopt;
     }
-    if (json.find("targets"))
-        notice("morph targets are ignored: the basic shape is shown", json);
     GltfPrimitive primitive;
     const GltfSurface surface = materials_.find(json, attributes.has("COLOR_0"));
     const std::string uv_name = fmt::format("TEXCOORD_{}", surface.uv_set);
@@ -154,6 +171,7 @@ std::optional<GltfPrimitive> GltfMeshes::read_primitive(const JsonValue& json) {
     primitive.colours = vectors_of(attributes.find("COLOR_0", GltfElement::COLOUR));
     check_length(json, "COLOR_0", primitive.colours, vertices);
     clamp_colours(primitive.colours);
+    primitive.targets = targets_of(buffers_, json, vertices);
     primitive.influences = influences_of(attributes, json, vertices);
     primitive.corners =
         triangle_corners(attributes.order(vertices), attributes.is_draco() ? MODE_TRIANGLES : mode);

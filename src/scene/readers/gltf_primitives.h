@@ -20,13 +20,19 @@ struct GltfInfluence {
     float weight;
 };
 
+/// What a morph target adds to each position and normal; empty where nothing.
+struct GltfMorphTarget {
+    std::vector<glm::vec3> positions, normals;
+};
+
 /// Attributes are empty where absent, else one a position.
 struct GltfPrimitive {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> uvs; ///< from the lower left
     std::vector<glm::vec3> colours;
     std::vector<GltfInfluence> influences; ///< the same number for each position, one after the other
-    std::vector<u32> corners;              ///< three a triangle, below the number of positions
+    std::vector<GltfMorphTarget> targets;
+    std::vector<u32> corners; ///< three a triangle, below the number of positions
     u32 material = 0;
 };
 

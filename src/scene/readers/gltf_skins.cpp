@@ -89,6 +89,7 @@ std::vector<GltfPrimitive> bend_by_skin(const std::vector<GltfPrimitive>& primit
             move_vertex(each ? blend(&primitive.influences[i * each], each, joints) : node.world, i,
                         primitive);
         primitive.influences.clear();
+        primitive.targets.clear();
     }
     return bent;
 }
