@@ -17,15 +17,17 @@ Camera turned_camera(const Camera& camera, int frame, int frames) {
         return camera;
     const double angle = 2 * glm::pi<double>() * (frame - 1) / frames;
     const glm::dvec3 up = glm::normalize(camera.up);
-    const auto turn = [&](const glm::dvec3& point) { // Rodrigues' formula
-        const glm::dvec3 arm = point - camera.at;
-        return camera.at + arm * std::cos(angle) + glm::cross(up, arm) * std::sin(angle) +
+    const auto turn_arm = [&](const glm::dvec3& arm) { // Rodrigues' formula
+        return arm * std::cos(angle) + glm::cross(up, arm) * std::sin(angle) +
                up * glm::dot(up, arm) * (1 - std::cos(angle));
     };
+    const auto turn = [&](const glm::dvec3& point) { return camera.at + turn_arm(point - camera.at); };
     Camera turned = camera;
     turned.eye = turn(camera.eye);
-    if (camera.end)
-        turned.end = CameraPose{turn(camera.end->eye), turn(camera.end->at), camera.end->up};
+    if (camera.end) {
+        const glm::dvec3 end_up = camera.end->up == camera.up ? camera.up : turn_arm(camera.end->up);
+        turned.end = CameraPose{turn(camera.end->eye), turn(camera.end->at), end_up};
+    }
     return turned;
 }
 

@@ -63,8 +63,9 @@ void take_projection(const Camera& camera, CameraOptions& options) {
 }
 
 /// Where the camera is at time 1; it looks as far ahead as at time 0. An up that is asked for stays.
-void take_motion(const Camera& end, CameraOptions& options) {
-    if (options.end_eye || options.end_at || options.end_up)
+void take_motion(const Camera& start, const Camera& end, CameraOptions& options) {
+    const bool stands_still = start.eye == end.eye && start.at == end.at && start.up == end.up;
+    if (stands_still || options.end_eye || options.end_at || options.end_up)
         return;
     const double depth = glm::distance(*options.eye, *options.at);
     options.end_eye = end.eye;
@@ -93,7 +94,7 @@ std::optional<glm::ivec2> take_file_camera(const std::vector<FileCamera>& camera
     options.eye = file.camera.eye;
     options.at = point_ahead(file.camera, bounds);
     if (!end_cameras.empty())
-        take_motion(end_cameras[chosen].camera, options);
+        take_motion(file.camera, end_cameras[chosen].camera, options);
     options.up = options.up.value_or(file.camera.up);
     take_projection(file.camera, options);
     notices.add(fmt::format(

@@ -111,8 +111,9 @@ SceneDescription read_scene(const SceneOptions& options, Progress& progress, Pic
             file.name, 0,
             fmt::format("--animation-time: expected a glTF file with animations, found {}", reader.name));
     SceneDescription description =
-        reader.read(std::move(file), {progress, notices, facts, options.mtl, options.gltf,
-                                      end_option(options) ? Toggle::OFF : options.instances});
+        reader.read(std::move(file),
+                    {progress, notices, facts, options.mtl, options.gltf,
+                     end_option(options) ? Toggle::OFF : options.instances, end_option(options) != nullptr});
     statistics.obj_seconds = watch.seconds() - statistics.texture_seconds;
     statistics.dropped_faces = description.dropped_faces;
     return description;
@@ -249,10 +250,17 @@ CameraOptions with_up(const CameraOptions& given, const FoundUp& found, const st
 }
 
 /// Says which lights move in an animation: they are taken as they are at its first moment.
-void note_moving_lights(const SceneDescription& start, const SceneDescription& end, NoticeList& notices) {
+void note_moving_lights(const SceneDescription& start, const SceneDescription& end, const std::string& path,
+                        NoticeList& notices) {
+    if (start.points.size() != end.points.size() || start.suns.size() != end.suns.size() ||
+        start.cameras.size() != end.cameras.size())
+        throw SceneError(path, 0, "expected a file that stays as it is while it is read, found it changed");
     bool moves = false;
-    for (size_t i = 0; i < start.points.size(); ++i)
-        moves = moves || start.points[i].position != end.points[i].position;
+    for (size_t i = 0; i < start.points.size(); ++i) {
+        const PointOptions &a = start.points[i], &b = end.points[i];
+        moves =
+            moves || a.position != b.position || (a.cone && b.cone && a.cone->direction != b.cone->direction);
+    }
     for (size_t i = 0; i < start.suns.size(); ++i)
         moves = moves || start.suns[i].towards != end.suns[i].towards;
     if (moves)
@@ -263,6 +271,15 @@ void note_moving_lights(const SceneDescription& start, const SceneDescription& e
 /// The file that holds the scene at time 1.
 const std::string& end_file(const SceneOptions& scene) {
     return scene.end_path.empty() ? scene.path : scene.end_path;
+}
+
+/// What messages call the scene at both ends of the way.
+MotionFiles motion_files(const SceneOptions& scene) {
+    const std::string start = input_name(scene.path);
+    if (!scene.end_time)
+        return {start, scene.end_path};
+    return {fmt::format("{} at {} s", start, *scene.gltf.time),
+            fmt::format("{} at {} s", start, *scene.end_time)};
 }
 
 /// The scene at time 1; pictures are not looked at.
@@ -276,7 +293,8 @@ SceneDescription read_end(const SceneRequest& request, Progress& progress) {
     const PictureFacts facts = {[](const TextureUse&, TextureRole) { return true; },
                                 [](const TextureUse&) { return false; },
                                 [](const TextureUse&) { return false; }};
-    return reader.read(std::move(file), {progress, unused, facts, request.scene.mtl, gltf, Toggle::OFF});
+    return reader.read(std::move(file),
+                       {progress, unused, facts, request.scene.mtl, gltf, Toggle::OFF, true});
 }
 
 /// Moves the scene's mesh to where another file or a later moment has it at time 1. Returns the cameras of
@@ -285,14 +303,13 @@ std::vector<FileCamera> add_end_frame(const SceneRequest& request, Progress& pro
                                       SceneDescription& start, std::vector<NamedFile>& files,
                                       NoticeList& notices) {
     SceneDescription end = read_end(request, progress);
-    const std::string& path = end_file(request.scene);
-    add_motion({input_name(request.scene.path), path}, shutter_times(request.camera), start.mesh,
-               std::move(end.mesh), notices);
+    add_motion(motion_files(request.scene), shutter_times(request.camera), start.mesh, std::move(end.mesh),
+               notices);
     if (request.scene.end_time) {
-        note_moving_lights(start, end, notices);
+        note_moving_lights(start, end, input_name(request.scene.path), notices);
         return end.cameras;
     }
-    files.push_back({"the scene at time 1", path});
+    files.push_back({"the scene at time 1", request.scene.end_path});
     files.insert(files.end(), end.files.begin(), end.files.end());
     return {};
 }

@@ -26,6 +26,8 @@ bool is_turned(const MeshTriangle& a, const MeshTriangle& b) {
 /// The end of the polygon that begins with triangle `first` in both meshes: behind the first triangles that
 /// together have the same corners. Nothing if there is none.
 std::optional<size_t> end_of_polygon(const Mesh& a, const Mesh& b, size_t first) {
+    if (std::equal(std::begin(a.triangles[first].v), std::end(a.triangles[first].v), b.triangles[first].v))
+        return first + 1; // also one without three different corners
     std::set<u32> of_a, of_b;
     const size_t last = std::min(a.triangles.size(), first + MOST_CUTS);
     for (size_t i = first; i < last; ++i) {

@@ -5,6 +5,7 @@
 #include "gltf_support.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -107,6 +108,21 @@ TEST(GltfSkin, WhatHasNoJointsStaysAtItsNode) {
     SkinnedFile plain; // bound in the world
     plain.json["skins"][0].erase("inverseBindMatrices");
     expect_near(plain.corner(1), {1, 0, 1});
+}
+
+TEST(GltfSkin, MirroredJointsTurnTheWinding) {
+    SkinnedFile file;
+    file.json["nodes"][1]["scale"] = {-1, 1, 1};
+    const ReadGltf read(file.glb());
+    const glm::dvec3 a = read.corner(0, 0), across = glm::cross(read.corner(0, 1) - a, read.corner(0, 2) - a);
+    EXPECT_GT(across.z, 0) << "as the normals";
+    expect_near(glm::dvec3(read.mesh().normals.at(0)), {0, 0, 1});
+}
+
+TEST(GltfSkin, JointsWithoutWeightDoNotCount) {
+    SkinnedFile file;
+    file.attributes()["JOINTS_0"] = file.add<std::uint8_t>({0, 9, 0, 0, 1, 9, 9, 9, 0, 1, 200, 0}, "VEC4", 4);
+    expect_near(file.corner(2), {0, 1, 0});
 }
 
 TEST(GltfSkin, FaultsNameTheirPlace) {

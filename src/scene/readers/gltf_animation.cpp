@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -64,11 +63,11 @@ public:
     /// A rotation has length 1.
     Value at(double time) const {
         const auto begin = times_.values.begin(), end = times_.values.end();
-        const size_t next = size_t(std::upper_bound(begin, end, time) - begin);
+        const size_t next = size_t(std::upper_bound(begin, end, float(time)) - begin); // as they are stored
         if (next == 0 || next == times_.count())
             return value(next ? next - 1 : 0);
         const double start = times_.values[next - 1], length = times_.values[next] - start;
-        const double t = (time - start) / length;
+        const double t = std::clamp((time - start) / length, 0., 1.);
         if (interpolation_ == Interpolation::STEP)
             return value(next - 1);
         if (interpolation_ == Interpolation::CUBICSPLINE)
@@ -82,8 +81,10 @@ private:
         const std::vector<float>& times = times_.values;
         if (times.empty())
             input.fail("a key frame", "none");
-        if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
-            input.fail("times that increase", "others");
+        const auto goes_back = [](float a, float b) { return !(a < b); };
+        if (!std::isfinite(times.front()) || !std::isfinite(times.back()) ||
+            std::adjacent_find(times.begin(), times.end(), goes_back) != times.end())
+            input.fail("finite times that increase", "others");
     }
 
     void check_values(const JsonValue& output, bool of_any_width) const {
@@ -171,8 +172,10 @@ private:
         const std::optional<JsonValue> node = target.find("node");
         if (index.whole() >= samplers.size())
             index.fail(fmt::format("an index of one of {} samplers", samplers.size()));
-        if (!node) // a target of an extension
+        if (!node) {
+            notices_.add("an animation of what is no node's is left out", channel.place());
             return;
+        }
         check_node(*node);
         GltfPose& pose = poses_[node->whole()];
         const std::string path = target.at("path").text();
@@ -187,8 +190,6 @@ private:
             pose.scale = as_vector(value(GltfElement::VEC3));
         else if (path == "weights" && is_free(!pose.weights.empty(), channel))
             pose.weights = value(GltfElement::SCALAR);
-        else if (path == "pointer")
-            notices_.add("an animation of what is no node's is left out", channel.place());
     }
 
     /// Whether no animation has set a property before.

@@ -55,8 +55,13 @@ std::optional<GltfNumbers> GltfAttributes::find(const char* name, GltfElement el
 }
 
 std::vector<u32> GltfAttributes::order(size_t vertices) {
-    if (draco_)
+    const auto is_beyond = [&](u32 i) { return i >= vertices; };
+    if (draco_) {
+        if (std::any_of(draco_->indices.begin(), draco_->indices.end(), is_beyond))
+            json_.fail(fmt::format("indices, packed by Draco, below {}, the number of vertices", vertices),
+                       "others");
         return draco_->indices;
+    }
     const std::optional<JsonValue> indices = json_.find("indices");
     if (!indices) {
         std::vector<u32> all(vertices);
@@ -64,7 +69,7 @@ std::vector<u32> GltfAttributes::order(size_t vertices) {
         return all;
     }
     std::vector<u32> order = read_gltf_indices(buffers_, *indices);
-    const auto beyond = std::find_if(order.begin(), order.end(), [&](u32 i) { return i >= vertices; });
+    const auto beyond = std::find_if(order.begin(), order.end(), is_beyond);
     if (beyond != order.end())
         indices->fail(fmt::format("indices below {}, the number of vertices", vertices),
                       fmt::format("{} as number {}", *beyond, beyond - order.begin()));

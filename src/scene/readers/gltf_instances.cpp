@@ -2,6 +2,7 @@
 #include "scene/readers/gltf_instances.h"
 
 #include "scene/place_instances.h"
+#include "scene/readers/gltf_flatten.h"
 #include "scene/readers/gltf_morph.h"
 #include "scene/readers/gltf_skins.h"
 #include "scene/vectors.h"
@@ -37,6 +38,46 @@ std::vector<glm::dmat4> gpu_instances(const JsonValue& extension, GltfBuffers& b
                            scale.count() ? glm::dvec3(scale.vec3(i)) : glm::dvec3(1)));
     return transforms;
 }
+
+/// What meshes look like on their nodes: with what morph targets add, bent by skins.
+class Shapes {
+public:
+    Shapes(const std::vector<GltfNode>& nodes, GltfBuffers& buffers, GltfMeshes& meshes, NoticeList& notices)
+        : nodes_(nodes), buffers_(buffers), meshes_(meshes), notices_(notices) {}
+
+    const std::vector<GltfPrimitive>* find(const GltfNode& node, const JsonValue& mesh,
+                                           const JsonValue& index) {
+        const std::vector<GltfPrimitive>* primitives = &meshes_.find(index);
+        const std::vector<double> weights = morph_weights(*primitives, node, mesh);
+        if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; })) {
+            count(*primitives, node);
+            primitives = &meshes_.keep(morph(*primitives, weights));
+        }
+        if (node.json.find("skin")) {
+            count(*primitives, node);
+            primitives = &meshes_.keep(bend_by_skin(*primitives, node, nodes_, buffers_, notices_));
+        }
+        return primitives;
+    }
+
+private:
+    /// Counts the copy that is going to be made.
+    void count(const std::vector<GltfPrimitive>& primitives, const GltfNode& node) {
+        for (const GltfPrimitive& primitive : primitives)
+            bytes_ += primitive.positions.size() * (2 * sizeof(glm::vec3) + sizeof(glm::vec2)) +
+                      primitive.corners.size() * sizeof(u32);
+        if (bytes_ > MOST_FLATTENED_BYTES)
+            node.json.fail(fmt::format("skins and morph targets whose meshes take at most {} GiB",
+                                       MOST_FLATTENED_BYTES >> 30),
+                           "more");
+    }
+
+    const std::vector<GltfNode>& nodes_;
+    GltfBuffers& buffers_;
+    GltfMeshes& meshes_;
+    NoticeList& notices_;
+    size_t bytes_ = 0;
+};
 
 /// A mesh that is used.
 struct Use {
@@ -144,9 +185,10 @@ bool add_prototype(const std::vector<GltfPrimitive>& primitives, const GltfMater
 std::vector<GltfInstance> find_gltf_instances(const std::vector<GltfNode>& nodes, GltfBuffers& buffers,
                                               GltfMeshes& meshes, const ReadContext& context, Mesh& mesh) {
     std::vector<GltfInstance> instances;
+    Shapes shapes(nodes, buffers, meshes, context.notices);
     size_t vanished = 0;
     const auto add = [&](const GltfInstance& instance) {
-        if (kind_of_map(instance.world) == MapKind::VANISHES)
+        if (kind_of_map(instance.world) == MapKind::VANISHES && !context.is_key_frame)
             ++vanished;
         else
             instances.push_back(instance);
@@ -156,12 +198,7 @@ std::vector<GltfInstance> find_gltf_instances(const std::vector<GltfNode>& nodes
         if (!index)
             continue;
         const JsonValue shape = buffers.file().json().element("meshes", *index);
-        const std::vector<GltfPrimitive>* primitives = &meshes.find(*index);
-        const std::vector<double> weights = morph_weights(*primitives, node, shape);
-        if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; }))
-            primitives = &meshes.keep(morph(*primitives, weights));
-        if (node.json.find("skin"))
-            primitives = &meshes.keep(bend_by_skin(*primitives, node, nodes, buffers, context.notices));
+        const std::vector<GltfPrimitive>* const primitives = shapes.find(node, shape, *index);
         const u32 object = u32(mesh.object_names.size());
         mesh.object_names.push_back(node.name.empty() ? shape.text("name") : node.name);
         const std::optional<JsonValue> extensions = node.json.find("extensions");

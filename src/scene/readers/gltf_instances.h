@@ -20,7 +20,7 @@ struct GltfInstance {
 };
 
 /// The uses of meshes on all nodes, which become objects; instances of EXT_mesh_gpu_instancing included.
-/// Those whose transform leaves nothing to be seen are left out with a notice.
+/// Those whose transform leaves nothing to be seen are left out with a notice, but not of a key frame.
 std::vector<GltfInstance> find_gltf_instances(const std::vector<GltfNode>& nodes, GltfBuffers& buffers,
                                               GltfMeshes& meshes, const ReadContext& context, Mesh& mesh);
 

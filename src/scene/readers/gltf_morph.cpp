@@ -37,7 +37,7 @@ std::vector<GltfPrimitive> morph(const std::vector<GltfPrimitive>& primitives,
             add(primitive.targets[i].positions, weights[i], primitive.positions);
             add(primitive.targets[i].normals, weights[i], primitive.normals);
         }
-        primitive.targets.clear();
+        primitive.targets = {};
     }
     return result;
 }

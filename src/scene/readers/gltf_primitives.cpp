@@ -106,7 +106,10 @@ std::vector<GltfInfluence> influences_of(GltfAttributes& attributes, const JsonV
             for (size_t c = 0; c < 4; ++c) {
                 const float joint = joints[set].at(i, c), weight = weights[set].at(i, c);
                 const bool is_index = joint >= 0 && joint < float(1 << 16);
-                influences.push_back({is_index ? u32(joint) : NO_INDEX, weight > 0 ? weight : 0});
+                if (weight > 0)
+                    influences.push_back({is_index ? u32(joint) : NO_INDEX, weight});
+                else // whatever joint is named
+                    influences.push_back({0, 0});
             }
     return influences;
 }

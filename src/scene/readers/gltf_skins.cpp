@@ -47,6 +47,8 @@ glm::dmat4 blend(const GltfInfluence* influences, size_t count, const std::vecto
     glm::dmat4 mean(0);
     double sum = 0;
     for (size_t i = 0; i < count; ++i) {
+        if (influences[i].weight == 0)
+            continue;
         mean += double(influences[i].weight) * joints[influences[i].joint];
         sum += influences[i].weight;
     }
@@ -85,11 +87,18 @@ std::vector<GltfPrimitive> bend_by_skin(const std::vector<GltfPrimitive>& primit
                      each = vertices ? primitive.influences.size() / vertices : 0;
         if (each == 0)
             notices.add("a mesh without joints under a skin stays where its node is", node.json.place());
-        for (size_t i = 0; i < vertices; ++i)
-            move_vertex(each ? blend(&primitive.influences[i * each], each, joints) : node.world, i,
-                        primitive);
-        primitive.influences.clear();
-        primitive.targets.clear();
+        std::vector<bool> mirrored(vertices);
+        for (size_t i = 0; i < vertices; ++i) {
+            const glm::dmat4 transform =
+                each ? blend(&primitive.influences[i * each], each, joints) : node.world;
+            move_vertex(transform, i, primitive);
+            mirrored[i] = is_mirrored(transform);
+        }
+        for (size_t i = 0; i < primitive.corners.size(); i += 3)
+            if (mirrored[primitive.corners[i]])
+                std::swap(primitive.corners[i + 1], primitive.corners[i + 2]);
+        primitive.influences = {};
+        primitive.targets = {};
     }
     return bent;
 }

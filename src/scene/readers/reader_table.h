@@ -22,6 +22,7 @@ struct ReadContext {
     MtlReading mtl;
     GltfReading gltf{};
     Toggle instances = Toggle::AUTO; ///< SceneOptions::instances
+    bool is_key_frame = false;       ///< of two: what is scaled to nothing stays, it may show in the other
 };
 
 struct SceneReader {
