@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 #include <string>
 
 namespace clrt {
@@ -45,6 +46,17 @@ struct AnimatedFile : GltfBuilder {
         reading.time = time;
         reading.animation = animation;
         return ReadGltf(glb(), reading);
+    }
+    /// The scene between two moments, or at one.
+    Scene load(double time, std::optional<double> end_time, const CameraOptions& camera = {}) {
+        const TemporaryFolder folder;
+        Options options;
+        options.scene.path = folder.write("a.glb", glb());
+        options.scene.gltf.time = time;
+        options.scene.end_time = end_time;
+        options.camera = camera;
+        Progress silent(Toggle::OFF, true);
+        return load_scene(options, silent);
     }
     glm::dvec3 corner(double time, int c = 0) { return read(time).corner(0, c); }
 
@@ -209,13 +221,7 @@ TEST(GltfAnimation, BetweenTwoMomentsMeshAndCameraMove) {
     file.json["nodes"].push_back(Json::parse(R"({"camera": 0, "translation": [0.25, 0.25, 3]})"));
     file.animate("translation", {0, 2}, {0, 0, 0, 2, 0, 0});
     file.animate("translation", {0, 2}, {0.25f, 0.25f, 3, 0.25f, 2.25f, 3}, "LINEAR", "", 1);
-    const TemporaryFolder folder;
-    Options options;
-    options.scene.path = folder.write("a.glb", file.glb());
-    options.scene.gltf.time = 0.5;
-    options.scene.end_time = 1.5;
-    Progress silent(Toggle::OFF, true);
-    const Scene scene = load_scene(options, silent);
+    const Scene scene = file.load(0.5, 1.5);
     ASSERT_GE(scene.position_moves.size(), 3u);
     const double scale = scene.normalisation.scale;
     EXPECT_NEAR(double(scene.position_moves[1].x) / scale, 1, 1e-6) << "half of two seconds' way of 2";
@@ -224,11 +230,10 @@ TEST(GltfAnimation, BetweenTwoMomentsMeshAndCameraMove) {
     ASSERT_TRUE(scene.camera.end);
     expect_near(scene.camera.end->eye, {0.25, 1.75, 3});
     expect_near(scene.camera.end->at - scene.camera.end->eye, scene.camera.at - scene.camera.eye);
-    options.camera.end_eye = glm::dvec3(0, 0, 5);
-    expect_near(load_scene(options, silent).camera.end->eye, {0, 0, 5});
-    options.camera.end_eye.reset();
-    options.scene.end_time = 0.5;
-    const Scene still = load_scene(options, silent);
+    CameraOptions camera;
+    camera.end_eye = glm::dvec3(0, 0, 5);
+    expect_near(file.load(0.5, 1.5, camera).camera.end->eye, {0, 0, 5});
+    const Scene still = file.load(0.5, 0.5);
     EXPECT_TRUE(still.position_moves.empty());
     EXPECT_FALSE(still.camera.end);
 }
@@ -240,13 +245,7 @@ TEST(GltfAnimation, WhatVanishesOrHasNoAreaMovesAsWell) {
     file.json["scenes"][0]["nodes"] = {0, 1};
     file.json["nodes"].push_back({{"mesh", 0}});
     file.animate("scale", {0, 1}, {1, 1, 1, 0, 0, 0}, "LINEAR", "", 1);
-    const TemporaryFolder folder;
-    Options options;
-    options.scene.path = folder.write("a.glb", file.glb());
-    options.scene.gltf.time = 0;
-    options.scene.end_time = 1;
-    Progress silent(Toggle::OFF, true);
-    EXPECT_FALSE(load_scene(options, silent).position_moves.empty());
+    EXPECT_FALSE(file.load(0, 1).position_moves.empty());
 }
 
 TEST(GltfAnimation, ACameraThatStandsStillIsSaidToStandStill) {
@@ -255,15 +254,9 @@ TEST(GltfAnimation, ACameraThatStandsStillIsSaidToStandStill) {
     file.json["scenes"][0]["nodes"] = {0, 1};
     file.json["nodes"].push_back({{"camera", 0}, {"translation", {0.1, 0.2, 3.3}}});
     file.animate("translation", {0, 2}, {0, 0, 0, 2, 0, 0});
-    const TemporaryFolder folder;
-    Options options;
-    options.scene.gltf.time = 0;
-    options.scene.end_time = 1;
-    Progress silent(Toggle::OFF, true);
     for (int i = 0; i < 20; ++i) {
         file.json["nodes"][1]["rotation"] = {0.01 * i, 0.03 * i, 0.02 * i, 1};
-        options.scene.path = folder.write("a.glb", file.glb());
-        EXPECT_FALSE(load_scene(options, silent).camera.end) << i;
+        EXPECT_FALSE(file.load(0, 1).camera.end) << i;
     }
 }
 
@@ -273,15 +266,8 @@ TEST(GltfAnimation, LightsThatMoveAreSaidToStandStill) {
     file.json["scenes"][0]["nodes"] = {0, 1};
     file.json["nodes"].push_back(Json::parse(R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})"));
     file.animate("translation", {0, 1}, {0, 0, 1, 0, 0, 2}, "LINEAR", "", 1);
-    const TemporaryFolder folder;
-    Options options;
-    options.scene.path = folder.write("a.glb", file.glb());
-    options.scene.gltf.time = 0;
-    Progress silent(Toggle::OFF, true);
-    EXPECT_EQ(count_notices(load_scene(options, silent).notices, "that move are shown"), 0);
-    options.scene.end_time = 1;
-    EXPECT_EQ(count_notices(load_scene(options, silent).notices, "that move are shown where they are at T"),
-              1);
+    EXPECT_EQ(count_notices(file.load(0, {}).notices, "that move are shown"), 0);
+    EXPECT_EQ(count_notices(file.load(0, 1).notices, "that move are shown where they are at T"), 1);
 }
 
 } // namespace clrt
