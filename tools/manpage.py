@@ -60,6 +60,9 @@ REPORT = [
      "the second vertex of a path, if that is on a matte surface, is also connected to the first vertices of seven paths of pixels "
      "nearby (multiple importance sampling; without bias). It is so where pilots tell that it lowers squared error times rays, or by "
      "--path-reuse on. Pixels nearby then have noise in common."),
+    ("outlines", "Where the outline of a light crosses a pixel, whether the ray of a sample meets the light is most of the noise: lamps "
+     "are much brighter than what they light. Such pixels take the emission that the camera sees from several camera rays a sample "
+     "(--emission-rays). Probes find them, the same whatever the seed; the picture has no bias."),
     ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
      "of a sample; the cells of space that have learnt, and the memory that they take."),
     ("chains", "Of --integrator mlt: steps of Markov chains in this run, one for every sample of every pixel, or a few more so "

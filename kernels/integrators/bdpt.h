@@ -34,7 +34,7 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
     const real ways = (real)count * light_vertices_share(kept);
     const real3 share = ways * slab_straight_share(scene, params, &connection.shadow);
     vertex_add(scene, throughput * connection.light * share, &sample->radiance);
-    bdpt_book(params, kept->at[chosen].segment + 1u, segment + 1u, sample);
+    bdpt_book(params, light_vertices_segment(&kept->at[chosen]) + 1u, segment + 1u, sample);
 #if FILM_MOMENTS
     moments_connect(throughput * connection.light * (share / ways), ways, connection.excess,
                     &sample->moments);

@@ -7,7 +7,7 @@
 #ifndef CLRT_INTEGRATORS_ENTRY_POINT_H
 #define CLRT_INTEGRATORS_ENTRY_POINT_H
 
-#include "pixel.h"
+#include "emission_rays.h"
 
 /* What a kernel that guides paths takes besides. */
 #if PATH_GUIDE
@@ -38,14 +38,16 @@ static CLRT_NOINLINE void work_item_render(const Scene* scene, const RenderParam
     if (!tile_is_inside(params, place))
         return;
     PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
+    const uint x = params->crop_x + place.x, y = params->crop_y + place.y;
     const SampleRange range = tile_samples(params, pixel_rays, place.slot);
     SampleCounter counter = sample_counter_make(params, range.first);
     CameraSample samples[SAMPLES_AT_ONCE];
+    const uint emission = emission_settle(scene, params, pixel_rays, place, &samples->ray);
     for (uint i = 0; i < range.count; i += SAMPLES_AT_ONCE) {
         const uint count = min((uint)SAMPLES_AT_ONCE, range.count - i);
         CLRT_PREFETCH(film_sums(params, film, place.slot, counter.replicate));
-        pixel_aim(scene, params, film, params->crop_x + place.x, params->crop_y + place.y, counter, samples,
-                  count);
+        emission_begin(scene, params, emission, x, y, counter, samples, count, &rays);
+        pixel_aim(scene, params, film, x, y, counter, samples, count);
         INTEGRATOR_RADIANCE(scene, params, samples, count, &rays);
 #if PATH_GUIDE
         pixel_add_gain(scene, place.slot, samples, count);

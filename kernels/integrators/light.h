@@ -11,6 +11,9 @@
 static inline void light_gather(const Scene* scene, const RenderParams* params, CameraSample* sample,
                                 PixelRays* rays)
 {
+    if (pixel_has_seen(sample)) {
+        TRACE_VECTOR(scene, TRACE_ADDED, sample->radiance);
+    }
     real3 carried = (real3)(REAL(1.0));
     Hit hit = vertex_hit(scene, params, &sample->sampler, 1u, 0u, &sample->ray, &carried);
     if (hit.triangle == NO_INDEX) {
@@ -23,7 +26,7 @@ static inline void light_gather(const Scene* scene, const RenderParams* params, 
     }
     const Surface surface = visible_surface(scene, params, &sample->ray, &hit);
     nan_carry(scene, nan_of_vector(surface.normal_g), &sample->radiance);
-    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && !pixel_has_seen(sample))
         vertex_add(scene, carried * material_emitted(scene, &surface, -sample->ray.direction),
                    &sample->radiance);
 }

@@ -30,11 +30,24 @@ static inline void path_escape(const Scene* scene, const RenderParams* params, u
                     &sample->layers);
 }
 
+/* Takes what the sample has begun with, as far as the path may add it; the path is at the camera. */
+static inline void path_take_seen(const Scene* scene, const Path* path, CameraSample* sample)
+{
+    if (!pixel_has_seen(sample))
+        return;
+    if (!(path_accepted(path) & KIND_AREA))
+        sample->radiance = (real3)(REAL(0.0));
+    TRACE_VECTOR(scene, TRACE_ADDED, sample->radiance);
+    path_add_layers(path, KIND_AREA, sample->radiance, &sample->layers);
+}
+
 /* Adds what the surface emits. */
-static inline void path_add_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                     const Path* path, CameraSample* sample)
+static inline void path_add_emission(const Scene* scene, const RenderParams* params, uint segment,
+                                     const Surface* surface, const Path* path, CameraSample* sample)
 {
     if (!HAS(EFFECT_AREA_LIGHT) || surface->emitter == NO_INDEX || !(path_accepted(path) & KIND_AREA))
+        return;
+    if (segment == 1u && pixel_has_seen(sample))
         return;
     const real3 emitted = path_emission(scene, params, surface, path, -path->ray.direction);
     vertex_add(scene, path->throughput * emitted, &sample->radiance);
@@ -59,7 +72,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     path_absorb(scene, &surface, path);
-    path_add_emission(scene, params, &surface, path, sample);
+    path_add_emission(scene, params, segment, &surface, path, sample);
     if (segment >= params->max_depth) {
         path_cut(scene, params, sampler, segment, &surface, path, rays);
         return;
@@ -183,6 +196,7 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
     alive.count = 0u;
     for (uint k = 0; k < count; ++k) {
         path_begin(&paths[k], &samples[k].ray);
+        path_take_seen(scene, &paths[k], &samples[k]);
         reuse_begin(&reused[k]);
         guide_choose(params, &samples[k].sampler, &paths[k].guided);
         path_list_add(&alive, k, true);

@@ -29,7 +29,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     path_absorb(scene, &surface, path);
     splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
-    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && !splat_has_seen(segment, sample)) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
 #if FILM_MOMENTS
@@ -65,6 +65,7 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
     Path path;
     SplatWeights weights = {REAL(0.0), REAL(0.0)};
     path_begin(&path, &sample->ray);
+    splat_take_seen(scene, sample);
     guide_choose(params, &sample->sampler, &path.guided);
     for (uint segment = 1u; path.is_alive; ++segment) {
         path.numbers = numbers_make(&sample->sampler, segment, params->epoch);

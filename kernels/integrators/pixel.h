@@ -20,6 +20,13 @@
 #define PATH_REUSE 0
 #endif
 
+/* 1 where emission that the camera sees may come from camera rays of its own (emission_rays.h). */
+#if defined(CAMERA_RAYS_ARE_SPLIT) && (CLRT_EFFECTS & EFFECT_AREA_LIGHT)
+#define SPLITS_EMISSION 1
+#else
+#define SPLITS_EMISSION 0
+#endif
+
 /* One sample of a pixel: what an integrator gets and gives. */
 typedef struct {
     Sampler sampler;
@@ -27,6 +34,9 @@ typedef struct {
     StrategySums strategies;
     Ray ray;
     real3 radiance;
+#if SPLITS_EMISSION
+    bool has_seen; /* `radiance` starts with the emission that the camera sees, as rays of its own tell */
+#endif
 #if PATH_GUIDE
     real guide_gain; /* path/guide_gain.h */
 #endif
@@ -44,6 +54,16 @@ typedef struct {
 #endif
 } CameraSample;
 
+/* True where a sample's path leaves out the emission that its first segment meets. */
+static inline bool pixel_has_seen(const CameraSample* sample)
+{
+#if SPLITS_EMISSION
+    return sample->has_seen;
+#else
+    return false;
+#endif
+}
+
 /* What counts the rays of a sample's pixel, `rays` being those of its group, or of the pixel alone. */
 static inline PixelRays* pixel_rays_of(const CameraSample* sample, PixelRays* rays)
 {
@@ -53,7 +73,8 @@ static inline PixelRays* pixel_rays_of(const CameraSample* sample, PixelRays* ra
     return rays;
 }
 
-/* Aims `count` samples of the pixel (x, y) from the counter on; `film` takes their splats. */
+/* Aims `count` samples of the pixel (x, y) from the counter on, which have begun (emission_begin); `film`
+   takes their splats. */
 static CLRT_NOINLINE void pixel_aim(const Scene* scene, const RenderParams* params, global long* film, uint x,
                                     uint y, SampleCounter counter, CameraSample* samples, uint count)
 {
@@ -62,7 +83,6 @@ static CLRT_NOINLINE void pixel_aim(const Scene* scene, const RenderParams* para
         samples[k].ray = camera_ray(params, &samples[k].sampler, x, y);
         if (HAS(EFFECT_NESTED))
             visible_find_nest(scene, params, &samples[k].ray);
-        samples[k].radiance = (real3)(REAL(0.0));
         layers_begin(&samples[k].layers);
         strategies_begin(&samples[k].strategies);
 #if FILM_SPLATS

@@ -5,7 +5,7 @@
 #ifndef CLRT_INTEGRATORS_PIXEL_GROUP_H
 #define CLRT_INTEGRATORS_PIXEL_GROUP_H
 
-#include "pixel.h"
+#include "emission_rays.h"
 
 /* Pixels of a cell, side by side and one below the other: as many as there are groups in a tile. */
 #define CELL_COLUMNS 2u
@@ -58,18 +58,22 @@ static CLRT_NOINLINE void work_item_render(const Scene* scene, const RenderParam
     const uint members = group < CELL_PIXELS ? group_pixels(params, place, group, places) : 0u;
     if (members == 0u)
         return;
-    for (uint m = 0; m < members; ++m)
+    uint emission[REUSE_PIXELS];
+    CameraSample samples[SAMPLES_AT_ONCE];
+    for (uint m = 0; m < members; ++m) {
         rays[m] = (PixelRays){0u, 0u, 0u, 0ul, 0u};
+        emission[m] = emission_settle(scene, params, pixel_rays, places[m], &samples->ray);
+    }
     const SampleRange range = tile_samples(params, pixel_rays, place.slot);
     SampleCounter counter = sample_counter_make(params, range.first);
-    CameraSample samples[SAMPLES_AT_ONCE];
     const uint step = SAMPLES_AT_ONCE / REUSE_PIXELS;
     for (uint i = 0; i < range.count; i += step) {
         const uint count = min(step, range.count - i);
         for (uint m = 0; m < members; ++m) {
             CLRT_PREFETCH(film_sums(params, film, places[m].slot, counter.replicate));
-            pixel_aim(scene, params, film, params->crop_x + places[m].x, params->crop_y + places[m].y,
-                      counter, samples + m * count, count);
+            const uint x = params->crop_x + places[m].x, y = params->crop_y + places[m].y;
+            emission_begin(scene, params, emission[m], x, y, counter, samples + m * count, count, rays + m);
+            pixel_aim(scene, params, film, x, y, counter, samples + m * count, count);
             for (uint k = 0; k < count; ++k)
                 samples[m * count + k].member = m;
         }

@@ -4,7 +4,7 @@
 #ifndef CLRT_INTEGRATORS_REPLAY_H
 #define CLRT_INTEGRATORS_REPLAY_H
 
-#include "pixel.h"
+#include "emission_rays.h"
 
 /* The counter that stands at a sample. */
 static inline SampleCounter trace_counter(const RenderParams* params, uint sample)
@@ -32,6 +32,17 @@ static inline uint trace_film(const RenderParams* params, const CameraSample* sa
     return pixel_fault(sample, COUNT_WORDS);
 }
 
+/* Finds what the sample sees of lights, without a word of it in the record but for its sum. */
+static inline void replay_emission(const Scene* scene, const RenderParams* params, uint emission, uint x,
+                                   uint y, SampleCounter counter, CameraSample* sample, PixelRays* rays)
+{
+    Trace unread = {scene->trace->events, 0u, 0u, 0u};
+    Scene unwatched = *scene;
+    unwatched.trace = &unread;
+    const uint state = emission_settled(&unwatched, params, emission, x, y, &sample->ray);
+    emission_begin(&unwatched, params, state, x, y, counter, sample, 1u, rays);
+}
+
 static inline void trace_finish(const Scene* scene, const CameraSample* sample)
 {
     TRACE_VECTOR(scene, TRACE_RADIANCE, sample->radiance);
@@ -41,14 +52,17 @@ static inline void trace_finish(const Scene* scene, const CameraSample* sample)
 #endif
 }
 
-/* Replays sample `number` of a pixel and writes the head of its record. */
+/* Replays sample `number` of a pixel, whose emission comes from `emission` (EMISSION_*), and writes the head of
+   its record. */
 static CLRT_NOINLINE void replay_sample(const Scene* scene, const RenderParams* params, uint pixel,
-                                        uint number, global ulong* head)
+                                        uint number, uint emission, global ulong* head)
 {
     CameraSample sample;
     PixelRays rays = {0u, 0u, 0u, 0ul, 0u};
-    pixel_aim(scene, params, 0, pixel % params->width, pixel / params->width, trace_counter(params, number),
-              &sample, 1u);
+    const uint x = pixel % params->width, y = pixel / params->width;
+    const SampleCounter counter = trace_counter(params, number);
+    replay_emission(scene, params, emission, x, y, counter, &sample, &rays);
+    pixel_aim(scene, params, 0, x, y, counter, &sample, 1u);
     INTEGRATOR_RADIANCE(scene, params, &sample, 1u, &rays);
     trace_finish(scene, &sample);
     head[TRACE_HEAD_FAULT] = trace_film(params, &sample, (global long*)(head + TRACE_HEAD_FILM));
@@ -64,11 +78,12 @@ CLRT_KERNEL void replay_samples(const RenderParams params, SCENE_PARAMS,
         return;
     const uint capacity = addresses[TRACE_ADDRESS_CAPACITY];
     global ulong* head = records + (ulong)i * (TRACE_HEAD_WORDS + TRACE_EVENT_WORDS * capacity);
-    global const uint* address = addresses + TRACE_ADDRESS_FIRST + 2u * i;
+    global const uint* address = addresses + TRACE_ADDRESS_FIRST + TRACE_ADDRESS_WORDS * i;
     Trace trace = {head + TRACE_HEAD_WORDS, capacity, 0u, 0u};
     Scene scene = SCENE_MAKE;
     scene.trace = &trace;
-    replay_sample(&scene, &params, address[0], address[1], head);
+    replay_sample(&scene, &params, address[TRACE_ADDRESS_PIXEL], address[TRACE_ADDRESS_SAMPLE],
+                  address[TRACE_ADDRESS_EMISSION], head);
 }
 
 #endif

@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a path from the eye that shares its light with splats leaves the scene.
+// The ends of a path from the eye that shares its light with splats: what its sample sees of lights by rays
+// of its own (emission_rays.h), which no splat brings, and where it leaves the scene.
 #ifndef CLRT_INTEGRATORS_SPLAT_ESCAPE_H
 #define CLRT_INTEGRATORS_SPLAT_ESCAPE_H
 
 #include "path/splat_alone.h"
 #include "pixel.h"
+
+/* True where a path leaves out the emission that it meets at the end of a segment. */
+static inline bool splat_has_seen(uint segment, const CameraSample* sample)
+{
+    return segment == 1u && pixel_has_seen(sample);
+}
+
+/* Takes what the sample has begun with instead, if it has. */
+static inline void splat_take_seen(const Scene* scene, CameraSample* sample)
+{
+    if (!pixel_has_seen(sample))
+        return;
+    TRACE_VECTOR(scene, TRACE_ADDED, sample->radiance);
+#if FILM_MOMENTS
+    moments_gather(sample->radiance, sample->radiance, &sample->moments);
+#endif
+}
 
 /* Adds the light from outside the scene. */
 static inline void splat_add_escape(const Scene* scene, const RenderParams* params, uint segment,

@@ -90,6 +90,12 @@ static inline KeptVertex* light_vertices_keep(const Sampler* sampler, uint segme
     return vertex;
 }
 
+/* Segments of the light path up to a kept vertex. */
+static inline uint light_vertices_segment(const KeptVertex* kept)
+{
+    return kept->segment & ((1u << KEPT_WAVE) - 1u);
+}
+
 /* The ray that has met a kept vertex, but for its origin. */
 static inline Ray light_vertices_ray(const KeptVertex* kept, real time)
 {
@@ -105,7 +111,7 @@ static inline Ray light_vertices_ray(const KeptVertex* kept, real time)
 static inline uint light_vertices_within(const LightVertices* kept, uint segments)
 {
     uint count = kept->count;
-    while (count > 0u && (kept->at[count - 1u].segment & ((1u << KEPT_WAVE) - 1u)) > segments)
+    while (count > 0u && light_vertices_segment(&kept->at[count - 1u]) > segments)
         --count;
     return count;
 }

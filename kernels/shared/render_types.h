@@ -77,6 +77,9 @@ ASSERT_SIZE(RenderParams, 432);
 #define PATHS_ARE_SHARED 1u
 /* Vertices are connected to light at infinity through slabs of glass (path/slab.h). */
 #define SLABS_ARE_CROSSED 2u
+/* Camera rays a sample from which emission comes, where it does not come from paths. */
+#define EMISSION_RAYS_SHIFT 8u
+#define EMISSION_RAYS(params) ((params).path_choices >> EMISSION_RAYS_SHIFT)
 
 /* 1 where the light tree chooses lights for next-event estimation, 0 where tables do. */
 #define LIGHT_TREE_IS_USED(params) ((params).environment.w)
@@ -92,7 +95,7 @@ ASSERT_SIZE(RenderParams, 432);
 #define REUSE_PIXELS 8
 
 /* Counts of a pixel, over all its samples: these u32 a slot. */
-#define PIXEL_RAYS_WORDS 7
+#define PIXEL_RAYS_WORDS 8
 #define PIXEL_RAYS_SECONDARY 0
 #define PIXEL_RAYS_SHADOW 1
 #define PIXEL_BAD_SAMPLES 2
@@ -100,6 +103,13 @@ ASSERT_SIZE(RenderParams, 432);
 #define PIXEL_CUT_WEIGHT_LOW 4  /* 64 bits in two words */
 #define PIXEL_CUT_WEIGHT_HIGH 5
 #define PIXEL_SHOWN 6           /* 1 once a camera ray has hit the scene */
+#define PIXEL_EMISSION 7        /* EMISSION_*: whence the emission comes that the pixel sees */
+
+/* From the first segments of its paths, from camera rays of its own (integrators/emission_rays.h), or from
+   whichever of both the pixel's first launch finds better. */
+#define EMISSION_BY_PATHS 0u
+#define EMISSION_BY_RAYS 1u
+#define EMISSION_OPEN 2u
 
 /* Weights of paths that max_depth cuts are summed in units of 2^-20, each rounded up: the sum is a bound, and
    the same in any order. Larger weights count as the largest, so that 2^27 of them fit the 64 bits of a

@@ -63,9 +63,13 @@
 #define TRACE_HEAD_FILM 3u      /* three sums that the film gets, in quanta */
 #define TRACE_EVENT_WORDS 4u    /* quantity, three values */
 
-/* The buffer of addresses: these words, then pairs of pixel (y width + x) and sample. */
+/* The buffer of addresses: these words, then some of each sample. */
 #define TRACE_ADDRESS_COUNT 0u
 #define TRACE_ADDRESS_CAPACITY 1u /* events a record has room for */
 #define TRACE_ADDRESS_FIRST 2u
+#define TRACE_ADDRESS_WORDS 3u
+#define TRACE_ADDRESS_PIXEL 0u    /* y width + x */
+#define TRACE_ADDRESS_SAMPLE 1u
+#define TRACE_ADDRESS_EMISSION 2u /* EMISSION_*, whence the emission comes that the pixel sees */
 
 #endif

@@ -135,6 +135,11 @@ std::vector<OptionSpec> work_options() {
                          "on (default auto)",
                          REUSE_PIXELS, TILE_SIZE),
          [](Options& o, const OptionValue& v) { o.transport.path_reuse = parse_choice<Toggle>(v); }},
+        {group, "", "--emission-rays", "N",
+         fmt::format("{}camera rays a sample from which a pixel takes the emission of lights, if the outline "
+                     "of one crosses it; 1: paths find it there as everywhere (default {})",
+                     takers(TAKES_EMISSION_RAYS), defaults.emission_rays),
+         [](Options& o, const OptionValue& v) { o.transport.emission_rays = parse_branch(v); }},
         {group, "", "--roulette-depth", "N",
          fmt::format("{}first segment that Russian roulette may end (default {})",
                      takers(TAKES_ROULETTE_DEPTH), defaults.roulette_depth),

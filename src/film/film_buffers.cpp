@@ -72,6 +72,22 @@ void FilmBuffers::bind_sums(Kernel& kernel) const {
     kernel.set("film", film_);
 }
 
+void FilmBuffers::write_emission(const std::vector<std::uint8_t>& states) const {
+    if (states.empty())
+        return;
+    for (const Band& band : bands()) {
+        std::vector<u32> words(slot_count(band) * PIXEL_RAYS_WORDS, 0);
+        for_each_pixel(band, [&](size_t on_device, size_t in_film) {
+            words[on_device / 3 * PIXEL_RAYS_WORDS + PIXEL_EMISSION] = states[in_film / 3];
+        });
+        check_opencl("preparing the picture", [&] {
+            device_.queue.enqueueWriteBuffer(pixel_rays_, CL_TRUE,
+                                             first_slot(0, band) * PIXEL_RAYS_WORDS * sizeof(u32),
+                                             words.size() * sizeof(u32), words.data());
+        });
+    }
+}
+
 void FilmBuffers::bind_ranges(Kernel& kernel) const {
     kernel.set("pixel_rays", pixel_rays_);
 }
@@ -218,6 +234,7 @@ RenderCounts FilmBuffers::read_counts() const {
             counts.cut_paths += rays[i + PIXEL_CUT_PATHS];
             counts.cut_weight +=
                 std::uint64_t(rays[i + PIXEL_CUT_WEIGHT_HIGH]) << 32 | rays[i + PIXEL_CUT_WEIGHT_LOW];
+            counts.outline_pixels += rays[i + PIXEL_EMISSION] == EMISSION_BY_RAYS;
             if (const u32 bad = rays[i + PIXEL_BAD_SAMPLES])
                 counts.bad_pixels[pixel_of_slot(first + i / PIXEL_RAYS_WORDS)] = bad;
         }

@@ -28,6 +28,8 @@ public:
     void bind(Kernel& kernel) const;
     /// Binds the sums only.
     void bind_sums(Kernel& kernel) const;
+    /// Whence the emission comes that the window's pixels see, EMISSION_* row by row; empty: all from paths.
+    void write_emission(const std::vector<std::uint8_t>& states) const;
     /// Binds the samples of adaptive tiles only.
     void bind_ranges(Kernel& kernel) const;
     /// The samples of each adaptive tile that the next launches take: those in `to` but not in `from`.

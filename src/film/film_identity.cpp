@@ -145,6 +145,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["light_sampler"] = name_of(options.sampling.light_sampler);
     identity["guide"] = options.transport.guide == Toggle::ON;
     identity["path_reuse"] = options.transport.path_reuse == Toggle::ON;
+    identity["emission_rays"] = options.transport.emission_rays;
     identity["adaptive"] = false;
     if (options.sampling.adaptive)
         identity["adaptive"] = name_of(*options.sampling.adaptive);

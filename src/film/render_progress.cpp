@@ -13,6 +13,7 @@ void RenderCounts::add(const RenderCounts& other) {
     shadow += other.shadow;
     cut_paths += other.cut_paths;
     cut_weight += other.cut_weight;
+    outline_pixels = std::max(outline_pixels, other.outline_pixels);
     nan += other.nan;
     infinite += other.infinite;
     negative += other.negative;

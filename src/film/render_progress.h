@@ -20,6 +20,8 @@ struct RenderCounts {
     std::uint64_t nan = 0, infinite = 0, negative = 0, overflow = 0;
     /// Paths that --max-depth cut, and the sum of their weights in units of 1 / CUT_WEIGHT_UNITS.
     std::uint64_t cut_paths = 0, cut_weight = 0;
+    /// Pixels of this run that take emission from camera rays of its own (EMISSION_BY_RAYS).
+    std::uint64_t outline_pixels = 0;
     /// Addresses of the first bad samples: pixel (y width + x of the whole picture) and sample.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> bad_samples;
     /// How many bad samples a pixel has, by pixel; only those that have some.

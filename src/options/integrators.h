@@ -26,6 +26,7 @@ enum IntegratorOption : unsigned {
     TAKES_GUIDE = 128,
     TAKES_TEXTURE_FILTER = 256,
     TAKES_PATH_REUSE = 512,
+    TAKES_EMISSION_RAYS = 1024,
 };
 
 template <>
@@ -39,7 +40,8 @@ inline constexpr Named<IntegratorOption> NAMES<IntegratorOption>[] = {
     {TAKES_TRANSLUCENT_RAYS, "--translucent-rays"},
     {TAKES_GUIDE, "--guide"},
     {TAKES_TEXTURE_FILTER, "--texture-filter"},
-    {TAKES_PATH_REUSE, "--path-reuse"}};
+    {TAKES_PATH_REUSE, "--path-reuse"},
+    {TAKES_EMISSION_RAYS, "--emission-rays"}};
 
 /// Paths in path notation (paths/path_expression.h): those that an integrator simulates, and those that its
 /// techniques find. What is simulated and not found is a blind spot (paths/blind_spots.h).
@@ -141,7 +143,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::NO_LIGHT,
      FilmAccess::SPLAT,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_EMISSION_RAYS},
     {Integrator::PATH,
      "path",
      "global illumination",
@@ -152,7 +154,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      Connections::ONE_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE | TAKES_TEXTURE_FILTER |
-         TAKES_PATH_REUSE},
+         TAKES_PATH_REUSE | TAKES_EMISSION_RAYS},
     {Integrator::PATH_LIGHT,
      "path+light",
      "global illumination, caustics by light paths",
@@ -162,7 +164,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_GUIDE},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_GUIDE | TAKES_EMISSION_RAYS},
     {Integrator::BDPT,
      "bdpt",
      "global illumination, paths from both ends",

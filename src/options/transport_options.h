@@ -30,6 +30,9 @@ struct TransportOptions {
     /// What paths of other pixels have found (kernels/integrators/path_reuse.h); auto: until that is chosen
     /// (render/reuse_choice.h), none.
     Toggle path_reuse = Toggle::AUTO;
+    /// Camera rays a sample from which pixels take emission that the outline of a light crosses
+    /// (kernels/integrators/emission_rays.h); 1: none have any.
+    int emission_rays = 16;
     int shadow_rays = 4;      ///< of a vertex to lamps, sky, and every sun with a disc
     int gloss_rays = 4;       ///< of a vertex by a rough reflection
     int translucent_rays = 4; ///< of a vertex by a rough dielectric, reflected and refracted

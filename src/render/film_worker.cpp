@@ -2,6 +2,7 @@
 #include "render/film_worker.h"
 
 #include "options/summed_layers.h"
+#include "render/light_outlines.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ FilmWorker::FilmWorker(const PreparedScene& prepared, const RenderParams& params
     fetched_.film = film_layer(shared.film);
     fetched_.film.replicates = shared.film.replicates;
     fetched_.film.shown.resize(shared.film.shown.size());
+    buffers_.write_emission(find_light_outlines(prepared.planned->scene, params));
     buffers_.bind(launcher_.kernel());
     launcher_.run(0, 0, 0, 0);
 }

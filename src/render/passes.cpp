@@ -9,6 +9,7 @@
 #include "options/summed_layers.h"
 #include "render/error_text.h"
 #include "render/good_counts.h"
+#include "render/light_outlines.h"
 #include "render/outlook.h"
 #include "render/pace.h"
 #include "seconds.h"
@@ -36,6 +37,7 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
                 params, prepared.buffers),
       rules_(options_.sampling, film_limit(result.film, options_)), beside_(options_, hooks),
       launch_size_(prepared.device.info.compute_units) {
+    film_buffers_.write_emission(find_light_outlines(prepared.planned->scene, params));
     film_buffers_.bind(launcher_.kernel());
     take_host_memory();
     if (!result.film.ranges.empty()) {

@@ -8,6 +8,7 @@
 #include "render/guiding.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
+#include "render/light_outlines.h"
 #include "render/render_params.h"
 #include "seconds.h"
 
@@ -100,6 +101,7 @@ void launch_samples(Launcher& launcher, const RenderParams& params, u32 begin, u
 void launch_pilot(const PreparedScene& prepared, const Program& program, const RenderParams& params,
                   const PilotSize& size, size_t layers, RenderProgress& render) {
     const FilmBuffers buffers(prepared.device, params, layers);
+    buffers.write_emission(find_light_outlines(prepared.planned->scene, params));
     Launcher launcher = pilot_launcher(prepared, program, params);
     buffers.bind(launcher.kernel());
     LaunchSize launch_size(prepared.device.info.compute_units);
@@ -212,6 +214,7 @@ GuideProgress run_guide_pilot(const PreparedScene& prepared, const PilotSize& si
     Render render;
     const RenderParams params = begin_pilot(prepared, size, render.film);
     const FilmBuffers buffers(prepared.device, params, 0);
+    buffers.write_emission(find_light_outlines(prepared.planned->scene, params));
     Guiding guiding(teaching, params, buffers, render);
     LaunchSize launch_size(prepared.device.info.compute_units);
     for (u32 begin = 0; begin < size.spp && guiding.launcher() && !stop_signal();) {

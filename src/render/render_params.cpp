@@ -103,7 +103,10 @@ bool fits(const Environment& sky, const IntegratorRow& integrator) {
 
 u32 path_choices(const Scene& scene, const Options& options) {
     return (options.transport.path_reuse == Toggle::ON ? PATHS_ARE_SHARED : 0) |
-           (crosses_slabs(scene, options) ? SLABS_ARE_CROSSED : 0);
+           (crosses_slabs(scene, options) ? SLABS_ARE_CROSSED : 0) |
+           (takes_option(options.transport.integrator, TAKES_EMISSION_RAYS)
+                ? u32(options.transport.emission_rays) << EMISSION_RAYS_SHIFT
+                : 0);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "replay/replay.h"
 
 #include "device/opencl_error.h"
+#include "render/light_outlines.h"
 
 #include <algorithm>
 #include <cstring>
@@ -65,9 +66,17 @@ u32 trace_bounce(const SampleTrace& trace, size_t index) {
 
 Replay::Replay(const PreparedScene& prepared, Precision precision)
     : device_(prepared.device), precision_(precision), params_(launch_params(*prepared.planned)),
+      outlines_(find_light_outlines(prepared.planned->scene, params_)),
       program_(build_replay_program(prepared, precision)), kernel_(program_, "replay_samples") {
     bind_scene(prepared.buffers, kernel_);
     kernel_.set("params", params_);
+}
+
+u32 Replay::emission_of(u32 pixel) const {
+    if (outlines_.empty())
+        return EMISSION_BY_PATHS;
+    const u32 x = pixel % params_.width - params_.crop_x, y = pixel / params_.width - params_.crop_y;
+    return outlines_.at(size_t(y) * params_.crop_width + x);
 }
 
 std::vector<SampleTrace> Replay::launch(const SampleAddress* addresses, size_t count, u32 capacity) {
@@ -76,7 +85,7 @@ std::vector<SampleTrace> Replay::launch(const SampleAddress* addresses, size_t c
     words[TRACE_ADDRESS_COUNT] = u32(count);
     words[TRACE_ADDRESS_CAPACITY] = capacity;
     for (size_t i = 0; i < count; ++i)
-        words.insert(words.end(), {addresses[i].pixel, addresses[i].sample});
+        words.insert(words.end(), {addresses[i].pixel, addresses[i].sample, emission_of(addresses[i].pixel)});
     std::vector<std::uint64_t> records(count * record_words(capacity));
     const cl::Buffer list = upload_buffer(device_, "addresses", words);
     const cl::Buffer buffer = create_buffer(device_, "records", records.size() * sizeof(std::uint64_t));

@@ -64,11 +64,14 @@ public:
 
 private:
     std::vector<SampleTrace> launch(const SampleAddress* addresses, size_t count, u32 capacity);
+    /// EMISSION_* of pixel y width + x.
+    u32 emission_of(u32 pixel) const;
     std::vector<SampleTrace> run_heads(const std::vector<SampleAddress>& addresses);
 
     const Device& device_;
     Precision precision_;
     RenderParams params_;
+    std::vector<std::uint8_t> outlines_; ///< EMISSION_* of the window's pixels; empty: all emission is paths'
     Program program_;
     Kernel kernel_;
 };

@@ -135,6 +135,13 @@ Json portals_json(const Environment& sky) {
 }
 
 /// Null where no sample is guided.
+/// Whence pixels take emission that the outline of a light crosses; null: all emission is found by paths.
+Json emission_json(const Report& report) {
+    const std::uint64_t pixels = report.render.counts.outline_pixels;
+    return pixels == 0 ? Json(nullptr)
+                       : Json{{"pixels", pixels}, {"rays", report.options.transport.emission_rays}};
+}
+
 Json guide_json(const GuideProgress& guide) {
     if (!guide.guided_from)
         return nullptr;
@@ -241,6 +248,7 @@ std::string report_json(const Report& report) {
     json["portals"] = portals_json(report.scene.environment);
     json["slabs"] = crossed_slabs(report.scene, report.options);
     json["path_reuse"] = report.options.transport.path_reuse == Toggle::ON;
+    json["emission_rays"] = emission_json(report);
     json["guide"] = guide_json(render.guide);
     json["chains"] = chains_json(render.chains);
     json["sampler"] = name_of(report.options.sampling.sampler);

@@ -81,6 +81,13 @@ std::string reuse_line(const Report& report) {
                        REUSE_PIXELS);
 }
 
+std::string outline_line(const Report& report) {
+    if (report.render.counts.outline_pixels == 0)
+        return "";
+    return fmt::format("outlines of lights cross {} pixels, which see them by {} camera rays a sample\n",
+                       report.render.counts.outline_pixels, report.options.transport.emission_rays);
+}
+
 std::string guide_line(const Report& report) {
     const std::string text = guide_text(report.render.guide);
     return text.empty() ? "" : fmt::format("guide    {}\n", text);
@@ -187,8 +194,9 @@ std::string proof_lines(const Report& report) {
 std::string format_report(const Report& report) {
     std::string text =
         picture_line(report) + lost_line(report) + choice_line(report) + adaptive_line(report) +
-        portal_line(report) + slab_line(report) + reuse_line(report) + guide_line(report) +
-        chain_line(report) + time_line(report) + share_lines(report) + format_error_report(report.error) +
+        portal_line(report) + slab_line(report) + reuse_line(report) + outline_line(report) +
+        guide_line(report) + chain_line(report) + time_line(report) + share_lines(report) +
+        format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         bias_line(report) + left_out_lines(report) + bad_lines(report);

@@ -26,6 +26,7 @@ const std::map<std::string, std::string>& samples() {
         {"--max-depth", "12"},
         {"--guide", "auto"},
         {"--path-reuse", "on"},
+        {"--emission-rays", "4"},
         {"--roulette-depth", "9"},
         {"--min-contribution", "0.5%"},
         {"--shadow-rays", "8"},

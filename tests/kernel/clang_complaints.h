@@ -20,7 +20,7 @@ inline std::string entry_points(const std::vector<std::string>& integrators) {
                                   "INTEGRATOR_KERNEL", "INTEGRATOR_RADIANCE"})
             text += fmt::format("#undef {}\n", guard);
         for (const char* function : {"work_item_render", "trace_counter", "trace_film", "trace_finish",
-                                     "replay_sample", "replay_samples"})
+                                     "replay_emission", "replay_sample", "replay_samples"})
             text += fmt::format("#undef {0}\n#define {0} {1}_{0}\n", function, name);
         text += fmt::format("#include \"integrators/{}.cl\"\n", name);
     }

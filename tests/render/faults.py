@@ -147,6 +147,8 @@ FAULTS = [
      "params->choose_environment > 0.0f && light_pdf_w == REAL(0.0))\n            radiance = (real3)(REAL(0.0));",
      "sky_light_test"),
     ("screens cast no shadow", "path/visibility.h", "passage.share *= crossing.share;", "", "cut_out_test"),
+    ("lights seen by rays of their own are met again", "integrators/path.h",
+     "    if (segment == 1u && pixel_has_seen(sample))\n        return;\n", "", "emission_rays_test"),
     ("reused through walls", "integrators/path_reuse.h", "visible_passage(scene, params, &shadow)", "open", "path_reuse_test"),
     ("panes do not dim shadow rays", "path/visibility.h", "crossing->share += coverage * passes;",
      "crossing->share = (real3)(REAL(1.0));", "glass_test"),

@@ -5,6 +5,7 @@
 #include "probes/effect_masks.h"
 #include "probes/kernel_probe.h"
 #include "render/launcher.h"
+#include "render/light_outlines.h"
 #include "replay/causes.h"
 #include "replay/flips.h"
 #include "support/render_scene.h"
@@ -199,6 +200,7 @@ TEST(Replay, TheRadianceOfTheRecordIsThatOfTheRenderToTheLastBit) {
         const FilmBuffers film(test_device(), params, stage.planned->effects.paths.layers.size());
         Launcher launcher(test_device(), prepared.programs->picture, integrator_kernel(integrator), params,
                           prepared.buffers);
+        film.write_emission(find_light_outlines(stage.planned->scene, params));
         film.bind(launcher.kernel());
         launcher.run(5, 1, 0, params.tile_count);
         RenderProgress sums;

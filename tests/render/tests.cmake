@@ -8,6 +8,7 @@ clrt_test(render denoise_render_test)
 clrt_test(render direct_light_test)
 clrt_test(render dispersion_test)
 clrt_test(render distribution_test)
+clrt_test(render emission_rays_test)
 clrt_test(render error_bar_test)
 clrt_python_test(render error_interval_study $<TARGET_FILE:clrt>)
 set_tests_properties(render.error_interval_study PROPERTIES TIMEOUT 7200 SKIP_RETURN_CODE 77) # CLRT_TEST_LONG runs it

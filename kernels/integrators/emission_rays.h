@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emission that the camera sees, from camera rays of its own (splitting, Arvo and Kirk 1990). A lamp is
+// often brighter than what it lights by orders of magnitude, and smaller than a pixel: where its outline
+// crosses one, whether a path's first segment meets it is most of the pixel's noise. A camera ray is a small
+// part of a path, so there the emission comes from several camera rays a sample, and the path leaves out what
+// its first segment meets. For programs with CAMERA_RAYS_ARE_SPLIT.
+//
+// The host tells the pixels that may see an outline (render/light_outlines.h). Which of them do is looked at
+// once, by rays that are the same whatever the seed; the picture has no bias whatever they find.
+#ifndef CLRT_INTEGRATORS_EMISSION_RAYS_H
+#define CLRT_INTEGRATORS_EMISSION_RAYS_H
+
+#include "pixel.h"
+
+#if SPLITS_EMISSION
+/* Rays that look whether the emission within a pixel varies, and as many in the eight pixels around it: of an
+   outline so close to its side that they miss it, samples would meet a sliver now and then. */
+#define EMISSION_PROBES 64u
+
+/* It varies where the darkest is less than this share of the brightest. */
+#define EMISSION_EVEN REAL(0.5)
+
+/* Nets of their own, apart from those of the samples: a seed for probes, what is added to one for rays. */
+#define EMISSION_PROBE_SEED 0x5eed0e31u
+#define EMISSION_RAY_SEED 0x85ebca6bu
+
+/* The emission that a camera ray of pixel (x, y) of the whole picture meets, number `index` of a replicate.
+   `ray` is room for it. */
+static CLRT_NOINLINE real3 emission_seen(const Scene* scene, const RenderParams* params, uint x, uint y,
+                                         uint seed, uint replicate, uint index, Ray* ray)
+{
+    const Sampler sampler = sampler_make(seed, tile_pixel_number(params, x, y), replicate, index);
+    *ray = camera_ray(params, &sampler, x, y);
+    if (HAS(EFFECT_NESTED))
+        visible_find_nest(scene, params, ray);
+    real3 carried = (real3)(REAL(1.0));
+    Hit hit = visible_hit(scene, params, &sampler, 1u, ray, &carried);
+    if (hit.triangle == NO_INDEX)
+        return (real3)(REAL(0.0));
+    const Surface surface = visible_surface(scene, params, ray, &hit);
+    if (surface.emitter == NO_INDEX)
+        return (real3)(REAL(0.0));
+    return carried * material_emitted(scene, &surface, -ray->direction);
+}
+
+/* Number k of the pixels around one, row by row; the fifth is itself. */
+static inline int2 emission_neighbour(uint k) { return (int2)((int)(k % 3u) - 1, (int)(k / 3u) - 1); }
+
+static inline bool emission_varies(const Scene* scene, const RenderParams* params, uint x, uint y, Ray* ray)
+{
+    real least = REAL(0.0), most = REAL(0.0);
+    for (uint k = 0; k < 2u * EMISSION_PROBES; ++k) {
+        const uint around = k / 2u % 8u;
+        const int2 place = emission_neighbour(k % 2u == 0u ? 4u : around < 4u ? around : around + 1u);
+        const real3 emission = emission_seen(scene, params, x + (uint)place.x, y + (uint)place.y,
+                                             EMISSION_PROBE_SEED, 0u, k / 2u, ray);
+        const real seen = vector_max_component(emission);
+        least = k == 0u ? seen : fmin(least, seen);
+        most = fmax(most, seen);
+        if (least < EMISSION_EVEN * most)
+            return true;
+    }
+    return false;
+}
+
+/* Finds what samples of pixel (x, y) see of lights, the first of them being at the counter. The nets of their
+   rays go on from sample to sample. */
+static CLRT_NOINLINE void emission_look(const Scene* scene, const RenderParams* params, uint x, uint y,
+                                        SampleCounter counter, CameraSample* samples, uint sample_count,
+                                        PixelRays* rays)
+{
+    const uint count = EMISSION_RAYS(*params);
+    for (uint i = 0; i < sample_count; ++i, sample_counter_next(params, &counter)) {
+        real3 seen = (real3)(REAL(0.0));
+        for (uint k = 0; k < count; ++k)
+            seen += emission_seen(scene, params, x, y, params->seed + EMISSION_RAY_SEED, counter.replicate,
+                                  counter.index * count + k, &samples[i].ray);
+        samples[i].radiance = seen / (real)count;
+        rays->secondary += count;
+    }
+}
+#endif
+
+/* Whence the emission that pixel (x, y) sees comes, EMISSION_*: `state`, or what probes tell where it is
+   open. `ray` is room for one. */
+static inline uint emission_settled(const Scene* scene, const RenderParams* params, uint state, uint x,
+                                    uint y, Ray* ray)
+{
+#if SPLITS_EMISSION
+    if (state == EMISSION_OPEN)
+        return emission_varies(scene, params, x, y, ray) ? EMISSION_BY_RAYS : EMISSION_BY_PATHS;
+#endif
+    return state;
+}
+
+/* The same of a pixel of the film, which keeps it. */
+static inline uint emission_settle(const Scene* scene, const RenderParams* params, global uint* pixel_rays,
+                                   TilePixel place, Ray* ray)
+{
+    global uint* state = pixel_rays + tile_index(place.slot, PIXEL_RAYS_WORDS) + PIXEL_EMISSION;
+    const uint x = params->crop_x + place.x, y = params->crop_y + place.y;
+    *state = emission_settled(scene, params, *state, x, y, ray);
+    return *state;
+}
+
+/* Begins samples of pixel (x, y), the first of them at the counter, which are to be aimed yet: with what they
+   see of lights where that is not their paths' to find, else with nothing. */
+static inline void emission_begin(const Scene* scene, const RenderParams* params, uint state, uint x, uint y,
+                                  SampleCounter counter, CameraSample* samples, uint count, PixelRays* rays)
+{
+    for (uint i = 0; i < count; ++i) {
+        samples[i].radiance = (real3)(REAL(0.0));
+#if SPLITS_EMISSION
+        samples[i].has_seen = state == EMISSION_BY_RAYS;
+#endif
+    }
+#if SPLITS_EMISSION
+    if (state == EMISSION_BY_RAYS)
+        emission_look(scene, params, x, y, counter, samples, count, rays);
+#endif
+}
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixels in which the camera may see the outline of a light: where emission comes from camera rays of its
+// own, if these find that it varies (kernels/integrators/emission_rays.h).
+#pragma once
+
+#include "kernels/shared/render_types.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace clrt {
+
+/// EMISSION_* of the pixels of the window, row by row: EMISSION_OPEN within the rectangles around all
+/// emissive triangles as the camera projects them, whether or not something is in front of them, and
+/// everywhere where they are not projected: through panoramic cameras, and while something moves. Empty where
+/// all emission comes from paths: without emissive triangles, and where `params` asks for one ray or none.
+std::vector<std::uint8_t> find_light_outlines(const Scene& scene, const RenderParams& params);
+
+} // namespace clrt
