@@ -10,6 +10,7 @@
 #ifndef CLRT_INTEGRATORS_EMISSION_RAYS_H
 #define CLRT_INTEGRATORS_EMISSION_RAYS_H
 
+#include "path/automaton.h"
 #include "pixel.h"
 
 #if SPLITS_EMISSION
@@ -82,11 +83,13 @@ static CLRT_NOINLINE void emission_look(const Scene* scene, const RenderParams* 
 #endif
 
 /* Whence the emission that pixel (x, y) sees comes, EMISSION_*: `state`, or what probes tell where it is
-   open. `ray` is room for one. */
+   open; from paths where none may add any. `ray` is room for one. */
 static inline uint emission_settled(const Scene* scene, const RenderParams* params, uint state, uint x,
                                     uint y, Ray* ray)
 {
 #if SPLITS_EMISSION
+    if (!(automaton_accepted(STATE_START) & KIND_AREA))
+        return EMISSION_BY_PATHS;
     if (state == EMISSION_OPEN)
         return emission_varies(scene, params, x, y, ray) ? EMISSION_BY_RAYS : EMISSION_BY_PATHS;
 #endif

@@ -30,13 +30,11 @@ static inline void path_escape(const Scene* scene, const RenderParams* params, u
                     &sample->layers);
 }
 
-/* Takes what the sample has begun with, as far as the path may add it; the path is at the camera. */
+/* Takes what the sample has begun with; the path is at the camera. */
 static inline void path_take_seen(const Scene* scene, const Path* path, CameraSample* sample)
 {
     if (!pixel_has_seen(sample))
         return;
-    if (!(path_accepted(path) & KIND_AREA))
-        sample->radiance = (real3)(REAL(0.0));
     TRACE_VECTOR(scene, TRACE_ADDED, sample->radiance);
     path_add_layers(path, KIND_AREA, sample->radiance, &sample->layers);
 }

@@ -113,19 +113,16 @@ private:
     std::vector<std::int32_t> changes_;
 };
 
-bool is_projected(const Scene& scene, const RenderParams& params) {
-    const CameraParams& camera = params.camera;
+bool is_projected(const CameraParams& camera) {
     return (camera.projection == PROJECTION_PERSPECTIVE || camera.projection == PROJECTION_ORTHOGRAPHIC) &&
-           camera.moves == 0 && scene.position_moves.empty();
+           camera.moves == 0;
 }
 
 } // namespace
 
 std::vector<std::uint8_t> find_light_outlines(const Scene& scene, const RenderParams& params) {
-    if (scene.emitters.empty() || EMISSION_RAYS(params) <= 1)
+    if (scene.emitters.empty() || EMISSION_RAYS(params) <= 1 || !is_projected(params.camera))
         return {};
-    if (!is_projected(scene, params))
-        return std::vector<std::uint8_t>(size_t(params.crop_width) * params.crop_height, EMISSION_OPEN);
     const FilmProjection projection(params);
     WindowCover cover(params);
     for (const Emitter& emitter : scene.emitters) {

@@ -12,9 +12,9 @@
 namespace clrt {
 
 /// EMISSION_* of the pixels of the window, row by row: EMISSION_OPEN within the rectangles around all
-/// emissive triangles as the camera projects them, whether or not something is in front of them, and
-/// everywhere where they are not projected: through panoramic cameras, and while something moves. Empty where
-/// all emission comes from paths: without emissive triangles, and where `params` asks for one ray or none.
+/// emissive triangles, which never move, as the camera projects them, whether or not something is in front of
+/// them. Empty where all emission comes from paths: without emissive triangles, for panoramic cameras
+/// and those that move, and where `params` asks for one ray or none.
 std::vector<std::uint8_t> find_light_outlines(const Scene& scene, const RenderParams& params);
 
 } // namespace clrt

@@ -73,10 +73,11 @@ Replay::Replay(const PreparedScene& prepared, Precision precision)
 }
 
 u32 Replay::emission_of(u32 pixel) const {
-    if (outlines_.empty())
-        return EMISSION_BY_PATHS;
+    // Left of or above the window these are large.
     const u32 x = pixel % params_.width - params_.crop_x, y = pixel / params_.width - params_.crop_y;
-    return outlines_.at(size_t(y) * params_.crop_width + x);
+    if (outlines_.empty() || x >= params_.crop_width || y >= params_.crop_height)
+        return EMISSION_BY_PATHS;
+    return outlines_[size_t(y) * params_.crop_width + x];
 }
 
 std::vector<SampleTrace> Replay::launch(const SampleAddress* addresses, size_t count, u32 capacity) {

@@ -19,10 +19,10 @@ protected:
                      "mtllib scene.mtl\nusemtl lamp\nv -1 -0.8 0\nv 0.9 -0.3 0.2\nv 0.1 1 -0.1\nf 1 2 3\n");
     }
 
-    /// Renders a picture of 24 x 20 pixels with all layers.
+    /// Renders a picture of 24 x 20 pixels with all layers, the lamp by the samples that alpha is by.
     void render(const std::string& name, std::vector<std::string> further) const {
         for (const char* word : {"scene.obj", "-r", "24x20", "--eye", "0,0,4", "--at", "0,0,0", "--aov",
-                                 "alpha,albedo,N,Z,P,objectId,samples", "-o"})
+                                 "alpha,albedo,N,Z,P,objectId,samples", "--emission-rays", "1", "-o"})
             further.emplace_back(word);
         further.push_back(name);
         const CommandResult result = clrt(further);

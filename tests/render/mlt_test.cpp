@@ -216,6 +216,7 @@ TEST(Mlt, OneSegmentIsWhatTheCameraSees) {
     room.options.sampling.spp = 8;
     const Render mlt = room.render();
     room.options.transport.integrator = Integrator::PATH;
+    room.options.transport.emission_rays = 1;
     EXPECT_TRUE(mlt.film.sums == room.render().film.sums);
 }
 

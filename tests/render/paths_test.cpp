@@ -273,7 +273,9 @@ TEST(Paths, WhatCannotBeAcceptedCostsNoRay) {
         return std::pair{counts.secondary, counts.shadow};
     };
     const auto [all_secondary, all_shadow] = rays("");
+    room.options.transport.emission_rays = 1;
     EXPECT_EQ(rays("LE"), std::pair(std::uint64_t(0), std::uint64_t(0)));
+    room.options.transport.emission_rays = 16; // none is cast below, where LE is not accepted
     const auto [secondary, shadow] = rays("LDE");
     EXPECT_LE(secondary, samples(room));
     EXPECT_LE(shadow, samples(room));
@@ -298,6 +300,7 @@ TEST(Paths, MaximumDepthEndsWhatCannotArriveInTime) {
     room.options.transport.max_depth = 64;
     EXPECT_EQ(render_paths(room, "LDDE").film.sums, in_time.sums) << "two surfaces need three segments";
     room.options.transport.max_depth = 3;
+    room.options.transport.emission_rays = 1;
     const Render lamp = render_paths(room, "LDDDE|LE");
     EXPECT_EQ(lamp.counts.secondary + lamp.counts.shadow, 0u) << "three surfaces need four segments";
     EXPECT_GT(film_estimate(lamp.film).mean, 0);
@@ -342,8 +345,9 @@ TEST(Paths, ALayerHasTheBitsOfItsOwnRender) {
 }
 
 TEST(Paths, LampsInViewSplitOffBitForBit) {
-    // The lamp reflects nothing, so each path's light is of one part.
+    // The lamp reflects nothing, so each path's light is of one part, if paths find the lamp.
     Room room;
+    room.options.transport.emission_rays = 1;
     const std::vector<std::int64_t> whole = folded(render_paths(room, "").film);
     const std::vector<std::int64_t> lamp = folded(render_paths(room, "LE").film);
     std::vector<std::int64_t> sum = folded(render_paths(room, "LD+E").film);
