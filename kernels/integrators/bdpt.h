@@ -60,7 +60,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     path_absorb(scene, &surface, path);
     splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
-    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX) {
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && !splat_has_seen(segment, sample)) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
         bdpt_book(params, 0u, segment + 1u, sample);
@@ -102,6 +102,8 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
     EyeVertex eye;
     eye.weights.open = eye.weights.closed = REAL(0.0);
     path_begin(&path, &sample->ray);
+    splat_take_seen(scene, sample);
+    bdpt_book(params, 0u, 2u, sample);
     for (uint segment = 1u; path.is_alive; ++segment) {
         path.numbers = numbers_make(&sample->sampler, segment, 0u);
         path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray, &path.throughput);

@@ -6,8 +6,8 @@
 #ifndef CLRT_INTEGRATORS_PATH_H
 #define CLRT_INTEGRATORS_PATH_H
 
-#include "path/connect.h"
 #include "path/cut.h"
+#include "path/light_samples.h"
 #include "path_reuse.h"
 
 /* Adds the light from outside the scene. */
@@ -84,7 +84,8 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     reuse_keep_second(scene, segment, &surface, &bsdf, path, &sample->radiance, reused);
     Guide guide = guide_of(scene, &bsdf, &path->guided);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
-    path_connect(scene, params, &surface, &bsdf, &step, path);
+    path_connect_all(scene, params, segment, &surface, &bsdf, &step, path, &sample->radiance,
+                     &sample->layers, rays);
     if (next.is_valid && continues)
         path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
 }
@@ -194,6 +195,7 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
     alive.count = 0u;
     for (uint k = 0; k < count; ++k) {
         path_begin(&paths[k], &samples[k].ray);
+        light_samples_begin(params, &paths[k]);
         path_take_seen(scene, &paths[k], &samples[k]);
         reuse_begin(&reused[k]);
         guide_choose(params, &samples[k].sampler, &paths[k].guided);

@@ -114,6 +114,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     nan_watch(scene, light.wi, &path->watched);
     if (light.pdf_w == REAL(0.0))
         return;
+    light.pdf_w *= (real)path_light_samples(path);
     BsdfValue eval = bsdf_eval(bsdf, light.wi);
     if (HAS(EFFECT_PATH_FILTER))
         eval.value = filter_value(step, bsdf, light.wi, light.kind, eval.value);

@@ -13,6 +13,13 @@
 #include "slab.h"
 #include "vertex.h"
 
+/* 1 where a path's first vertex may take several light samples (light_samples.h). */
+#if defined(LIGHT_SAMPLES_ARE_SPLIT) && (CLRT_EFFECTS & EFFECT_LIGHT_TREE)
+#define SPLITS_LIGHT 1
+#else
+#define SPLITS_LIGHT 0
+#endif
+
 /* A path on its way. */
 typedef struct {
     Ray ray;                 /* the segment to trace */
@@ -24,7 +31,8 @@ typedef struct {
     bool has_crossed_curved; /* it did not start there but at the plane below */
     real3 throughput;        /* of the path so far: product of BSDF times cosine over pdf */
     real eta_squared;        /* product of the squared index ratios crossed */
-    real pdf_w;              /* of the ray's direction; 0 for camera rays and delta lobes */
+    real pdf_w;              /* of the ray's direction over the light samples taken where it started; 0 for
+                                camera rays and delta lobes */
     Ray shadow;              /* from the vertex to a light, */
     real3 connection;        /* and what arrives if nothing is in between */
     real3 watched;           /* sum of directions and normals, for NaNs among them */
@@ -44,7 +52,25 @@ typedef struct {
     LayerPath layers;
     GuidePath guided;
     bool is_alive, is_connected;
+#if SPLITS_LIGHT
+    uint light_samples_log; /* of the number that its next vertex takes */
+#endif
 } Path;
+
+/* How many light samples the next vertex takes, and the logarithm. */
+static inline uint path_light_samples_log(const Path* path)
+{
+#if SPLITS_LIGHT
+    return path->light_samples_log;
+#else
+    return 0u;
+#endif
+}
+
+static inline uint path_light_samples(const Path* path)
+{
+    return 1u << path_light_samples_log(path);
+}
 
 static inline void path_begin(Path* path, const Ray* ray)
 {
@@ -62,6 +88,9 @@ static inline void path_begin(Path* path, const Ray* ray)
 #endif
 #if HAS_SLABS
     slab_end(&path->slabs);
+#endif
+#if SPLITS_LIGHT
+    path->light_samples_log = 0u;
 #endif
     layers_begin_path(&path->layers);
     guide_begin(&path->guided);
@@ -166,7 +195,7 @@ static inline void path_look(const Scene* scene, const Surface* surface, const B
     if (solid_beside(scene, surface, next->reflects) != NO_INDEX)
         slab_end(&path->slabs);
     path->before_slabs = next->wi;
-    path->pdf_w_before_slabs = next->pdf_w;
+    path->pdf_w_before_slabs = path->pdf_w;
 #endif
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
 }
@@ -194,7 +223,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     if (HAS(EFFECT_PATH_FILTER) && !path_follow(scene, sampler, segment, bsdf, step, next, path))
         return;
     TRACE_VECTOR(scene, TRACE_THROUGHPUT, path->throughput);
-    path->pdf_w = next->pdf_w;
+    path->pdf_w = next->pdf_w / (real)path_light_samples(path);
     path->eta_squared *= next->eta * next->eta;
     guide_leave(guide, &path->guided);
     path->is_alive = path_survives(scene, params, sampler, segment, worth, path);
@@ -202,6 +231,9 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
     ray_cone_scatter(params, sampler, next->pdf_w, &path->ray);
     dispersion_leave(dispersion_splits(bsdf, next->reflects), &path->ray);
     path_look(scene, surface, bsdf, next, path);
+#if SPLITS_LIGHT
+    path->light_samples_log = next->pdf_w == REAL(0.0) ? path->light_samples_log : 0u;
+#endif
     path->has_crossed_curved = surface->is_curved && !next->reflects;
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = solid_beside(scene, surface, next->reflects);

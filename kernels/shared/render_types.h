@@ -69,7 +69,7 @@ typedef struct {
     u32 texture_filter;         /* 1: lookups are filtered over the ray's footprint */
     u32 portal_count;           /* rectangles through which the sky is seen */
     float portal_share;         /* probability of sampling the sky through them */
-    u32 path_choices;           /* what paths do, in programs that can: */
+    u32 path_choices;           /* what paths do, in programs that can; see below */
 } RenderParams;
 ASSERT_SIZE(RenderParams, 432);
 
@@ -77,6 +77,10 @@ ASSERT_SIZE(RenderParams, 432);
 #define PATHS_ARE_SHARED 1u
 /* Vertices are connected to light at infinity through slabs of glass (path/slab.h). */
 #define SLABS_ARE_CROSSED 2u
+/* The logarithm of the number of light samples that a path takes at its first vertex (path/light_samples.h). */
+#define LIGHT_SAMPLES_SHIFT 2u
+#define LIGHT_SAMPLES_LOG(params) ((params).path_choices >> LIGHT_SAMPLES_SHIFT & 3u)
+#define MOST_LIGHT_SAMPLES 8
 /* Camera rays a sample from which emission comes, where it does not come from paths. */
 #define EMISSION_RAYS_SHIFT 8u
 #define EMISSION_RAYS(params) ((params).path_choices >> EMISSION_RAYS_SHIFT)

@@ -32,6 +32,16 @@ int parse_branch(const OptionValue& v) {
     return static_cast<int>(parse_whole(v, 1, LARGEST_BRANCH));
 }
 
+/// 0: auto.
+int parse_light_samples(const OptionValue& v) {
+    if (v.text == "auto")
+        return 0;
+    const int samples = static_cast<int>(parse_whole(v, 1, MOST_LIGHT_SAMPLES));
+    if ((samples & (samples - 1)) != 0)
+        reject_value(v, "a power of two");
+    return samples;
+}
+
 std::string layouts_and_qualities() {
     std::vector<std::string> names;
     for (const auto& row : NAMES<BvhLayout>)
@@ -140,6 +150,12 @@ std::vector<OptionSpec> work_options() {
                      "of one crosses it; 1: paths find it there as everywhere (default {})",
                      takers(TAKES_EMISSION_RAYS), defaults.emission_rays),
          [](Options& o, const OptionValue& v) { o.transport.emission_rays = parse_branch(v); }},
+        {group, "", "--light-samples", "auto|N",
+         fmt::format("{}samples of lights, up to {} and a power of two, at a path's first vertex that is no "
+                     "mirror or glass; auto: more than one where there are many lights and pilots tell that "
+                     "it lowers noise times rays (default auto)",
+                     takers(TAKES_LIGHT_SAMPLES), MOST_LIGHT_SAMPLES),
+         [](Options& o, const OptionValue& v) { o.transport.light_samples = parse_light_samples(v); }},
         {group, "", "--roulette-depth", "N",
          fmt::format("{}first segment that Russian roulette may end (default {})",
                      takers(TAKES_ROULETTE_DEPTH), defaults.roulette_depth),

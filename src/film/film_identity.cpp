@@ -145,6 +145,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["light_sampler"] = name_of(options.sampling.light_sampler);
     identity["guide"] = options.transport.guide == Toggle::ON;
     identity["path_reuse"] = options.transport.path_reuse == Toggle::ON;
+    identity["light_samples"] = std::max(options.transport.light_samples, 1);
     identity["emission_rays"] = options.transport.emission_rays;
     identity["adaptive"] = false;
     if (options.sampling.adaptive)
@@ -193,6 +194,11 @@ Integrator film_integrator(const FilmIdentity& identity) {
 
 bool film_reuses_paths(const FilmIdentity& identity) {
     return identity.value("path_reuse", FilmIdentity(false)) == true;
+}
+
+int film_light_samples(const FilmIdentity& identity) {
+    const auto samples = identity.find("light_samples");
+    return samples != identity.end() && samples->is_number_integer() ? samples->get<int>() : 1;
 }
 
 std::vector<std::string> film_layer_names(const FilmIdentity& identity) {

@@ -27,6 +27,7 @@ enum IntegratorOption : unsigned {
     TAKES_TEXTURE_FILTER = 256,
     TAKES_PATH_REUSE = 512,
     TAKES_EMISSION_RAYS = 1024,
+    TAKES_LIGHT_SAMPLES = 2048,
 };
 
 template <>
@@ -41,7 +42,8 @@ inline constexpr Named<IntegratorOption> NAMES<IntegratorOption>[] = {
     {TAKES_GUIDE, "--guide"},
     {TAKES_TEXTURE_FILTER, "--texture-filter"},
     {TAKES_PATH_REUSE, "--path-reuse"},
-    {TAKES_EMISSION_RAYS, "--emission-rays"}};
+    {TAKES_EMISSION_RAYS, "--emission-rays"},
+    {TAKES_LIGHT_SAMPLES, "--light-samples"}};
 
 /// Paths in path notation (paths/path_expression.h): those that an integrator simulates, and those that its
 /// techniques find. What is simulated and not found is a blind spot (paths/blind_spots.h).
@@ -154,7 +156,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      Connections::ONE_LIGHT,
      FilmAccess::GATHER,
      TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_PATHS | TAKES_GUIDE | TAKES_TEXTURE_FILTER |
-         TAKES_PATH_REUSE | TAKES_EMISSION_RAYS},
+         TAKES_PATH_REUSE | TAKES_EMISSION_RAYS | TAKES_LIGHT_SAMPLES},
     {Integrator::PATH_LIGHT,
      "path+light",
      "global illumination, caustics by light paths",
@@ -174,7 +176,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_EMISSION_RAYS},
     {Integrator::MLT,
      "mlt",
      "global illumination by Markov chains",

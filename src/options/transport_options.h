@@ -33,6 +33,9 @@ struct TransportOptions {
     /// Camera rays a sample from which pixels take emission that the outline of a light crosses
     /// (kernels/integrators/emission_rays.h); 1: none have any.
     int emission_rays = 16;
+    /// Light samples of a path's first vertex, a power of two (kernels/path/light_samples.h); 0, auto: until
+    /// that is chosen (render/light_samples_choice.h), one.
+    int light_samples = 0;
     int shadow_rays = 4;      ///< of a vertex to lamps, sky, and every sun with a disc
     int gloss_rays = 4;       ///< of a vertex by a rough reflection
     int translucent_rays = 4; ///< of a vertex by a rough dielectric, reflected and refracted

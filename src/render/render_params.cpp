@@ -101,9 +101,20 @@ bool fits(const Environment& sky, const IntegratorRow& integrator) {
     return sky.sampling == SkySampling::BY_TABLE || (sky.sampling && integrator.sky != SkySampling::BY_TABLE);
 }
 
+/// The logarithm of how many light samples a path takes at its first vertex: one where no tree chooses
+/// lights.
+u32 light_samples_log(const Scene& scene, const Options& options) {
+    u32 log = 0;
+    if (takes_option(options.transport.integrator, TAKES_LIGHT_SAMPLES) && !scene.light_tree.nodes.empty())
+        while ((2 << log) <= options.transport.light_samples)
+            ++log;
+    return log;
+}
+
 u32 path_choices(const Scene& scene, const Options& options) {
     return (options.transport.path_reuse == Toggle::ON ? PATHS_ARE_SHARED : 0) |
            (crosses_slabs(scene, options) ? SLABS_ARE_CROSSED : 0) |
+           light_samples_log(scene, options) << LIGHT_SAMPLES_SHIFT |
            (takes_option(options.transport.integrator, TAKES_EMISSION_RAYS)
                 ? u32(options.transport.emission_rays) << EMISSION_RAYS_SHIFT
                 : 0);

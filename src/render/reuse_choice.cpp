@@ -51,36 +51,36 @@ double gain_of(const PathPilot& reusing, const PathPilot& alone, const Options& 
     return alone.errors[measure] / (reusing.errors[measure] * work);
 }
 
-/// Size of the pilots; none where so small ones tell nothing, and for parts of a picture.
-std::optional<PilotSize> size_of_reuse_pilots(const PlannedScene& planned) {
+/// Whether pilots are to decide.
+bool is_open(const PlannedScene& planned) {
+    const Options& options = planned.options;
+    return options.transport.path_reuse == Toggle::AUTO && options.film_file.resume_path.empty() &&
+           effects_against(planned) == 0 && !reuse_refusal(options) && size_of_path_pilots(planned);
+}
+
+/// Those of a plan for path that is open.
+ReusePilots run_reuse_pilots(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+                             PreparedParts& parts) {
+    const PilotSize size = *size_of_path_pilots(*planned);
+    const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
+    ReusePilots pilots{run_path_pilot(prepared, size), run_path_pilot(prepared, size, true)};
+    const double gain = gain_of(pilots.reusing, pilots.alone, planned->options);
+    if (!std::isfinite(gain) || stop_signal())
+        return pilots;
+    spdlog::info("path reuse: {:.2f} times the efficiency, by pilots of {} x {} pixels, {} spp", gain,
+                 size.width, size.height, size.spp);
+    pilots.gain = gain;
+    return pilots;
+}
+
+} // namespace
+
+std::optional<PilotSize> size_of_path_pilots(const PlannedScene& planned) {
     if (planned.effects.paths.is_empty || planned.options.run.given.count("--first-sample") != 0)
         return std::nullopt;
     const std::optional<PilotSize> size = size_of_pilots(PILOTS_WORK, planned.options);
     return size ? std::optional(in_tiles(*size)) : std::nullopt;
 }
-
-/// Whether pilots are to decide.
-bool is_open(const PlannedScene& planned) {
-    const Options& options = planned.options;
-    return options.transport.path_reuse == Toggle::AUTO && options.film_file.resume_path.empty() &&
-           effects_against(planned) == 0 && !reuse_refusal(options) && size_of_reuse_pilots(planned);
-}
-
-/// What two pilots of the same samples tell of a plan for path that is open; 0 where a signal stops them.
-double pilot_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts) {
-    const PilotSize size = *size_of_reuse_pilots(*planned);
-    const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
-    const PathPilot alone = run_path_pilot(prepared, size);
-    const PathPilot reusing = run_path_pilot(prepared, size, true);
-    const double gain = gain_of(reusing, alone, planned->options);
-    if (!std::isfinite(gain) || stop_signal())
-        return 0;
-    spdlog::info("path reuse: {:.2f} times the efficiency, by pilots of {} x {} pixels, {} spp", gain,
-                 size.width, size.height, size.spp);
-    return gain;
-}
-
-} // namespace
 
 void expect_path_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned) {
     Toggle& reuse = planned->options.transport.path_reuse;
@@ -110,32 +110,36 @@ PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<Pla
 double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts) {
     // A replay is of the picture's integrator.
     const auto pixel = std::exchange(planned->options.run.pixel, std::nullopt);
-    const double gain = is_open(*planned) ? pilot_gain(device, planned, parts) : 0;
+    const double gain = is_open(*planned) ? run_reuse_pilots(device, planned, parts).gain : 0;
     planned->options.run.pixel = pixel;
     return gain;
 }
 
-void choose_path_reuse(const Device& device, const std::shared_ptr<PlannedScene>& planned,
-                       PreparedParts& parts, Progress& progress) {
+std::optional<ReusePilots> choose_path_reuse(const Device& device,
+                                             const std::shared_ptr<PlannedScene>& planned,
+                                             PreparedParts& parts, Progress& progress) {
     Options& options = planned->options;
     Toggle& reuse = options.transport.path_reuse;
     if (!is_allowed(*planned))
         reuse = Toggle::OFF;
     if (reuse != Toggle::AUTO)
-        return;
+        return std::nullopt;
     if (!options.film_file.resume_path.empty()) {
         const FilmIdentity film = read_film_content(options.film_file.resume_path).identity;
         reuse = film_reuses_paths(film) ? Toggle::ON : Toggle::OFF;
         parts.programs = nullptr;
     } else if (is_open(*planned)) {
         progress.update({"pilot", -1, 0, -1, -1});
-        reuse = pilot_gain(device, planned, parts) >= WORTHWHILE_REUSE_GAIN ? Toggle::ON : Toggle::OFF;
+        const ReusePilots pilots = run_reuse_pilots(device, planned, parts);
+        reuse = pilots.gain >= WORTHWHILE_REUSE_GAIN ? Toggle::ON : Toggle::OFF;
         if (reuse == Toggle::ON)
             parts.programs = parts.reusing;
         progress.finish();
+        return pilots;
     } else {
         reuse = Toggle::OFF;
     }
+    return std::nullopt;
 }
 
 } // namespace clrt

@@ -10,14 +10,21 @@
 #pragma once
 
 #include "console/progress.h"
-#include "render/prepared_scene.h"
+#include "render/pilot.h"
 
 #include <memory>
+#include <optional>
 
 namespace clrt {
 
 /// Squared error times work without reuse over that with it, from which on it is taken.
 constexpr double WORTHWHILE_REUSE_GAIN = 1.1;
+
+/// What pilots of the same samples tell.
+struct ReusePilots {
+    PathPilot alone, reusing;
+    double gain = 0; ///< of squared error times work by reuse; 0 where a signal stops them
+};
 
 /// Has the programs compiled ahead that a plan of path will probably want: with reuse where that is open, and
 /// without.
@@ -37,9 +44,15 @@ double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& pla
 
 /// Decides `--path-reuse auto` of a plan, says so, and leaves on or off in its options. `parts` are those of
 /// the plan that are there; what the pilots needed is added, and programs of the other kind are taken out.
+/// Returns what it has gone by, if there were pilots; `parts.reusing` are then what they were rendered by.
 /// Throws UsageError where it is asked for and the scene does not allow it, DeviceError, KernelBuildError and
 /// SceneError.
-void choose_path_reuse(const Device& device, const std::shared_ptr<PlannedScene>& planned,
-                       PreparedParts& parts, Progress& progress);
+std::optional<ReusePilots> choose_path_reuse(const Device& device,
+                                             const std::shared_ptr<PlannedScene>& planned,
+                                             PreparedParts& parts, Progress& progress);
+
+/// Size of the pilots that compare ways to sample paths, in tiles; none where so small ones tell nothing, and
+/// for parts of a picture.
+std::optional<PilotSize> size_of_path_pilots(const PlannedScene& planned);
 
 } // namespace clrt

@@ -6,6 +6,7 @@
 #include "exit_code.h"
 #include "render/dark_picture.h"
 #include "render/guide_choice.h"
+#include "render/light_samples_choice.h"
 #include "render/portal_choice.h"
 #include "render/render_params.h"
 #include "render/reuse_choice.h"
@@ -191,9 +192,11 @@ int run_render(Options options) {
     choose_portals(devices.front(), job.planned, job.parts, progress);
     job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
     const bool is_other_sky = choose_sky_table(devices.front(), job.planned, job.parts, progress);
-    choose_path_reuse(devices.front(), job.planned, job.parts, progress);
+    const auto pilot = choose_path_reuse(devices.front(), job.planned, job.parts, progress);
     expect_no_other(devices.front(), *job.planned);
-    choose_guide(devices.front(), job.planned, job.parts, is_other_sky ? std::nullopt : job.choice.unguided,
+    choose_light_samples(devices.front(), job.planned, job.parts, pilot, progress);
+    const bool is_other = is_other_sky || job.planned->options.transport.light_samples > 1;
+    choose_guide(devices.front(), job.planned, job.parts, is_other ? std::nullopt : job.choice.unguided,
                  progress);
     announce(*job.planned);
     std::optional<Simulation> done;

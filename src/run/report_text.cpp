@@ -81,6 +81,14 @@ std::string reuse_line(const Report& report) {
                        REUSE_PIXELS);
 }
 
+std::string light_line(const Report& report) {
+    const int samples = report.options.transport.light_samples;
+    const Options& options = report.options;
+    if (samples < 2 || !takes_option(options.transport.integrator, TAKES_LIGHT_SAMPLES))
+        return "";
+    return fmt::format("lights   {} samples of them at the first vertex of a path\n", samples);
+}
+
 std::string outline_line(const Report& report) {
     if (report.render.counts.outline_pixels == 0)
         return "";
@@ -194,9 +202,9 @@ std::string proof_lines(const Report& report) {
 std::string format_report(const Report& report) {
     std::string text =
         picture_line(report) + lost_line(report) + choice_line(report) + adaptive_line(report) +
-        portal_line(report) + slab_line(report) + reuse_line(report) + outline_line(report) +
-        guide_line(report) + chain_line(report) + time_line(report) + share_lines(report) +
-        format_error_report(report.error) +
+        portal_line(report) + slab_line(report) + reuse_line(report) + light_line(report) +
+        outline_line(report) + guide_line(report) + chain_line(report) + time_line(report) +
+        share_lines(report) + format_error_report(report.error) +
         format_denoised(report.render, verdict_on(report.error) == Verdict::UNTRUSTED) + missed_line(report) +
         fmt::format("memory   {:.0f} MB at most\n", double(peak_memory_bytes()) / BYTES_OF_A_MEGABYTE) +
         bias_line(report) + left_out_lines(report) + bad_lines(report);

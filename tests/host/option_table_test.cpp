@@ -27,6 +27,7 @@ const std::map<std::string, std::string>& samples() {
         {"--guide", "auto"},
         {"--path-reuse", "on"},
         {"--emission-rays", "4"},
+        {"--light-samples", "4"},
         {"--roulette-depth", "9"},
         {"--min-contribution", "0.5%"},
         {"--shadow-rays", "8"},

@@ -80,6 +80,7 @@ TEST(Bidirectional, WeightsAreThoseOfAllDensitiesMultipliedOut) {
         room.options.transport.max_depth = 7;
         room.options.device.precision = precision;
         room.options.device.kernels_folder = oracle_kernels(folder);
+        room.options.transport.emission_rays = 1; // weights are of paths
         room.options.effects.all = false; // no other test shares the program
         const Film film = room.render().film;
         const double paths = film_estimate(film, 0).mean;

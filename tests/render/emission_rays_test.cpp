@@ -149,7 +149,8 @@ TEST(EmissionRays, LampsOutOfFocusAreOpenAsWideAsTheyAreBlurred) {
 }
 
 TEST(EmissionRays, AllIntegratorsKeepTheirLight) {
-    for (const Integrator integrator : {Integrator::PATH, Integrator::LIGHT, Integrator::PATH_LIGHT}) {
+    for (const Integrator integrator :
+         {Integrator::PATH, Integrator::LIGHT, Integrator::PATH_LIGHT, Integrator::BDPT}) {
         SCOPED_TRACE(name_of(integrator));
         Lamp lamp({-3.5, -3.5}, {2.5, 2.5});
         lamp.build.use("wall").polygon({{-20, -6, -30}, {20, -6, -30}, {20, -6, 5}, {-20, -6, 5}});
