@@ -4,8 +4,8 @@
 // of its own. All vertices count as first until one is left by a lobe with a density.
 //
 // The samples of a vertex are its point of the net, shifted digit by digit to a Hammersley set: even among
-// themselves, and every one of them a net of its own over the samples of a pixel. Multiple importance sampling
-// counts them as one technique with so many times the density.
+// themselves, and every one of them a net of its own over the samples of a pixel. Multiple importance
+// sampling counts them as one technique with so many times the density.
 #ifndef CLRT_PATH_LIGHT_SAMPLES_H
 #define CLRT_PATH_LIGHT_SAMPLES_H
 

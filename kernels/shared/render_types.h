@@ -77,7 +77,7 @@ ASSERT_SIZE(RenderParams, 432);
 #define PATHS_ARE_SHARED 1u
 /* Vertices are connected to light at infinity through slabs of glass (path/slab.h). */
 #define SLABS_ARE_CROSSED 2u
-/* The logarithm of the number of light samples that a path takes at its first vertex (path/light_samples.h). */
+/* The logarithm of how many light samples a path takes at its first vertex (path/light_samples.h). */
 #define LIGHT_SAMPLES_SHIFT 2u
 #define LIGHT_SAMPLES_LOG(params) ((params).path_choices >> LIGHT_SAMPLES_SHIFT & 3u)
 #define MOST_LIGHT_SAMPLES 8

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scattering/bsdf.h: sampled directions against their density, over a drawn half of all sets of lobes that have
-// one.
+// scattering/bsdf.h: sampled directions against their density, over a drawn half of all sets of lobes that
+// have one.
 #include "probes/bsdf_probe.h"
 #include "probes/sphere_cells.h"
 #include "probes/statistics.h"
