@@ -100,6 +100,14 @@ static inline uint ray_sampled_wave(const Sampler* sampler)
     return 1u + min((uint)(REAL(3.0) * sampler_pair(sampler, 0u, SAMPLE_TIME).y), 2u);
 }
 
+/* Turns a ray into the segment to a point. It keeps its length, so that no rounding of a unit vector moves
+   its end, and stops a few roundings short. */
+static inline void ray_end_at(real3 point, Ray* ray)
+{
+    ray->direction = point - ray->origin;
+    ray->t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
+}
+
 /* Before the first hit: traversal looks for hits after (0, none) and not beyond t_max. */
 static inline Hit hit_none(real t_max)
 {

@@ -427,4 +427,12 @@ static inline Ray surface_ray(const Surface* surface, bool reflects, real3 direc
     return ray;
 }
 
+/* The segment from one surface to another, wi its direction where it starts. */
+static inline Ray surface_shadow_ray(const Surface* from, const Surface* to, real3 wi)
+{
+    Ray ray = surface_ray(from, surface_reflects(from, wi), wi);
+    ray_end_at(surface_origin(to, surface_reflects(to, -wi)), &ray);
+    return ray;
+}
+
 #endif

@@ -88,15 +88,6 @@ static inline void reuse_finish(real3* radiance, ReusedPath* reused)
     *radiance = reused->before;
 }
 
-/* The segment from a first vertex to a second one, whose direction from the first is wi. */
-static inline Ray reuse_shadow_ray(const Surface* first, const Surface* second, real3 wi)
-{
-    Ray ray = surface_ray(first, surface_reflects(first, wi), wi);
-    ray.direction = surface_origin(second, surface_reflects(second, -wi)) - ray.origin;
-    ray.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
-    return ray;
-}
-
 /* How a first vertex sees a second one. `is_own`: both are of one path, which has been there; where paths pass
    surfaces by chance it must still be told with which probability it came. */
 static inline Passage reuse_passage(const Scene* scene, const RenderParams* params, const Surface* first,
@@ -106,7 +97,7 @@ static inline Passage reuse_passage(const Scene* scene, const RenderParams* para
     if (is_own && !HAS(EFFECTS_PASSED))
         return open;
     ++rays->shadow;
-    const Ray shadow = reuse_shadow_ray(first, second, wi);
+    const Ray shadow = surface_shadow_ray(first, second, wi);
     const Passage passage = visible_passage(scene, params, &shadow);
     return is_own && passage.passing == REAL(0.0) ? open : passage;
 }

@@ -87,15 +87,13 @@ static inline void light_choose_side(const Scene* scene, const Surface* surface,
         light_from_plane(scene, surface, sample);
 }
 
-/* The shadow ray from a surface to the sampled light. A segment to a target keeps its length, so that no
-   rounding of a unit vector moves its end, and stops a few roundings short. */
+/* The shadow ray from a surface to the sampled light. */
 static inline Ray light_shadow_ray(const Surface* surface, const LightSample* sample)
 {
     Ray ray = surface_ray(surface, sample->reflects, sample->wi);
     if (sample->is_distant)
         return ray;
-    ray.direction = sample->target - ray.origin;
-    ray.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
+    ray_end_at(sample->target, &ray);
     return ray;
 }
 

@@ -40,15 +40,6 @@ static inline void bdpt_light_vertex(const Scene* scene, const KeptVertex* kept,
     light_vertex_complete(scene, -ray.direction, vertex);
 }
 
-/* The segment from the eye's vertex to the light's. */
-static inline Ray bdpt_shadow_ray(const Surface* eye, const Surface* light, real3 wi)
-{
-    Ray ray = surface_ray(eye, surface_reflects(eye, wi), wi);
-    ray.direction = surface_origin(light, surface_reflects(light, -wi)) - ray.origin;
-    ray.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
-    return ray;
-}
-
 /* The density of all other ways over that of a connection along wi, times the squared distance. `to_light`
    and `to_eye` are the densities per steradian of the vertices towards each other. */
 static inline real bdpt_others(const EyeVertex* eye, const LightVertex* light, const SplatWeights* of_light,
@@ -103,7 +94,7 @@ static CLRT_NOINLINE bool bdpt_join(const Scene* scene, const EyeVertex* eye, co
     if (HAS(EFFECT_DISPERSION) && bdpt_is_alone(eye->surface, eye->bsdf, wi) &&
         bdpt_is_alone(&light.surface, &light.bsdf, -wi))
         connection->light /= REAL(3.0);
-    connection->shadow = bdpt_shadow_ray(eye->surface, &light.surface, wi);
+    connection->shadow = surface_shadow_ray(eye->surface, &light.surface, wi);
 #if FILM_MOMENTS
     connection->excess = (square + others) / (to_light.pdf_w * splat_cosine(light.surface.normal_g, wi) *
                                               splat_weights_at(&light.bsdf, -wi, &kept->alone));

@@ -150,8 +150,7 @@ static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderPar
     if (!tile_slot_at(params, splat.film, &slot))
         return false;
     Ray shadow = surface_ray(surface, surface_reflects(surface, wi), wi);
-    shadow.direction = camera.lens - shadow.origin;
-    shadow.t_max = REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING;
+    ray_end_at(camera.lens, &shadow);
     ++rays->shadow;
     arriving->film = splat.film;
     arriving->radiance = radiance * splat.weight * slab_straight_share(scene, params, &shadow);
