@@ -58,7 +58,7 @@ ranges of samples (--first-sample), in any order: the picture has the bits of a 
 It knows no scene, and so cannot denoise; `clrt --resume sum.film --denoise -o a.exr hall.obj` can.
 
 Example:
-  clrt -s 32 --checkpoint a.film hall.obj
+  clrt -s 32 --first-sample 0 --checkpoint a.film hall.obj
   clrt -s 32 --first-sample 32 --checkpoint b.film hall.obj
   clrt-merge a.film b.film -o hall.exr
 

@@ -56,13 +56,13 @@ REPORT = [
     ("slabs", "Materials whose facets make plane-parallel slabs, such as panes that have a thickness. Light of sky and suns behind them "
      "goes on in the direction that it had, so it is found by next-event estimation through the glass as through an open window; "
      "what is reflected within the glass is left to paths that meet the light by themselves, and to paths from the light."),
-    ("lights", "Where there are many lights, and walls between them, which light is sampled is most of the noise. If pilots tell that it "
-     "lowers noise times rays, paths take several samples of lights at their first vertex that is no mirror or glass. See "
-     "--light-samples."),
     ("reuse", "Where light comes by detours, paths are expensive and what they find is light for the pixels around as well: what leaves "
      "the second vertex of a path, if that is on a matte surface, is also connected to the first vertices of seven paths of pixels "
      "nearby (multiple importance sampling; without bias). It is so where pilots tell that it lowers squared error times rays, or by "
      "--path-reuse on. Pixels nearby then have noise in common."),
+    ("lights", "Where there are many lights, and walls between them, which light is sampled is most of the noise. If pilots tell that it "
+     "lowers noise times rays, paths take several samples of lights at their first vertex that is no mirror or glass. See "
+     "--light-samples."),
     ("outlines", "Where the outline of a light crosses a pixel, whether the ray of a sample meets the light is most of the noise: lamps "
      "are much brighter than what they light. Such pixels take the emission that the camera sees from several camera rays a sample "
      "(--emission-rays). Probes find them, the same whatever the seed; the picture has no bias."),

@@ -84,8 +84,8 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     reuse_keep_second(scene, segment, &surface, &bsdf, path, &sample->radiance, reused);
     Guide guide = guide_of(scene, &bsdf, &path->guided);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
-    path_connect_all(scene, params, segment, &surface, &bsdf, &step, path, &sample->radiance,
-                     &sample->layers, rays);
+    light_samples_connect(scene, params, segment, &surface, &bsdf, &step, path, &sample->radiance,
+                          &sample->layers, rays);
     if (next.is_valid && continues)
         path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
 }

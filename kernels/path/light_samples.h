@@ -30,9 +30,10 @@ static inline void light_samples_begin(const RenderParams* params, Path* path)
 
 /* Connects a vertex to its light samples. All but one are added here; the last is left to the caller, as by
    path_connect. */
-static inline void path_connect_all(const Scene* scene, const RenderParams* params, uint segment,
-                                    const Surface* surface, const Bsdf* bsdf, const AutomatonStep* step,
-                                    Path* path, real3* radiance, LayerSums* layers, PixelRays* rays)
+static inline void light_samples_connect(const Scene* scene, const RenderParams* params, uint segment,
+                                         const Surface* surface, const Bsdf* bsdf,
+                                         const AutomatonStep* step, Path* path, real3* radiance,
+                                         LayerSums* layers, PixelRays* rays)
 {
     const uint2 words = path->numbers.light;
     for (uint number = path_light_samples(path) - 1u;; --number) {

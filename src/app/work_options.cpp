@@ -153,7 +153,8 @@ std::vector<OptionSpec> work_options() {
         {group, "", "--light-samples", "auto|N",
          fmt::format("{}samples of lights, up to {} and a power of two, at a path's first vertex that is no "
                      "mirror or glass; auto: more than one where there are many lights and pilots tell that "
-                     "it lowers noise times rays (default auto)",
+                     "it lowers noise times rays, but one with --first-sample, --ledger and --pixel (default "
+                     "auto)",
                      takers(TAKES_LIGHT_SAMPLES), MOST_LIGHT_SAMPLES),
          [](Options& o, const OptionValue& v) { o.transport.light_samples = parse_light_samples(v); }},
         {group, "", "--roulette-depth", "N",

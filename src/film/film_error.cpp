@@ -2,6 +2,7 @@
 #include "film/film_error.h"
 
 #include "film/f_distribution.h"
+#include "kernels/shared/render_types.h"
 
 #include <algorithm>
 #include <array>
@@ -196,8 +197,10 @@ double degrees_above(double degrees, double of_pairs) {
 
 } // namespace
 
-int error_block(Integrator integrator) {
-    return walks_chains(integrator) ? CHAIN_BLOCK : 1;
+int error_block(Integrator integrator, bool reuses_paths) {
+    if (walks_chains(integrator))
+        return CHAIN_BLOCK;
+    return reuses_paths ? TILE_SIZE : 1;
 }
 
 std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pixels, int block,

@@ -36,7 +36,8 @@ std::optional<SquaredError> film_squared_error(const Film& film, ErrorPixels pix
 
 /// Film::block of an integrator's films. Chains walk from pixel to pixel, and their steps splat what hardly
 /// differs: taking pixels as independent, intervals held 81 % of the errors of 128 pictures of eight scenes.
-int error_block(Integrator integrator);
+/// Where paths are reused (kernels/integrators/path_reuse.h), they serve the pixels of a tile.
+int error_block(Integrator integrator, bool reuses_paths);
 
 /// Error of the picture by a measure (error_measure.h): for MSE, sqrt(mean over pixels and channels of the
 /// variance of the mean) / mean radiance, with a 95 % interval for the error that this very picture has,
@@ -58,9 +59,10 @@ int error_block(Integrator integrator);
 /// is what a single pixel has.
 ///
 /// The estimate itself assumes only that replicates are independent. The interval assumes besides that pixels
-/// are, which holds where each gathers its own samples. Splats of one path to pixels that are nearer than a
-/// block make it too narrow (where four pixels are always equal, half as wide as it should be: it holds 64 %
-/// of the errors); those that lie anywhere in the picture are few in any two pixels and do not.
+/// are, or blocks of them (error_block), which holds where each gathers its own samples. Splats of one path to
+/// pixels that are nearer than a block make it too narrow (where four pixels are always equal, half as wide as
+/// it should be: it holds 64 % of the errors); those that lie anywhere in the picture are few in any two pixels
+/// and do not.
 struct FilmError {
     double relative_rmse = 0;
     std::optional<double> low, high; ///< none under four replicates

@@ -150,7 +150,7 @@ FilmFile film_of_header(const FilmHeader& json) {
     sums.height = window.y1 - window.y0;
     sums.scale = {film.identity.at("quantum"), film.identity.at("largest")};
     sums.replicates = whole<int>(json.at("replicates"));
-    sums.block = error_block(film_integrator(film.identity));
+    sums.block = error_block(film_integrator(film.identity), film_reuses_paths(film.identity));
     sums.ranges = read_ranges(json);
     if (const std::optional<ErrorMeasure> measure = film_measure(film.identity))
         film.render.round = read_round(json.at("round"), sums, *measure);

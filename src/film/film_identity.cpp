@@ -145,7 +145,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["light_sampler"] = name_of(options.sampling.light_sampler);
     identity["guide"] = options.transport.guide == Toggle::ON;
     identity["path_reuse"] = options.transport.path_reuse == Toggle::ON;
-    identity["light_samples"] = std::max(options.transport.light_samples, 1);
+    identity["light_samples"] = 1 << LIGHT_SAMPLES_LOG(params);
     identity["emission_rays"] = options.transport.emission_rays;
     identity["adaptive"] = false;
     if (options.sampling.adaptive)
@@ -198,7 +198,10 @@ bool film_reuses_paths(const FilmIdentity& identity) {
 
 int film_light_samples(const FilmIdentity& identity) {
     const auto samples = identity.find("light_samples");
-    return samples != identity.end() && samples->is_number_integer() ? samples->get<int>() : 1;
+    for (int known = 2; samples != identity.end() && known <= MOST_LIGHT_SAMPLES; known *= 2)
+        if (*samples == known)
+            return known;
+    return 1;
 }
 
 std::vector<std::string> film_layer_names(const FilmIdentity& identity) {

@@ -45,7 +45,7 @@ Integrator film_integrator(const FilmIdentity& identity);
 /// Whether a film's paths were reused.
 bool film_reuses_paths(const FilmIdentity& identity);
 
-/// How many light samples a film's paths took at their first vertex.
+/// How many light samples a film's paths took at their first vertex; one where it says what cannot be.
 int film_light_samples(const FilmIdentity& identity);
 
 /// Names of the layers of paths of an identity's film.

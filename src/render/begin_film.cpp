@@ -38,7 +38,7 @@ RenderParams begin_film(const PlannedScene& planned, const std::vector<const Dev
     RenderParams params = launch_params(planned);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
-    film.block = error_block(options.transport.integrator);
+    film.block = error_block(options.transport.integrator, options.transport.path_reuse == Toggle::ON);
     int fitting = int(params.replicates);
     for (const Device* device : devices)
         fitting = std::min(fitting, fitting_replicates(*device, params, summed_layers(options).size()));

@@ -72,9 +72,13 @@ LightSamplesGain run_light_pilots(const Device& device, const std::shared_ptr<Pl
                           : reuses ? single->reusing
                                    : single->alone;
     LightSamplesGain best = gain_by(one, pilots.run(parts.programs, reuses, PILOT_LIGHT_SAMPLES), options);
+    if (stop_signal())
+        return {};
     if (best.samples > 1 && single && !reuses) {
         LightSamplesGain with =
             gain_by(single->reusing, pilots.run(parts.reusing, true, PILOT_LIGHT_SAMPLES), options);
+        if (stop_signal())
+            return {};
         with.gain *= single->gain;
         if (with.gain >= WORTHWHILE_REUSE_GAIN * best.gain) {
             best = with;
@@ -126,8 +130,7 @@ void choose_light_samples(const Device& device, const std::shared_ptr<PlannedSce
     if (!pilots_decide(*planned))
         return;
     progress.update({"pilot", -1, 0, -1, -1});
-    const LightSamplesGain best = run_light_pilots(device, planned, parts, single);
-    samples = stop_signal() ? 1 : best.samples;
+    samples = run_light_pilots(device, planned, parts, single).samples;
     progress.finish();
 }
 

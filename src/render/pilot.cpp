@@ -5,6 +5,7 @@
 #include "film/error_measure.h"
 #include "film/film_buffers.h"
 #include "kernels/shared/moment_types.h"
+#include "options/summed_layers.h"
 #include "render/guiding.h"
 #include "render/launch_size.h"
 #include "render/launcher.h"
@@ -113,6 +114,11 @@ void launch_pilot(const PreparedScene& prepared, const Program& program, const R
     render.counts.primary = size.samples();
 }
 
+/// Layers of paths that the picture's programs sum, a pilot's own among them.
+size_t layers_of(const PreparedScene& prepared) {
+    return summed_layers(prepared.planned->options).size();
+}
+
 PilotRender render_pilot(const PreparedScene& prepared, const PilotSize& size) {
     PilotRender pilot;
     RenderProgress& render = pilot.render;
@@ -199,7 +205,7 @@ PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size, b
     RenderParams params = begin_pilot(prepared, size, render.film);
     params.path_choices &= ~PATHS_ARE_SHARED;
     params.path_choices |= reuses_paths ? PATHS_ARE_SHARED : 0;
-    launch_pilot(prepared, prepared.programs->picture, params, size, 0, render);
+    launch_pilot(prepared, prepared.programs->picture, params, size, layers_of(prepared), render);
     PathPilot pilot{{HUGE_VAL, HUGE_VAL}, double(render.counts.rays()) / double(render.counts.primary)};
     if (film_error(render.film))
         for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
@@ -213,7 +219,7 @@ GuideProgress run_guide_pilot(const PreparedScene& prepared, const PilotSize& si
     teaching.guide = std::make_shared<GuideProgress>(untaught_guide(PILOT_REPLICATES, error));
     Render render;
     const RenderParams params = begin_pilot(prepared, size, render.film);
-    const FilmBuffers buffers(prepared.device, params, 0);
+    const FilmBuffers buffers(prepared.device, params, layers_of(prepared));
     buffers.write_emission(find_light_outlines(prepared.planned->scene, params));
     Guiding guiding(teaching, params, buffers, render);
     LaunchSize launch_size(prepared.device.info.compute_units);

@@ -101,20 +101,18 @@ bool fits(const Environment& sky, const IntegratorRow& integrator) {
     return sky.sampling == SkySampling::BY_TABLE || (sky.sampling && integrator.sky != SkySampling::BY_TABLE);
 }
 
-/// The logarithm of how many light samples a path takes at its first vertex: one where no tree chooses
-/// lights.
-u32 light_samples_log(const Scene& scene, const Options& options) {
+/// The logarithm of the power of two that is at most so many light samples.
+u32 light_samples_log(int samples) {
     u32 log = 0;
-    if (takes_option(options.transport.integrator, TAKES_LIGHT_SAMPLES) && !scene.light_tree.nodes.empty())
-        while ((2 << log) <= options.transport.light_samples)
-            ++log;
+    while ((2 << log) <= std::min(samples, MOST_LIGHT_SAMPLES))
+        ++log;
     return log;
 }
 
 u32 path_choices(const Scene& scene, const Options& options) {
     return (options.transport.path_reuse == Toggle::ON ? PATHS_ARE_SHARED : 0) |
            (crosses_slabs(scene, options) ? SLABS_ARE_CROSSED : 0) |
-           light_samples_log(scene, options) << LIGHT_SAMPLES_SHIFT |
+           light_samples_log(light_samples(scene, options)) << LIGHT_SAMPLES_SHIFT |
            (takes_option(options.transport.integrator, TAKES_EMISSION_RAYS)
                 ? u32(options.transport.emission_rays) << EMISSION_RAYS_SHIFT
                 : 0);
@@ -132,6 +130,12 @@ bool crosses_slabs(const Scene& scene, const Options& options) {
                      integrator == Integrator::BDPT;
     return can && options.transport.paths.empty() && options.output.path_layers.empty() &&
            has_slabs_before_the_sky(scene);
+}
+
+int light_samples(const Scene& scene, const Options& options) {
+    const bool can =
+        takes_option(options.transport.integrator, TAKES_LIGHT_SAMPLES) && !scene.light_tree.nodes.empty();
+    return can ? std::max(options.transport.light_samples, 1) : 1;
 }
 
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale) {

@@ -17,6 +17,10 @@ Crop render_window(const FilmOptions& film);
 /// some, the integrator can, and neither --paths nor layers tell paths apart, whose letters they would skip.
 bool crosses_slabs(const Scene& scene, const Options& options);
 
+/// How many light samples a path takes at its first vertex (kernels/path/light_samples.h): one, whatever the
+/// options say, where no tree chooses lights, and by other integrators than path.
+int light_samples(const Scene& scene, const Options& options);
+
 /// Everything but the samples and tiles of a single launch, which are 0.
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale);
 

@@ -20,7 +20,8 @@ namespace clrt {
 
 namespace {
 
-/// Work of both pilots together, in samples of path.
+/// Work of both pilots of reuse together, in samples of path. Those of light samples, where there are any
+/// (light_samples_choice.h), are as large and come on top.
 constexpr double PILOTS_WORK = 2.5;
 
 /// Effects of the scene that keep a path from being of use to other pixels.

@@ -41,6 +41,9 @@ std::string replay_command(const Options& options, const SampleAddress& address)
     for (size_t i = 1; i < options.run.resumable_command.size(); ++i)
         if (options.run.resumable_command[i] != "--" && !is_written(options.run.resumable_command[i]))
             words.push_back(options.run.resumable_command[i]);
+    // What pilots have chosen.
+    if (options.transport.light_samples > 1 && options.run.given.count("--light-samples") == 0)
+        words.insert(words.begin() + 3, fmt::format("--light-samples={}", options.transport.light_samples));
     // A scene may start with a dash.
     if (!options.scene.path.empty() && options.scene.path[0] == '-')
         words.insert(words.end() - 1, "--");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/replay_report.h"
 
+#include "render/render_params.h"
 #include "replay/causes.h"
 #include "replay/replay_values.h"
 
@@ -79,6 +80,9 @@ std::string header(const ReplayReport& report) {
         fmt::format("sample {} of pixel {},{}: {} x {}, {}, seed {}, on {}\n", report.first.address.sample,
                     pixel % width, pixel / width, options.film.size.x, options.film.size.y,
                     name_of(options.transport.integrator), options.sampling.seed, report.device.name);
+    if (const int samples = light_samples(report.scene, options); samples > 1)
+        text += fmt::format(
+            "{} light samples at the first vertex: weights are of so many times their density\n", samples);
     if (options.device.precision == Precision::FAST)
         text += "relaxed maths: this program's last bits may differ from the picture's\n";
     if (!report.twin && !report.device.fp64)

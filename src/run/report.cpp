@@ -3,6 +3,7 @@
 
 #include "paths/path_report.h"
 #include "render/denoised_target.h"
+#include "render/render_params.h"
 #include "run/denoising.h"
 #include "run/report_facts.h"
 #include "scene/ground.h"
@@ -248,7 +249,7 @@ std::string report_json(const Report& report) {
     json["portals"] = portals_json(report.scene.environment);
     json["slabs"] = crossed_slabs(report.scene, report.options);
     json["path_reuse"] = report.options.transport.path_reuse == Toggle::ON;
-    json["light_samples"] = std::max(report.options.transport.light_samples, 1);
+    json["light_samples"] = light_samples(report.scene, report.options);
     json["emission_rays"] = emission_json(report);
     json["guide"] = guide_json(render.guide);
     json["chains"] = chains_json(render.chains);

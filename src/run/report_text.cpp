@@ -6,6 +6,7 @@
 #include "render/error_text.h"
 #include "render/guiding.h"
 #include "render/metropolis.h"
+#include "render/render_params.h"
 #include "run/denoising.h"
 #include "run/report.h"
 #include "run/report_facts.h"
@@ -82,11 +83,9 @@ std::string reuse_line(const Report& report) {
 }
 
 std::string light_line(const Report& report) {
-    const int samples = report.options.transport.light_samples;
-    const Options& options = report.options;
-    if (samples < 2 || !takes_option(options.transport.integrator, TAKES_LIGHT_SAMPLES))
-        return "";
-    return fmt::format("lights   {} samples of them at the first vertex of a path\n", samples);
+    const int samples = light_samples(report.scene, report.options);
+    return samples > 1 ? fmt::format("lights   {} samples of them at the first vertex of a path\n", samples)
+                       : "";
 }
 
 std::string outline_line(const Report& report) {

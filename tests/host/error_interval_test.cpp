@@ -215,8 +215,9 @@ TEST(OwnErrorOfSplats, TakesTheBlocksOfItsFilm) {
     const double blocks = film_squared_error(film)->degrees;
     EXPECT_LT(blocks, 0.6 * pixels);
     EXPECT_EQ(blocks, film_squared_error(film, ErrorPixels::SCENE, 6)->degrees);
-    EXPECT_EQ(error_block(Integrator::MLT), 8);
-    EXPECT_EQ(error_block(Integrator::BDPT), 1);
+    EXPECT_EQ(error_block(Integrator::MLT, false), 8);
+    EXPECT_EQ(error_block(Integrator::BDPT, false), 1);
+    EXPECT_EQ(error_block(Integrator::PATH, true), 8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Replicates, OwnError, testing::Values(4, 8, 32),

@@ -126,8 +126,8 @@ clrt_python_test(host slurm_plan_test)
 clrt_python_test(host verdict_test)
 
 # Where the library's files are compiled a folder at a time, they must compile one by one as well: an include that a
-# neighbour happens to bring is missing. A third of them, another one after every change of a file that is configured anew;
-# with the variable CLRT_TEST_LONG set, all.
+# neighbour happens to bring is missing. A third of them, drawn by the text of all when this is configured; all if the variable
+# CLRT_TEST_LONG is set then.
 if(CLRT_FAST_BUILD)
   get_target_property(all clrt_core SOURCES)
   list(FILTER all INCLUDE REGEX "\\.cpp$")

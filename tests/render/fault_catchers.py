@@ -97,6 +97,7 @@ CAUGHT_BY = {
     "reflection and refraction swapped": "Paths.ReflectionAndRefractionOfGlassAreToldApart",
     "several light samples weighted as one": "LightSamples.ChangeNoMean",
     "lamps met by chance as if one light was sampled": "LightSamples.ChangeNoMean",
+    "the density before slabs as if one light was sampled": "LightSamples.ChangeNoMeanBelowAPaneUnderSunAndSky",
     "light samples that repeat the first": "LightSamples.LowerTheNoiseOfManyLights",
     "several light samples at every vertex": "LightSamples.AreTakenAtTheFirstVertexAlone",
     "reused through walls": "PathReuse.ChangesNoMeanWhereSurfacesAreHidden",

@@ -153,6 +153,8 @@ FAULTS = [
      "light_samples_test"),
     ("lamps met by chance as if one light was sampled", "path/walk.h", "next->pdf_w / (real)path_light_samples(path)", "next->pdf_w",
      "light_samples_test"),
+    ("the density before slabs as if one light was sampled", "path/walk.h", "path->pdf_w_before_slabs = path->pdf_w;",
+     "path->pdf_w_before_slabs = next->pdf_w;", "light_samples_test"),
     ("light samples that repeat the first", "path/light_samples.h", "words.x ^ reversed << 29, words.y ^ digits", "words.x, words.y",
      "light_samples_test"),
     ("several light samples at every vertex", "path/walk.h", "path->light_samples_log : 0u;", "path->light_samples_log :\n"

@@ -5,6 +5,7 @@
 #include "film/film_file.h"
 #include "film/film_identity.h"
 #include "render/light_samples_choice.h"
+#include "render/render_params.h"
 #include "render/reuse_choice.h"
 #include "support/film_agrees.h"
 #include "support/render_scene.h"
@@ -58,22 +59,24 @@ struct Bays : TestScene {
 } // namespace
 
 TEST(LightSamples, ChangeNoMean) {
-    // Lamps that light samples find, and paths by themselves in a gloss; large ones that both find alike.
+    // Lamps that light samples find, large ones that paths find as well, and a gloss in which they do alone.
     struct Case {
         const char* floor;
         double smallest_lamp;
+        Toggle reuse;
     };
-    for (const auto& [floor, lamp] : {Case{"Kd 0.5 0.5 0.5", 0.05}, Case{"Kd 0.5 0.5 0.5", 0.4},
-                                      Case{"Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.8\nNs 200\nillum 2", 0.05}})
-        for (const Toggle reuse : {Toggle::OFF, Toggle::ON}) {
-            Bays bays(6, floor, lamp);
-            bays.options.sampling.spp = 1024;
-            bays.options.transport.path_reuse = reuse;
-            const Film one = bays.render_by(1).film;
-            for (const int samples : {2, 8})
-                expect_equal_means(one, bays.render_by(samples, std::uint32_t(samples)).film,
-                                   std::string(floor) + ", " + std::to_string(samples));
-        }
+    const char* const matte = "Kd 0.5 0.5 0.5";
+    const char* const gloss = "Kd 0.1 0.1 0.1\nKs 0.8 0.8 0.8\nNs 200\nillum 2";
+    for (const auto& [floor, lamp, reuse] : {Case{matte, 0.05, Toggle::OFF}, Case{matte, 0.05, Toggle::ON},
+                                             Case{matte, 0.4, Toggle::OFF}, Case{gloss, 0.05, Toggle::OFF}}) {
+        Bays bays(6, floor, lamp);
+        bays.options.sampling.spp = 1024;
+        bays.options.transport.path_reuse = reuse;
+        const Film one = bays.render_by(1).film;
+        for (const int samples : {2, 8})
+            expect_equal_means(one, bays.render_by(samples, std::uint32_t(samples)).film,
+                               std::string(floor) + ", " + std::to_string(samples));
+    }
 }
 
 TEST(LightSamples, ChangeNoMeanBehindAMirror) {
@@ -88,6 +91,41 @@ TEST(LightSamples, ChangeNoMeanBehindAMirror) {
     bays.options.sampling.spp = 64;
     EXPECT_LT(2 * sample_error(bays.render_by(8).film, ErrorMeasure::RELATIVE),
               sample_error(bays.render_by(1).film, ErrorMeasure::RELATIVE));
+}
+
+// Sky and sun come through a pane that covers the bays: paths that leave through it are weighted as those
+// from the vertex below.
+TEST(LightSamples, ChangeNoMeanBelowAPaneUnderSunAndSky) {
+    Bays bays(6);
+    bays.build.material("pane", "Ni 1.5\nillum 7\nKs 1 1 1\nTf 1 1 1").use("pane");
+    bays.build.box({-8, 2, -8}, {8, 2.1, 8});
+    bays.options.light.environment = glm::dvec3(1, 1.5, 2);
+    bays.options.light.suns.push_back({{0.3, 0.8, 0.4}, {2, 2, 2}, 20});
+    bays.options.sampling.spp = 4096;
+    bays.options.film.size = {24, 16};
+    const Film one = bays.render_by(1).film;
+    expect_equal_means(one, bays.render_by(8, 1).film, "pane");
+}
+
+TEST(LightSamples, LayersLeaveThePictureAloneAndPilots) {
+    Bays bays(12);
+    const Film plain = bays.render_by(8).film;
+    bays.options.output.path_layers = {{"all", "L(D|S)*E"}, {"direct", "L(D|S)E"}, {"rest", "L(D|S)(D|S)+E"}};
+    const Render layered = bays.render_by(8);
+    EXPECT_EQ(layered.film.sums, plain.sums);
+    const std::vector<Film>& layers = layered.path_layers;
+    ASSERT_EQ(layers.size(), 3u);
+    const double all = film_estimate(layers[0], 0).mean;
+    EXPECT_NEAR(all, film_estimate(plain, 0).mean, 1e-5 * all);
+    EXPECT_GT(film_estimate(layers[1], 0).mean, 0.5 * all);
+    // The lamps' backs are black.
+    EXPECT_NEAR(film_estimate(layers[1], 0).mean + film_estimate(layers[2], 0).mean, all, 1e-5 * all);
+    bays.options.film.size = {128, 96};
+    bays.options.transport.max_depth = 2;
+    bays.options.transport.light_samples = 0;
+    const int chosen = bays.chosen();
+    bays.options.output.path_layers.clear();
+    EXPECT_EQ(chosen, bays.chosen());
 }
 
 TEST(LightSamples, LowerTheNoiseOfManyLights) {
@@ -122,6 +160,9 @@ TEST(LightSamples, OneLightTakesOne) {
     const Render many = single.render();
     single.options.transport.light_samples = 1;
     EXPECT_EQ(many.film.sums, single.render().film.sums);
+    single.options.transport.light_samples = 8;
+    const auto planned = plan_loaded(test_device(), single.load(), single.options);
+    EXPECT_EQ(light_samples(planned->scene, planned->options), 1);
 }
 
 TEST(LightSamples, TheBestNumberIsThatOfBothPartsOfTheNoise) {
@@ -168,6 +209,10 @@ TEST(LightSamples, AFilmGoesOnWithItsNumber) {
     const auto planned = plan_loaded(test_device(), bays.load(), bays.options);
     FilmIdentity identity = film_identity(planned->scene, planned->options, launch_params(*planned), {});
     EXPECT_EQ(film_light_samples(identity), 4);
+    for (const int unheard : {0, 5, 16, 1 << 30}) {
+        identity["light_samples"] = unheard;
+        EXPECT_EQ(film_light_samples(identity), 1);
+    }
     identity.erase("light_samples");
     EXPECT_EQ(film_light_samples(identity), 1);
     identity["light_samples"] = "many";

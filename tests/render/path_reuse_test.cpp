@@ -257,6 +257,23 @@ TEST(PathReuse, IsNotChosenForParts) {
     EXPECT_EQ(room.chosen(), Toggle::ON);
 }
 
+// Its interval takes the pixels of a tile together, whose noise goes together.
+TEST(PathReuse, ErrorBarsKnowThatPixelsShareNoise) {
+    Lit room(true);
+    room.options.sampling.replicates = 16;
+    for (const Toggle reuse : {Toggle::OFF, Toggle::ON}) {
+        room.options.transport.path_reuse = reuse;
+        Film film = room.render().film;
+        const double told = film_squared_error(film)->degrees;
+        film.block = 1;
+        const double of_pixels = film_squared_error(film)->degrees;
+        if (reuse == Toggle::ON)
+            EXPECT_LT(told, 0.8 * of_pixels);
+        else
+            EXPECT_EQ(told, of_pixels);
+    }
+}
+
 TEST(PathReuse, IsRefusedWhereAPathIsOfUseToItsPixelAlone) {
     Lit room(true);
     room.options.scene.texture_filter = TextureFilter::FOOTPRINT;
