@@ -30,6 +30,9 @@ KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 # render tests may take (6 minutes on 2 cores).
 DRAWN = 8
 
+# Test programs that take minutes: their faults are left to the night tier.
+SLOW = ("effect_masks_test",)
+
 
 def kernels_hash():
     """A hash of all kernel files, names and text."""
@@ -45,9 +48,9 @@ def kernels_hash():
 
 
 def drawn(count):
-    """The names of so many faults beside those of QUICK, drawn by the kernels."""
+    """The names of so many faults beside those of QUICK and of slow tests, drawn by the kernels."""
     key = kernels_hash()
-    others = [fault[0] for fault in FAULTS if fault[0] not in QUICK]
+    others = [fault[0] for fault in FAULTS if fault[0] not in QUICK and fault[4] not in SLOW]
     return sorted(others, key=lambda name: hashlib.sha256((key + name).encode()).digest())[:count]
 
 
