@@ -3,6 +3,8 @@
 
 #include "device/kernel_source.h"
 
+#include <cstdint>
+
 namespace clrt {
 
 size_t drawn_number(size_t count) {

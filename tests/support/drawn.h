@@ -6,6 +6,7 @@
 
 #include "support/test_device.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace clrt {
