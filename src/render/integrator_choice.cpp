@@ -88,27 +88,21 @@ double pilot_work(const std::vector<Candidate>& candidates, const Options& optio
     return work;
 }
 
-/// Squared error by the relative measure, or by that which --error judges by.
-double error_of(const SquaredErrors& errors, const Options& options) {
-    return errors[size_t(options.sampling.has_target() ? options.sampling.measure()
-                                                       : ErrorMeasure::RELATIVE)];
-}
-
 /// What a candidate's pilot says of it. Its errors are compared with those that the same samples tell of
 /// path.
 IntegratorPrice price_of(const Candidate& candidate, const PilotResult& pilot, const Options& options) {
     IntegratorPrice price{candidate.integrator, pilot.own, pilot.path};
     price.work = candidate.eye_ray * pilot.eye_rays + candidate.light_ray * pilot.light_rays +
                  candidate.inner_ray * pilot.inner_rays + candidate.light_path * pilot.light_paths;
-    price.efficiency =
-        error_of(pilot.path, options) * pilot.eye_rays / (error_of(pilot.own, options) * price.work);
+    price.efficiency = deciding_error(pilot.path, options) * pilot.eye_rays /
+                       (deciding_error(pilot.own, options) * price.work);
     return price;
 }
 
 /// The efficiency that an integrator must have over path's to be taken; `is_guided`: path may be guided.
 double smallest_gain(const IntegratorPrice& price, bool is_guided, const Options& options) {
     const bool rivals_guide = is_guided && price.integrator == Integrator::BDPT &&
-                              error_of(price.path, options) >= HARD_LIGHT_ERROR;
+                              deciding_error(price.path, options) >= HARD_LIGHT_ERROR;
     return rivals_guide ? WORTHWHILE_GAIN_OVER_GUIDE : WORTHWHILE_GAIN;
 }
 

@@ -31,10 +31,8 @@ bool pilots_decide(const PlannedScene& planned) {
 
 /// What pilots with one light sample and with several tell, by the measure that the render is judged by.
 LightSamplesGain gain_by(const PathPilot& one, const PathPilot& many, const Options& options) {
-    const SamplingOptions& sampling = options.sampling;
-    const auto measure = size_t(sampling.has_target() ? sampling.measure() : ErrorMeasure::RELATIVE);
-    return best_light_samples(one.errors[measure], one.rays, many.errors[measure], many.rays,
-                              PILOT_LIGHT_SAMPLES);
+    return best_light_samples(deciding_error(one.errors, options), one.rays,
+                              deciding_error(many.errors, options), many.rays, PILOT_LIGHT_SAMPLES);
 }
 
 /// Pilots of a plan whose programs are there.

@@ -200,6 +200,11 @@ void count_rays(const PilotRender& pilot, PilotResult& result) {
 
 } // namespace
 
+double deciding_error(const SquaredErrors& errors, const Options& options) {
+    const SamplingOptions& sampling = options.sampling;
+    return errors[size_t(sampling.has_target() ? sampling.measure() : ErrorMeasure::RELATIVE)];
+}
+
 PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size, bool reuses_paths) {
     RenderProgress render;
     RenderParams params = begin_pilot(prepared, size, render.film);

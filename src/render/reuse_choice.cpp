@@ -46,10 +46,8 @@ constexpr double SHARED_RAY_COST = 0.35;
 
 /// How many times less the squared error times work of a sample is with reuse.
 double gain_of(const PathPilot& reusing, const PathPilot& alone, const Options& options) {
-    const SamplingOptions& sampling = options.sampling;
-    const auto measure = size_t(sampling.has_target() ? sampling.measure() : ErrorMeasure::RELATIVE);
     const double work = 1 + SHARED_RAY_COST * (reusing.rays - alone.rays) / alone.rays;
-    return alone.errors[measure] / (reusing.errors[measure] * work);
+    return deciding_error(alone.errors, options) / (deciding_error(reusing.errors, options) * work);
 }
 
 /// Whether pilots are to decide.
