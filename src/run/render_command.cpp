@@ -74,6 +74,8 @@ struct Job {
     IntegratorChoice choice;
     PreparedParts parts; ///< that are there before the render
     double load_seconds;
+    double
+        pilots_seconds; ///< with the programs that no picture needs, without the picture's program and tree
 };
 
 /// The report of a render, to which writing the pictures adds the exposure.
@@ -93,6 +95,7 @@ Report make_report(const Job& job, const Simulation& done, const SceneTree& tree
             tree.reason,
             done.causes,
             job.load_seconds,
+            job.pilots_seconds,
             done.prepared ? done.prepared->programs->seconds : 0,
             seconds_since(job.start),
             0,
@@ -173,6 +176,29 @@ void announce(const PlannedScene& planned) {
                      spot.cause, spot.seen.empty() ? "" : "; it sees " + spot.seen);
 }
 
+/// Decides by pilots whatever the options leave open, and notes the seconds that they took.
+void choose_by_pilots(Job& job, Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const Device& device = job.devices.front();
+    expect_path_programs(device, job.planned);
+    choose_portals(device, job.planned, job.parts, progress);
+    job.choice = choose_integrator(device, job.planned, job.parts, progress);
+    const bool is_other_sky = choose_sky_table(device, job.planned, job.parts, progress);
+    const auto pilot = choose_path_reuse(device, job.planned, job.parts, progress);
+    expect_no_other(device, *job.planned);
+    choose_light_samples(device, job.planned, job.parts, pilot, progress);
+    const TransportOptions& chosen = job.planned->options.transport;
+    std::optional<PathPilot> unguided;
+    if (chosen.light_samples <= 1 && chosen.path_reuse == Toggle::ON && pilot)
+        unguided = pilot->reusing;
+    else if (chosen.light_samples <= 1 && chosen.path_reuse != Toggle::ON && !is_other_sky)
+        unguided = job.choice.unguided;
+    choose_guide(device, job.planned, job.parts, unguided, progress);
+    const auto& [tree, programs, guide, reusing] = job.parts;
+    job.pilots_seconds =
+        seconds_since(start) - (tree ? tree->bvh.seconds : 0) - (programs ? programs->seconds : 0);
+}
+
 } // namespace
 
 int run_render(Options options) {
@@ -187,17 +213,8 @@ int run_render(Options options) {
     devices.front().ahead =
         compile_ahead(devices.front().info, {options.device.cache, options.device.cache_folder},
                       unsigned(options.device.threads));
-    Job job{start, devices, plan_scene(std::move(scene), options), {}, {}, load_seconds};
-    expect_path_programs(devices.front(), job.planned);
-    choose_portals(devices.front(), job.planned, job.parts, progress);
-    job.choice = choose_integrator(devices.front(), job.planned, job.parts, progress);
-    const bool is_other_sky = choose_sky_table(devices.front(), job.planned, job.parts, progress);
-    const auto pilot = choose_path_reuse(devices.front(), job.planned, job.parts, progress);
-    expect_no_other(devices.front(), *job.planned);
-    choose_light_samples(devices.front(), job.planned, job.parts, pilot, progress);
-    const bool is_other = is_other_sky || job.planned->options.transport.light_samples > 1;
-    choose_guide(devices.front(), job.planned, job.parts, is_other ? std::nullopt : job.choice.unguided,
-                 progress);
+    Job job{start, devices, plan_scene(std::move(scene), options), {}, {}, load_seconds, 0};
+    choose_by_pilots(job, progress);
     announce(*job.planned);
     std::optional<Simulation> done;
     const int exit_code = options.camera.frames ? render_turn(job, progress, viewers, done)

@@ -262,6 +262,7 @@ std::string report_json(const Report& report) {
     json["replicates"] = render.film.replicates;
     json["triangles"] = file_triangles(report.scene);
     json["seconds"] = {{"load", report.load_seconds},
+                       {"pilots", report.pilots_seconds},
                        {"bvh", report.bvh.seconds},
                        {"compile", report.compile_seconds},
                        {"first_launch", render.first_launch_seconds},
@@ -324,6 +325,7 @@ Metadata report_metadata(const Report& report) {
                       {"spp", std::to_string(film_samples(render.film))},
                       {"stop", render.stop_text},
                       {"seconds.load", seconds(report.load_seconds)},
+                      {"seconds.pilots", seconds(report.pilots_seconds)},
                       {"seconds.bvh", seconds(report.bvh.seconds)},
                       {"seconds.compile", seconds(report.compile_seconds)},
                       {"seconds.first_launch", seconds(render.first_launch_seconds)},

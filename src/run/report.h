@@ -29,7 +29,7 @@ struct Report {
     ErrorReport error;
     std::string bvh_reason;         ///< why the tree has its quality
     std::vector<CauseCount> causes; ///< of the bad samples that were replayed
-    double load_seconds = 0, compile_seconds = 0, total_seconds = 0;
+    double load_seconds = 0, pilots_seconds = 0, compile_seconds = 0, total_seconds = 0;
     double exposure_ev = 0;                        ///< stops of the 8-bit pictures
     IntegratorChoice choice = {};                  ///< of --integrator auto
     std::optional<std::string> empty_picture = {}; ///< why the picture shows nothing, where it does not

@@ -96,7 +96,7 @@ std::string outline_line(const Report& report) {
 }
 
 std::string guide_line(const Report& report) {
-    const std::string text = guide_text(report.render.guide);
+    const std::string text = guide_text(report.render.guide, report.options);
     return text.empty() ? "" : fmt::format("guide    {}\n", text);
 }
 
@@ -176,9 +176,10 @@ std::string work_lines(const Report& report) {
     std::string text = fmt::format("by       {}, seed {}, {} sampler, {} replicates\n",
                                    name_of(report.options.transport.integrator), report.options.sampling.seed,
                                    name_of(report.options.sampling.sampler), render.film.replicates);
-    text += fmt::format("stages   load {:.2f} s, bvh {:.2f} s, compile {:.2f} + {:.2f} s, render {:.2f} s\n",
-                        report.load_seconds, report.bvh.seconds, report.compile_seconds,
-                        render.first_launch_seconds, render.run_seconds);
+    text += fmt::format("stages   load {:.2f} s, pilots {:.2f} s, bvh {:.2f} s, compile {:.2f} + {:.2f} s, "
+                        "render {:.2f} s\n",
+                        report.load_seconds, report.pilots_seconds, report.bvh.seconds,
+                        report.compile_seconds, render.first_launch_seconds, render.run_seconds);
     text +=
         fmt::format("rays     {:.2f} a sample, {:.2f} Mrays/s, {:.2f} Msamples/s\n",
                     samples > 0 ? double(render.counts.rays()) / samples : 0, rays_per_second(render) * 1e-6,

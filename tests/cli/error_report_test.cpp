@@ -138,7 +138,7 @@ TEST_F(ErrorReport, VerboseAddsTheRest) {
     EXPECT_TRUE(holds(result.err, {"ended after 128 spp: --spp 128 is complete"}));
     for (const std::string& line :
          {std::string("by       path, seed 0, sobol sampler, 4 replicates\n"),
-          std::string("stages   load [0-9.]+ s, bvh [0-9.]+ s, compile "),
+          std::string("stages   load [0-9.]+ s, pilots [0-9.]+ s, bvh [0-9.]+ s, compile "),
           std::string("rays     [0-9.]+ a sample, "), std::string("tree     bvh"),
           std::string("slope    -[0-9.]+ \\+- [0-9.]+ from 4 to 128 spp: twice the "),
           std::string("worst    [0-9.]+ % of the picture's mean in the 32 x 32 tile at 0,0\n"),

@@ -191,7 +191,7 @@ TEST_F(PictureFile, StatisticsAreJsonInSiUnits) {
     const auto stats = json("s.json");
     EXPECT_EQ(stats["spp"], 16);
     EXPECT_EQ(stats["passes"], 16);
-    for (const char* stage : {"load", "bvh", "compile", "first_launch", "render", "total"}) {
+    for (const char* stage : {"load", "pilots", "bvh", "compile", "first_launch", "render", "total"}) {
         EXPECT_TRUE(stats["seconds"][stage].is_number()) << stage;
         EXPECT_GE(stats["seconds"][stage], 0) << stage;
     }

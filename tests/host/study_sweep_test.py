@@ -62,16 +62,16 @@ class Sweep(unittest.TestCase):
 
 class AMethod(unittest.TestCase):
     def test_is_said_as_clrt_takes_it(self):
-        method = Method("path", "single", "sobol", guide="on", adaptive="relative")
+        method = Method("path", "single", "sobol", guide="on", emission_rays="1", adaptive="relative")
         self.assertEqual(method.words(), ["--integrator", "path", "--precision", "single", "--sampler", "sobol", "--guide", "on",
-                                          "--adaptive=relative"])
+                                          "--emission-rays", "1", "--adaptive=relative"])
         self.assertEqual(Method(adaptive="off").words(), [])
         self.assertEqual(Method(adaptive="on").words(), ["--adaptive"])
 
     def test_has_a_name_of_its_own(self):
         self.assertEqual(str(Method("path", "single", "sobol", guide="auto", adaptive="off")), "path, single, sobol")
-        self.assertEqual(str(Method("path", "single", "sobol", guide="off", adaptive="mse")),
-                         "path, single, sobol, guide off, adaptive mse")
+        self.assertEqual(str(Method("path", "single", "sobol", guide="off", light_samples="4", adaptive="mse")),
+                         "path, single, sobol, guide off, light samples 4, adaptive mse")
 
     def test_every_switch_has_its_place_among_the_changes(self):
         self.assertEqual(sorted(switch.rank for switch in SWITCHES.values()), list(range(1, len(SWITCHES) + 1)))
@@ -86,6 +86,9 @@ class TheNamesThatClrtTakes(unittest.TestCase):
                                alone), mixture (half: half) or power (default
                                tree)
       --guide auto|on|off      learns where light comes from
+      --path-reuse auto|on|off  paths that share
+      --emission-rays N        camera rays (default 16)
+      --light-samples auto|N   samples of lights (default auto)
       --adaptive%s
                                take more samples where it is noisy (default: the same)
 """
@@ -105,7 +108,14 @@ class TheNamesThatClrtTakes(unittest.TestCase):
         self.assertEqual(choices.names("--guide"), ["auto", "on", "off"])
         self.assertEqual(choices.names("--adaptive"), ["off", "mse", "relative"])
         self.assertEqual(self.choices("").names("--adaptive"), ["off", "on"])
-        self.assertEqual(choices.default_method(), Method("path", None, "sobol", "tree", "auto", "off"))
+        self.assertEqual([choices.names("--" + name) for name in ("path-reuse", "emission-rays", "light-samples")],
+                         [["auto", "off"], ["16", "1"], ["auto", "1"]])
+        self.assertEqual(choices.default_method(), Method("path", None, "sobol", "tree", "auto", "auto", "16", "auto", "off"))
+
+    def test_are_numbers_where_the_option_takes_them(self):
+        choices = self.choices("")
+        self.assertEqual([choices.takes("--light-samples", name) for name in ("auto", "2", "N", "-1")], [True, True, False, False])
+        self.assertEqual([choices.takes("--guide", name) for name in ("on", "2")], [True, False])
 
 
 class Pictures(unittest.TestCase):
@@ -124,6 +134,11 @@ class Pictures(unittest.TestCase):
 
 
 class ARun(unittest.TestCase):
+    def test_takes_the_seconds_of_its_pilots_unless_they_compiled(self):
+        seconds = [Run(Point(SOBOL, 1, 1, cold), "clrt", "x.exr", {"seconds": {"render": 2.0, **pilots}}, 1.0).render_seconds
+                   for cold, pilots in ((False, {"pilots": 0.5}), (True, {"pilots": 9.0}), (False, {}))]
+        self.assertEqual(seconds, [2.5, 2.0, 2.0])
+
     def test_is_ended_when_its_time_is_over(self):
         fake = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support", "fake_clrt.py")
         settings = {"FAKE_CLRT_SAMPLES": "1e9", "FAKE_CLRT_START": "60"}

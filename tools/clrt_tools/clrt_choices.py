@@ -25,15 +25,26 @@ class Choices:
         return option in self._entries
 
     def names(self, option):
-        """All names, in the order of the help; of an option that stands alone, OFF and its names, or OFF and ON."""
+        """What a study compares: the switch's own list, or all names in the order of the help; of an option that stands alone, OFF
+        and its names, or OFF and ON."""
+        return list(SWITCH_OF[option].tried) or self.known(option)
+
+    def known(self, option):
+        """All names in the help, and whether numbers are taken beside them."""
         head = self._entries[option].split(None, 2)
         if SWITCH_OF[option].bare:
             listed = re.fullmatch(r"--[a-z-]+\[=(.+)\]", head[0])
             return [OFF] + (listed.group(1).split("|") if listed else [ON])
+        if SWITCH_OF[option].numbers:
+            return [name for name in head[1].split("|") if name != "N"] + ["whole numbers"]
         if "|" in head[1]:
             return head[1].split("|")
         listed = re.sub(r" \([^()]*\)", "", " ".join(head[2].split()))
         return re.split(", | or ", listed.split(": ")[-1])
+
+    def takes(self, option, name):
+        """Whether it is a name in the help, or a number where the option takes numbers."""
+        return SWITCH_OF[option].numbers and name.isdecimal() or name in self.known(option)
 
     def default(self, option):
         """The name that the help calls so, else the first."""

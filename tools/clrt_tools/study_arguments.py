@@ -95,11 +95,13 @@ def check_names(options, choices):
     switch that this clrt has."""
     options.names = {}
     for field, switch in SWITCHES.items():
-        given, known = getattr(options, field), choices.names(switch.option) if choices.has(switch.option) else []
-        if given and not known:
-            return f"option --{switch.plural}: expected a clrt that has {switch.option}, found one without"
-        if given and (not set(given) <= set(known) or len(set(given)) != len(given)):
-            return f"option --{switch.plural}: expected a list out of {', '.join(known)}, found '{','.join(given)}'"
-        if known:
-            options.names[field] = given or known
+        given = getattr(options, field)
+        if not choices.has(switch.option):
+            if given:
+                return f"option --{switch.plural}: expected a clrt that has {switch.option}, found one without"
+            continue
+        if given and (not all(choices.takes(switch.option, name) for name in given) or len(set(given)) != len(given)):
+            return (f"option --{switch.plural}: expected a list out of {', '.join(choices.known(switch.option))}, "
+                    f"found '{','.join(given)}'")
+        options.names[field] = given or choices.names(switch.option)
     return ""

@@ -26,8 +26,8 @@ ERRORS = (("squared error", COLOURS[0], "o", -0.13), ("relative squared error", 
 # How far a bar reaches, as a factor, where an end of its interval is not known.
 UNKNOWN = 10
 STAGES = [("load", "load scene"), ("bvh", "build tree"), ("compile", "compile"), ("first_launch", "first launch"),
-          ("render", "render")]
-STAGE_COLOURS = ["#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#0072b2"]
+          ("pilots", "pilots"), ("render", "render")]
+STAGE_COLOURS = ["#56b4e9", "#009e73", "#e69f00", "#cc79a7", "#f0e442", "#0072b2"]
 # Inches of a drawing: narrow, so that its letters can still be read at the width of a telephone.
 WIDTH = 7.0
 matplotlib.rcParams.update({"svg.hashsalt": "clrt", "font.size": 12, "axes.grid": True, "grid.alpha": 0.35, "grid.color": "#888888",
@@ -133,7 +133,7 @@ def stages_chart(rows, labels):
     figure, axes = pyplot.subplots(figsize=(WIDTH, 1.7 + 0.42 * max(len(rows), 1)), layout="constrained")
     left = numpy.zeros(len(rows))
     for (stage, label), colour in zip(STAGES, STAGE_COLOURS):
-        widths = numpy.array([seconds[stage] for _, seconds in rows.values()])
+        widths = numpy.array([seconds.get(stage, 0) for _, seconds in rows.values()])
         axes.barh(range(len(rows)), widths, left=left, color=colour, height=0.7, label=label)
         left += widths
     for row, total in enumerate(left):

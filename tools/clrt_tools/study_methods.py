@@ -21,6 +21,8 @@ class Switch:
     combined: bool = False    # with all others where no list was given; else one change at a time
     usual: Optional[str] = None  # the name that need not be said
     bare: bool = False        # the option alone, or --option=NAME; OFF leaves it away
+    tried: tuple = ()         # what is compared where no list was given, the default first; empty: all names in clrt's help
+    numbers: bool = False     # takes whole numbers beside its names
 
     def words(self, name):
         """The part of clrt's command line that says so."""
@@ -36,14 +38,20 @@ def _switch(*row, **settings):
 @dataclasses.dataclass(frozen=True)
 class Method:
     """What is compared: a name for every switch; None where this clrt has no such switch."""
-    integrator: Optional[str] = _switch("--integrator", "integrators", 6, "those of clrt that are compared (default path,whitted; "
+    integrator: Optional[str] = _switch("--integrator", "integrators", 9, "those of clrt that are compared (default path,whitted; "
                                         "quick: path)", "-i", combined=True)
-    precision: Optional[str] = _switch("--precision", "precisions", 5, "likewise (default: all)", "-p", combined=True)
+    precision: Optional[str] = _switch("--precision", "precisions", 8, "likewise (default: all)", "-p", combined=True)
     sampler: Optional[str] = _switch("--sampler", "samplers", 1, "likewise (default: all)", combined=True)
     lights: Optional[str] = _switch("--light-sampler", "light-samplers", 2, "likewise; combined with the others where it is given "
                                     "(default: all that this clrt has, one change at a time)", usual="tree")
-    guide: Optional[str] = _switch("--guide", "guides", 3, "likewise, such as auto,on,off", usual="auto")
-    adaptive: Optional[str] = _switch("--adaptive", "adaptive", 4, "likewise, such as off,relative", usual=OFF, bare=True)
+    path_reuse: Optional[str] = _switch("--path-reuse", "path-reuse", 3, "likewise (default: auto,off)", usual="auto",
+                                        tried=("auto", "off"))
+    guide: Optional[str] = _switch("--guide", "guides", 4, "likewise, such as auto,on,off", usual="auto")
+    emission_rays: Optional[str] = _switch("--emission-rays", "emission-rays", 5, "likewise (default: 16,1)", usual="16",
+                                           tried=("16", "1"), numbers=True)
+    light_samples: Optional[str] = _switch("--light-samples", "light-samples", 6, "likewise, such as auto,1,4 (default: auto,1)",
+                                           usual="auto", tried=("auto", "1"), numbers=True)
+    adaptive: Optional[str] = _switch("--adaptive", "adaptive", 7, "likewise, such as off,relative", usual=OFF, bare=True)
 
     def __str__(self):
         return ", ".join(self._said(field, name) for field, name in self.names().items()
@@ -68,7 +76,7 @@ class Method:
     @staticmethod
     def _said(field, name):
         """A name that says alone what it is, or with its switch: `whitted`, `guide off`."""
-        return name if SWITCHES[field].combined else f"{field} {name}"
+        return name if SWITCHES[field].combined else f"{field.replace('_', ' ')} {name}"
 
 
 SWITCHES = {field.name: field.metadata["switch"] for field in dataclasses.fields(Method)}

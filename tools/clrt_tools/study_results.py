@@ -137,9 +137,9 @@ def _summary(spp, group, reference):
                    math.sqrt(statistics.fmean(e * e for e in own)) if all(own) else None)
 
 
-STAGES = ("load", "bvh", "compile", "first_launch", "render", "total")
-COLUMNS = ["scene", "renderer", "device", *SWITCHES, "seed", "spp", "width", "height", "cold", *(f"{stage}_s" for stage in STAGES),
-           "process_cpu_s", "mse", "rel_rmse", "relmse", "own_rel_rmse", "nonfinite", "command"]
+STAGES = ("load", "bvh", "compile", "first_launch", "pilots", "render", "total")
+COLUMNS = ["scene", "renderer", "device", *SWITCHES, "seed", "spp", "width", "height", "cold",
+           *(f"{stage}_s" for stage in STAGES), "process_cpu_s", "mse", "rel_rmse", "relmse", "own_rel_rmse", "nonfinite", "command"]
 # Kinds of samples that a film leaves out.
 BAD_SAMPLES = ("nan", "infinite", "negative", "overflow")
 

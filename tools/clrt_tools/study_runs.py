@@ -63,7 +63,9 @@ class Run:
 
     @property
     def render_seconds(self):
-        return self.stats["seconds"]["render"]
+        """Of the samples and of the pilots that chose how they are taken; those of a cold run compile, and are left out."""
+        seconds = self.stats["seconds"]
+        return seconds["render"] + (0 if self.point.cold else seconds.get("pilots", 0))
 
     @property
     def own_error(self):

@@ -15,6 +15,9 @@ NAMES = {"sampler": {"sobol": "Sobol points", "independent": "white noise"},
          "precision": {"double": "double precision", "single": "single precision", "fast": "fast maths"},
          "lights": {"tree": "the light tree", "mixture": "choosing lights by power and evenly",
                     "power": "choosing lights by power alone"},
+         "path_reuse": {"on": "reuse of paths", "off": "no reuse of paths", "auto": "reuse of paths by pilots' choice"},
+         "emission_rays": {"1": "one camera ray a sample at the outlines of lamps", "16": "16 camera rays a sample there"},
+         "light_samples": {"1": "one light sample", "auto": "a number of light samples by pilots' choice"},
          "guide": {"on": "path guiding", "off": "no path guiding", "auto": "path guiding by a pilot's choice"},
          "adaptive": {"off": "even sampling", "on": "adaptive sampling", "mse": "adaptive sampling for the squared error",
                       "relative": "adaptive sampling for the relative error"}}
@@ -25,7 +28,7 @@ THE_DEFAULT = "clrt's default"
 
 def change_name(field, name):
     """A name of a switch in words."""
-    return NAMES.get(field, {}).get(name, name if field == "integrator" else f"{field} {name}")
+    return NAMES.get(field, {}).get(name, name if field == "integrator" else f"{field.replace('_', ' ')} {name}")
 
 
 def number(value):
