@@ -80,9 +80,9 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const bool continues = path_filter(scene, params, sampler, segment, &surface, path, &step, &bsdf, rays);
     if (bsdf.lobes == 0u)
         return;
-    reuse_keep_first(params, segment, &surface, &bsdf, path, reused);
-    reuse_keep_second(scene, segment, &surface, &bsdf, path, &sample->radiance, reused);
     Guide guide = guide_of(scene, &bsdf, &path->guided);
+    reuse_keep_first(params, segment, &surface, &bsdf, &guide, path, reused);
+    reuse_keep_second(scene, segment, &surface, &bsdf, path, &sample->radiance, reused);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
     light_samples_connect(scene, params, segment, &surface, &bsdf, &step, path, &sample->radiance,
                           &sample->layers, rays);
@@ -203,13 +203,13 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
     }
     for (uint segment = 1u; alive.count != 0u && segment <= PATH_SEGMENTS; ++segment)
         path_advance(scene, params, segment, paths, samples, reused, &alive, rays);
-    reuse_share(scene, params, count, reused, samples, rays);
-    for (uint k = 0; k < count; ++k)
-        nan_carry(scene, nan_of_vector(paths[k].throughput + paths[k].watched), &samples[k].radiance);
 #if PATH_GUIDE
     for (uint k = 0; k < count; ++k)
         samples[k].guide_gain = guide_learn(scene, params, samples[k].radiance, &paths[k].guided);
 #endif
+    reuse_share(scene, params, count, reused, samples, rays);
+    for (uint k = 0; k < count; ++k)
+        nan_carry(scene, nan_of_vector(paths[k].throughput + paths[k].watched), &samples[k].radiance);
 }
 
 #endif

@@ -3,9 +3,9 @@
 // the first vertices of the paths of other pixels, too. For builds with -DPATH_REUSE=1.
 //
 // Let x_i be the first vertices of a group's paths and y_j the second ones, f_i the BSDF times cosine at x_i,
-// p_i its sampling density of the direction to y_j, V_ij the share of light that gets from y_j to x_i, P_ij
-// the probability with which paths do, c_ij the cosine at y_j over the squared distance, and L_j what path j has
-// found to leave y_j, emission apart. The estimate of pixel i is
+// p_i the density with which it samples the direction to y_j, by BSDF and guide, V_ij the share of light that
+// gets from y_j to x_i, P_ij the probability with which paths do, c_ij the cosine at y_j over the squared
+// distance, and L_j what path j has found to leave y_j, emission apart. The estimate of pixel i is
 //     sum over j of  f_i c_ij V_ij L_j / sum over k of p_k c_kj P_kj,
 // the balance heuristic (Veach 1997) over all paths that could have come to y_j. It has no bias, and no
 // quotient is larger than the path's own. V and P are both 0 or 1 but for cut-outs and panes.
@@ -27,6 +27,7 @@ typedef struct {
     bool has_first;  /* the first vertex is there: */
     Surface surface; /* its surface, */
     Bsdf bsdf;
+    GuideShare guide; /* of its directions */
     real3 throughput; /* of the path that comes to it */
     bool has_second;  /* the second is there, and is of use to others: */
     Surface second;   /* its surface, */
@@ -41,13 +42,15 @@ static inline void reuse_begin(ReusedPath* reused) { reused->has_first = reused-
 
 /* Keeps the first vertex, which some lobe connects to others; without it nothing is shared. */
 static inline void reuse_keep_first(const RenderParams* params, uint segment, const Surface* surface,
-                                    const Bsdf* bsdf, const Path* path, ReusedPath* reused)
+                                    const Bsdf* bsdf, const Guide* guide, const Path* path,
+                                    ReusedPath* reused)
 {
     if (!(params->path_choices & PATHS_ARE_SHARED) || segment != 1u || !bsdf_has_smooth_lobe(bsdf))
         return;
     reused->has_first = true;
     reused->surface = *surface;
     reused->bsdf = *bsdf;
+    reused->guide = guide_share(guide);
     reused->throughput = path->throughput;
 }
 
@@ -75,6 +78,7 @@ static inline void reuse_keep_second(const Scene* scene, uint segment, const Sur
     reused->side = vector_dot(surface->normal_g, path->ray.direction) > REAL(0.0) ? REAL(-1.0) : REAL(1.0);
     reused->before = *radiance;
     reused->scale = scale;
+    guide_count_anew(*radiance, path->throughput, scale, &path->guided);
     *radiance = (real3)(REAL(0.0));
     path->throughput = (real3)(scale);
 }
@@ -125,7 +129,7 @@ static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderPar
     const Passage passage =
         reuse_passage(scene, params, &eye->surface, &source->second, wi, is_own, rays);
     eval.value *= eye->throughput * passage.share * (cosine / square);
-    eval.pdf_w *= passage.passing * (cosine / square);
+    eval.pdf_w = guide_density(scene, &eye->guide, wi, eval.pdf_w) * passage.passing * (cosine / square);
     return eval;
 }
 
@@ -170,7 +174,8 @@ typedef struct {
 static inline void reuse_begin(ReusedPath* reused) {}
 
 static inline void reuse_keep_first(const RenderParams* params, uint segment, const Surface* surface,
-                                    const Bsdf* bsdf, const Path* path, ReusedPath* reused)
+                                    const Bsdf* bsdf, const Guide* guide, const Path* path,
+                                    ReusedPath* reused)
 {
 }
 

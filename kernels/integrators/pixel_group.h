@@ -81,6 +81,9 @@ static CLRT_NOINLINE void work_item_render(const Scene* scene, const RenderParam
         SampleCounter next = counter;
         for (uint m = 0; m < members; ++m) {
             next = counter;
+#if PATH_GUIDE
+            pixel_add_gain(scene, places[m].slot, samples + m * count, count);
+#endif
             pixel_add(params, places[m], samples + m * count, count, &next, film, pixel_rays, counters);
         }
         counter = next;

@@ -41,6 +41,16 @@ static inline bool guide_suits(const Bsdf* bsdf)
            ((bsdf->lobes & GUIDE_ROUGH_LOBES) && fmin(bsdf->alpha_x, bsdf->alpha_y) >= GUIDE_SMALLEST_ALPHA);
 }
 
+/* What tells the density of directions at a vertex apart from its BSDF's, where that is asked for later. */
+typedef struct {
+#if PATH_GUIDE
+    uint cell; /* NO_INDEX: the vertex is not guided */
+    real share;
+#else
+    uint unused;
+#endif
+} GuideShare;
+
 /* Of a vertex that is not guided. */
 static inline Guide guide_none(void)
 {
@@ -105,6 +115,36 @@ static inline real guide_mixture(const Guide* guide, real bsdf_pdf_w, real cell_
     return fma(guide->share, cell_pdf_w - bsdf_pdf_w, bsdf_pdf_w);
 }
 
+#endif
+
+static inline GuideShare guide_share(const Guide* guide)
+{
+    GuideShare share;
+#if PATH_GUIDE
+    share.cell = guide->cell;
+    share.share = guide->share;
+#else
+    share.unused = 0u;
+#endif
+    return share;
+}
+
+/* The density with which such a vertex samples a direction, where its BSDF's is bsdf_pdf_w. */
+static inline real guide_density(const Scene* scene, const GuideShare* share, real3 wi, real bsdf_pdf_w)
+{
+#if PATH_GUIDE
+    if (share->cell == NO_INDEX)
+        return bsdf_pdf_w;
+    Guide guide = guide_none();
+    guide.cell = share->cell;
+    guide.share = share->share;
+    return guide_mixture(&guide, bsdf_pdf_w, guide_pdf_w(scene, &guide, wi, &guide.bin));
+#else
+    return bsdf_pdf_w;
+#endif
+}
+
+#if PATH_GUIDE
 /* Samples a direction by the cell; u in (0, 1)^2. */
 static inline BsdfSample guide_sample_cell(const Scene* scene, const Bsdf* bsdf, real2 u, Guide* guide)
 {

@@ -18,7 +18,8 @@ typedef struct {
     real ratio;      /* density of the path with the guide over that without */
     real next_ratio; /* the same at its next vertex */
     real excess;     /* sum of contributions, each times its ratio less 1 */
-    real found;      /* sum of contributions */
+    real found;      /* sum of contributions, */
+    real unit;       /* and what they count by from now on */
     real gain;       /* second moment of that sum without the guide less the one with it, as this path says */
 } GuideGain;
 
@@ -26,12 +27,20 @@ static inline void gain_begin(GuideGain* gain)
 {
     gain->ratio = gain->next_ratio = REAL(1.0);
     gain->excess = gain->found = gain->gain = REAL(0.0);
+    gain->unit = REAL(1.0);
+}
+
+/* From now on the path counts what it finds from zero, in other units. */
+static inline void gain_count_anew(real unit, GuideGain* gain)
+{
+    gain->found = REAL(0.0);
+    gain->unit = unit;
 }
 
 /* Takes what the path has found since the last time; `found`: all that it has. */
 static inline void gain_add(real found, GuideGain* gain)
 {
-    const real contribution = found - gain->found;
+    const real contribution = gain->unit * (found - gain->found);
     const real excess = (gain->ratio - REAL(1.0)) * contribution;
     gain->gain += contribution * fma(REAL(2.0), gain->excess, excess);
     gain->excess += excess;

@@ -102,6 +102,23 @@ static inline void guide_approach(const Scene* scene, const RenderParams* params
 #endif
 }
 
+/* A path that serves other pixels counts what it finds from zero behind its second vertex: `radiance` is what
+   it has found so far, and its throughput, which was `throughput`, becomes `scale` in every channel. What the
+   vertex before learns takes the mean of the channels for each. */
+static inline void guide_count_anew(real3 radiance, real3 throughput, real scale, GuidePath* path)
+{
+#if PATH_GUIDE
+    const real unit = guide_size(throughput) / (REAL(3.0) * scale);
+    gain_add(guide_size(radiance), &path->gain);
+    gain_count_anew(unit, &path->gain);
+    if (!path->is_open)
+        return;
+    GuideVertex* vertex = &path->vertices[path->count - 1u];
+    vertex->radiance = (vertex->radiance - guide_size(radiance)) / unit;
+    vertex->weight *= unit;
+#endif
+}
+
 /* The guide of the path's vertex there. */
 static inline Guide guide_of(const Scene* scene, const Bsdf* bsdf, const GuidePath* path)
 {

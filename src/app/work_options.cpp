@@ -140,7 +140,7 @@ std::vector<OptionSpec> work_options() {
         {group, "", "--path-reuse", "auto|on|off",
          takers(TAKES_PATH_REUSE) +
              fmt::format("give what a path finds behind its second vertex to {} pixels: off, on, or auto: "
-                         "where pilots tell that it lowers noise times rays; not with --guide on, --ledger, "
+                         "where pilots tell that it lowers noise times rays; not with --ledger, "
                          "--pixel, a --crop across tiles of {} pixels, or a roulette from the first segment "
                          "on (default auto)",
                          REUSE_PIXELS, TILE_SIZE),

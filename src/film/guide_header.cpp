@@ -41,9 +41,11 @@ Json guide_header(const GuideProgress& guide) {
     json["guided_from"] = number_or_null(guide.guided_from);
     json["guided_to"] = guide.guided_to;
     json["pilot_error"] = number_or_null(guide.pilot_error);
+    json["plain_error"] = guide.plain_error;
     json["plain_rays"] = guide.plain_rays;
     json["taught_rays"] = guide.taught_rays;
     json["teachers"] = guide.teachers;
+    json["begin_error"] = guide.begin_error;
     json["gain"] = guide.gain;
     json["earlier_gain"] = guide.earlier_gain;
     json["asked_from"] = guide.asked_from;
@@ -70,9 +72,11 @@ GuideProgress guide_of_header(const Json& json) {
         guide.guided_from = whole<std::uint64_t>(from);
     guide.guided_to = whole<std::uint64_t>(json.at("guided_to"));
     guide.pilot_error = read_number(json.at("pilot_error"));
+    json.at("plain_error").get_to(guide.plain_error);
     json.at("plain_rays").get_to(guide.plain_rays);
     json.at("taught_rays").get_to(guide.taught_rays);
     guide.teachers = whole<u32>(json.at("teachers"));
+    json.at("begin_error").get_to(guide.begin_error);
     json.at("gain").get_to(guide.gain);
     json.at("earlier_gain").get_to(guide.earlier_gain);
     guide.asked_from = whole<std::uint64_t>(json.at("asked_from"));

@@ -24,10 +24,12 @@ struct GuideProgress {
     std::optional<std::uint64_t> guided_from; ///< samples before any were guided; none: none are
     std::uint64_t guided_to = 0;              ///< where that ended; 0: it has not
     std::optional<double> pilot_error;        ///< by guide_error (render/guiding.h), before there was a guide
+    double plain_error = 0;                   ///< of a sample where the first guided epoch begins, likewise
     double plain_rays = 0;                    ///< of a sample then
     double taught_rays = 0;                   ///< of a pilot that the guide has been learnt from
     u32 teachers = NO_INDEX;                  ///< the last sample that teaches (RenderParams::guide_learns)
     std::vector<float> weights;   ///< of gains (kernels/path/guide_gain.h), by tile; empty: none is asked for
+    double begin_error = 0;       ///< of the film where the epoch begins, by guide_error
     double gain = 0;              ///< sum of those of this epoch's samples, as it was read back last
     std::uint64_t asked_from = 0; ///< samples before any was asked for its gain; 0: none is
     double earlier_gain = 0;      ///< of the epochs before

@@ -27,8 +27,6 @@ bool has_whole_tiles(const FilmOptions& film) {
 std::optional<PathRefusal> guide_refusal(const Options& options) {
     if (!takes_option(options.transport.integrator, TAKES_GUIDE))
         return PathRefusal{"--integrator", "its paths are not guided"};
-    if (options.transport.path_reuse == Toggle::ON)
-        return PathRefusal{"--path-reuse on", "paths learn from what is their own"};
     if (options.sampling.first_sample != 0)
         return PathRefusal{"--first-sample", "guided samples need those before them; render other parts of a "
                                              "picture with other seeds"};
@@ -50,8 +48,6 @@ std::optional<PathRefusal> guide_refusal(const Options& options) {
 std::optional<PathRefusal> reuse_refusal(const Options& options) {
     if (!takes_option(options.transport.integrator, TAKES_PATH_REUSE))
         return PathRefusal{"--integrator", "its paths are not reused"};
-    if (options.transport.guide == Toggle::ON)
-        return PathRefusal{"--guide on", "paths learn from what is their own"};
     if (options.transport.roulette_depth < 2)
         return PathRefusal{"--roulette-depth 1", "a path that ends at its first vertex leaves nothing"};
     if (!has_whole_tiles(options.film))

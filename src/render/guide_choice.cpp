@@ -43,7 +43,7 @@ double error_of(const PathPilot& unguided) {
 /// Whether a guide may be worth its learning: light is hard to find, but is found, and there is time.
 bool is_promising(const PathPilot& unguided, const Options& options) {
     const double rays = expected_samples(options) * unguided.rays;
-    return std::isfinite(error_of(unguided)) && error_of(unguided) >= WORTHWHILE_GUIDE_ERROR &&
+    return std::isfinite(error_of(unguided)) && error_of(unguided) >= worthwhile_guide_error(options) &&
            rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
 }
 
@@ -63,9 +63,11 @@ GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguid
     const Options& options = prepared.planned->options;
     const int replicates = options.sampling.replicates;
     const double error = error_of(unguided);
-    const std::optional<PilotSize> teaching = teaching_pilot(options, error);
+    std::optional<PilotSize> teaching = teaching_pilot(options, error);
     if (!teaching)
         return untaught_guide(replicates, error);
+    if (options.transport.path_reuse == Toggle::ON)
+        teaching = in_tiles(*teaching);
     const GuideProgress pilot = run_guide_pilot(prepared, *teaching, error);
     return taught_guide(pilot, replicates, unguided.rays * double(teaching->samples()));
 }
@@ -75,7 +77,10 @@ GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguid
 void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                   std::optional<PathPilot> unguided, Progress& progress) {
     const Options& options = planned->options;
-    const std::optional<PilotSize> size = size_of_pilots(1, options);
+    const bool shares = options.transport.path_reuse == Toggle::ON;
+    std::optional<PilotSize> size = size_of_pilots(1, options);
+    if (size && shares)
+        size = in_tiles(*size);
     if (!is_open(options) || planned->effects.paths.is_empty ||
         (unguided ? !is_promising(*unguided, options) : !size))
         return;
@@ -85,7 +90,7 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
     const PreparedScene prepared = prepare_render(device, planned, parts);
     parts = {prepared.tree, prepared.programs, nullptr};
     if (!unguided)
-        unguided = run_path_pilot(prepared, *size);
+        unguided = run_path_pilot(prepared, *size, shares);
     if (is_promising(*unguided, options) && !stop_signal())
         parts.guide = std::make_shared<GuideProgress>(first_guide(prepared, *unguided));
     progress.finish();

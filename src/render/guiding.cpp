@@ -31,6 +31,12 @@ double rays_per_sample(const RenderCounts& counts) {
     return double(counts.rays()) / double(std::max<std::uint64_t>(counts.primary, 1));
 }
 
+/// guide_error of a sample of a film.
+double film_guide_error(const Film& film) {
+    return guide_error(sample_error(film, ErrorMeasure::MSE), sample_error(film, ErrorMeasure::RELATIVE),
+                       trimmed_sample_error(film));
+}
+
 /// Pixels that errors are stated over.
 double error_pixels(const Film& film) {
     return has_backdrop(film) ? double(*film_shown_pixels(film)) : double(film_plane(film) / 3);
@@ -51,6 +57,11 @@ std::vector<float> tile_weights(const Film& film) {
 }
 
 } // namespace
+
+double worthwhile_guide_error(const Options& options) {
+    return options.transport.path_reuse == Toggle::ON ? WORTHWHILE_SHARED_GUIDE_ERROR
+                                                      : WORTHWHILE_GUIDE_ERROR;
+}
 
 double guide_error(double mse, double relative, double trimmed) {
     return std::min(std::sqrt(mse * relative), MOST_OVER_TRIMMED * trimmed);
@@ -117,11 +128,10 @@ Launcher* Guiding::launcher() {
 
 void Guiding::end_pilot(std::uint64_t samples) {
     progress_.pilot_end = samples;
-    const Film& film = render_.film;
-    progress_.pilot_error =
-        guide_error(sample_error(film, ErrorMeasure::MSE), sample_error(film, ErrorMeasure::RELATIVE),
-                    trimmed_sample_error(film));
-    progress_.stage = *progress_.pilot_error < WORTHWHILE_GUIDE_ERROR ? GuideStage::OFF : GuideStage::ON;
+    progress_.pilot_error = film_guide_error(render_.film);
+    progress_.stage = *progress_.pilot_error < worthwhile_guide_error(prepared_.planned->options)
+                          ? GuideStage::OFF
+                          : GuideStage::ON;
     if (progress_.stage == GuideStage::ON)
         switch_on();
 }
@@ -140,20 +150,36 @@ bool Guiding::has_learnt_enough(std::uint64_t samples, const RenderCounts& count
            rays >= prepared_.planned->options.transport.guide_after_rays;
 }
 
+/// Squared error of the samples of a guided epoch over that of unguided ones, as their gains tell.
+double Guiding::told_error(std::uint64_t samples) const {
+    // The film's samples scatter by what unguided ones would less the mean gain of the guided ones, the first
+    // of which after a pilot are not asked.
+    const double pixels = error_pixels(render_.film), all = double(samples);
+    const double guided_samples = all - double(*progress_.guided_from);
+    const double gain = progress_.gain / (pixels * double(samples - progress_.begin));
+    const double mean_gain = progress_.earlier_gain / (pixels * (all - double(progress_.asked_from)));
+    const double plain =
+        sample_error(render_.film, ErrorMeasure::RELATIVE) + mean_gain * guided_samples / all;
+    return plain > 0 ? 1 - gain / plain : 1;
+}
+
+/// The same of paths that serve several pixels: their gains tell of a single path, so it is measured.
+double Guiding::measured_error(std::uint64_t samples) const {
+    const double begin = double(progress_.begin), all = double(samples);
+    const double error =
+        (all * film_guide_error(render_.film) - begin * progress_.begin_error) / (all - begin);
+    return progress_.plain_error > 0 ? error / progress_.plain_error : 1;
+}
+
 /// Compares the samples of a guided epoch with those that there would be without the guide.
 void Guiding::judge(std::uint64_t samples, const RenderCounts& counts) {
     progress_.earlier_gain += progress_.gain;
     if (!has_learnt_enough(samples, counts))
         return;
-    // The film's samples scatter by what unguided ones would less the mean gain of the guided ones, the first
-    // of which after a pilot are not asked.
-    const double pixels = error_pixels(render_.film), all = double(samples);
-    const double plain_samples = double(*progress_.guided_from), guided_samples = all - plain_samples;
-    const double gain = progress_.gain / (pixels * double(samples - progress_.begin));
-    const double mean_gain = progress_.earlier_gain / (pixels * (all - double(progress_.asked_from)));
-    const double plain =
-        sample_error(render_.film, ErrorMeasure::RELATIVE) + mean_gain * guided_samples / all;
-    progress_.error = plain > 0 ? std::max(1 - gain / plain, SMALLEST_ERROR) : 1;
+    const bool shares = prepared_.planned->options.transport.path_reuse == Toggle::ON;
+    progress_.error = std::max(shares ? measured_error(samples) : told_error(samples), SMALLEST_ERROR);
+    const double plain_samples = double(*progress_.guided_from), all = double(samples);
+    const double guided_samples = all - plain_samples;
     const double guided_rays = all * rays_per_sample(counts) - plain_samples * progress_.plain_rays;
     progress_.work = GUIDED_RAY_WORK * guided_rays / (guided_samples * progress_.plain_rays);
     if (*progress_.error * *progress_.work > LARGEST_COSTS[progress_.judgements++]) {
@@ -167,8 +193,10 @@ void Guiding::judge(std::uint64_t samples, const RenderCounts& counts) {
 /// Ends a guided epoch, or one that taught only.
 void Guiding::end_epoch(std::uint64_t samples, const RenderCounts& counts) {
     read_back();
-    if (!progress_.guided_from)
+    if (!progress_.guided_from) {
         progress_.plain_rays = rays_per_sample(counts);
+        progress_.plain_error = film_guide_error(render_.film);
+    }
     if (!progress_.weights.empty())
         judge(samples, counts);
     if (progress_.stage == GuideStage::OFF)
@@ -206,6 +234,7 @@ void Guiding::begin_epoch(std::uint64_t samples) {
     progress_.begin = samples;
     progress_.end = epoch_end(samples);
     progress_.gain = 0;
+    progress_.begin_error = is_trial() ? film_guide_error(render_.film) : 0;
     progress_.weights = is_trial() ? tile_weights(render_.film) : std::vector<float>();
     if (is_trial() && progress_.asked_from == 0)
         progress_.asked_from = samples;
@@ -261,13 +290,14 @@ GuideProgress taught_guide(const GuideProgress& pilot, int replicates, double ra
         return guide;
     guide.guided_from = 0;
     guide.judgements = pilot.judgements;
+    guide.plain_error = pilot.plain_error;
     guide.plain_rays = pilot.plain_rays;
     guide.taught_rays = rays;
     guide.guide = pilot.guide;
     return guide;
 }
 
-std::string guide_text(const GuideProgress& guide) {
+std::string guide_text(const GuideProgress& guide, const Options& options) {
     const std::string worth =
         guide.error ? fmt::format("squared error of a sample {:.2f} times and work {:.2f} times that before",
                                   *guide.error, *guide.work)
@@ -278,7 +308,7 @@ std::string guide_text(const GuideProgress& guide) {
         return guide.error ? fmt::format("off: a pilot had {}", worth)
                            : fmt::format("off: light is found without it (squared error of a sample {:.2g}, "
                                          "tried from {:g})",
-                                         *guide.pilot_error, WORTHWHILE_GUIDE_ERROR);
+                                         *guide.pilot_error, worthwhile_guide_error(options));
     }
     std::string text = *guide.guided_from > 0 ? fmt::format("from {} spp", *guide.guided_from)
                                               : "from the first sample, after a pilot";

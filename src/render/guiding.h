@@ -10,7 +10,8 @@
 // --guide auto begins with what pilots have found out (render/guide_choice.h). Without them the picture's
 // first samples are the pilot, and where they are noisy an epoch half as long teaches. The guided samples
 // that follow are a trial: they tell what the variance would have been without the guide
-// (kernels/path/guide_gain.h), and the guide goes where that gains less than its work costs. Work is counted
+// (kernels/path/guide_gain.h), and the guide goes where that gains less than its work costs. Of paths that
+// serve several pixels the film's noise is compared with what it was before, instead. Work is counted
 // in rays, never measured in seconds: the same picture comes out everywhere.
 #pragma once
 
@@ -28,6 +29,12 @@ namespace clrt {
 /// without one (Cornell box: .5), and nothing is compiled. Rooms lit through windows have 4 to 12, one behind
 /// a door ajar 80.
 constexpr double WORTHWHILE_GUIDE_ERROR = 4;
+/// The same of paths that serve several pixels, which leave less to gain. By a guide, with its work, gained
+/// at 3.5 (lamps in shades) 1.0, at 5 (a garage) .8, at 7 to 13 (an attic under the sun) 1.6, at 13 (stairs
+/// under a skylight) 1.2, behind a door ajar 2.7.
+constexpr double WORTHWHILE_SHARED_GUIDE_ERROR = 6;
+/// Which of both is asked for.
+double worthwhile_guide_error(const Options& options);
 
 /// The squared error of a sample without a guide that decides whether one is tried: the geometric mean of
 /// both measures, but at most four times the relative one without the noisiest hundredth of the pixels
@@ -67,6 +74,8 @@ private:
     bool is_trial() const;
     bool has_learnt_enough(std::uint64_t samples, const RenderCounts& counts) const;
     void judge(std::uint64_t samples, const RenderCounts& counts);
+    double told_error(std::uint64_t samples) const;
+    double measured_error(std::uint64_t samples) const;
 
     const PreparedScene& prepared_;
     const RenderParams& params_;
@@ -86,6 +95,6 @@ GuideProgress untaught_guide(int replicates, double error);
 GuideProgress taught_guide(const GuideProgress& pilot, int replicates, double rays);
 
 /// What a guide did for the picture, in words; empty where there is nothing to say.
-std::string guide_text(const GuideProgress& guide);
+std::string guide_text(const GuideProgress& guide, const Options& options);
 
 } // namespace clrt

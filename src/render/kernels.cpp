@@ -184,6 +184,7 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 ProgramRequest guided_request(const Device& device, const Options& options, EffectMask effects,
                               BvhLayout layout, const PathPlan& paths) {
     std::vector<std::string> defines = picture_defines(device, options, paths);
+    append(defines, reuse_defines(device, options.transport));
     append(defines, {"PATH_GUIDE=1", fmt::format("FILM_INT64_ATOMICS={}", int(device.info.int64_atomics))});
     ProgramRequest request =
         launched_request(device, kernel_files(options.device.kernels_folder),

@@ -313,8 +313,6 @@ TEST(CommandLine, ContradictionsAreNamed) {
         expect({"--guide", "on", "-i", name},
                "options --guide on and --integrator " + name +
                    ": expected one of them, found both; its paths are not guided");
-    expect({"--path-reuse", "on", "--guide", "on"},
-           "options --path-reuse on and --guide on: expected one of them, found both; paths learn from what");
     expect({"--path-reuse", "on", "-i", "bdpt"},
            "options --path-reuse on and --integrator bdpt: expected one of them, found both");
     expect({"--path-reuse", "on", "--crop", "4,0,16,8"},

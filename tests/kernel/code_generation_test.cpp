@@ -13,6 +13,7 @@
 #include "stability/cases/ray_builds.h"
 #include "stability/film_bench.h"
 #include "stability/path_probe.h"
+#include "support/drawn.h"
 #include "support/test_device.h"
 #include "vector_builtins.h"
 
@@ -65,22 +66,29 @@ std::string complaints(const std::string& file, const Target& target,
 
 class CodeGeneration : public testing::Test {
 protected:
-    /// Compiles a text for all targets, in single and double.
+    /// Compiles a text for all targets, for each in single or double: by turns from target to target and from
+    /// text to text, where texts with and without effects come in pairs.
     void expect_clean(const std::string& what, const std::string& text,
-                      const std::vector<std::string>& defines) const {
+                      const std::vector<std::string>& defines) {
         const std::string file = folder.write("kernels.cl", text);
-        for (const Target& target : targets())
-            for (const char* precision : {"single", "double"}) {
-                std::vector<std::string> options = defines;
-                if (precision == std::string("double"))
-                    options.push_back("-DREAL_IS_DOUBLE=1");
-                EXPECT_EQ(complaints(file, target, options), "")
-                    << what << ", " << precision << ", for " << target.name;
-            }
+        std::vector<std::pair<const Target*, bool>> builds; // target, whether in double
+        bool turn = (texts_ ^ texts_ >> 1) & 1;
+        for (const Target& target : targets()) {
+            builds.insert(builds.end(), {{&target, turn}, {&target, !turn}});
+            turn = !turn;
+        }
+        ++texts_;
+        for (const auto& [target, is_double] : drawn(builds, 2)) {
+            std::vector<std::string> options = defines;
+            if (is_double)
+                options.push_back("-DREAL_IS_DOUBLE=1");
+            EXPECT_EQ(complaints(file, *target, options), "")
+                << what << ", " << (is_double ? "double" : "single") << ", for " << target->name;
+        }
     }
     /// The same with all effects and with none.
     void expect_clean_with_and_without_effects(const std::string& what, const std::string& text,
-                                               std::vector<std::string> defines) const {
+                                               std::vector<std::string> defines) {
         for (const EffectMask effects : {EFFECT_ALL, EffectMask(0)}) {
             defines.push_back(fmt::format("-DCLRT_EFFECTS={:#x}u", effects));
             expect_clean(fmt::format("{}, effects {:#x}", what, effects), text, defines);
@@ -88,7 +96,7 @@ protected:
         }
     }
     /// The same of a probe, as it is built.
-    void expect_clean(const std::string& what, const KernelProbe& probe) const {
+    void expect_clean(const std::string& what, const KernelProbe& probe) {
         std::vector<std::string> options;
         for (const std::string& define : probe.options().defines)
             options.push_back("-D" + define);
@@ -96,6 +104,9 @@ protected:
     }
 
     const ScratchFolder folder;
+
+private:
+    unsigned texts_ = 0; ///< so far
 };
 
 std::string include(const std::vector<std::string>& files) {
@@ -127,8 +138,14 @@ TEST_F(CodeGeneration, OfTheEntryPointsInEveryLayout) {
 
 TEST_F(CodeGeneration, OfPathReuse) {
     for (const EffectMask effects : {EFFECT_ALL & ~EFFECTS_OF_ONE_PIXEL, EffectMask(EFFECT_MATTE)})
-        expect_clean(fmt::format("path reuse, effects {:#x}", effects), entry_points({"path"}),
-                     {"-DPATH_REUSE=1", fmt::format("-DCLRT_EFFECTS={:#x}u", effects)});
+        for (const std::vector<std::string>& guide :
+             {std::vector<std::string>{}, {"-DPATH_GUIDE=1", "-DFILM_INT64_ATOMICS=0"}}) {
+            std::vector<std::string> defines = {"-DPATH_REUSE=1",
+                                                fmt::format("-DCLRT_EFFECTS={:#x}u", effects)};
+            defines.insert(defines.end(), guide.begin(), guide.end());
+            expect_clean(fmt::format("path reuse, effects {:#x}, {}", effects, fmt::join(guide, " ")),
+                         entry_points({"path"}), defines);
+        }
 }
 
 TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {

@@ -5,6 +5,7 @@
 #include "film/film_error.h"
 #include "probes/statistics.h"
 #include "render/kernels.h"
+#include "support/drawn.h"
 #include "support/render_scene.h"
 
 #include <cmath>
@@ -150,15 +151,21 @@ TEST_P(ErrorBar, HoldsTheErrorOfThePicture) {
     }
 }
 
+// Half of them in the suite, neighbours by turns.
 INSTANTIATE_TEST_SUITE_P(
     Integrators, ErrorBar,
-    testing::Values(
-        Case{"path", Integrator::PATH, {}}, Case{"lamp", Integrator::PATH, {}, make_lamp},
-        Case{"adaptive", Integrator::PATH, {ErrorMeasure::MSE, ErrorMeasure::RELATIVE}},
-        Case{"adaptive_lamp", Integrator::PATH, {ErrorMeasure::MSE, ErrorMeasure::RELATIVE}, make_lamp},
-        Case{"light", Integrator::LIGHT, {}}, Case{"path_light", Integrator::PATH_LIGHT, {}},
-        Case{"bdpt", Integrator::BDPT, {}}, Case{"mlt", Integrator::MLT, {}},
-        Case{"whitted", Integrator::WHITTED, {}}, Case{"raycast", Integrator::RAYCAST, {}}),
+    testing::ValuesIn(drawn<Case>(
+        {{"path", Integrator::PATH, {}},
+         {"lamp", Integrator::PATH, {}, make_lamp},
+         {"adaptive", Integrator::PATH, {ErrorMeasure::MSE, ErrorMeasure::RELATIVE}},
+         {"adaptive_lamp", Integrator::PATH, {ErrorMeasure::MSE, ErrorMeasure::RELATIVE}, make_lamp},
+         {"light", Integrator::LIGHT, {}},
+         {"path_light", Integrator::PATH_LIGHT, {}},
+         {"bdpt", Integrator::BDPT, {}},
+         {"mlt", Integrator::MLT, {}},
+         {"whitted", Integrator::WHITTED, {}},
+         {"raycast", Integrator::RAYCAST, {}}},
+        2)),
     [](const auto& test) { return std::string(test.param.name); });
 
 // Direct light without a penumbra, one bounce: what Sobol points are good at.

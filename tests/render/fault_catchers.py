@@ -100,6 +100,7 @@ CAUGHT_BY = {
     "the density before slabs as if one light was sampled": "LightSamples.ChangeNoMeanBelowAPaneUnderSunAndSky",
     "light samples that repeat the first": "LightSamples.LowerTheNoiseOfManyLights",
     "several light samples at every vertex": "LightSamples.AreTakenAtTheFirstVertexAlone",
+    "guided paths reused as if nothing were guided": "Guide.BringsTheSameLightToPathsThatServeOthers",
     "reused through walls": "PathReuse.ChangesNoMeanWhereSurfacesAreHidden",
     "cut paths not counted": "CutPaths.WhiteWallsHaveNoBound",
     "a lobe not recorded": "Replay.LongPathsAreRecordedWhole",

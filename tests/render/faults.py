@@ -159,6 +159,9 @@ FAULTS = [
      "light_samples_test"),
     ("several light samples at every vertex", "path/walk.h", "path->light_samples_log : 0u;", "path->light_samples_log :\n"
      "        path->light_samples_log;", "light_samples_test"),
+    ("guided paths reused as if nothing were guided", "path/guide.h",
+     "    return guide_mixture(&guide, bsdf_pdf_w, guide_pdf_w(scene, &guide, wi, &guide.bin));\n", "    return bsdf_pdf_w;\n",
+     "guide_test"),
     ("reused through walls", "integrators/path_reuse.h", "visible_passage(scene, params, &shadow)", "open", "path_reuse_test"),
     ("panes do not dim shadow rays", "path/visibility.h", "crossing->share += coverage * passes;",
      "crossing->share = (real3)(REAL(1.0));", "glass_test"),

@@ -96,6 +96,14 @@ TEST(Guide, BringsTheSameLightWithLessNoise) {
     expect_same_light_with_less_noise(scene);
 }
 
+// What a path has found serves other pixels, by the density with which each of them is guided.
+TEST(Guide, BringsTheSameLightToPathsThatServeOthers) {
+    TestScene scene;
+    add_adjoining_rooms(scene);
+    scene.options.transport.path_reuse = Toggle::ON;
+    expect_same_light_with_less_noise(scene);
+}
+
 // A mirror under the lamp throws its light at the slit: caustics, which splats bring beside guided paths.
 TEST(Guide, BringsTheSameLightBesideSplats) {
     TestScene scene;
@@ -106,9 +114,11 @@ TEST(Guide, BringsTheSameLightBesideSplats) {
     expect_same_light_with_less_noise(scene);
 }
 
-TEST(Guide, KeepsItsBitsInPieces) {
+/// Whether a picture is the same in one run as in two, by way of a film file.
+void expect_same_bits_in_pieces(Toggle path_reuse) {
     TestScene scene;
     add_adjoining_rooms(scene);
+    scene.options.transport.path_reuse = path_reuse;
     const Render whole = render_guided(scene, Toggle::ON, 24, 4);
     const Render again = render_guided(scene, Toggle::ON, 24, 4);
     EXPECT_EQ(whole.film.sums, again.film.sums);
@@ -123,6 +133,11 @@ TEST(Guide, KeepsItsBitsInPieces) {
         Progress progress(Toggle::OFF, true);
         EXPECT_EQ(render(prepared, progress, hooks).film.sums, whole.film.sums) << spp;
     }
+}
+
+TEST(Guide, KeepsItsBitsInPieces) {
+    for (const Toggle path_reuse : {Toggle::OFF, Toggle::ON})
+        expect_same_bits_in_pieces(path_reuse);
 }
 
 TEST(Guide, AutoLeavesEasyScenesAlone) {
@@ -146,13 +161,18 @@ TEST(Guide, AutoLeavesShortRendersAlone) {
     EXPECT_EQ(render.guide.stage, GuideStage::PILOT);
 }
 
-// The guided samples of the last epoch that is judged tell what the variance would be without their guide.
+// The guided samples of the last epoch that is judged tell what the variance would be without their guide;
+// where paths serve other pixels, it is measured.
 TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
     TestScene scene;
     add_adjoining_rooms(scene);
     scene.options.transport.max_depth = 8;
-    for (const int roulette_depth : {9, 2}) { // densities of directions alone differ, or survival, too
+    for (const auto& [roulette_depth, path_reuse] :
+         {std::pair(9, Toggle::OFF),
+          {2, Toggle::OFF}, // densities of directions alone differ, or survival, too
+          {9, Toggle::ON}}) {
         scene.options.transport.roulette_depth = roulette_depth;
+        scene.options.transport.path_reuse = path_reuse;
         scene.options.transport.guide_after_rays = 3e6;
         const GuideProgress guide = render_guided(scene, Toggle::AUTO, 4096, 16).guide;
         EXPECT_EQ(guide.stage, GuideStage::ON);
