@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace clrt {
 
@@ -133,22 +134,62 @@ bool is_out(const Candidate& candidate, const Options& options, const Integrator
            choice.prices[0].errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR;
 }
 
-/// Goes back from a candidate to path where reusing paths gains as much there, by pilots, and says what those
-/// tell. Path is planned then and `parts` are its own.
-void try_path_reuse(const Device& device, const std::shared_ptr<PlannedScene>& planned,
-                    std::optional<int> asked, double efficiency, PreparedParts& parts,
-                    IntegratorChoice& choice, std::vector<std::string>& told) {
+/// Whether path chooses lights by a tree, which candidates do without: what their samples tell of path is
+/// what it would be without, too, and its own pilot must tell.
+bool has_light_tree(const PlannedScene& planned) {
+    return !planned.scene.light_tree.nodes.empty();
+}
+
+/// A price by what a pilot of path's own tells of path.
+void measure(const PathPilot& path, const Options& options, IntegratorPrice& price) {
+    price.path = path.errors;
+    price.efficiency = deciding_error(path.errors, options) * path.rays /
+                       (deciding_error(price.errors, options) * price.work);
+}
+
+/// Up to which told efficiency a candidate is compared with path that reuses paths, which gains less than the
+/// number of its pixels; a light tree gained up to 4 in rooms of many lamps.
+double most_of_path(const PlannedScene& planned) {
+    return REUSE_PIXELS * (has_light_tree(planned) ? 4 : 1);
+}
+
+/// Goes back from the chosen candidate to path where reusing paths gains as much there, by pilots, or where
+/// these find path better than was told; says what they tell of reuse, or nothing. Path is planned then and
+/// `parts` are its own.
+std::string try_path_again(const Device& device, const std::shared_ptr<PlannedScene>& planned,
+                           std::optional<int> asked, bool is_guided, IntegratorPrice& price,
+                           PreparedParts& parts, IntegratorChoice& choice) {
     take(Integrator::PATH, asked, *planned);
-    const double gain = reuse_gain(device, planned, parts);
-    if (gain > 0)
-        told.push_back(fmt::format("path that reuses paths {:.2g}", gain));
-    if (gain < efficiency)
-        return;
-    choice.integrator = Integrator::PATH;
-    choice.unguided.reset();
-    parts.programs = parts.reusing;
-    if (!planned->options.run.pixel)
-        planned->options.transport.path_reuse = Toggle::ON;
+    // A replay is of the picture's integrator.
+    const auto pixel = std::exchange(planned->options.run.pixel, std::nullopt);
+    const std::optional<ReusePilots> pilots = run_reuse_pilots(device, planned, parts);
+    planned->options.run.pixel = pixel;
+    if (!pilots || pilots->gain == 0)
+        return "";
+    const Options& options = planned->options;
+    if (has_light_tree(*planned))
+        measure(pilots->alone, options, price);
+    const bool reuses = pilots->gain >= price.efficiency;
+    if (reuses || price.efficiency <= smallest_gain(price, is_guided, options)) {
+        choice.integrator = Integrator::PATH;
+        choice.unguided.reset();
+        if (reuses && pilots->gain >= WORTHWHILE_REUSE_GAIN && !options.run.pixel) {
+            parts.programs = parts.reusing;
+            planned->options.transport.path_reuse = Toggle::ON;
+        }
+    }
+    return fmt::format("path that reuses paths {:.2g}", pilots->gain);
+}
+
+/// What pilots have told, in words.
+std::string told_text(const IntegratorChoice& choice, const std::string& reuse) {
+    std::vector<std::string> told;
+    for (const IntegratorPrice& price : choice.prices)
+        told.push_back(fmt::format("{} {:.2g}", name_of(price.integrator), price.efficiency));
+    if (!reuse.empty())
+        told.push_back(reuse);
+    return fmt::format("efficiency {} by pilots of {} x {} pixels, {} spp", fmt::join(told, ", "),
+                       choice.pilot.width, choice.pilot.height, choice.pilot.spp);
 }
 
 /// Decides by pilots, a candidate after the other.
@@ -156,8 +197,10 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             const std::vector<Candidate>& candidates, PreparedParts& parts, IntegratorChoice& choice) {
     const std::optional<int> asked = planned->options.transport.max_depth;
     const bool is_guided = planned->options.transport.guide == Toggle::AUTO && may_guide(planned->options);
-    std::vector<std::string> told = {"path 1"};
+    const std::optional<PathPilot> measured =
+        has_light_tree(*planned) ? choice.unguided : std::optional<PathPilot>();
     double best = WORTHWHILE_GAIN;
+    size_t chosen = 0; // of the prices
     for (const Candidate& candidate : candidates) {
         if (is_out(candidate, planned->options, choice))
             continue;
@@ -179,24 +222,25 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             choice.unguided = PathPilot{pilot.path, pilot.eye_rays, trimmed};
             choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
         }
-        const IntegratorPrice price = price_of(candidate, pilot, planned->options);
+        IntegratorPrice price = price_of(candidate, pilot, planned->options);
+        if (measured)
+            measure(*measured, planned->options, price);
         choice.prices.push_back(price);
-        told.push_back(fmt::format("{} {:.2g}", name_of(price.integrator), price.efficiency));
         if (price.efficiency > std::max(best, smallest_gain(price, is_guided, planned->options))) {
             best = price.efficiency;
+            chosen = choice.prices.size() - 1;
             choice.integrator = price.integrator;
             choice.unguided = PathPilot{pilot.own, pilot.eye_rays, pilot.trimmed};
         }
     }
-    if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < REUSE_PIXELS) {
+    std::string reuse;
+    if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < most_of_path(*planned)) {
         take(choice.integrator, asked, *planned);
         expect_program(device, *planned);
-        try_path_reuse(device, planned, asked, best, parts, choice, told);
+        reuse = try_path_again(device, planned, asked, is_guided, choice.prices[chosen], parts, choice);
     }
     if (choice.reason.empty())
-        choice.reason =
-            fmt::format("efficiency {} by pilots of {} x {} pixels, {} spp", fmt::join(told, ", "),
-                        choice.pilot.width, choice.pilot.height, choice.pilot.spp);
+        choice.reason = told_text(choice, reuse);
     take(choice.integrator, asked, *planned);
 }
 

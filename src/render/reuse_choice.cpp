@@ -14,7 +14,6 @@
 #include <fmt/ranges.h>
 #include <optional>
 #include <spdlog/spdlog.h>
-#include <utility>
 
 namespace clrt {
 
@@ -57,21 +56,6 @@ bool is_open(const PlannedScene& planned) {
            effects_against(planned) == 0 && !reuse_refusal(options) && size_of_path_pilots(planned);
 }
 
-/// Those of a plan for path that is open.
-ReusePilots run_reuse_pilots(const Device& device, const std::shared_ptr<PlannedScene>& planned,
-                             PreparedParts& parts) {
-    const PilotSize size = *size_of_path_pilots(*planned);
-    const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
-    ReusePilots pilots{run_path_pilot(prepared, size), run_path_pilot(prepared, size, true)};
-    const double gain = gain_of(pilots.reusing, pilots.alone, planned->options);
-    if (!std::isfinite(gain) || stop_signal())
-        return pilots;
-    spdlog::info("path reuse: {:.2f} times the efficiency, by pilots of {} x {} pixels, {} spp", gain,
-                 size.width, size.height, size.spp);
-    pilots.gain = gain;
-    return pilots;
-}
-
 } // namespace
 
 std::optional<PilotSize> size_of_path_pilots(const PlannedScene& planned) {
@@ -106,12 +90,20 @@ PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<Pla
     return prepared;
 }
 
-double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts) {
-    // A replay is of the picture's integrator.
-    const auto pixel = std::exchange(planned->options.run.pixel, std::nullopt);
-    const double gain = is_open(*planned) ? run_reuse_pilots(device, planned, parts).gain : 0;
-    planned->options.run.pixel = pixel;
-    return gain;
+std::optional<ReusePilots>
+run_reuse_pilots(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts) {
+    if (!is_open(*planned))
+        return std::nullopt;
+    const PilotSize size = *size_of_path_pilots(*planned);
+    const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
+    ReusePilots pilots{run_path_pilot(prepared, size), run_path_pilot(prepared, size, true)};
+    const double gain = gain_of(pilots.reusing, pilots.alone, planned->options);
+    if (!std::isfinite(gain) || stop_signal())
+        return pilots;
+    spdlog::info("path reuse: {:.2f} times the efficiency, by pilots of {} x {} pixels, {} spp", gain,
+                 size.width, size.height, size.spp);
+    pilots.gain = gain;
+    return pilots;
 }
 
 std::optional<ReusePilots> choose_path_reuse(const Device& device,
@@ -129,7 +121,7 @@ std::optional<ReusePilots> choose_path_reuse(const Device& device,
         parts.programs = nullptr;
     } else if (is_open(*planned)) {
         progress.update({"pilot", -1, 0, -1, -1});
-        const ReusePilots pilots = run_reuse_pilots(device, planned, parts);
+        const ReusePilots pilots = *run_reuse_pilots(device, planned, parts);
         reuse = pilots.gain >= WORTHWHILE_REUSE_GAIN ? Toggle::ON : Toggle::OFF;
         if (reuse == Toggle::ON)
             parts.programs = parts.reusing;

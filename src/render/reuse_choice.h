@@ -37,10 +37,12 @@ void expect_path_programs(const Device& device, const std::shared_ptr<PlannedSce
 PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<PlannedScene>& planned,
                                  PreparedParts& parts);
 
-/// How many times less the squared error times work of a sample of path is with reuse, by pilots; 0 where it
-/// may not be or is too small a render to tell, and where a signal stops it. The plan is for path and stays
-/// as it was; `parts` are as prepare_path_pilot leaves them. Throws DeviceError and KernelBuildError.
-double reuse_gain(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts);
+/// What pilots tell of a plan for path, which stays as it was; none where paths may not be reused, or the
+/// render is too small to tell. `parts` are as prepare_path_pilot leaves them. Throws DeviceError and
+/// KernelBuildError.
+std::optional<ReusePilots> run_reuse_pilots(const Device& device,
+                                            const std::shared_ptr<PlannedScene>& planned,
+                                            PreparedParts& parts);
 
 /// Decides `--path-reuse auto` of a plan, says so, and leaves on or off in its options. `parts` are those of
 /// the plan that are there; what the pilots needed is added, and programs of the other kind are taken out.

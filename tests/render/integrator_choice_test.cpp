@@ -3,6 +3,7 @@
 // the picture is that of the one that is chosen.
 #include "film/film_error.h"
 #include "render/integrator_choice.h"
+#include "render/reuse_choice.h"
 #include "support/adjoining_rooms.h"
 #include "support/render_scene.h"
 
@@ -225,6 +226,33 @@ TEST(IntegratorChoice, WherePathMayBeGuidedBdptMustGainMore) {
         box.build.polygon({{-2, 3.3, -2}, {2, 3.3, -2}, {2, 3.3, 2}, {-2, 3.3, 2}});
         const IntegratorChoice choice = box.choose().choice;
         EXPECT_EQ(choice.integrator, c.expected) << c.side << ": " << choice.reason; // told 5.9, 2.4, 2.4
+    }
+}
+
+// A tree chooses path's lights, and tables those of bdpt, whose pilot cannot tell what a tree gains.
+TEST(IntegratorChoice, WhereATreeChoosesLightsAPilotOfPathsOwnTellsOfPath) {
+    for (const bool has_several_lamps : {false, true}) {
+        TestScene scene;
+        add_adjoining_rooms(scene);
+        if (has_several_lamps)
+            scene.build.use("lamp").polygon(
+                {{-2, 0.2, -1.2}, {-1.9, 0.2, -1.2}, {-1.9, 0.2, -1.1}, {-2, 0.2, -1.1}});
+        scene.options.film.size = {64, 48};
+        scene.options.sampling.spp = 2048;
+        const auto planned = plan_loaded(test_device(), scene.load(), scene.options);
+        planned->options.transport.choose = Toggle::AUTO;
+        PreparedParts parts;
+        Progress silent(Toggle::OFF, true);
+        const IntegratorChoice choice = choose_integrator(test_device(), planned, parts, silent);
+        const IntegratorPrice price = price_of(choice, Integrator::BDPT);
+        take_integrator(Integrator::PATH, *planned);
+        PreparedParts own;
+        const PathPilot path = run_path_pilot(prepare_path_pilot(test_device(), planned, own), choice.pilot);
+        EXPECT_EQ(price.path == path.errors, has_several_lamps) << choice.reason;
+        const size_t measure = size_t(ErrorMeasure::RELATIVE);
+        const double rays = has_several_lamps ? path.rays : choice.prices[0].work;
+        EXPECT_NEAR(price.efficiency, price.path[measure] * rays / (price.errors[measure] * price.work),
+                    1e-9);
     }
 }
 

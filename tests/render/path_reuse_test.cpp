@@ -209,7 +209,7 @@ TEST(PathReuse, PilotsTellWhatItGains) {
     room.options.film.size = {320, 240};
     room.options.transport.guide = Toggle::OFF;
     room.planned = plan_loaded(test_device(), room.load(), room.options);
-    const double told = reuse_gain(test_device(), room.planned, room.parts);
+    const double told = run_reuse_pilots(test_device(), room.planned, room.parts)->gain;
     EXPECT_EQ(room.planned->options.transport.path_reuse, Toggle::AUTO);
     room.options.sampling.spp = 8; // as the pilots
     room.options.sampling.replicates = 4;
