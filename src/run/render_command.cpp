@@ -176,6 +176,18 @@ void announce(const PlannedScene& planned) {
                      spot.cause, spot.seen.empty() ? "" : "; it sees " + spot.seen);
 }
 
+/// The pilot, if there was one, of samples as the picture takes them without a guide. `reuse`: those that
+/// decided path reuse; `is_other_sky`: the sky's table was chosen after the integrator.
+std::optional<PathPilot> unguided_pilot(const Job& job, const std::optional<ReusePilots>& reuse,
+                                        bool is_other_sky) {
+    const TransportOptions& chosen = job.planned->options.transport;
+    if (chosen.light_samples > 1)
+        return std::nullopt;
+    if (chosen.path_reuse == Toggle::ON)
+        return reuse ? std::optional(reuse->reusing) : std::nullopt;
+    return is_other_sky ? std::nullopt : job.choice.unguided;
+}
+
 /// Decides by pilots whatever the options leave open, and notes the seconds that they took.
 void choose_by_pilots(Job& job, Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
@@ -184,16 +196,10 @@ void choose_by_pilots(Job& job, Progress& progress) {
     choose_portals(device, job.planned, job.parts, progress);
     job.choice = choose_integrator(device, job.planned, job.parts, progress);
     const bool is_other_sky = choose_sky_table(device, job.planned, job.parts, progress);
-    const auto pilot = choose_path_reuse(device, job.planned, job.parts, progress);
+    const auto reuse = choose_path_reuse(device, job.planned, job.parts, progress);
     expect_no_other(device, *job.planned);
-    choose_light_samples(device, job.planned, job.parts, pilot, progress);
-    const TransportOptions& chosen = job.planned->options.transport;
-    std::optional<PathPilot> unguided;
-    if (chosen.light_samples <= 1 && chosen.path_reuse == Toggle::ON && pilot)
-        unguided = pilot->reusing;
-    else if (chosen.light_samples <= 1 && chosen.path_reuse != Toggle::ON && !is_other_sky)
-        unguided = job.choice.unguided;
-    choose_guide(device, job.planned, job.parts, unguided, progress);
+    choose_light_samples(device, job.planned, job.parts, reuse, progress);
+    choose_guide(device, job.planned, job.parts, unguided_pilot(job, reuse, is_other_sky), progress);
     const auto& [tree, programs, guide, reusing] = job.parts;
     job.pilots_seconds =
         seconds_since(start) - (tree ? tree->bvh.seconds : 0) - (programs ? programs->seconds : 0);
