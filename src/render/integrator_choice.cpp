@@ -140,11 +140,33 @@ bool has_light_tree(const PlannedScene& planned) {
     return !planned.scene.light_tree.nodes.empty();
 }
 
-/// A price by what a pilot of path's own tells of path.
-void measure(const PathPilot& path, const Options& options, IntegratorPrice& price) {
-    price.path = path.errors;
-    price.efficiency = deciding_error(path.errors, options) * path.rays /
+/// Path's errors by caustics, which path+light's splats tell of, and they alone: a pilot of path's own meets
+/// them too seldom to tell.
+SquaredErrors caustic_errors(const IntegratorChoice& choice) {
+    SquaredErrors errors{};
+    for (const IntegratorPrice& price : choice.prices)
+        for (size_t i = 0; price.integrator == Integrator::PATH_LIGHT && i < errors.size(); ++i)
+            errors[i] = std::max(0., price.path[i] - price.errors[i]);
+    return errors;
+}
+
+/// A price by what a pilot of path's own tells of path, and others of caustics, which it may have met or not.
+void measure(const PathPilot& path, const SquaredErrors& caustics, const Options& options,
+             IntegratorPrice& price) {
+    for (size_t i = 0; i < caustics.size(); ++i)
+        price.path[i] = std::max(path.errors[i], caustics[i]);
+    price.efficiency = deciding_error(price.path, options) * path.rays /
                        (deciding_error(price.errors, options) * price.work);
+}
+
+/// What path gains by reusing paths where caustics are as noisy with it as without: 0 if pilots do not tell.
+double gain_beside_caustics(const std::optional<ReusePilots>& pilots, const SquaredErrors& caustics,
+                            const Options& options) {
+    if (!pilots || pilots->gain == 0)
+        return 0;
+    const double alone = deciding_error(pilots->alone.errors, options);
+    const double caustic = deciding_error(caustics, options);
+    return std::max(alone, caustic) / std::max(alone / pilots->gain, caustic);
 }
 
 /// Up to which told efficiency a candidate is compared with path that reuses paths, which gains less than the
@@ -164,21 +186,23 @@ std::string try_path_again(const Device& device, const std::shared_ptr<PlannedSc
     const auto pixel = std::exchange(planned->options.run.pixel, std::nullopt);
     const std::optional<ReusePilots> pilots = run_reuse_pilots(device, planned, parts);
     planned->options.run.pixel = pixel;
-    if (!pilots || pilots->gain == 0)
-        return "";
     const Options& options = planned->options;
+    const SquaredErrors caustics = caustic_errors(choice);
+    const double gain = gain_beside_caustics(pilots, caustics, options);
+    if (gain == 0)
+        return "";
     if (has_light_tree(*planned))
-        measure(pilots->alone, options, price);
-    const bool reuses = pilots->gain >= price.efficiency;
+        measure(pilots->alone, caustics, options, price);
+    const bool reuses = gain >= price.efficiency;
     if (reuses || price.efficiency <= smallest_gain(price, is_guided, options)) {
         choice.integrator = Integrator::PATH;
         choice.unguided.reset();
-        if (reuses && pilots->gain >= WORTHWHILE_REUSE_GAIN && !options.run.pixel) {
+        if (reuses && gain >= WORTHWHILE_REUSE_GAIN && !options.run.pixel) {
             parts.programs = parts.reusing;
             planned->options.transport.path_reuse = Toggle::ON;
         }
     }
-    return fmt::format("path that reuses paths {:.2g}", pilots->gain);
+    return fmt::format("path that reuses paths {:.2g}", gain);
 }
 
 /// What pilots have told, in words.
@@ -224,7 +248,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         }
         IntegratorPrice price = price_of(candidate, pilot, planned->options);
         if (measured)
-            measure(*measured, planned->options, price);
+            measure(*measured, caustic_errors(choice), planned->options, price);
         choice.prices.push_back(price);
         if (price.efficiency > std::max(best, smallest_gain(price, is_guided, planned->options))) {
             best = price.efficiency;

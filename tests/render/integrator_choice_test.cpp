@@ -256,6 +256,25 @@ TEST(IntegratorChoice, WhereATreeChoosesLightsAPilotOfPathsOwnTellsOfPath) {
     }
 }
 
+// Nor can so small a pilot of path's own tell of caustics, which it hardly meets: splats do.
+TEST(IntegratorChoice, WhereATreeChoosesLightsSplatsTellOfCaustics) {
+    Box box;
+    box.add_caustic();
+    box.build.use("lamp").polygon({{1.5, 2.9, 1.5}, {1.6, 2.9, 1.5}, {1.6, 2.9, 1.6}, {1.5, 2.9, 1.6}});
+    const Chosen chosen = box.choose();
+    ASSERT_FALSE(chosen.planned->scene.light_tree.nodes.empty());
+    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH_LIGHT) << chosen.choice.reason;
+    const size_t measure = size_t(ErrorMeasure::RELATIVE);
+    const double told = price_of(chosen.choice, Integrator::PATH_LIGHT).path[measure];
+    const double path = squared_error(box, Integrator::PATH);
+    EXPECT_GT(told, 0.5 * path);
+    EXPECT_LT(told, 2.2 * path);
+    take_integrator(Integrator::PATH, *chosen.planned);
+    PreparedParts own;
+    const PreparedScene prepared = prepare_path_pilot(test_device(), chosen.planned, own);
+    EXPECT_LT(run_path_pilot(prepared, chosen.choice.pilot).errors[measure], 0.5 * path);
+}
+
 TEST(IntegratorChoice, ThePictureIsThatOfTheChosenOne) {
     for (const bool has_small_lamp : {false, true}) {
         Box box;
