@@ -15,6 +15,9 @@
 #ifndef PATH_GUIDE
 #define PATH_GUIDE 0
 #endif
+#ifndef PATH_REUSE
+#define PATH_REUSE 0
+#endif
 
 #ifndef BVH_LAYOUT
 #define BVH_LAYOUT BVH_LAYOUT_BVH8

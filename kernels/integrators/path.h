@@ -86,6 +86,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
     light_samples_connect(scene, params, segment, &surface, &bsdf, &step, path, &sample->radiance,
                           &sample->layers, rays);
+    reuse_keep_shares(segment, &bsdf, &next, path, reused);
     if (next.is_valid && continues)
         path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
 }
@@ -183,6 +184,7 @@ static inline void path_advance(const Scene* scene, const RenderParams* params, 
         PixelRays* counts = pixel_rays_of(&samples[k], rays);
         const real3 share = path_connection_share(scene, params, segment, &paths[k], counts);
         path_add_connection(scene, &paths[k], share, &samples[k].radiance, &samples[k].layers);
+        reuse_keep_connection(segment, samples[k].radiance, &reused[k]);
     }
 }
 

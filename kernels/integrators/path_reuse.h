@@ -10,16 +10,17 @@
 // the balance heuristic (Veach 1997) over all paths that could have come to y_j. It has no bias, and no
 // quotient is larger than the path's own. V and P are both 0 or 1 but for cut-outs and panes.
 //
-// L_j must be the same for all: y_j is on a surface that is matte alone, and is seen from the side that path
-// j has seen. All else, such as emission that a path meets there, paths that leave x_j by a delta lobe, and
-// those that come to glossy surfaces or panes, that leave x_j into an absorbing solid or with one colour of
-// three, is its own pixel's alone. Which of both a path is depends on x and y only, so that every light path
-// is counted by one of them.
+// L_j must be the same for all but for a factor: y_j is on a surface with a matte lobe, L_j is what that sends
+// (reuse_matte.h), and y_j is seen from the side that path j has seen. All else, such as emission that a path
+// meets there, what other lobes send, paths that leave x_j by a delta lobe, and those that come to glass, that
+// leave x_j into an absorbing solid or with one colour of three, is its own pixel's alone. Which of both a
+// path is depends on x and y only, so that every light path is counted by one of them.
 #ifndef CLRT_INTEGRATORS_PATH_REUSE_H
 #define CLRT_INTEGRATORS_PATH_REUSE_H
 
 #include "path/walk.h"
 #include "pixel.h"
+#include "reuse_matte.h"
 
 #if PATH_REUSE
 /* A path's two vertices. */
@@ -35,7 +36,13 @@ typedef struct {
     real side;        /* 1 where the facet's normal points to the path, else -1 */
     real3 before;     /* what the sample had gathered when the path came to it, */
     real scale;       /* the throughput by which the rest has been gathered, */
-    real3 light;      /* and that rest over it: the radiance that leaves the second vertex */
+    real3 light;      /* and that rest over it: the radiance that leaves the second vertex, */
+    MatteCover cover; /* but for what this lets pass, */
+    real3 passing;    /* and what it lets pass to the path itself */
+    bool is_mixed;    /* other lobes send some of the rest: */
+    real3 arriving;   /* throughput of the path that comes to the second vertex, */
+    real3 connection, matte_connection; /* what next-event estimation has found there, and the matte share, */
+    real3 matte_next;                   /* and that of what the path finds on its way on */
 } ReusedPath;
 
 static inline void reuse_begin(ReusedPath* reused) { reused->has_first = reused->has_second = false; }
@@ -70,8 +77,14 @@ static inline void reuse_keep_second(const Scene* scene, uint segment, const Sur
         !reuse_leaves(scene, &reused->surface, &reused->bsdf, path->ray.direction))
         return;
     const real scale = vector_max_component(path->throughput);
-    if (bsdf->lobes != LOBE_MATTE || (bsdf->flags & (BSDF_BENT | BSDF_COUPLED)) || !(scale > REAL(0.0)))
+    if (!matte_is_of_use(bsdf) || (bsdf->flags & BSDF_BENT) || !(scale > REAL(0.0)))
         return;
+    reused->cover = matte_cover(bsdf);
+    if (!matte_passes(&reused->cover, bsdf->wo.z, &reused->passing))
+        return;
+    reused->is_mixed = bsdf->lobes != LOBE_MATTE;
+    reused->arriving = path->throughput;
+    reused->connection = reused->matte_connection = (real3)(REAL(0.0));
     reused->has_second = true;
     reused->second = *surface;
     reused->normal_s = bsdf->frame.z;
@@ -83,13 +96,39 @@ static inline void reuse_keep_second(const Scene* scene, uint segment, const Sur
     path->throughput = (real3)(scale);
 }
 
+/* Keeps the shares of the second vertex' matte lobe; the path is about to leave it. */
+static inline void reuse_keep_shares(uint segment, const Bsdf* bsdf, const BsdfSample* next, const Path* path,
+                                     ReusedPath* reused)
+{
+    if (segment != 2u || !reused->has_second || !reused->is_mixed)
+        return;
+    const bool is_smooth = next->is_valid && next->pdf_w > REAL(0.0);
+    reused->matte_next = is_smooth ? matte_share(bsdf, next->wi) : (real3)(REAL(0.0));
+    if (path->is_connected)
+        reused->matte_connection = matte_share(bsdf, path->light_wi);
+}
+
+/* Keeps what the path has found by the connection of a vertex. */
+static inline void reuse_keep_connection(uint segment, real3 radiance, ReusedPath* reused)
+{
+    if (segment == 2u && reused->has_second)
+        reused->connection = radiance;
+}
+
 /* At the end of the path: what it has gathered for itself stays the sample's, the rest is for all. */
 static inline void reuse_finish(real3* radiance, ReusedPath* reused)
 {
     if (!reused->has_second)
         return;
-    reused->light = *radiance / reused->scale;
+    const real3 gathered = *radiance;
+    real3 shared = gathered;
     *radiance = reused->before;
+    if (reused->is_mixed) {
+        shared = reused->matte_connection * reused->connection +
+                 reused->matte_next * (gathered - reused->connection);
+        *radiance += reused->arriving * ((gathered - shared) / reused->scale);
+    }
+    reused->light = shared / (reused->passing * reused->scale);
 }
 
 /* How a first vertex sees a second one. `is_own`: both are of one path, which has been there; where paths pass
@@ -123,12 +162,15 @@ static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderPar
         return nothing;
     if (!reuse_leaves(scene, &eye->surface, &eye->bsdf, wi))
         return nothing;
+    real3 passing;
+    if (!matte_passes(&source->cover, -vector_dot(source->normal_s, wi), &passing))
+        return nothing;
     BsdfValue eval = bsdf_eval(&eye->bsdf, wi);
     if (eval.pdf_w == REAL(0.0))
         return nothing;
     const Passage passage =
         reuse_passage(scene, params, &eye->surface, &source->second, wi, is_own, rays);
-    eval.value *= eye->throughput * passage.share * (cosine / square);
+    eval.value *= eye->throughput * passing * passage.share * (cosine / square);
     eval.pdf_w = guide_density(scene, &eye->guide, wi, eval.pdf_w) * passage.passing * (cosine / square);
     return eval;
 }
@@ -183,6 +225,13 @@ static inline void reuse_keep_second(const Scene* scene, uint segment, const Sur
                                      const Bsdf* bsdf, Path* path, real3* radiance, ReusedPath* reused)
 {
 }
+
+static inline void reuse_keep_shares(uint segment, const Bsdf* bsdf, const BsdfSample* next, const Path* path,
+                                     ReusedPath* reused)
+{
+}
+
+static inline void reuse_keep_connection(uint segment, real3 radiance, ReusedPath* reused) {}
 
 static inline void reuse_share(const Scene* scene, const RenderParams* params, uint count, ReusedPath* reused,
                                CameraSample* samples, PixelRays* rays)

@@ -16,10 +16,6 @@
 #include "path/strategies.h"
 #include "path/visibility.h"
 
-#ifndef PATH_REUSE
-#define PATH_REUSE 0
-#endif
-
 /* 1 where emission that the camera sees may come from camera rays of its own (emission_rays.h). */
 #if defined(CAMERA_RAYS_ARE_SPLIT) && (CLRT_EFFECTS & EFFECT_AREA_LIGHT)
 #define SPLITS_EMISSION 1

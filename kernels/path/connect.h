@@ -63,6 +63,9 @@ static inline void path_note_connection(const Scene* scene, const Surface* surfa
                                         real with_others, Path* path)
 {
     path->is_connected = true;
+#if PATH_REUSE
+    path->light_wi = light->wi;
+#endif
 #if HAS_SLABS
     const bool may_cross = light->is_distant && solid_beside(scene, surface, light->reflects) == NO_INDEX;
     path->connects_with_others = may_cross ? with_others : REAL(0.0);

@@ -117,6 +117,7 @@ static inline real guide_mixture(const Guide* guide, real bsdf_pdf_w, real cell_
 
 #endif
 
+/* What guide_density asks of a vertex with this guide. */
 static inline GuideShare guide_share(const Guide* guide)
 {
     GuideShare share;

@@ -35,6 +35,9 @@ typedef struct {
                                 camera rays and delta lobes */
     Ray shadow;              /* from the vertex to a light, */
     real3 connection;        /* and what arrives if nothing is in between */
+#if PATH_REUSE
+    real3 light_wi; /* the light's direction */
+#endif
     real3 watched;           /* sum of directions and normals, for NaNs among them */
     uint state;              /* of the automaton, behind all vertices so far */
 #if CLRT_EFFECTS & EFFECT_ATTENUATION

@@ -46,21 +46,28 @@ static inline real3 bsdf_energy_facet_mean(const Bsdf* bsdf)
     return bsdf->fresnel == FRESNEL_SCHLICK ? fresnel_schlick_mean(bsdf->specular) : bsdf->specular;
 }
 
-/* The albedo of the reflection lobes' facets towards a local direction; a mirror loses nothing. */
-static inline Albedo bsdf_energy_albedo(const Bsdf* bsdf, real3 w)
+/* The albedo of the reflection lobes' facets towards a local direction; a mirror, alpha 0, loses nothing. */
+static inline Albedo energy_albedo(const AlbedoRoughness* rough, real3 w)
 {
-    if (HAS(EFFECT_GLOSSY) && bsdf->rough.alpha > REAL(0.0))
-        return albedo_reflection(&bsdf->rough, w);
+    if (HAS(EFFECT_GLOSSY) && rough->alpha > REAL(0.0))
+        return albedo_reflection(rough, w);
     Albedo albedo;
     albedo.loss = REAL(0.0);
     albedo.schlick = fresnel_schlick_grazing(fabs(w.z));
     return albedo;
 }
 
+static inline Albedo bsdf_energy_albedo(const Bsdf* bsdf, real3 w) { return energy_albedo(&bsdf->rough, w); }
+
 /* g(w) of the coupling. */
+static inline real3 energy_passing(real3 passing_loss, Albedo albedo)
+{
+    return (real3)(REAL(1.0) - albedo.schlick) + passing_loss * albedo.loss;
+}
+
 static inline real3 bsdf_energy_passing(const Bsdf* bsdf, Albedo albedo)
 {
-    return (real3)(REAL(1.0) - albedo.schlick) + bsdf->passing_loss * albedo.loss;
+    return energy_passing(bsdf->passing_loss, albedo);
 }
 
 /* True where the matte lobe lies below a reflection that depends on the angle. */
