@@ -5,16 +5,18 @@
 // Let x_i be the first vertices of a group's paths and y_j the second ones, f_i the BSDF times cosine at x_i,
 // p_i the density with which it samples the direction to y_j, by BSDF and guide, V_ij the share of light that
 // gets from y_j to x_i, P_ij the probability with which paths do, c_ij the cosine at y_j over the squared
-// distance, and L_j what path j has found to leave y_j, emission apart. The estimate of pixel i is
-//     sum over j of  f_i c_ij V_ij L_j / sum over k of p_k c_kj P_kj,
+// distance, g_ij what a reflection above y_j lets pass, and L_j what path j has found to leave y_j below it,
+// emission apart. The estimate of pixel i is
+//     sum over j of  f_i c_ij g_ij V_ij L_j / sum over k of p_k c_kj P_kj,
 // the balance heuristic (Veach 1997) over all paths that could have come to y_j. It has no bias, and no
-// quotient is larger than the path's own. V and P are both 0 or 1 but for cut-outs and panes.
+// quotient is larger than the path's own but by that of two g. V and P are both 0 or 1 but for cut-outs and
+// panes.
 //
-// L_j must be the same for all but for a factor: y_j is on a surface with a matte lobe, L_j is what that sends
+// L_j must be the same for all: y_j is on a surface with a matte lobe, L_j is what that sends
 // (reuse_matte.h), and y_j is seen from the side that path j has seen. All else, such as emission that a path
-// meets there, what other lobes send, paths that leave x_j by a delta lobe, and those that come to glass, that
-// leave x_j into an absorbing solid or with one colour of three, is its own pixel's alone. Which of both a
-// path is depends on x and y only, so that every light path is counted by one of them.
+// meets there, what other lobes send, paths that leave x_j by a delta lobe, and those that come to glass,
+// that leave x_j into an absorbing solid or with one colour of three, is its own pixel's alone. Which of both
+// a path is depends on x and y only, so that every light path is counted by one of them.
 #ifndef CLRT_INTEGRATORS_PATH_REUSE_H
 #define CLRT_INTEGRATORS_PATH_REUSE_H
 
@@ -77,10 +79,10 @@ static inline void reuse_keep_second(const Scene* scene, uint segment, const Sur
         !reuse_leaves(scene, &reused->surface, &reused->bsdf, path->ray.direction))
         return;
     const real scale = vector_max_component(path->throughput);
-    if (!matte_is_of_use(bsdf) || (bsdf->flags & BSDF_BENT) || !(scale > REAL(0.0)))
+    if (!reuse_matte_is_of_use(bsdf) || (bsdf->flags & BSDF_BENT) || !(scale > REAL(0.0)))
         return;
-    reused->cover = matte_cover(bsdf);
-    if (!matte_passes(&reused->cover, bsdf->wo.z, &reused->passing))
+    reused->cover = reuse_matte_cover(bsdf);
+    if (!reuse_matte_passes(&reused->cover, bsdf->wo.z, &reused->passing))
         return;
     reused->is_mixed = bsdf->lobes != LOBE_MATTE;
     reused->arriving = path->throughput;
@@ -103,9 +105,9 @@ static inline void reuse_keep_shares(uint segment, const Bsdf* bsdf, const BsdfS
     if (segment != 2u || !reused->has_second || !reused->is_mixed)
         return;
     const bool is_smooth = next->is_valid && next->pdf_w > REAL(0.0);
-    reused->matte_next = is_smooth ? matte_share(bsdf, next->wi) : (real3)(REAL(0.0));
+    reused->matte_next = is_smooth ? reuse_matte_share(bsdf, next->wi) : (real3)(REAL(0.0));
     if (path->is_connected)
-        reused->matte_connection = matte_share(bsdf, path->light_wi);
+        reused->matte_connection = reuse_matte_share(bsdf, path->light_wi);
 }
 
 /* Keeps what the path has found by the connection of a vertex. */
@@ -124,9 +126,12 @@ static inline void reuse_finish(real3* radiance, ReusedPath* reused)
     real3 shared = gathered;
     *radiance = reused->before;
     if (reused->is_mixed) {
-        shared = reused->matte_connection * reused->connection +
-                 reused->matte_next * (gathered - reused->connection);
-        *radiance += reused->arriving * ((gathered - shared) / reused->scale);
+        /* Both parts by factors of their own: a difference could be negative by a rounding. */
+        const real3 one = (real3)(REAL(1.0)), next = gathered - reused->connection;
+        const real3 rest = (one - reused->matte_connection) * reused->connection +
+                           (one - reused->matte_next) * next;
+        shared = reused->matte_connection * reused->connection + reused->matte_next * next;
+        *radiance += reused->arriving * (rest / reused->scale);
     }
     reused->light = shared / (reused->passing * reused->scale);
 }
@@ -158,12 +163,13 @@ static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderPar
         return nothing;
     const real3 wi = way / real_sqrt(square);
     const real cosine = -source->side * vector_dot(source->second.normal_g, wi);
-    if (!(cosine > REAL(0.0)) || !(vector_dot(source->normal_s, wi) < REAL(0.0)))
+    if (!(cosine > REAL(0.0)) || !(vector_dot(source->normal_s, wi) < REAL(0.0)) ||
+        material_is_bent(&source->second, source->normal_s, -wi))
         return nothing;
     if (!reuse_leaves(scene, &eye->surface, &eye->bsdf, wi))
         return nothing;
     real3 passing;
-    if (!matte_passes(&source->cover, -vector_dot(source->normal_s, wi), &passing))
+    if (!reuse_matte_passes(&source->cover, -vector_dot(source->normal_s, wi), &passing))
         return nothing;
     BsdfValue eval = bsdf_eval(&eye->bsdf, wi);
     if (eval.pdf_w == REAL(0.0))
@@ -204,7 +210,7 @@ static CLRT_NOINLINE void reuse_share(const Scene* scene, const RenderParams* pa
     for (uint k = 0; k < count; ++k)
         reuse_finish(&samples[k].radiance, &reused[k]);
     for (uint k = 0; k < count; ++k)
-        if (reused[k].has_second)
+        if (reused[k].has_second && !vector_is_black(reused[k].light))
             reuse_share_one(scene, params, &reused[k], reused + k % stride, members, stride,
                             samples + k % stride, rays);
 }

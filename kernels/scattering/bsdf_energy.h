@@ -47,7 +47,7 @@ static inline real3 bsdf_energy_facet_mean(const Bsdf* bsdf)
 }
 
 /* The albedo of the reflection lobes' facets towards a local direction; a mirror, alpha 0, loses nothing. */
-static inline Albedo energy_albedo(const AlbedoRoughness* rough, real3 w)
+static inline Albedo bsdf_energy_rough_albedo(const AlbedoRoughness* rough, real3 w)
 {
     if (HAS(EFFECT_GLOSSY) && rough->alpha > REAL(0.0))
         return albedo_reflection(rough, w);
@@ -57,17 +57,22 @@ static inline Albedo energy_albedo(const AlbedoRoughness* rough, real3 w)
     return albedo;
 }
 
-static inline Albedo bsdf_energy_albedo(const Bsdf* bsdf, real3 w) { return energy_albedo(&bsdf->rough, w); }
+/* The same of a BSDF. */
+static inline Albedo bsdf_energy_albedo(const Bsdf* bsdf, real3 w)
+{
+    return bsdf_energy_rough_albedo(&bsdf->rough, w);
+}
 
 /* g(w) of the coupling. */
-static inline real3 energy_passing(real3 passing_loss, Albedo albedo)
+static inline real3 bsdf_energy_rough_passing(real3 passing_loss, Albedo albedo)
 {
     return (real3)(REAL(1.0) - albedo.schlick) + passing_loss * albedo.loss;
 }
 
+/* The same of a BSDF. */
 static inline real3 bsdf_energy_passing(const Bsdf* bsdf, Albedo albedo)
 {
-    return energy_passing(bsdf->passing_loss, albedo);
+    return bsdf_energy_rough_passing(bsdf->passing_loss, albedo);
 }
 
 /* True where the matte lobe lies below a reflection that depends on the angle. */

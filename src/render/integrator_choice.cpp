@@ -145,8 +145,9 @@ bool has_light_tree(const PlannedScene& planned) {
 SquaredErrors caustic_errors(const IntegratorChoice& choice) {
     SquaredErrors errors{};
     for (const IntegratorPrice& price : choice.prices)
-        for (size_t i = 0; price.integrator == Integrator::PATH_LIGHT && i < errors.size(); ++i)
-            errors[i] = std::max(0., price.path[i] - price.errors[i]);
+        if (price.integrator == Integrator::PATH_LIGHT)
+            for (size_t i = 0; i < errors.size(); ++i)
+                errors[i] = std::max(0., price.path[i] - price.errors[i]);
     return errors;
 }
 
@@ -165,8 +166,10 @@ double gain_beside_caustics(const std::optional<ReusePilots>& pilots, const Squa
     if (!pilots || pilots->gain == 0)
         return 0;
     const double alone = deciding_error(pilots->alone.errors, options);
+    const double reusing = deciding_error(pilots->reusing.errors, options);
     const double caustic = deciding_error(caustics, options);
-    return std::max(alone, caustic) / std::max(alone / pilots->gain, caustic);
+    const double work = alone / (reusing * pilots->gain);
+    return std::max(alone, caustic) / (std::max(reusing, caustic) * work);
 }
 
 /// Up to which told efficiency a candidate is compared with path that reuses paths, which gains less than the
@@ -248,7 +251,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         }
         IntegratorPrice price = price_of(candidate, pilot, planned->options);
         if (measured)
-            measure(*measured, caustic_errors(choice), planned->options, price);
+            measure(*measured, {}, planned->options, price); // there are no caustics
         choice.prices.push_back(price);
         if (price.efficiency > std::max(best, smallest_gain(price, is_guided, planned->options))) {
             best = price.efficiency;

@@ -7,11 +7,11 @@
 // each is compared with what its own samples tell of path, or, where path chooses lights by a tree, with a
 // pilot of path's own, caustics apart: it hardly meets them, and path+light's samples tell their noise. Where
 // none is named and the scene cannot have caustics, path takes a pilot before them, and where that finds the
-// light no other is compiled; nor is bdpt where path+light's pilot tells that path finds it but for caustics. Work is counted in rays, each weighing what it was measured to cost, never
-// in seconds: the same picture comes out everywhere. The pilots' samples are dropped, so that the picture is,
-// bit for bit, that of the integrator by name, unless both differ over a guide: a pilot of a candidate judges
-// here whether one is worth it, a pilot of the integrator itself where it is named, and near the bound they
-// need not agree.
+// light no other is compiled; nor is bdpt where path+light's pilot tells that path finds it but for caustics.
+// Work is counted in rays, each weighing what it was measured to cost, never in seconds: the same picture
+// comes out everywhere. The pilots' samples are dropped, so that the picture is, bit for bit, that of the
+// integrator by name, unless both differ over a guide: a pilot of a candidate judges here whether one is
+// worth it, a pilot of the integrator itself where it is named, and near the bound they need not agree.
 //
 // Where another one than path wins, path that reuses paths gets a pilot as well (render/reuse_choice.h), and
 // the plan is for that if it gains as much.
@@ -32,7 +32,7 @@ namespace clrt {
 struct IntegratorPrice {
     Integrator integrator = Integrator::PATH;
     SquaredErrors errors{}; ///< squared, by ErrorMeasure
-    SquaredErrors path{};   ///< those of path, by the same samples
+    SquaredErrors path{};   ///< those of path, by the same samples or by path's own pilot, caustics apart
     double work = 0;        ///< in rays of path
     double efficiency = 1;  ///< 1 / (squared error times work), path's being 1
 };
