@@ -153,11 +153,24 @@ TEST(PathReuse, ChangesNoMeanWhereSurfacesAreHidden) {
     EXPECT_LT(mean_square_z(both_ways(room)), LARGEST_MEAN_SQUARE_Z);
 }
 
-// What leaves a glossy wall depends on the direction: rough metal beside paint, plastic, lacquers as smooth
-// as a mirror, the second by Fresnel's formula, paint under a coat and fibres, brushed metal beside paint and
-// brushed varnish. All pixels are of one tile, so that what is given to wrong ones shows. The first are
-// guided.
+// What leaves a glossy wall depends on the direction.
 TEST(PathReuse, ChangesNoMeanBetweenGlossyWalls) {
+    TestScene room;
+    room.build.material("gloss", "Kd 0.2 0.2 0.2\nKs 0.7 0.7 0.7\nNs 30\nillum 2");
+    room.build.material("lamp", "Kd 0 0 0\nKe 9 9 9").use("gloss");
+    room.build.box({-2, 0, -2}, {2, 2.5, 2}, Facing::INWARD);
+    room.build.use("lamp").polygon({{-1, 2.4, -1}, {0, 2.4, -1}, {0, 2.4, 0}, {-1, 2.4, 0}});
+    room.look({1.8, 1.6, 1.8}, {0, 0.8, 0}, 60);
+    room.options.film.size = {24, 24};
+    room.options.sampling.spp = 2048;
+    room.options.effects.all = false;
+    EXPECT_LT(mean_square_z(both_ways(room)), LARGEST_MEAN_SQUARE_Z);
+}
+
+// Within one tile, so that what is given to wrong pixels shows: rough metal beside paint, plastic, lacquers
+// as smooth as a mirror, the second by Fresnel's formula, paint under a coat and fibres, brushed metal beside
+// paint and brushed varnish. The first are guided.
+TEST(PathReuse, ChangesNoMeanBetweenGlossyWallsOfOneTile) {
     Toggle guide = Toggle::ON;
     for (const char* kind :
          {"Kd 0.2 0.2 0.2\nKs 0.7 0.7 0.7\nNs 30\nillum 2",
