@@ -36,6 +36,7 @@ typedef struct {
 #define SCENE_ARRAY(type, name, member) global const type* restrict name;
     BVH_ARRAYS(SCENE_ARRAY)
     SCENE_ARRAYS(SCENE_ARRAY)
+    PATH_ARRAYS(SCENE_ARRAY)
 #undef SCENE_ARRAY
 #if PATH_GUIDE
     GuideArrays guide;
@@ -93,6 +94,7 @@ static inline Scene scene_make(SceneHeap heap0, SceneHeap heap1, SceneHeap heap2
     scene.name = (global const type*)(heaps[places->name.heap] + places->name.first);
     BVH_ARRAYS(SCENE_ARRAY)
     SCENE_ARRAYS(SCENE_ARRAY)
+    PATH_ARRAYS(SCENE_ARRAY)
 #undef SCENE_ARRAY
 #if CLRT_EFFECTS & EFFECT_MOTION_BLUR
     scene.moves = places->position_moves.is_empty == 0u;

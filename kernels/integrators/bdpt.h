@@ -101,7 +101,7 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
     Path path;
     EyeVertex eye;
     eye.weights.open = eye.weights.closed = REAL(0.0);
-    path_begin(&path, &sample->ray);
+    path_begin(scene, &path, &sample->ray);
     splat_take_seen(scene, sample);
     bdpt_book(params, 0u, 2u, sample);
     for (uint segment = 1u; path.is_alive; ++segment) {

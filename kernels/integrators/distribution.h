@@ -10,10 +10,11 @@
 #include "distribution_light.h"
 
 /* Adds light of one kind that a ray has met. */
-static inline void distribution_add_layers(const TreeRay* path, uint kind, real3 light, LayerSums* layers)
+static inline void distribution_add_layers(const Scene* scene, const TreeRay* path, uint kind, real3 light,
+                                           LayerSums* layers)
 {
 #if PATH_LAYERS > 0
-    layers_add(path->state, kind, path->weight * light, layers);
+    layers_add(scene, path->state, kind, path->weight * light, layers);
 #endif
 }
 
@@ -38,9 +39,9 @@ static inline void distribution_escape(const Scene* scene, const RenderParams* p
     vertex_add(scene, path->weight * sky, &sample->radiance);
     if (PATH_LAYERS == 0)
         return;
-    distribution_add_layers(path, KIND_SKY, distribution_outside(scene, params, path, KIND_SKY),
+    distribution_add_layers(scene, path, KIND_SKY, distribution_outside(scene, params, path, KIND_SKY),
                             &sample->layers);
-    distribution_add_layers(path, KIND_SUN, distribution_outside(scene, params, path, KIND_SUN),
+    distribution_add_layers(scene, path, KIND_SUN, distribution_outside(scene, params, path, KIND_SUN),
                             &sample->layers);
 }
 
@@ -60,7 +61,7 @@ static inline void distribution_add_emission(const Scene* scene, const RenderPar
         emitted *= mis_weight(path->pdf_w, light_pdf_w);
     }
     vertex_add(scene, path->weight * emitted, &sample->radiance);
-    distribution_add_layers(path, KIND_AREA, emitted, &sample->layers);
+    distribution_add_layers(scene, path, KIND_AREA, emitted, &sample->layers);
 }
 
 /* Counts a ray that would have been lit, or gone on, but for max_depth: by all of its surface's lobes, or,
@@ -70,8 +71,8 @@ static inline void distribution_cut(const Scene* scene, const RenderParams* para
 {
     uint lobes = bsdf->lobes;
     if (HAS(EFFECT_PATH_FILTER)) {
-        const AutomatonStep open = automaton_step(params, path->state, path->segment);
-        const AutomatonStep closed = automaton_cut_step(&open, path->state);
+        const AutomatonStep open = automaton_step(scene, params, path->state, path->segment);
+        const AutomatonStep closed = automaton_cut_step(scene, &open, path->state);
         lobes = bsdf_lobes_of(bsdf, automaton_open(&closed));
     }
     if (lobes == 0u)
@@ -81,8 +82,9 @@ static inline void distribution_cut(const Scene* scene, const RenderParams* para
 }
 
 /* What a vertex does: which of its lobes are rough, and how many rays it branches into. */
-static inline TreeVertex distribution_vertex_make(const RenderParams* params, const TreeRay* path,
-                                                  const Surface* surface, const Sampler* sampler, Bsdf* bsdf)
+static inline TreeVertex distribution_vertex_make(const Scene* scene, const RenderParams* params,
+                                                  const TreeRay* path, const Surface* surface,
+                                                  const Sampler* sampler, Bsdf* bsdf)
 {
     TreeVertex vertex;
     vertex.path = path;
@@ -90,7 +92,7 @@ static inline TreeVertex distribution_vertex_make(const RenderParams* params, co
     vertex.bsdf = bsdf;
     vertex.sampler = *sampler;
     if (HAS(EFFECT_PATH_FILTER)) {
-        vertex.step = automaton_step(params, path->state, path->segment);
+        vertex.step = automaton_step(scene, params, path->state, path->segment);
         filter_lobes(&vertex.step, bsdf);
     }
     const bool is_rough_glass = HAS(EFFECT_ROUGH_REFRACTION) && (bsdf->lobes & LOBE_DIELECTRIC) &&
@@ -99,9 +101,9 @@ static inline TreeVertex distribution_vertex_make(const RenderParams* params, co
         HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE) && !bsdf_pane_is_delta(bsdf);
     vertex.rough = bsdf_lobes_of(bsdf, LETTER_BIT(LETTER_GLOSSY));
     const uint asked =
-        is_rough_glass || is_rough_pane ? DISTRIBUTION_TRANSLUCENT_RAYS : DISTRIBUTION_GLOSS_RAYS;
+        is_rough_glass || is_rough_pane ? params->translucent_rays : params->gloss_rays;
     vertex.rough_rays = distribution_count(asked, path->share);
-    vertex.shadow_rays = distribution_count(DISTRIBUTION_SHADOW_RAYS, path->share);
+    vertex.shadow_rays = distribution_count(params->shadow_rays, path->share);
     /* The density of a direction is that of the rough lobes' rays alone. */
     if (vertex.rough != 0u)
         bsdf_choose_among(bsdf, vertex.rough);
@@ -123,11 +125,11 @@ static CLRT_NOINLINE uint distribution_shade(const Scene* scene, const RenderPar
         return top;
     }
     if (HAS(EFFECT_PATH_FILTER)) {
-        const AutomatonStep step = automaton_step(params, path->state, path->segment);
-        if (automaton_is_cut(&step, path->state))
+        const AutomatonStep step = automaton_step(scene, params, path->state, path->segment);
+        if (automaton_is_cut(scene, &step, path->state))
             distribution_cut(scene, params, path, &bsdf, rays);
     }
-    const TreeVertex vertex = distribution_vertex_make(params, path, surface, sampler, &bsdf);
+    const TreeVertex vertex = distribution_vertex_make(scene, params, path, surface, sampler, &bsdf);
     if (bsdf.lobes == 0u)
         return top;
     distribution_light(scene, params, &vertex, sample, rays);
@@ -166,7 +168,7 @@ static CLRT_NOINLINE void distribution_sample(const Scene* scene, const RenderPa
 {
     TreeRay stack[DISTRIBUTION_WAITING];
     uint top = 1u;
-    stack[0] = distribution_first(sample);
+    stack[0] = distribution_first(scene, sample);
     while (top != 0u) {
         TreeRay path = stack[--top];
         rays->secondary += path.segment > 1u ? 1u : 0u;

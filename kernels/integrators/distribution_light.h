@@ -55,8 +55,9 @@ static CLRT_NOINLINE void distribution_connect(const Scene* scene, const RenderP
     vertex_add(scene, arriving * share, &sample->radiance);
     if (PATH_LAYERS == 0)
         return;
-    layers_add(vertex->step.next[LETTER_MATTE], light->kind, factor * parts.matte * share, &sample->layers);
-    layers_add(vertex->step.next[LETTER_GLOSSY], light->kind, factor * parts.rough * share, &sample->layers);
+    const AutomatonStep* step = &vertex->step;
+    layers_add(scene, step->next[LETTER_MATTE], light->kind, factor * parts.matte * share, &sample->layers);
+    layers_add(scene, step->next[LETTER_GLOSSY], light->kind, factor * parts.rough * share, &sample->layers);
 }
 
 /* True if shadow rays to lights of a kind can find anything. */

@@ -9,14 +9,11 @@
 #include "pixel.h"
 #include "tree.h"
 
-/* Rays that a vertex branches into (--shadow-rays, --gloss-rays, --translucent-rays), and how many can wait
-   at once: of each level those beside the one that is followed. Two rays leave smooth glass, and the branches
-   of all levels multiply to no more than those of the first (distribution_count), so it is the depth and the
-   most rays of a branch. The host gives them as literals (branch_defines); without, they are the largest. */
-#ifndef DISTRIBUTION_SHADOW_RAYS
-#define DISTRIBUTION_SHADOW_RAYS 64u
-#define DISTRIBUTION_GLOSS_RAYS 64u
-#define DISTRIBUTION_TRANSLUCENT_RAYS 64u
+/* Rays that can wait at once: of each level those beside the one that is followed. Two rays leave smooth
+   glass, and the branches of all levels multiply to no more than those of the first (distribution_count), so
+   the depth and the most rays of a branch are enough. The host gives it as a literal (waiting_defines);
+   without, it is the largest. */
+#ifndef DISTRIBUTION_WAITING
 #define DISTRIBUTION_WAITING 128
 #endif
 
@@ -59,7 +56,7 @@ typedef struct {
     uint rough_rays, shadow_rays;
 } TreeVertex;
 
-static inline TreeRay distribution_first(const CameraSample* sample)
+static inline TreeRay distribution_first(const Scene* scene, const CameraSample* sample)
 {
     TreeRay path;
     path.ray = sample->ray;
@@ -76,7 +73,7 @@ static inline TreeRay distribution_first(const CameraSample* sample)
     path.has_crossed_curved = false;
     path.segment = path.node = path.share = 1u;
     path.index = sampler_reverse_bits(sample->sampler.index_reversed);
-    path.state = STATE_START;
+    path.state = automaton_start(scene);
     return path;
 }
 
@@ -89,7 +86,7 @@ static inline uint distribution_accepted(const TreeRay* path)
 /* True if the light of a kind may end a path by way of lobes that write this letter. */
 static inline bool distribution_accepts(const TreeVertex* vertex, uint letter, uint kind)
 {
-    return !HAS(EFFECT_PATH_FILTER) || automaton_accepts(vertex->step.next[letter], kind);
+    return !HAS(EFFECT_PATH_FILTER) || (automaton_accepted(vertex->step.next[letter]) & kind) != 0u;
 }
 
 /* True if a ray by way of lobes that write this letter may find anything. */
@@ -120,7 +117,7 @@ static inline TreeRay distribution_child(const Scene* scene, const TreeVertex* v
     child.has_crossed_curved = vertex->surface->is_curved && !reflects;
     ++child.segment;
     child.node = tree_number(vertex->path->node, WAY_COUNT, way);
-    child.state = HAS(EFFECT_PATH_FILTER) ? vertex->step.next[letter] : STATE_START;
+    child.state = HAS(EFFECT_PATH_FILTER) ? vertex->step.next[letter] : STATE_OF_EVERY_PATH;
     return child;
 }
 

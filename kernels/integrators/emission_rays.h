@@ -88,7 +88,7 @@ static inline uint emission_settled(const Scene* scene, const RenderParams* para
                                     uint y, Ray* ray)
 {
 #if SPLITS_EMISSION
-    if (!(automaton_accepted(STATE_START) & KIND_AREA))
+    if (!(automaton_accepted(automaton_start(scene)) & KIND_AREA))
         return EMISSION_BY_PATHS;
     if (state == EMISSION_OPEN)
         return emission_varies(scene, params, x, y, ray) ? EMISSION_BY_RAYS : EMISSION_BY_PATHS;

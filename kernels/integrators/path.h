@@ -24,9 +24,11 @@ static inline void path_escape(const Scene* scene, const RenderParams* params, u
     if (PATH_LAYERS == 0)
         return;
     const LightView* view = &path->view;
-    path_add_layers(path, KIND_SKY, lights_outside(scene, params, segment, view, direction, pdf_w, KIND_SKY),
+    path_add_layers(scene, path, KIND_SKY,
+                    lights_outside(scene, params, segment, view, direction, pdf_w, KIND_SKY),
                     &sample->layers);
-    path_add_layers(path, KIND_SUN, lights_outside(scene, params, segment, view, direction, pdf_w, KIND_SUN),
+    path_add_layers(scene, path, KIND_SUN,
+                    lights_outside(scene, params, segment, view, direction, pdf_w, KIND_SUN),
                     &sample->layers);
 }
 
@@ -36,7 +38,7 @@ static inline void path_take_seen(const Scene* scene, const Path* path, CameraSa
     if (!pixel_has_seen(sample))
         return;
     TRACE_VECTOR(scene, TRACE_ADDED, sample->radiance);
-    path_add_layers(path, KIND_AREA, sample->radiance, &sample->layers);
+    path_add_layers(scene, path, KIND_AREA, sample->radiance, &sample->layers);
 }
 
 /* Adds what the surface emits. */
@@ -49,7 +51,7 @@ static inline void path_add_emission(const Scene* scene, const RenderParams* par
         return;
     const real3 emitted = path_emission(scene, params, surface, path, -path->ray.direction);
     vertex_add(scene, path->throughput * emitted, &sample->radiance);
-    path_add_layers(path, KIND_AREA, emitted, &sample->layers);
+    path_add_layers(scene, path, KIND_AREA, emitted, &sample->layers);
 }
 
 /* Handles the vertex at the end of a segment: adds its emission, chooses the next direction, connects to a
@@ -196,14 +198,14 @@ static CLRT_NOINLINE void path_radiance(const Scene* scene, const RenderParams* 
     PathList alive;
     alive.count = 0u;
     for (uint k = 0; k < count; ++k) {
-        path_begin(&paths[k], &samples[k].ray);
+        path_begin(scene, &paths[k], &samples[k].ray);
         light_samples_begin(params, &paths[k]);
         path_take_seen(scene, &paths[k], &samples[k]);
         reuse_begin(&reused[k]);
         guide_choose(params, &samples[k].sampler, &paths[k].guided);
         path_list_add(&alive, k, true);
     }
-    for (uint segment = 1u; alive.count != 0u && segment <= PATH_SEGMENTS; ++segment)
+    for (uint segment = 1u; alive.count != 0u; ++segment)
         path_advance(scene, params, segment, paths, samples, reused, &alive, rays);
 #if PATH_GUIDE
     for (uint k = 0; k < count; ++k)

@@ -64,7 +64,7 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
 {
     Path path;
     SplatWeights weights = {REAL(0.0), REAL(0.0)};
-    path_begin(&path, &sample->ray);
+    path_begin(scene, &path, &sample->ray);
     splat_take_seen(scene, sample);
     guide_choose(params, &sample->sampler, &path.guided);
     for (uint segment = 1u; path.is_alive; ++segment) {

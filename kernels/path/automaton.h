@@ -1,90 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 // The automaton of --paths and of layers of paths (src/paths): a path carries a state, every scattering event
-// is a letter that leads to the next one. The host gives the tables as literals (layout:
-// shared/path_types.h); without them there is one state that accepts every path.
+// is a letter that leads to the next one. The host's table tells where (layout: shared/path_types.h), so that
+// all expressions share a program; programs that tell no paths apart have one state, which accepts every
+// path.
 #ifndef CLRT_PATH_AUTOMATON_H
 #define CLRT_PATH_AUTOMATON_H
 
-#include "shared/effects.h"
-#include "shared/path_types.h"
-#include "shared/render_types.h"
+#include "geometry/scene.h"
 
-#ifndef PATH_NEXT
-#define PATH_NEXT 0u, 0x01010101u
-#define PATH_STATES 0u, (KINDS_ALL | STATE_CONTINUES)
-#endif
 #ifndef PATH_LAYERS
 #define PATH_LAYERS 0
 #endif
-/* Segments of the longest accepted path, where there is a longest. */
-#ifndef PATH_SEGMENTS
-#define PATH_SEGMENTS 0xffffffffu
-#endif
 
-constant uint AUTOMATON_NEXT[] = {PATH_NEXT};
-constant uint AUTOMATON_STATES[] = {PATH_STATES};
+/* The state of a program that tells no paths apart. */
+#define STATE_OF_EVERY_PATH (1u | (KINDS_ALL << STATE_KINDS_SHIFT) | STATE_CONTINUES)
 
 /* The states behind a vertex, one for each letter that its BSDF may write. */
 typedef struct {
     uint next[LETTER_COUNT];
 } AutomatonStep;
 
-/* The state that the table has behind a letter. */
-static inline uint automaton_table(uint state, uint letter)
+/* The state behind a letter, by the table. */
+static inline uint automaton_table(const Scene* scene, uint state, uint letter)
 {
-    return (AUTOMATON_NEXT[state] >> (NEXT_STATE_BITS * letter)) & NEXT_STATE_MASK;
+    return scene->path_states[state & STATE_NUMBER_MASK].next[letter];
+}
+
+/* The state in which paths start. */
+static inline uint automaton_start(const Scene* scene)
+{
+    return HAS(EFFECT_PATH_FILTER) ? automaton_table(scene, STATE_DEAD, LETTER_MATTE) : STATE_OF_EVERY_PATH;
 }
 
 /* The state behind a letter; dead too where the path has become too long to end within max_depth segments. */
-static inline uint automaton_next(const RenderParams* params, uint state, uint letter, uint segment)
+static inline uint automaton_next(const Scene* scene, const RenderParams* params, uint state, uint letter,
+                                  uint segment)
 {
-    const uint next = automaton_table(state, letter);
-    const uint distance = AUTOMATON_STATES[next] >> STATE_DISTANCE_SHIFT;
+    const uint next = automaton_table(scene, state, letter);
+    const uint distance = next >> STATE_DISTANCE_SHIFT;
     return segment + 1u + distance > params->max_depth ? STATE_DEAD : next;
 }
 
 /* All that may happen at the end of a segment. */
-static inline AutomatonStep automaton_step(const RenderParams* params, uint state, uint segment)
+static inline AutomatonStep automaton_step(const Scene* scene, const RenderParams* params, uint state,
+                                           uint segment)
 {
     AutomatonStep step;
     for (uint letter = 0u; letter < LETTER_COUNT; ++letter)
-        step.next[letter] = automaton_next(params, state, letter, segment);
+        step.next[letter] = automaton_next(scene, params, state, letter, segment);
     return step;
 }
 
-/* True if max_depth has closed a way that the expression leaves open. */
-static inline bool automaton_is_cut(const AutomatonStep* step, uint state)
-{
-    uint open = 0u;
-    for (uint letter = 0u; letter < LETTER_COUNT; ++letter)
-        open |= step->next[letter] << (NEXT_STATE_BITS * letter);
-    return open != AUTOMATON_NEXT[state];
-}
-
-/* The states behind the ways that max_depth has closed; dead behind all others. */
-static inline AutomatonStep automaton_cut_step(const AutomatonStep* step, uint state)
+/* The states behind the ways that max_depth has closed though the expression leaves them open; dead behind
+   all others. */
+static inline AutomatonStep automaton_cut_step(const Scene* scene, const AutomatonStep* step, uint state)
 {
     AutomatonStep cut;
     for (uint letter = 0u; letter < LETTER_COUNT; ++letter)
-        cut.next[letter] = step->next[letter] != STATE_DEAD ? STATE_DEAD : automaton_table(state, letter);
+        cut.next[letter] =
+            step->next[letter] != STATE_DEAD ? STATE_DEAD : automaton_table(scene, state, letter);
     return cut;
 }
 
-/* True if light of this kind (KIND_*) ends an accepted path. */
-static inline bool automaton_accepts(uint state, uint kind) { return (AUTOMATON_STATES[state] & kind) != 0u; }
-
-/* The kinds of light that end a path in this state; all where paths are not told apart. */
-static inline uint automaton_accepted(uint state)
-{
-    return HAS(EFFECT_PATH_FILTER) ? AUTOMATON_STATES[state] & STATE_KINDS_MASK : KINDS_ALL;
-}
+/* The kinds of light (KIND_*) that end an accepted path in this state. */
+static inline uint automaton_accepted(uint state) { return (state >> STATE_KINDS_SHIFT) & KINDS_ALL; }
 
 /* True if a ray that leaves in this state can find anything: false after the last surface before a point
    light. */
-static inline bool automaton_continues(uint state)
-{
-    return (AUTOMATON_STATES[state] & STATE_CONTINUES) != 0u;
-}
+static inline bool automaton_continues(uint state) { return (state & STATE_CONTINUES) != 0u; }
 
 /* Letters (bits LETTER_BIT) that do not end the path. */
 static inline uint automaton_open(const AutomatonStep* step)
@@ -93,6 +76,13 @@ static inline uint automaton_open(const AutomatonStep* step)
     for (uint letter = 0u; letter < LETTER_COUNT; ++letter)
         open |= step->next[letter] != STATE_DEAD ? LETTER_BIT(letter) : 0u;
     return open;
+}
+
+/* True if max_depth has closed a way that the expression leaves open. */
+static inline bool automaton_is_cut(const Scene* scene, const AutomatonStep* step, uint state)
+{
+    const AutomatonStep cut = automaton_cut_step(scene, step, state);
+    return automaton_open(&cut) != 0u;
 }
 
 /* Letters behind which a ray can find anything. */
@@ -109,11 +99,11 @@ static inline uint automaton_accepting(const AutomatonStep* step, uint kind)
 {
     uint found = 0u;
     for (uint letter = 0u; letter < LETTER_COUNT; ++letter)
-        found |= automaton_accepts(step->next[letter], kind) ? LETTER_BIT(letter) : 0u;
+        found |= (automaton_accepted(step->next[letter]) & kind) ? LETTER_BIT(letter) : 0u;
     return found;
 }
 
 /* True if after this state the picture must know whether an event was matte or glossy. */
-static inline bool automaton_splits(uint state) { return (AUTOMATON_STATES[state] & STATE_SPLITS) != 0u; }
+static inline bool automaton_splits(uint state) { return (state & STATE_SPLITS) != 0u; }
 
 #endif

@@ -87,7 +87,7 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
     Ray ray = chain_camera_ray(params, sampler, &found->film);
     if (HAS(EFFECT_NESTED))
         visible_find_nest(scene, params, &ray);
-    path_begin(&path, &ray);
+    path_begin(scene, &path, &ray);
     for (uint segment = 1u;; ++segment) {
         path.numbers = numbers_make(sampler, segment, 0u);
         path.hit = vertex_hit(scene, params, sampler, segment, 0u, &path.ray, &path.throughput);

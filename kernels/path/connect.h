@@ -142,8 +142,8 @@ static inline void path_add_connection(const Scene* scene, const Path* path, rea
 {
     vertex_add(scene, path->connection * share, radiance);
 #if PATH_LAYERS > 0
-    layers_add(path->layers.matte_state, path->layers.kind, path->layers.matte * share, layers);
-    layers_add(path->layers.glossy_state, path->layers.kind, path->layers.glossy * share, layers);
+    layers_add(scene, path->layers.matte_state, path->layers.kind, path->layers.matte * share, layers);
+    layers_add(scene, path->layers.glossy_state, path->layers.kind, path->layers.glossy * share, layers);
 #endif
 }
 

@@ -17,8 +17,8 @@ static CLRT_NOINLINE void path_cut(const Scene* scene, const RenderParams* param
     material_set_bsdf_apart(scene, surface, -path->ray.direction, TRANSPORT_RADIANCE, &bsdf);
     Path longer = *path;
     if (HAS(EFFECT_PATH_FILTER)) {
-        const AutomatonStep open = automaton_step(params, path->state, segment);
-        const AutomatonStep closed = automaton_cut_step(&open, path->state);
+        const AutomatonStep open = automaton_step(scene, params, path->state, segment);
+        const AutomatonStep closed = automaton_cut_step(scene, &open, path->state);
         filter_lobes(&closed, &bsdf);
     }
     if (bsdf.lobes == 0u)
@@ -42,8 +42,8 @@ static inline bool path_filter(const Scene* scene, const RenderParams* params, c
 {
     if (!HAS(EFFECT_PATH_FILTER))
         return true;
-    *step = automaton_step(params, path->state, segment);
-    if (automaton_is_cut(step, path->state))
+    *step = automaton_step(scene, params, path->state, segment);
+    if (automaton_is_cut(scene, step, path->state))
         path_cut(scene, params, sampler, segment, surface, path, rays);
     filter_lobes(step, bsdf);
     return filter_continues(step, bsdf);

@@ -10,8 +10,6 @@
 #include "film/film.h"
 
 #if PATH_LAYERS > 0
-constant uint AUTOMATON_LAYERS[] = {PATH_LAYER_KINDS};
-
 /* What a sample has gathered. */
 typedef struct {
     real3 radiance[PATH_LAYERS];
@@ -46,11 +44,12 @@ static inline void layers_begin_path(LayerPath* path)
 }
 
 /* Adds light of one kind that ends a path in a state. */
-static inline void layers_add(uint state, uint kind, real3 radiance, LayerSums* sums)
+static inline void layers_add(const Scene* scene, uint state, uint kind, real3 radiance, LayerSums* sums)
 {
 #if PATH_LAYERS > 0
+    const uint kinds = scene->path_states[state & STATE_NUMBER_MASK].layers;
     for (uint i = 0; i < PATH_LAYERS; ++i)
-        if ((AUTOMATON_LAYERS[state] >> (LAYER_KINDS_BITS * i)) & kind)
+        if ((kinds >> (LAYER_KINDS_BITS * i)) & kind)
             sums->radiance[i] += radiance;
 #endif
 }

@@ -75,7 +75,7 @@ static inline uint path_light_samples(const Path* path)
     return 1u << path_light_samples_log(path);
 }
 
-static inline void path_begin(Path* path, const Ray* ray)
+static inline void path_begin(const Scene* scene, Path* path, const Ray* ray)
 {
     path->ray = *ray;
     path->view.position = ray->origin;
@@ -85,7 +85,7 @@ static inline void path_begin(Path* path, const Ray* ray)
     path->watched = (real3)(REAL(0.0));
     path->eta_squared = REAL(1.0);
     path->pdf_w = REAL(0.0);
-    path->state = STATE_START;
+    path->state = automaton_start(scene);
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = NO_INDEX;
 #endif
@@ -118,10 +118,11 @@ static inline void path_absorb(const Scene* scene, const Surface* met, Path* pat
 }
 
 /* Adds light of one kind that the path has met to the layers. */
-static inline void path_add_layers(const Path* path, uint kind, real3 radiance, LayerSums* layers)
+static inline void path_add_layers(const Scene* scene, const Path* path, uint kind, real3 radiance,
+                                   LayerSums* layers)
 {
 #if PATH_LAYERS > 0
-    layers_add(path->state, kind, path->throughput * path->layers.share * radiance, layers);
+    layers_add(scene, path->state, kind, path->throughput * path->layers.share * radiance, layers);
 #endif
 }
 
@@ -161,7 +162,7 @@ static inline bool path_follow(const Scene* scene, const Sampler* sampler, uint 
 #endif
         path->state = step->next[letter];
     }
-    TRACE_CHOICE(scene, TRACE_STATE, path->state);
+    TRACE_CHOICE(scene, TRACE_STATE, path->state & STATE_NUMBER_MASK);
     return true;
 }
 

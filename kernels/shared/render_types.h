@@ -70,8 +70,12 @@ typedef struct {
     u32 portal_count;           /* rectangles through which the sky is seen */
     float portal_share;         /* probability of sampling the sky through them */
     u32 path_choices;           /* what paths do, in programs that can; see below */
+    u32 shadow_rays;            /* that a vertex branches into, where it does: to lights, */
+    u32 gloss_rays;             /* by rough reflection, */
+    u32 translucent_rays;       /* and by rough glass */
+    u32 unused0;
 } RenderParams;
-ASSERT_SIZE(RenderParams, 432);
+ASSERT_SIZE(RenderParams, 448);
 
 /* Paths serve other pixels, too (integrators/path_reuse.h). */
 #define PATHS_ARE_SHARED 1u

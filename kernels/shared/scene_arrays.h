@@ -6,6 +6,7 @@
 #define CLRT_SHARED_SCENE_ARRAYS_H
 
 #include "bvh_types.h"
+#include "path_types.h"
 #include "scene_types.h"
 
 /* ROW(type of an element, name in the kernels, member of the host's Bvh). How these are laid out changes no
@@ -41,6 +42,10 @@
     ROW(LightNode, light_nodes, light_tree.nodes)                                                            \
     ROW(LightPlace, light_places, light_tree.places)
 
+/* ROW(type of an element, name in the kernels, member of the host's PathTables): what the options make of the
+   scene, which a film's identity has from the options. */
+#define PATH_ARRAYS(ROW) ROW(PathState, path_states, states)
+
 /* The arrays lie in a few buffers, the heaps, so that kernels do not get an argument more for every array. A
    device promises buffers of a quarter of its memory. Where each array goes to the emptiest heap, the largest
    first, seven such heaps hold whatever the memory holds: if one finds no place that needs the share x of a
@@ -68,6 +73,7 @@ typedef struct {
 #define ARRAY_PLACE(type, name, member) ArrayPlace name;
     BVH_ARRAYS(ARRAY_PLACE)
     SCENE_ARRAYS(ARRAY_PLACE)
+    PATH_ARRAYS(ARRAY_PLACE)
 #undef ARRAY_PLACE
 } ArrayPlaces;
 

@@ -22,6 +22,9 @@ const char* const EVERY_PATH = "L(D|G|S)*E";
 /// traced.
 constexpr int LARGEST_DISTANCE = 0xffff;
 
+/// Number of the state in which paths start.
+constexpr u32 START_NUMBER = 1;
+
 /// A letter that the first material on a triangle that has a property writes.
 PathLetter find_material(const char* symbol, const Scene& scene,
                          const std::function<bool(const Material&)>& has) {
@@ -120,21 +123,18 @@ unsigned find_missed_by_rays(const Scene& scene) {
     return kinds;
 }
 
-/// Successors, eight bits each.
-u32 next_word(const AutomatonState& state) {
-    u32 word = 0;
-    for (unsigned letter = 0; letter < LETTER_COUNT; ++letter)
-        word |= u32(state.next[letter]) << (NEXT_STATE_BITS * letter);
-    return word;
-}
-
-u32 state_word(const PathPlan& plan, const AutomatonState& state) {
+/// The word of a state by its number, which may be beyond those that there are: then no path leaves it.
+u32 state_word(const PathPlan& plan, size_t number) {
     const std::vector<AutomatonState>& states = plan.automaton.states;
+    if (number == 0 || number >= states.size())
+        return u32(number);
+    const AutomatonState& state = states[number];
     const bool goes_on =
         std::any_of(state.next.begin(), state.next.end(), [](int next) { return next != 0; });
     const bool splits =
         states[size_t(state.next[LETTER_MATTE])].picture != states[size_t(state.next[LETTER_GLOSSY])].picture;
-    return state.kinds | (goes_on || (state.kinds & plan.found_by_rays) ? STATE_CONTINUES : 0u) |
+    return u32(number) | state.kinds << STATE_KINDS_SHIFT |
+           (goes_on || (state.kinds & plan.found_by_rays) ? STATE_CONTINUES : 0u) |
            (splits ? STATE_SPLITS : 0u) |
            u32(std::min(state.distance, LARGEST_DISTANCE)) << STATE_DISTANCE_SHIFT;
 }
@@ -144,6 +144,11 @@ u32 layer_word(const AutomatonState& state) {
     for (unsigned layer = 0; layer < PATH_LAYERS_LIMIT; ++layer)
         word |= state.layers[layer] << (LAYER_KINDS_BITS * layer);
     return word;
+}
+
+/// A row from which every letter leads to one state.
+PathState row_to(u32 state) {
+    return {{state, state, state, state}, 0, 0, 0, 0};
 }
 
 /// The automaton, and what follows from it.
@@ -183,26 +188,27 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
     return plan;
 }
 
+PathTables path_tables(const PathPlan& plan) {
+    if (!plan.is_filter) {
+        const u32 every = START_NUMBER | KINDS_ALL << STATE_KINDS_SHIFT | STATE_CONTINUES;
+        return {{row_to(every), row_to(every)}};
+    }
+    PathTables tables{{row_to(state_word(plan, START_NUMBER)), row_to(STATE_DEAD)}};
+    const std::vector<AutomatonState>& states = plan.automaton.states;
+    tables.states.resize(std::max<size_t>(states.size(), START_NUMBER + 1), row_to(STATE_DEAD));
+    for (size_t number = START_NUMBER; number < states.size(); ++number) {
+        PathState& row = tables.states[number];
+        for (unsigned letter = 0; letter < LETTER_COUNT; ++letter)
+            row.next[letter] = state_word(plan, size_t(states[number].next[letter]));
+        row.layers = layer_word(states[number]);
+    }
+    return tables;
+}
+
 std::vector<std::string> path_defines(const PathPlan& plan) {
-    if (!plan.is_filter)
+    if (plan.layers.empty() || !plan.is_filter)
         return {};
-    std::vector<std::string> next, what, layers;
-    std::vector<AutomatonState> states = plan.automaton.states;
-    states.resize(std::max<size_t>(states.size(), STATE_START + 1)); // paths start there, dead or not
-    for (const AutomatonState& state : states) {
-        next.push_back(fmt::format("{:#x}u", next_word(state)));
-        what.push_back(fmt::format("{:#x}u", state_word(plan, state)));
-        layers.push_back(fmt::format("{:#x}u", layer_word(state)));
-    }
-    std::vector<std::string> defines{fmt::format("PATH_NEXT={}", fmt::join(next, ",")),
-                                     fmt::format("PATH_STATES={}", fmt::join(what, ","))};
-    if (!plan.layers.empty()) {
-        defines.push_back(fmt::format("PATH_LAYERS={}", plan.layers.size()));
-        defines.push_back(fmt::format("PATH_LAYER_KINDS={}", fmt::join(layers, ",")));
-    }
-    if (plan.segments)
-        defines.push_back(fmt::format("PATH_SEGMENTS={}u", *plan.segments));
-    return defines;
+    return {fmt::format("PATH_LAYERS={}", plan.layers.size())};
 }
 
 unsigned accepted_kinds(const PathPlan& plan) {

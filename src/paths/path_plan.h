@@ -3,6 +3,7 @@
 // is told.
 #pragma once
 
+#include "kernels/shared/path_types.h"
 #include "options/options.h"
 #include "paths/automaton.h"
 #include "paths/blind_spots.h"
@@ -42,7 +43,15 @@ struct PathPlan {
 /// large.
 PathPlan plan_paths(const Scene& scene, const Options& options);
 
-/// The automaton as defines for the kernel (kernels/path/automaton.h); none where it is no filter.
+/// The automaton as the kernels take it (kernels/shared/path_types.h).
+struct PathTables {
+    std::vector<PathState> states; ///< rows by number; row 0 leads to the start
+};
+
+/// The tables of a plan; those of one state that accepts every path where it is no filter.
+PathTables path_tables(const PathPlan& plan = {});
+
+/// What a program is built with besides: the number of layers (kernels/path/layers.h), if there are any.
 std::vector<std::string> path_defines(const PathPlan& plan);
 
 /// KIND_* of lights that end some accepted path: next-event estimation leaves the others alone.

@@ -89,7 +89,7 @@ bool wants_alpha(const Options& options) {
 std::vector<std::string> picture_defines(const Device& device, const Options& options,
                                          const PathPlan& paths) {
     std::vector<std::string> defines = path_defines(paths);
-    append(defines, branch_defines(options.transport));
+    append(defines, waiting_defines(options.transport));
     append(defines, vertex_defines(options.transport));
     append(defines, strategy_defines(options));
     append(defines, film_defines(device.info, integrator_row(options.transport.integrator).film));
@@ -103,15 +103,15 @@ std::vector<std::string> matte_defines(const Options& options) {
 
 } // namespace
 
-std::vector<std::string> branch_defines(const TransportOptions& transport) {
+std::vector<std::string> waiting_defines(const TransportOptions& transport) {
     if (!takes_option(transport.integrator, TAKES_GLOSS_RAYS))
         return {};
-    const int waiting =
+    const int most =
         effective_max_depth(transport) + std::max(transport.gloss_rays, transport.translucent_rays);
-    return {fmt::format("DISTRIBUTION_SHADOW_RAYS={}u", transport.shadow_rays),
-            fmt::format("DISTRIBUTION_GLOSS_RAYS={}u", transport.gloss_rays),
-            fmt::format("DISTRIBUTION_TRANSLUCENT_RAYS={}u", transport.translucent_rays),
-            fmt::format("DISTRIBUTION_WAITING={}", waiting)};
+    int waiting = 16; // as many as wait by default
+    while (waiting < most)
+        waiting *= 2;
+    return {fmt::format("DISTRIBUTION_WAITING={}", waiting)};
 }
 
 std::vector<std::string> vertex_defines(const TransportOptions& transport) {

@@ -35,9 +35,9 @@ std::uint64_t most_hit_samples(const Options& options);
 /// True if they have mattes besides (output/cryptomatte.h).
 bool wants_mattes(const Options& options);
 
-/// Literals of the rays that a vertex branches into, and of how many can wait
-/// (kernels/integrators/distribution_ray.h); none where the integrator does not branch so.
-std::vector<std::string> branch_defines(const TransportOptions& transport);
+/// Literal of the rays of a tree that can wait (kernels/integrators/distribution_ray.h), a power of two, so
+/// that few programs serve all; none where the integrator does not branch so.
+std::vector<std::string> waiting_defines(const TransportOptions& transport);
 
 /// Literal of the vertices that are kept of a light path (kernels/path/light_vertices.h); none where none is.
 std::vector<std::string> vertex_defines(const TransportOptions& transport);

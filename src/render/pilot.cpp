@@ -72,7 +72,7 @@ RenderParams begin_pilot(const PreparedScene& prepared, const PilotSize& size, F
     RenderParams params = make_render_params(planned.scene, pilot_options(planned.options, size), film.scale);
     params.patch_gap = float(patch_gap(planned.options, size));
     params.patch_last = u32(size.patch - 1);
-    restrict_lights(planned.effects.paths, params);
+    restrict_to_paths(planned.effects.paths, params);
     film.width = int(params.crop_width);
     film.height = int(params.crop_height);
     film.replicates = PILOT_REPLICATES;

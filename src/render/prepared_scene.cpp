@@ -60,7 +60,8 @@ std::shared_ptr<const RenderPrograms> plan_programs(const Device& device, const 
 PreparedScene prepare_scene(const Device& device, std::shared_ptr<const PlannedScene> planned,
                             PreparedParts parts) {
     parts = with_tree(device.info, *planned, std::move(parts));
-    SceneBuffers buffers = upload_scene(device, planned->scene, parts.tree->bvh);
+    SceneBuffers buffers =
+        upload_scene(device, planned->scene, parts.tree->bvh, path_tables(planned->effects.paths));
     return {device,
             std::move(planned),
             std::move(parts.tree),
@@ -104,7 +105,7 @@ Program build_replay_program(const PreparedScene& prepared, Precision precision)
 
 RenderParams launch_params(const PlannedScene& planned) {
     RenderParams params = make_render_params(planned.scene, planned.options, film_scale(planned.scene));
-    restrict_lights(planned.effects.paths, params);
+    restrict_to_paths(planned.effects.paths, params);
     return params;
 }
 

@@ -161,6 +161,9 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     params.texture_filter =
         options.scene.texture_filter == TextureFilter::FOOTPRINT && (integrator.takes & TAKES_TEXTURE_FILTER);
     params.path_choices = path_choices(scene, options);
+    params.shadow_rays = u32(options.transport.shadow_rays);
+    params.gloss_rays = u32(options.transport.gloss_rays);
+    params.translucent_rays = u32(options.transport.translucent_rays);
     params.scene_extent = std::max(scene.extent, scene.ground_extent);
     params.quantum = float(scale.quantum);
     params.inverse_quantum = float(1 / scale.quantum);
@@ -168,7 +171,9 @@ RenderParams make_render_params(const Scene& scene, const Options& options, cons
     return params;
 }
 
-void restrict_lights(const PathPlan& paths, RenderParams& params) {
+void restrict_to_paths(const PathPlan& paths, RenderParams& params) {
+    if (paths.segments)
+        params.max_depth = std::min(params.max_depth, u32(*paths.segments));
     const unsigned kinds = accepted_kinds(paths);
     if (!(kinds & KIND_AREA))
         params.choose_emitter = 0.0f;

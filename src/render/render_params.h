@@ -24,7 +24,8 @@ int light_samples(const Scene& scene, const Options& options);
 /// Everything but the samples and tiles of a single launch, which are 0.
 RenderParams make_render_params(const Scene& scene, const Options& options, const FilmScale& scale);
 
-/// Leaves lights that end no accepted path out of next-event estimation.
-void restrict_lights(const PathPlan& paths, RenderParams& params);
+/// Leaves lights that end no accepted path out of next-event estimation, and ends paths that are as long as
+/// the longest that is accepted.
+void restrict_to_paths(const PathPlan& paths, RenderParams& params);
 
 } // namespace clrt

@@ -22,12 +22,14 @@ HostArray host_array(const char* name, const std::vector<T>& values) {
 }
 
 /// All arrays, in the order of ArrayPlaces.
-std::vector<HostArray> host_arrays(const Scene& scene, const Bvh& bvh) {
+std::vector<HostArray> host_arrays(const Scene& scene, const Bvh& bvh, const PathTables& paths) {
 #define BVH_ARRAY(type, name, member) host_array<type>(#name, bvh.member),
 #define SCENE_ARRAY(type, name, member) host_array<type>(#name, scene.member),
-    return {BVH_ARRAYS(BVH_ARRAY) SCENE_ARRAYS(SCENE_ARRAY)};
+#define PATH_ARRAY(type, name, member) host_array<type>(#name, paths.member),
+    return {BVH_ARRAYS(BVH_ARRAY) SCENE_ARRAYS(SCENE_ARRAY) PATH_ARRAYS(PATH_ARRAY)};
 #undef BVH_ARRAY
 #undef SCENE_ARRAY
+#undef PATH_ARRAY
 }
 
 std::string heap_argument(size_t heap) {
@@ -52,8 +54,8 @@ cl::Buffer upload_heap(const Device& device, u32 heap, const std::vector<HostArr
 
 } // namespace
 
-SceneBuffers upload_scene(const Device& device, const Scene& scene, const Bvh& bvh) {
-    const std::vector<HostArray> arrays = host_arrays(scene, bvh);
+SceneBuffers upload_scene(const Device& device, const Scene& scene, const Bvh& bvh, const PathTables& paths) {
+    const std::vector<HostArray> arrays = host_arrays(scene, bvh, paths);
     std::vector<size_t> sizes;
     for (const HostArray& array : arrays)
         sizes.push_back(array.bytes);

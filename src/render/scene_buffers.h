@@ -5,6 +5,7 @@
 #include "bvh/bvh.h"
 #include "device/program.h"
 #include "kernels/shared/scene_arrays.h"
+#include "paths/path_plan.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -16,8 +17,10 @@ struct SceneBuffers {
     std::array<cl::Buffer, SCENE_HEAPS> heaps;
 };
 
-/// Uploads a scene. Throws DeviceError naming the arrays of the buffer that does not fit.
-SceneBuffers upload_scene(const Device& device, const Scene& scene, const Bvh& bvh);
+/// Uploads a scene and which of its paths are wanted. Throws DeviceError naming the arrays of the buffer that
+/// does not fit.
+SceneBuffers upload_scene(const Device& device, const Scene& scene, const Bvh& bvh,
+                          const PathTables& paths = path_tables());
 
 /// True for a kernel that takes a scene.
 bool takes_scene(const Kernel& kernel);

@@ -82,9 +82,9 @@ TEST(Integrators, KernelsReadWhatTheirRowTakes) {
         {TAKES_ROULETTE_DEPTH, "params->roulette_depth"},
         {TAKES_MIN_CONTRIBUTION, "params->min_contribution"},
         {TAKES_PATHS, "accepted(path)"},
-        {TAKES_SHADOW_RAYS, "DISTRIBUTION_SHADOW_RAYS"},
-        {TAKES_GLOSS_RAYS, "DISTRIBUTION_GLOSS_RAYS"},
-        {TAKES_TRANSLUCENT_RAYS, "DISTRIBUTION_TRANSLUCENT_RAYS"},
+        {TAKES_SHADOW_RAYS, "params->shadow_rays"},
+        {TAKES_GLOSS_RAYS, "params->gloss_rays"},
+        {TAKES_TRANSLUCENT_RAYS, "params->translucent_rays"},
         {TAKES_GUIDE, "guide_of(scene"}};
     for (const IntegratorRow& row : INTEGRATOR_ROWS)
         for (const auto& [option, use] : uses) {

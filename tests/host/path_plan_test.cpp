@@ -40,9 +40,26 @@ const PathLetter& letter(const PathPlan& plan, const std::string& symbol) {
                          [&](const auto& l) { return l.symbol == symbol; });
 }
 
-bool has_define(const PathPlan& plan, const std::string& define) {
-    const std::vector<std::string> defines = path_defines(plan);
-    return std::find(defines.begin(), defines.end(), define) != defines.end();
+/// The number of a state's word.
+u32 number_of(u32 state) {
+    return state & STATE_NUMBER_MASK;
+}
+
+/// The state in which the paths of a plan start.
+u32 start_of(const PathPlan& plan) {
+    return path_tables(plan).states[0].next[LETTER_MATTE];
+}
+
+/// The state behind a state and a letter.
+u32 behind(const PathPlan& plan, u32 state, u32 letter) {
+    return path_tables(plan).states.at(number_of(state)).next[letter];
+}
+
+/// Most segments that kernels follow paths of a plan for.
+u32 segments_of(const TestScene& scene, const PathPlan& plan) {
+    RenderParams params = make_render_params(scene.load(), scene.options, {});
+    restrict_to_paths(plan, params);
+    return params.max_depth;
 }
 
 } // namespace
@@ -79,6 +96,11 @@ TEST(PathPlan, WithoutAnExpressionNothingIsAsked) {
     const PathPlan plan = scene.plan("");
     EXPECT_FALSE(plan.is_asked || plan.is_filter || plan.is_empty);
     EXPECT_TRUE(path_defines(plan).empty());
+    const u32 start = start_of(plan);
+    EXPECT_EQ(start >> STATE_KINDS_SHIFT & KINDS_ALL, u32(KINDS_ALL));
+    EXPECT_EQ(start & STATE_CONTINUES, STATE_CONTINUES);
+    for (u32 letter = 0; letter < LETTER_COUNT; ++letter)
+        EXPECT_EQ(behind(plan, start, letter), start) << "one state accepts every path";
     EXPECT_EQ(find_effects(scene.load(), scene.options).mask & EFFECT_PATH_FILTER, 0u);
     EXPECT_EQ(explain(scene.load(), find_effects(scene.load(), scene.options), scene.options).find("Paths:"),
               std::string::npos);
@@ -112,32 +134,35 @@ TEST(PathPlan, SaysWhenNoPathIsLeft) {
 
 TEST(PathPlan, PathsStartInAStateOfTheTableEvenIfItIsDead) {
     LampScene scene;
-    EXPECT_TRUE(has_define(scene.plan("LSE"), "PATH_NEXT=0x0u,0x0u"));
+    const PathPlan plan = scene.plan("LSE");
+    EXPECT_EQ(start_of(plan), 1u) << "nothing ends or goes on there";
+    EXPECT_EQ(behind(plan, 1, LETTER_MATTE), STATE_DEAD);
 }
 
 TEST(PathPlan, AFiniteLanguageBoundsTheLoop) {
     LampScene scene;
-    EXPECT_TRUE(has_define(scene.plan("LDE"), "PATH_SEGMENTS=2u"));
-    EXPECT_TRUE(has_define(scene.plan("LD?D?E"), "PATH_SEGMENTS=3u"));
-    EXPECT_TRUE(has_define(scene.plan("LD?S*E"), "PATH_SEGMENTS=2u")) << "nothing is specular";
+    EXPECT_EQ(segments_of(scene, scene.plan("LDE")), 2u);
+    EXPECT_EQ(segments_of(scene, scene.plan("LD?D?E")), 3u);
+    EXPECT_EQ(segments_of(scene, scene.plan("LD?S*E")), 2u) << "nothing is specular";
     EXPECT_EQ(scene.plan("LDD*E").segments, std::nullopt);
+    EXPECT_EQ(segments_of(scene, scene.plan("LDD*E")), u32(USUAL_PATH_DEPTH));
     scene.options.transport.max_depth = 2;
-    EXPECT_TRUE(has_define(scene.plan("LD?D?E"), "PATH_SEGMENTS=2u"));
+    EXPECT_EQ(segments_of(scene, scene.plan("LD?D?E")), 2u);
 }
 
 TEST(PathPlan, TheTablesHoldSuccessorsLightsAndDistances) {
     LampScene scene;
-    const PathPlan plan = scene.plan("LDE");
-    EXPECT_TRUE(has_define(plan, "PATH_NEXT=0x0u,0x2u,0x0u")) << "from the start D leads to state 2";
-    const u32 start = STATE_CONTINUES | STATE_SPLITS | 1u << STATE_DISTANCE_SHIFT,
-              end = KIND_AREA | STATE_CONTINUES;
-    char words[64];
-    std::snprintf(words, sizeof words, "PATH_STATES=0x0u,%#xu,%#xu", start, end);
-    EXPECT_TRUE(has_define(plan, words)) << words;
+    PathPlan plan = scene.plan("LDE");
+    const u32 start = 1 | STATE_CONTINUES | STATE_SPLITS | 1u << STATE_DISTANCE_SHIFT;
+    EXPECT_EQ(start_of(plan), start);
+    EXPECT_EQ(behind(plan, start, LETTER_MATTE), 2 | KIND_AREA << STATE_KINDS_SHIFT | STATE_CONTINUES);
+    EXPECT_EQ(behind(plan, start, LETTER_GLOSSY), STATE_DEAD);
+    EXPECT_EQ(behind(plan, 2, LETTER_MATTE), STATE_DEAD);
     // Behind the last surface before a point light a ray finds nothing.
     scene.options.light.points.push_back({{0, 1, 0}, glm::dvec3(1)});
-    std::snprintf(words, sizeof words, "PATH_STATES=0x0u,%#xu,%#xu", start, KIND_POINT);
-    EXPECT_TRUE(has_define(scene.plan("LpDE"), words)) << words;
+    plan = scene.plan("LpDE");
+    EXPECT_EQ(start_of(plan), start);
+    EXPECT_EQ(behind(plan, start, LETTER_MATTE), 2 | KIND_POINT << STATE_KINDS_SHIFT);
 }
 
 TEST(PathPlan, LightSamplingLeavesLightsAloneThatEndNoPath) {
@@ -146,7 +171,7 @@ TEST(PathPlan, LightSamplingLeavesLightsAloneThatEndNoPath) {
     const auto params = [&](const char* paths) {
         const PathPlan plan = scene.plan(paths);
         RenderParams p = make_render_params(scene.load(), scene.options, {});
-        restrict_lights(plan, p);
+        restrict_to_paths(plan, p);
         return p;
     };
     EXPECT_EQ(params("").choose_emitter, 0.5f);
@@ -161,8 +186,12 @@ TEST(PathPlan, LayersAreTold) {
     scene.options.output.path_layers = {{"direct", "LDE"}, {"lamp", "LE"}};
     const PathPlan plan = scene.plan("");
     EXPECT_TRUE(plan.is_filter);
-    EXPECT_TRUE(has_define(plan, "PATH_LAYERS=2"));
-    EXPECT_TRUE(has_define(plan, "PATH_LAYER_KINDS=0x0u,0x10u,0x1u,0x0u"));
+    EXPECT_EQ(path_defines(plan), std::vector<std::string>{"PATH_LAYERS=2"});
+    const u32 start = start_of(plan), behind_matte = behind(plan, start, LETTER_MATTE);
+    const std::vector<PathState> rows = path_tables(plan).states;
+    EXPECT_EQ(rows[number_of(start)].layers, KIND_AREA << LAYER_KINDS_BITS) << "the second layer, \"lamp\"";
+    EXPECT_EQ(rows[number_of(behind_matte)].layers, KIND_AREA);
+    EXPECT_EQ(rows[number_of(behind(plan, behind_matte, LETTER_MATTE))].layers, 0u);
     const auto json = paths_json(plan);
     EXPECT_TRUE(json["expression"].is_null());
     EXPECT_EQ(json["layers"][1]["expression"], "LE");

@@ -211,9 +211,9 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
     largest.max_depth = LARGEST_TREE_DEPTH;
     largest.gloss_rays = LARGEST_BRANCH;
     std::vector<std::string> few, many;
-    for (const std::string& define : branch_defines(usual))
+    for (const std::string& define : waiting_defines(usual))
         few.push_back("-D" + define);
-    for (const std::string& define : branch_defines(largest))
+    for (const std::string& define : waiting_defines(largest))
         many.push_back("-D" + define);
     const std::string gpu_layout = fmt::format("-DBVH_LAYOUT={}", int(BvhLayout::BVH2));
     std::vector<std::string> few_on_gpu = few;

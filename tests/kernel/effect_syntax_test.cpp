@@ -42,8 +42,9 @@ TEST(EffectSyntax, EverySetOfEffectsCompilesInOpenCl12And30) {
     const std::vector<EffectMask> all = masks();
     ASSERT_GT(all.size(), 30u);
     for (const EffectMask mask : all)
-        for (const char* standard : {"CL1.2", "CL3.0"})
-            EXPECT_EQ(complaints(file, standard, mask), "") << standard << ", " << describe_effects(mask);
+        EXPECT_EQ(complaints(file, "CL1.2", mask), "") << describe_effects(mask);
+    for (const EffectMask mask : drawn(all, 4))
+        EXPECT_EQ(complaints(file, "CL3.0", mask), "") << describe_effects(mask);
 }
 
 TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {

@@ -3,8 +3,10 @@
 // BSDF is sampled without bias.
 #include "kernels/shared/path_types.h"
 #include "kernels/shared/scene_types.h"
+#include "paths/path_plan.h"
 #include "probes/kernel_probe.h"
 #include "probes/random_inputs.h"
+#include "render/scene_buffers.h"
 #include "support/test_device.h"
 
 #include <cmath>
@@ -19,11 +21,25 @@ namespace {
 // that no ray is needed; R needs two events more, T is followed by R.
 constexpr u32 MATTE_STATE = 2, GLOSSY_STATE = 3, MIRROR_STATE = 4, REFRACTION_STATE = 5;
 
-std::vector<std::string> tables() {
-    return {fmt::format("PATH_NEXT=0u,{:#x}u,0u,0u,0u,{:#x}u", 0x05040302u, MIRROR_STATE << 16),
-            fmt::format("PATH_STATES=0u,{:#x}u,{:#x}u,{:#x}u,{:#x}u,{:#x}u", STATE_CONTINUES | STATE_SPLITS,
-                        KINDS_ALL | STATE_CONTINUES, KIND_POINT, STATE_CONTINUES | 2u << STATE_DISTANCE_SHIFT,
-                        STATE_CONTINUES | KIND_SKY)};
+/// Their words, by number.
+std::vector<u32> state_words() {
+    return {STATE_DEAD,
+            1 | STATE_CONTINUES | STATE_SPLITS,
+            MATTE_STATE | KINDS_ALL << STATE_KINDS_SHIFT | STATE_CONTINUES,
+            GLOSSY_STATE | KIND_POINT << STATE_KINDS_SHIFT,
+            MIRROR_STATE | STATE_CONTINUES | 2u << STATE_DISTANCE_SHIFT,
+            REFRACTION_STATE | STATE_CONTINUES | KIND_SKY << STATE_KINDS_SHIFT};
+}
+
+PathTables tables() {
+    const std::vector<u32> words = state_words();
+    PathTables made{std::vector<PathState>(words.size())};
+    for (u32& next : made.states[0].next)
+        next = words[1];
+    for (const u32 letter : {LETTER_MATTE, LETTER_GLOSSY, LETTER_MIRROR, LETTER_REFRACTION})
+        made.states[1].next[letter] = words[MATTE_STATE + letter];
+    made.states[REFRACTION_STATE].next[LETTER_MIRROR] = words[MIRROR_STATE];
+    return made;
 }
 
 const char* const TEXT = R"(
@@ -58,25 +74,38 @@ Bsdf probe_bsdf(uint lobes, real eta)
     return bsdf;
 }
 
-/* The four states behind a vertex, one byte each. */
+constant uint PROBE_STATES[] = {STATE_WORDS};
+
+/* The four states behind a vertex, a byte each for its number. */
 AutomatonStep probe_step(uint word)
 {
     AutomatonStep step;
     for (uint letter = 0u; letter < LETTER_COUNT; ++letter)
-        step.next[letter] = (word >> (8u * letter)) & 0xffu;
+        step.next[letter] = PROBE_STATES[(word >> (8u * letter)) & 0xffu];
     return step;
+}
+
+/* Where the automaton starts, and the numbers of the states behind `states` (numbers) after a segment. */
+CLRT_KERNEL void probe_automaton(SCENE_PARAMS, const u32 count, global const u32* states,
+                                 global const u32* letters, global const u32* segments, global u32* start,
+                                 global u32* next)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const Scene scene = SCENE_MAKE;
+    const RenderParams params = probe_params(10u);
+    start[i] = automaton_start(&scene);
+    next[i] = automaton_next(&scene, &params, PROBE_STATES[states[i]], letters[i], segments[i]);
 }
 )";
 
 KernelProbe& probe() {
     static KernelProbe instance = [] {
         ProbeOptions options;
-        options.defines = tables();
+        options.defines = {fmt::format("STATE_WORDS={:#x}u", fmt::join(state_words(), "u,"))};
         KernelProbe made(test_device(), {"path/filter.h"}, options);
         made.add_text(TEXT);
-        made.add<u32(u32, u32, u32)>(
-            "next", "const RenderParams params = probe_params(10u); out = automaton_next(&params, a, b, c);");
-        made.add<u32(u32, u32)>("accepts", "automaton_accepts(a, b) ? 1u : 0u");
         made.add<u32(u32, u32, float)>(
             "lobes", "Bsdf bsdf = probe_bsdf(b, (real)c); const AutomatonStep step = "
                      "probe_step(a); filter_lobes(&step, &bsdf); out = bsdf.lobes | bsdf.flags;");
@@ -108,7 +137,7 @@ KernelProbe& probe() {
             "filter_lobes(&step, &bsdf); const BsdfSample s = bsdf_sample(&bsdf, (real)c, "
             "(real2)(REAL(0.3))); "
             "out = (vec4)((float)s.weight.x, (float)s.weight.y, s.is_valid ? 1.0f : 0.0f, "
-            "(float)step.next[filter_letter(&bsdf, &s)]);");
+            "(float)(step.next[filter_letter(&bsdf, &s)] & STATE_NUMBER_MASK));");
         made.add<vec4(float)>("fresnel", "real t; const Bsdf bsdf = probe_bsdf(LOBE_DIELECTRIC, (real)a); "
                                          "out = (vec4)((float)fresnel_dielectric(bsdf.wo.z, (real)a, &t));");
         return made;
@@ -121,6 +150,35 @@ u32 step_word(u32 matte, u32 glossy, u32 mirror, u32 refraction) {
 }
 
 const u32 ALL_LIVE = step_word(MATTE_STATE, GLOSSY_STATE, MIRROR_STATE, REFRACTION_STATE);
+
+/// Where paths start, and the states behind some by number after a letter and at the end of a segment.
+struct Walked {
+    std::vector<u32> start, next;
+};
+
+Walked walk(const std::vector<u32>& states, const std::vector<u32>& letters,
+            const std::vector<u32>& segments) {
+    Kernel kernel = probe().kernel("probe_automaton");
+    bind_scene(upload_scene(test_device(), Scene(), Bvh(), tables()), kernel);
+    kernel.set("count", u32(states.size()));
+    kernel.set("states", probe().upload(states));
+    kernel.set("letters", probe().upload(letters));
+    kernel.set("segments", probe().upload(segments));
+    const cl::Buffer start = create_buffer(test_device(), "start", states.size() * sizeof(u32));
+    const cl::Buffer next = create_buffer(test_device(), "next", states.size() * sizeof(u32));
+    kernel.set("start", start);
+    kernel.set("next", next);
+    probe().launch(kernel, states.size());
+    return {probe().read<u32>(start, states.size()), probe().read<u32>(next, states.size())};
+}
+
+/// The words of states by number.
+std::vector<u32> words_of(const std::vector<u32>& numbers) {
+    std::vector<u32> words;
+    for (const u32 number : numbers)
+        words.push_back(state_words()[number]);
+    return words;
+}
 
 u32 lobes_left(u32 step, u32 lobes, float eta = 1.5f) {
     return probe().run<u32>("lobes", std::vector<u32>{step}, std::vector<u32>{lobes},
@@ -143,19 +201,15 @@ std::vector<vec4> directions() {
 } // namespace
 
 TEST(PathFilter, TablesAreReadAsTheyWereWritten) {
-    const std::vector<u32> state{1, 1, 1, 1, 0, 5, 5}, letter{0, 1, 2, 3, 2, 2, 3},
-        segment{1, 1, 1, 1, 1, 1, 1};
-    EXPECT_EQ(probe().run<u32>("next", state, letter, segment), (std::vector<u32>{2, 3, 4, 5, 0, 4, 0}));
-    EXPECT_EQ(
-        probe().run<u32>("accepts", std::vector<u32>{2, 3, 3, 4, 0, 5},
-                         std::vector<u32>{KIND_AREA, KIND_AREA, KIND_POINT, KINDS_ALL, KINDS_ALL, KIND_SKY}),
-        (std::vector<u32>{1, 0, 1, 0, 0, 1}));
+    const Walked walked = walk({1, 1, 1, 1, MATTE_STATE, REFRACTION_STATE, REFRACTION_STATE},
+                               {0, 1, 2, 3, 2, 2, 3}, std::vector<u32>(7, 1));
+    EXPECT_EQ(walked.start, words_of(std::vector<u32>(7, 1)));
+    EXPECT_EQ(walked.next, words_of({2, 3, 4, 5, 0, 4, 0}));
 }
 
 TEST(PathFilter, APathThatIsTooLongToEndInTimeIsDead) {
     // Of 10 segments, state 4 needs two after the next.
-    const std::vector<u32> state(4, 1), letter{2, 2, 0, 0}, segment{7, 8, 9, 10};
-    EXPECT_EQ(probe().run<u32>("next", state, letter, segment), (std::vector<u32>{4, 0, 2, 0}));
+    EXPECT_EQ(walk({1, 1, 1, 1}, {2, 2, 0, 0}, {7, 8, 9, 10}).next, words_of({4, 0, 2, 0}));
 }
 
 TEST(PathFilter, LobesOfDeadLettersAreTakenAway) {

@@ -24,6 +24,7 @@ CLRT_KERNEL void read_array(SCENE_PARAMS, const u32 array, const u32 count, glob
         out[i] = ((global const u32*)scene.name)[i];
     BVH_ARRAYS(READ)
     SCENE_ARRAYS(READ)
+    PATH_ARRAYS(READ)
 }
 )";
 
@@ -55,17 +56,20 @@ private:
     std::vector<std::vector<u32>> arrays_;
 };
 
-/// A scene and a tree of arrays of different lengths, and their words.
+/// A scene, a tree and tables of paths, of arrays of different lengths, and their words.
 struct Filled {
     Scene scene;
     Bvh bvh;
+    PathTables paths;
     Words words;
     explicit Filled(size_t first_count) {
         size_t count = first_count;
 #define FILL_BVH(type, name, member) words.fill(bvh.member, 1 + (count = count * 7 % 97));
+#define FILL_PATHS(type, name, member) words.fill(paths.member, 1 + (count = count * 7 % 97));
 #define FILL_SCENE(type, name, member) words.fill(scene.member, 1 + (count = count * 7 % 97));
         BVH_ARRAYS(FILL_BVH)
         SCENE_ARRAYS(FILL_SCENE)
+        PATH_ARRAYS(FILL_PATHS)
     }
 };
 
@@ -74,7 +78,7 @@ struct Filled {
 TEST(SceneArrays, KernelsFindEveryWordOfEveryArray) {
     for (const size_t first_count : {1, 5, 30}) {
         const Filled filled(first_count);
-        const SceneBuffers buffers = upload_scene(test_device(), filled.scene, filled.bvh);
+        const SceneBuffers buffers = upload_scene(test_device(), filled.scene, filled.bvh, filled.paths);
         for (size_t array = 0; array < filled.words.arrays().size(); ++array) {
             const std::vector<u32>& words = filled.words.arrays()[array];
             const cl::Buffer out = create_buffer(test_device(), "out", words.size() * sizeof(u32));

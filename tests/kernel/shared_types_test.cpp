@@ -156,7 +156,7 @@ const Layout RENDER_PARAMS = {
      M(environment_cos), M(environment_sin), M(choose_emitter), M(choose_environment), M(choose_light),
      M(roulette_depth), M(emit_emitter), M(emit_environment), M(emit_light), M(emission_radius), M(quantum), M(inverse_quantum), M(largest_contribution), M(tile_count), M(tiles_x),
      M(tile_stride), M(first_tile), M(end_tile), M(guide_learns), M(caster_count), M(caster_squares), M(light_path_count),
-     M(environment_format), M(texture_filter), M(portal_count), M(portal_share), M(path_choices)}};
+     M(environment_format), M(texture_filter), M(portal_count), M(portal_share), M(path_choices), M(shadow_rays), M(gloss_rays), M(translucent_rays), M(unused0)}};
 #undef M
 #define M(name) MEMBER(SkyPortal, name)
 const Layout SKY_PORTAL = {
@@ -170,6 +170,12 @@ const Layout ESCAPE = {
     sizeof(Escape),
     {M(origin), M(direction)}};
 #undef M
+#define M(name) MEMBER(PathState, name)
+const Layout PATH_STATE = {
+    "PathState",
+    sizeof(PathState),
+    {M(next), M(layers), M(unused0), M(unused1), M(unused2)}};
+#undef M
 #define M(name) MEMBER(ArrayPlace, name)
 const Layout ARRAY_PLACE_LAYOUT = {
     "ArrayPlace",
@@ -180,7 +186,7 @@ const Layout ARRAY_PLACE_LAYOUT = {
 const Layout ARRAY_PLACES = {
     "ArrayPlaces",
     sizeof(ArrayPlaces),
-    {BVH_ARRAYS(M) SCENE_ARRAYS(M)}};
+    {BVH_ARRAYS(M) SCENE_ARRAYS(M) PATH_ARRAYS(M)}};
 #undef M
 // clang-format on
 
@@ -189,7 +195,7 @@ const std::vector<Layout> LAYOUTS = {TRIANGLE,      MATERIAL,        MATERIAL_EX
                                      LIGHT,         SKY_TILE_LAYOUT, LIGHT_NODE,         LIGHT_PLACE,
                                      CAMERA_PARAMS, RENDER_PARAMS,   ARRAY_PLACE_LAYOUT, ARRAY_PLACES,
                                      GUIDE_CELL,    CHAIN,           CHAIN_LAUNCH,       EMITTER_PART,
-                                     SKY_PORTAL,    ESCAPE};
+                                     SKY_PORTAL,    ESCAPE,          PATH_STATE};
 
 /// A kernel that writes the size of a struct and the offsets of its members, by OpenCL C 1.2 alone: it has no
 /// offsetof.

@@ -81,7 +81,7 @@ TEST(Bidirectional, WeightsAreThoseOfAllDensitiesMultipliedOut) {
         room.options.device.precision = precision;
         room.options.device.kernels_folder = oracle_kernels(folder);
         room.options.transport.emission_rays = 1; // weights are of paths
-        room.options.effects.all = false; // no other test shares the program
+        room.options.effects.all = false;         // no other test shares the program
         const Film film = room.render().film;
         const double paths = film_estimate(film, 0).mean;
         EXPECT_GT(paths, 0.02);

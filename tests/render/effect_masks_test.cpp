@@ -95,12 +95,12 @@ std::vector<fs::path> shipped_scenes() {
 } // namespace
 
 TEST(EffectMasks, EveryEffectAloneHasTheBitsOfTheFullProgram) {
-    for (const EffectMask effects : drawn(single_effects(), 3))
+    for (const EffectMask effects : drawn(single_effects(), 4))
         expect_same_bits(effects);
 }
 
 TEST(EffectMasks, EveryPairOfEffectsHasTheBitsOfTheFullProgram) {
-    for (const EffectMask effects : drawn(pairwise_effects(), 2))
+    for (const EffectMask effects : drawn(pairwise_effects(), 4))
         expect_same_bits(effects);
 }
 
@@ -112,7 +112,7 @@ TEST(EffectMasks, AllEffectsButOneHaveTheBitsOfTheFullProgram) {
 
 TEST(EffectMasks, EveryShippedSceneHasTheBitsOfTheFullProgram) {
     ASSERT_GE(shipped_scenes().size(), 8u);
-    for (const fs::path& path : drawn(shipped_scenes(), 2))
+    for (const fs::path& path : drawn(shipped_scenes(), 4))
         for (const Integrator integrator : integrators()) {
             Options options = shipped_options(path);
             options.transport.integrator = integrator;
@@ -144,19 +144,18 @@ TEST(EffectMasks, ShippedScenesNameTheirEffects) {
 TEST(EffectMasks, ALeftOutEffectIsASceneWithoutIt) {
     // Whatever is left out, the program without its code and the full program render the same scene.
     const Scene scene = SceneOfEffects(EVERY_EFFECT).load();
-    const std::vector<EffectSpec>& table = effect_table();
-    for (size_t i = 0; i < table.size(); i += tests_are_long() ? 1 : 5) {
+    for (const EffectSpec& effect : drawn(effect_table(), 8)) {
         Options options = SceneOfEffects(EVERY_EFFECT).options;
-        options.effects.off = table[i].bit;
+        options.effects.off = effect.bit;
         const Effects effects = find_effects(scene, options);
-        EXPECT_EQ(effects.left_out, EVERY_EFFECT & ~without_effects(EVERY_EFFECT, table[i].bit));
+        EXPECT_EQ(effects.left_out, EVERY_EFFECT & ~without_effects(EVERY_EFFECT, effect.bit));
         const Render without = render_loaded(scene, options);
         Scene reduced = scene;
         take_out_effects(effects.left_out, reduced, options);
         options.effects.off = 0;
         options.effects.all = true;
-        EXPECT_EQ(count_differences(without.film, render_loaded(reduced, options).film), 0u) << table[i].name;
-        EXPECT_EQ(without.counts.bad(), 0u) << table[i].name;
+        EXPECT_EQ(count_differences(without.film, render_loaded(reduced, options).film), 0u) << effect.name;
+        EXPECT_EQ(without.counts.bad(), 0u) << effect.name;
     }
 }
 

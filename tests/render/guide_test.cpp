@@ -6,6 +6,7 @@
 #include "probes/film_estimate.h"
 #include "render/guiding.h"
 #include "support/adjoining_rooms.h"
+#include "support/drawn.h"
 #include "support/saved_render.h"
 
 #include <cmath>
@@ -167,10 +168,11 @@ TEST(Guide, AutoHelpsWhereLightIsHardToFind) {
     TestScene scene;
     add_adjoining_rooms(scene);
     scene.options.transport.max_depth = 8;
-    for (const auto& [roulette_depth, path_reuse] :
-         {std::pair(9, Toggle::OFF),
-          {2, Toggle::OFF}, // densities of directions alone differ, or survival, too
-          {9, Toggle::ON}}) {
+    for (const auto& [roulette_depth, path_reuse] : drawn<std::pair<int, Toggle>>(
+             {{9, Toggle::OFF},
+              {2, Toggle::OFF}, // densities of directions alone differ, or survival, too
+              {9, Toggle::ON}},
+             2)) {
         scene.options.transport.roulette_depth = roulette_depth;
         scene.options.transport.path_reuse = path_reuse;
         scene.options.transport.guide_after_rays = 3e6;

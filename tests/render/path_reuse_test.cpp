@@ -7,6 +7,7 @@
 #include "render/pilot.h"
 #include "render/reuse_choice.h"
 #include "support/adjoining_rooms.h"
+#include "support/drawn.h"
 #include "support/film_agrees.h"
 #include "support/lit_rooms.h"
 
@@ -172,12 +173,14 @@ TEST(PathReuse, ChangesNoMeanBetweenGlossyWalls) {
 // paint and brushed varnish. The first are guided.
 TEST(PathReuse, ChangesNoMeanBetweenGlossyWallsOfOneTile) {
     Toggle guide = Toggle::ON;
-    for (const char* kind :
-         {"Kd 0.2 0.2 0.2\nKs 0.7 0.7 0.7\nNs 30\nillum 2",
-          "Kd 0.8 0.6 0.3\nKs 0.05 0.05 0.05\nNs 10\nillum 2", "Kd 0.5 0.5 0.5\nKs 0.2 0.3 0.4\nillum 3",
-          "Kd 0.8 0.6 0.3\nKs 0.1 0.1 0.1\nillum 5", "Kd 0.7 0.7 0.7\nPc 1\nPcr 0.3\nPs 0.5 0.5 0.5",
-          "Kd 0.4 0.4 0.4\nKs 0.4 0.4 0.4\nPr 0.4\naniso 0.8\nillum 2",
-          "Kd 0.8 0.6 0.3\nPm 0.2\nPr 0.4\naniso 0.8"}) {
+    const std::vector<const char*> kinds = {"Kd 0.2 0.2 0.2\nKs 0.7 0.7 0.7\nNs 30\nillum 2",
+                                            "Kd 0.8 0.6 0.3\nKs 0.05 0.05 0.05\nNs 10\nillum 2",
+                                            "Kd 0.5 0.5 0.5\nKs 0.2 0.3 0.4\nillum 3",
+                                            "Kd 0.8 0.6 0.3\nKs 0.1 0.1 0.1\nillum 5",
+                                            "Kd 0.7 0.7 0.7\nPc 1\nPcr 0.3\nPs 0.5 0.5 0.5",
+                                            "Kd 0.4 0.4 0.4\nKs 0.4 0.4 0.4\nPr 0.4\naniso 0.8\nillum 2",
+                                            "Kd 0.8 0.6 0.3\nPm 0.2\nPr 0.4\naniso 0.8"};
+    for (const char* kind : drawn(kinds, 2)) {
         SCOPED_TRACE(kind);
         GlossyRoom room(kind);
         room.options.film.size = {8, 8};
@@ -212,7 +215,7 @@ TEST(PathReuse, ChangesNoMeanBehindCutOutsAndPanes) {
 
 // What is seen in rough glass, and what it sends to the walls.
 TEST(PathReuse, ChangesNoMeanAroundGlassThatAbsorbsOrDisperses) {
-    for (const char* kind : {"attenuation 0.5 1.5 3", "abbe 10"}) {
+    for (const char* kind : drawn<const char*>({"attenuation 0.5 1.5 3", "abbe 10"}, 2)) {
         Lit room(true);
         room.build.material("resin", std::string("Ni 1.5\nillum 7\nPr 0.4\n") + kind).use("resin");
         room.build.box({-1.5, 0.1, -1.5}, {1, 1, 1}).use("white").box({-0.6, 0.3, -0.6}, {0.2, 0.6, 0.2});

@@ -31,8 +31,7 @@ Estimate estimate_paths(TestScene& scene, const std::string& paths) {
     return film_estimate(render_paths(scene, paths).film);
 }
 
-/// A scene of this file: each expression makes a program of its own, which nothing shares, so that the small
-/// one is the fast one.
+/// A scene of this file: all its expressions share the program of its effects, which is a small and fast one.
 class PathScene : public TestScene {
 public:
     PathScene() { options.effects.all = false; }

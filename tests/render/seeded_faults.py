@@ -28,7 +28,7 @@ KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 
 # Faults that --quick draws besides. One takes 5 processor seconds in the mean and 20 at most: together a tenth of what the
 # render tests may take (6 minutes on 2 cores).
-DRAWN = 8
+DRAWN = 5
 
 # Test programs that take minutes: their faults are left to the night tier.
 SLOW = ("effect_masks_test",)

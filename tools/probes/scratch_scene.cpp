@@ -38,7 +38,7 @@ std::shared_ptr<const RenderPrograms> programs_for(const ProbeDevice& device, co
         int(options.sampling.sampler), planned.effects.mask,
         int(choose_layout(options.bvh.layout, device.info)), wants_layers(options), wants_mattes(options),
         fmt::join(path_defines(planned.effects.paths), " "),
-        fmt::join(branch_defines(options.transport), " "), fmt::join(vertex_defines(options.transport), " "),
+        fmt::join(waiting_defines(options.transport), " "), fmt::join(vertex_defines(options.transport), " "),
         fmt::join(strategy_defines(options), " "), options.device.kernels_folder);
     return device.once<std::shared_ptr<const RenderPrograms>>(key,
                                                               [&] { return plan_programs(device, planned); });

@@ -121,8 +121,11 @@ void no_hiding(CaseRun& run) {
         subject.options.sampling.spp = spp;
         subject.options.effects.all = true; // one program serves all
         const Scene scene = subject.load();
+        // The quick tier compiles no integrator but path in double.
+        const bool has_double =
+            run.tier != Tier::QUICK || subject.options.transport.integrator == Integrator::PATH;
         for (const Build build : run.builds())
-            if (build != Build::NAIVE) {
+            if (build != Build::NAIVE && (build != Build::DOUBLE || has_double)) {
                 subject.options.device.precision = precision_of(build);
                 see_counts(shipped[build], render_loaded(run.device, scene, subject.options), name);
             }
