@@ -63,7 +63,7 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
                                            CameraSample* sample, PixelRays* rays)
 {
     Path path;
-    SplatWeights weights = {REAL(0.0), REAL(0.0)};
+    SplatWeights weights = splat_weights_none();
     path_begin(scene, &path, &sample->ray);
     splat_take_seen(scene, sample);
     guide_choose(params, &sample->sampler, &path.guided);

@@ -155,9 +155,7 @@ static inline void emission_of_point(const Scene* scene, const RenderParams* par
     const AimOrigin origin = aim_origin(scene, params, vector, (real3)(REAL(0.0)));
     const real3 w = EMISSION_IS_AIMED ? aim_direction(scene, params, &origin, u)
                                       : frame_to_world(&frame, warp_cone(u, cone.one_minus_cos));
-    emission->pdf = EMISSION_IS_AIMED ? (real)params->emit_light * (real)light->probability *
-                                            aim_pdf_w(scene, params, &origin, w)
-                                      : emission_delta_pdf(scene, params, index);
+    emission->pdf = emission_point_ray_pdf_w(scene, params, index, w);
     emission->point = vector;
     emission->ray = ray_make(vector, w, REAL(0.0));
     emission->power = vector_from(light->emission) / emission->pdf;

@@ -113,8 +113,12 @@ std::vector<vec4> cover(Part part, int level) {
 } // namespace
 
 bool is_caster(const Material& material) {
-    const bool may_be_smooth = material.alpha_x == 0 || material.map_roughness != NO_INDEX;
-    return (material.lobes & LOBE_MIRROR) || ((material.lobes & LOBES_GLASS) && may_be_smooth);
+    const bool has_map = material.map_roughness != NO_INDEX;
+    if ((material.lobes & LOBE_MIRROR) ||
+        ((material.lobes & LOBES_GLASS) && (material.alpha_x == 0 || has_map)))
+        return true;
+    return (material.lobes & (LOBE_GLOSSY | LOBES_GLASS)) == LOBE_GLOSSY &&
+           (has_map || std::max(material.alpha_x, material.alpha_y) <= CASTER_LARGEST_ALPHA);
 }
 
 std::vector<vec4> find_casters(const Scene& scene) {
