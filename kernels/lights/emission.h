@@ -214,6 +214,8 @@ static inline EmissionNumbers emission_numbers(const Sampler* sampler)
 static inline Emission emission_sample(const Scene* scene, const RenderParams* params,
                                        const EmissionNumbers* numbers)
 {
+    if (EMISSION_IS_AIMED && params->caster_count == 0u)
+        return emission_none(NO_INDEX);
     const LightChoice choice = light_choose_by_tables(scene, params, emission_kinds(params), numbers->words,
                                                       numbers->alias_word);
     if (HAS(EFFECT_AREA_LIGHT) && choice.light < params->emitter_count)

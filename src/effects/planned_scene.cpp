@@ -16,12 +16,12 @@ namespace clrt {
 namespace {
 
 /// The paths that light paths find best, and often alone.
-const char* const CAUSTICS = "L(S|G)+DE";
+const char* const CAUSTICS = "L(S|G)+(D|G)E";
 
 bool casts_caustics(const Scene& scene, Options options) {
     options.transport.paths = CAUSTICS;
     options.output.path_layers.clear();
-    return !plan_paths(scene, options).is_empty && !find_casters(scene).empty();
+    return has_casters(scene) && !plan_paths(scene, options).is_empty;
 }
 
 /// Without caustics light paths find nothing that others do not find with less work.

@@ -10,8 +10,11 @@
 namespace clrt {
 
 /// True if the material scatters by a delta lobe at some point, or reflects by an alpha of at most
-/// CASTER_LARGEST_ALPHA.
+/// CASTER_LARGEST_ALPHA everywhere. What a map makes sharp here and there is left to paths from the eye.
 bool is_caster(const Material& material);
+
+/// Whether the scene has any: as good as whether find_casters finds spheres, at once.
+bool has_casters(const Scene& scene);
 
 /// Spheres in the normalised frame that hold all triangles of such materials wherever they move, at most
 /// LARGEST_CASTER_COUNT: more than one where together they are so much smaller that emission that is aimed at

@@ -258,6 +258,28 @@ TEST(WeightedSplats, ChangeNoMeanAroundSharpReflections) {
     }
 }
 
+// The normal of a facet differs from that of its corners by more than the reflection is wide.
+TEST(WeightedSplats, ChangeNoMeanAroundCoarseBallsOfSharpMetal) {
+    Room room;
+    room.build.material("sharp", "Kd 0.9 0.8 0.6\nPm 1\nPr 0.1").use("sharp");
+    room.build.icosphere({-0.4, 0.5, 0.6}, 0.4, 1, Facing::OUTWARD, Shading::SMOOTH);
+    room.build.use("lamp").polygon({{-1.2, 1.2, 0.4}, {-0.4, 1.2, 0.4}, {-0.4, 1.2, 1.2}, {-1.2, 1.2, 1.2}});
+    room.options.sampling.spp = 4096;
+    expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+                 tile_means(room, room.options, Integrator::PATH, ""), 0.03);
+}
+
+TEST(WeightedSplats, GoOnWithoutWhatHasCastTheCaustics) {
+    Room room;
+    room.build.material("sharp", "Kd 0.9 0.8 0.6\nPm 1\nPr 0.1").use("sharp");
+    room.build.polygon({{2.6, 0.01, -1}, {2.6, 2, -1}, {2.6, 2, 2}, {2.6, 0.01, 2}});
+    room.options.light.suns.push_back({{-1, 1, 0.3}, {3, 3, 3}, 5});
+    room.options.effects.off = EFFECT_GLOSSY;
+    room.options.sampling.spp = 256;
+    expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+                 tile_means(room, room.options, Integrator::PATH, ""), 0.05);
+}
+
 TEST(WeightedSplats, ChangeNoMeanWhereCastersHideEachOtherAndEncloseLamps) {
     // Panes one behind the other as the lights see them, a mirror above the lamp's plane, a lamp in a glass.
     for (const bool is_distant : {false, true}) {
