@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All kernels compile without a warning for every set of effects under test, as OpenCL C 1.2 and 3.0,
-// programs that splat for a drawn share of the sets; no device is needed.
+// All kernels compile without a warning for every set of effects under test as OpenCL C 1.2, for a drawn
+// share of the sets as 3.0 and as programs that splat; no device is needed.
 #include "clang_complaints.h"
 #include "probes/effect_masks.h"
 #include "probes/scratch_folder.h"

@@ -26,8 +26,8 @@ from faults import FAULTS
 
 KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "kernels")
 
-# Faults that --quick draws besides. One takes 5 processor seconds in the mean and 20 at most: together a tenth of what the
-# render tests may take (6 minutes on 2 cores).
+# Faults that --quick draws besides. One takes some 15 processor seconds in the mean, and up to 100 where no test of CAUGHT_BY is
+# known or that one renders for long.
 DRAWN = 5
 
 # Test programs that take minutes: their faults are left to the night tier.
