@@ -365,20 +365,31 @@ static inline bool surface_reflects(const Surface* surface, real3 w)
     return surface_side(surface->normal_g, surface->normal_s, surface->is_curved, w);
 }
 
-/* The curved surface's point: where rays on wo's side start, but for the rounding's step, and whence lights
-   are looked at. */
-static inline real3 surface_lifted(const Surface* surface)
+/* True if a ray on the given side starts on the curved surface: it leads below the plane, where the facet
+   would hide all from it. Every other ray starts at the plane, where paths from a light arrive, so that both
+   find the same light there. */
+static inline bool surface_is_lifted(const Surface* surface, bool reflects, real3 w)
 {
-    return HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved ? surface->position + surface->bulge
-                                                            : surface->position;
+    return HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved && reflects &&
+           vector_dot(w, surface->normal_g) < REAL(0.0);
 }
 
-/* Where a ray leaves the surface, by its side (surface_reflects): off the plane by the error bound, and, on
-   wo's side, from the curved surface. */
-static inline real3 surface_origin(const Surface* surface, bool reflects)
+/* How far a ray along w is inside of the curved surface: up to there it is above the plane. 0 of a ray that
+   starts at the plane. */
+static inline real surface_lift(const Surface* surface, bool reflects, real3 w)
 {
-    const real3 step = surface->normal_g * surface->offset;
-    return reflects ? surface_lifted(surface) + step : surface->position - step;
+    if (!surface_is_lifted(surface, reflects, w))
+        return REAL(0.0);
+    return vector_dot(surface->bulge, surface->normal_g) / -vector_dot(w, surface->normal_g);
+}
+
+/* Where a ray leaves the surface, by its side (surface_reflects) and direction: off the plane by the error
+   bound, or from the curved surface. */
+static inline real3 surface_origin(const Surface* surface, bool reflects, real3 w)
+{
+    const real3 step = surface->normal_g * (reflects ? surface->offset : -surface->offset);
+    return surface_is_lifted(surface, reflects, w) ? surface->position + surface->bulge + step
+                                                   : surface->position + step;
 }
 
 /* The time of the ray that has hit the surface (ray_time). */
@@ -415,7 +426,7 @@ static inline Nest surface_nest(const Surface* surface, bool reflects)
    and with the same cone. */
 static inline Ray surface_ray(const Surface* surface, bool reflects, real3 direction)
 {
-    Ray ray = ray_make(surface_origin(surface, reflects), direction, surface_time(surface));
+    Ray ray = ray_make(surface_origin(surface, reflects, direction), direction, surface_time(surface));
     ray_set_wave(surface_wave(surface), &ray);
 #if CLRT_EFFECTS & EFFECT_NESTED
     ray.nest = surface_nest(surface, reflects);
@@ -431,7 +442,7 @@ static inline Ray surface_ray(const Surface* surface, bool reflects, real3 direc
 static inline Ray surface_shadow_ray(const Surface* from, const Surface* to, real3 wi)
 {
     Ray ray = surface_ray(from, surface_reflects(from, wi), wi);
-    ray_end_at(surface_origin(to, surface_reflects(to, -wi)), &ray);
+    ray_end_at(surface_origin(to, surface_reflects(to, -wi), -wi), &ray);
     return ray;
 }
 

@@ -91,7 +91,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
         return;
     path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
     if (path->is_alive)
-        splat_eye_leaves(&surface, &bsdf, wo, &next, weights);
+        splat_eye_leaves(&bsdf, wo, &next, weights);
 }
 
 /* Follows a sample's path from the eye to its end. */

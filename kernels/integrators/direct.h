@@ -6,6 +6,7 @@
 #define CLRT_INTEGRATORS_DIRECT_H
 
 #include "film/film.h"
+#include "lights/each_light.h"
 #include "numerics/real_functions.h"
 #include "path/vertex.h"
 
@@ -58,26 +59,22 @@ static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* 
                                         const Sampler* sampler, uint node, const Surface* surface,
                                         const Bsdf* bsdf, bool highlight, PixelRays* rays)
 {
-    const real3 from = surface_lifted(surface);
     real3 radiance = (real3)(REAL(0.0));
+    const real3 normal = bsdf->frame.z;
     const uint alias_word = sampler_word(sampler, node, SAMPLE_LIGHT_ALIAS);
     if (HAS(EFFECT_AREA_LIGHT) && params->emitter_count != 0u) {
         const uint2 words = sampler_light_words(sampler, node);
-        LightSample light =
-            emitter_sample(scene, params, from, words.x, alias_word, sampler_unit(words.y));
+        LightSample light = each_light_emitter(scene, params, surface, normal, words, alias_word);
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     if (HAS(EFFECT_ENVIRONMENT)) {
         const uint2 words = sampler_pair_words(sampler, node, SAMPLE_SKY);
-        LightSample light =
-            environment_sample(scene, params, bsdf->frame.z, words.x, alias_word, sampler_unit(words.y));
+        LightSample light = each_light_sky(scene, params, surface, normal, words, alias_word);
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
-    if (!HAS(EFFECT_DELTA_LIGHT))
-        return radiance;
-    for (uint i = 0; i < params->light_count; ++i) {
-        LightSample light = delta_light_sample(
-            scene, i, from, sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION));
+    for (uint i = 0; HAS(EFFECT_DELTA_LIGHT) && i < params->light_count; ++i) {
+        const real2 u = sampler_pair(sampler, sampler_hash(node) + i, SAMPLE_DIRECTION);
+        LightSample light = each_light_delta(scene, surface, i, u);
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     return radiance;

@@ -54,8 +54,10 @@ static inline void distribution_add_emission(const Scene* scene, const RenderPar
         return;
     real3 emitted = material_emitted(scene, surface, -path->ray.direction);
     if (path->pdf_w != REAL(0.0)) {
+        if (!emitter_is_met(path->lift, distribution_length(path, hit)))
+            return;
         const real light_pdf_w = each_light_emitter_pdf_w(
-            scene, params, &path->view, path->has_crossed_curved, surface, distribution_length(path, hit),
+            scene, params, &path->view, path->lift, surface, distribution_length(path, hit),
             -path->ray.direction);
         TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
         emitted *= mis_weight(path->pdf_w, light_pdf_w);

@@ -37,7 +37,7 @@ typedef struct {
 #endif
     real pdf_w;              /* of its direction, times rough over shadow rays of the vertex that it left;
                                 0 for camera rays and delta lobes */
-    bool has_crossed_curved; /* it did not start at the view but at the plane below */
+    real lift;               /* surface_lift of the ray */
     uint segment;            /* from 1 */
     uint node;               /* number in the tree (tree_number) of the ray and those beside it, */
     uint index;              /* and of the sample that its random numbers are of (sampler_branch) */
@@ -70,7 +70,7 @@ static inline TreeRay distribution_first(const Scene* scene, const CameraSample*
     path.before = REAL(0.0);
 #endif
     path.pdf_w = REAL(0.0);
-    path.has_crossed_curved = false;
+    path.lift = REAL(0.0);
     path.segment = path.node = path.share = 1u;
     path.index = sampler_reverse_bits(sample->sampler.index_reversed);
     path.state = automaton_start(scene);
@@ -114,7 +114,7 @@ static inline TreeRay distribution_child(const Scene* scene, const TreeVertex* v
     child.before = REAL(0.0);
 #endif
     child.pdf_w = REAL(0.0);
-    child.has_crossed_curved = vertex->surface->is_curved && !reflects;
+    child.lift = surface_lift(vertex->surface, reflects, wi);
     ++child.segment;
     child.node = tree_number(vertex->path->node, WAY_COUNT, way);
     child.state = HAS(EFFECT_PATH_FILTER) ? vertex->step.next[letter] : STATE_OF_EVERY_PATH;

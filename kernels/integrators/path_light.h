@@ -55,7 +55,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
         return;
     path_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &guide, &next, path);
     if (path->is_alive)
-        splat_eye_leaves(&surface, &bsdf, wo, &next, weights);
+        splat_eye_leaves(&bsdf, wo, &next, weights);
 }
 
 /* Follows a sample's path from the eye to its end. */

@@ -67,7 +67,7 @@ static inline void reuse_keep_first(const RenderParams* params, uint segment, co
 static inline bool reuse_leaves(const Scene* scene, const Surface* surface, const Bsdf* bsdf, real3 wi)
 {
     const bool reflects = surface_reflects(surface, wi);
-    return (reflects || !surface->is_curved) && !dispersion_splits(bsdf, reflects) &&
+    return !surface_is_lifted(surface, reflects, wi) && !dispersion_splits(bsdf, reflects) &&
            solid_beside(scene, surface, reflects) == NO_INDEX;
 }
 
@@ -157,7 +157,7 @@ static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderPar
                                              PixelRays* rays)
 {
     const BsdfValue nothing = bsdf_value_none();
-    const real3 way = source->second.position - surface_lifted(&eye->surface);
+    const real3 way = source->second.position - eye->surface.position;
     const real square = vector_dot(way, way);
     if (!eye->has_first || square == REAL(0.0))
         return nothing;

@@ -40,7 +40,7 @@ static inline LightSample each_light_sky(const Scene* scene, const RenderParams*
 /* Point or sun number `index`. */
 static inline LightSample each_light_delta(const Scene* scene, const Surface* surface, uint index, real2 u)
 {
-    LightSample sample = delta_light_sample(scene, index, surface_lifted(surface), u);
+    LightSample sample = delta_light_sample(scene, index, surface->position, u);
     sample.kind = scene->lights[index].kind == LIGHT_POINT ? KIND_POINT : KIND_SUN;
     light_choose_side(scene, surface, &sample);
     delta_light_dim(scene, index, &sample);
@@ -48,17 +48,15 @@ static inline LightSample each_light_delta(const Scene* scene, const Surface* su
 }
 
 /* Density per steradian of each_light_emitter at the vertex of `view` for a ray that has met the emitter at
-   distance t. `has_crossed_curved`: the ray did not start there but at the plane below. */
+   distance t. `lift`: surface_lift of the ray. */
 static inline real each_light_emitter_pdf_w(const Scene* scene, const RenderParams* params,
-                                            const LightView* view, bool has_crossed_curved,
+                                            const LightView* view, real lift,
                                             const Surface* surface, real t, real3 wo)
 {
     const real pdf_a = light_choice_is_by_tree(params)
                            ? light_probability_of_emitter(scene, params, view, surface->emitter)
                            : (real)scene->emitters[surface->emitter].pdf_a;
-    return HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && has_crossed_curved
-               ? emitter_crossed_pdf_w(scene, surface, pdf_a, view->position, t, wo)
-               : emitter_hit_pdf_w(scene, surface, pdf_a, view->position, t, wo);
+    return emitter_met_pdf_w(scene, surface, pdf_a, view->position, lift, t, wo);
 }
 
 /* True where rays alone find the environment beside matte lobes: it is constant, so no density of

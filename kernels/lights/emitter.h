@@ -117,9 +117,8 @@ static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* s
     return cos_l > REAL(0.0) ? emitter_pdf_w(pdf_a, t * t, cos_l) : REAL(0.0);
 }
 
-/* The same for a ray that crossed a curved surface and so did not start at `from`, where light is sampled,
-   but at the plane (light_from_plane). */
-static CLRT_NOINLINE real emitter_crossed_pdf_w(const Scene* scene, const Surface* surface, real pdf_a,
+/* The same for a ray that started above `from`, on a curved surface (light_from_curved). */
+static CLRT_NOINLINE real emitter_lifted_pdf_w(const Scene* scene, const Surface* surface, real pdf_a,
                                                 real3 from, real t, real3 wo)
 {
     const real3 way = surface->position - from;
@@ -128,6 +127,22 @@ static CLRT_NOINLINE real emitter_crossed_pdf_w(const Scene* scene, const Surfac
     if (!(ratio > REAL(0.0) && ratio < REAL_FAR))
         return REAL(0.0);
     return ratio * emitter_hit_pdf_w(scene, surface, pdf_a, from, distance, way / -distance);
+}
+
+/* Whether a ray may see a lamp at distance t by a lobe with a density. `lift`: surface_lift of the ray. Lamps
+   above the facet's plane are seen from the facet alone, or they would be seen twice. */
+static inline bool emitter_is_met(real lift, real t)
+{
+    return !HAS(EFFECT_SMOOTH_NORMALS) || lift == REAL(0.0) || t > lift;
+}
+
+/* Density of having sampled, from `from`, the lamp that such a ray has met. */
+static inline real emitter_met_pdf_w(const Scene* scene, const Surface* surface, real pdf_a, real3 from,
+                                     real lift, real t, real3 wo)
+{
+    return HAS(EFFECT_SMOOTH_NORMALS) && lift > REAL(0.0)
+               ? emitter_lifted_pdf_w(scene, surface, pdf_a, from, t, wo)
+               : emitter_hit_pdf_w(scene, surface, pdf_a, from, t, wo);
 }
 
 #endif

@@ -57,34 +57,33 @@ static inline real light_density_ratio(real3 way, real3 other_way, real3 normal)
     return squares * real_sqrt(squares) * (vector_dot(other_way, normal) / vector_dot(way, normal));
 }
 
-/* Light that was sampled from the curved surface but lies on the other side reaches the surface at its plane,
-   where rays that cross it start: there it has another direction, distance and density. None if it is on wo's
-   side of that point or shows it another face. */
-static CLRT_NOINLINE void light_from_plane(const Scene* scene, const Surface* surface, LightSample* sample)
+/* Light that was sampled from the facet but lies below its plane reaches the surface on wo's side at the
+   curved surface, where such rays start: there it has another direction, distance and density. None if it is
+   on the other side of that point or shows it another face. */
+static CLRT_NOINLINE void light_from_curved(const Scene* scene, const Surface* surface, LightSample* sample)
 {
-    const real3 way = sample->target - surface->position;
-    const real3 lifted_way = sample->target - surface_lifted(surface);
+    const real3 flat_way = sample->target - surface->position;
+    const real3 way = flat_way - surface->bulge;
     const real square = vector_dot(way, way);
     sample->wi = way / real_sqrt(square);
     real ratio = REAL(1.0);
     if (sample->triangle == NO_INDEX)
-        sample->radiance *= vector_dot(lifted_way, lifted_way) / square;
+        sample->radiance *= vector_dot(flat_way, flat_way) / square;
     else {
         real3 p0, p1, p2;
         surface_corners(scene, scene->triangles + sample->triangle, &p0, &p1, &p2);
-        ratio = light_density_ratio(way, lifted_way, surface_cross(p1 - p0, p2 - p0));
+        ratio = light_density_ratio(way, flat_way, surface_cross(p1 - p0, p2 - p0));
     }
     const bool is_seen = square > REAL(0.0) && ratio > REAL(0.0) && ratio < REAL_FAR;
-    sample->pdf_w = is_seen && !surface_reflects(surface, sample->wi) ? sample->pdf_w * ratio : REAL(0.0);
+    sample->pdf_w = is_seen && surface_reflects(surface, sample->wi) ? sample->pdf_w * ratio : REAL(0.0);
 }
 
-/* Decides on which side of the surface a light lies that was sampled from surface_lifted. */
+/* Decides on which side of the surface a light lies that was sampled from its facet. */
 static inline void light_choose_side(const Scene* scene, const Surface* surface, LightSample* sample)
 {
     sample->reflects = surface_reflects(surface, sample->wi);
-    if (HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && surface->is_curved &&
-        !sample->reflects && !sample->is_distant)
-        light_from_plane(scene, surface, sample);
+    if (!sample->is_distant && surface_is_lifted(surface, sample->reflects, sample->wi))
+        light_from_curved(scene, surface, sample);
 }
 
 /* The shadow ray from a surface to the sampled light. */

@@ -9,11 +9,10 @@
 #include "numerics/sampler.h"
 #include "sky_portal.h"
 
-/* A surface as light sampling sees it: from the point where rays start that it reflects. `normal` as in
-   LightView. */
+/* A surface as light sampling sees it: from the facet. `normal` as in LightView. */
 static inline LightView lights_view(const Surface* surface, real3 normal)
 {
-    const LightView view = {surface_lifted(surface), normal};
+    const LightView view = {surface->position, normal};
     return view;
 }
 

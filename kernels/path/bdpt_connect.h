@@ -47,7 +47,7 @@ static inline real bdpt_others(const EyeVertex* eye, const LightVertex* light, c
 {
     real others = to_light * splat_cosine(light->surface.normal_g, wi) *
                   splat_weights_at(&light->bsdf, -wi, of_light);
-    if (splat_can_pass(eye->surface, eye->bsdf, eye->wo, wi, false))
+    if (splat_can_pass(eye->bsdf, eye->wo, wi))
         others += to_eye * splat_cosine(eye->surface->normal_g, wi) *
                   splat_weights_at(eye->bsdf, wi, &eye->weights);
     return others;
@@ -59,20 +59,19 @@ static inline bool bdpt_is_alone(const Surface* surface, const Bsdf* bsdf, real3
     return (surface_wave(surface) & WAVE_ALONE) || dispersion_splits(bsdf, surface_reflects(surface, w));
 }
 
-/* The weighted connection of two vertices, over the eye path's throughput; false where nothing can arrive. A
-   path from the eye starts on a curved surface where it is reflected; across one it starts elsewhere, and no
-   connection is made. */
+/* The weighted connection of two vertices, over the eye path's throughput; false where nothing can arrive. No
+   path from a light comes to the eye's vertex where rays to it are lifted. */
 static CLRT_NOINLINE bool bdpt_join(const Scene* scene, const EyeVertex* eye, const KeptVertex* kept,
                                     InnerConnection* connection)
 {
     LightVertex light;
     bdpt_light_vertex(scene, kept, surface_time(eye->surface), &light);
-    const real3 way = light.surface.position - surface_lifted(eye->surface);
+    const real3 way = light.surface.position - eye->surface->position;
     const real square = vector_dot(way, way);
     if (square == REAL(0.0))
         return false;
     const real3 wi = way / real_sqrt(square);
-    if (eye->surface->is_curved && !surface_reflects(eye->surface, wi))
+    if (surface_is_lifted(eye->surface, surface_reflects(eye->surface, wi), wi))
         return false;
     const BsdfValue to_light = bsdf_eval(eye->bsdf, wi);
     if (vector_is_black(to_light.value))

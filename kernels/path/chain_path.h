@@ -73,7 +73,7 @@ static CLRT_NOINLINE bool chain_leave(const Scene* scene, const RenderParams* pa
     if (!next.is_valid)
         return false;
     path_leave(scene, params, sampler, segment, surface, bsdf, step, &guide, &next, path);
-    splat_eye_leaves(surface, bsdf, wo, &next, weights);
+    splat_eye_leaves(bsdf, wo, &next, weights);
     return true;
 }
 

@@ -15,12 +15,11 @@ static inline real3 path_emission(const Scene* scene, const RenderParams* params
     const real pdf_w = path->pdf_w;
     if (pdf_w == REAL(0.0))
         return emitted;
-    const real t = path->hit.t;
+    if (!emitter_is_met(path->lift, path->hit.t))
+        return (real3)(REAL(0.0));
     const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
     const real light_pdf_w =
-        HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
-            ? emitter_crossed_pdf_w(scene, surface, pdf_a, path->view.position, t, wo)
-            : emitter_hit_pdf_w(scene, surface, pdf_a, path->view.position, t, wo);
+        emitter_met_pdf_w(scene, surface, pdf_a, path->view.position, path->lift, path->hit.t, wo);
     TRACE_NUMBER(scene, TRACE_LIGHT_PDF, light_pdf_w);
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, mis_weight(pdf_w, light_pdf_w));
     return emitted * mis_weight(pdf_w, light_pdf_w);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a light path scatters. Beside paths from the eye (SPLATS_ARE_WEIGHTED) it leaves to them what they see
-// by bent normals and through curved facets. Alone it finds what they see by bent normals too: the BSDF is
+// by bent normals. Alone it finds what they see by bent normals too: the BSDF is
 // that of the point as seen from the direction that has been chosen, the eye's side. Such directions may be
 // below the horizon of the normal about which lobes are sampled, so some are sampled about the facet's own.
 #ifndef CLRT_PATH_LIGHT_BENT_H
@@ -72,14 +72,9 @@ static CLRT_NOINLINE real3 light_bent_value(const Scene* scene, const LightVerte
 
 /* True where direction w is left to paths from the eye, or to nobody: delta lobes of bent normals, of which
    mirrors send nothing and glass what it lets through at grazing incidence. `pdf_w`: 0 of a delta lobe. */
-static inline bool light_bent_leaves(const Scene* scene, const LightVertex* vertex, const Hit* hit, real3 w,
-                                     real pdf_w)
+static inline bool light_bent_leaves(const LightVertex* vertex, real3 w, real pdf_w)
 {
-    const bool is_smooth = pdf_w != REAL(0.0);
-    if (!SPLATS_ARE_WEIGHTED && is_smooth)
-        return false;
-    return !light_vertex_is_seen(&vertex->bsdf, w) ||
-           (is_smooth && light_vertex_crosses_curved(scene, vertex, hit, w));
+    return (SPLATS_ARE_WEIGHTED || pdf_w == REAL(0.0)) && !light_vertex_is_seen(&vertex->bsdf, w);
 }
 
 /* BSDF times cosine towards the eye along w, and the density of sampling it. */
@@ -87,7 +82,7 @@ static CLRT_NOINLINE BsdfValue light_bent_eval(const Scene* scene, const LightVe
                                                real3 w)
 {
     const Bsdf* bsdf = &vertex->bsdf;
-    if (light_bent_leaves(scene, vertex, hit, w, REAL(1.0)))
+    if (light_bent_leaves(vertex, w, REAL(1.0)))
         return bsdf_value_none();
     BsdfValue eval = bsdf_eval(bsdf, w);
     const real share = light_bent_share(bsdf);
@@ -124,7 +119,7 @@ static CLRT_NOINLINE BsdfSample light_bent_sample(const Scene* scene, const Ligh
         light_bent_weigh(scene, vertex, hit, &next);
     } else if (share == REAL(0.0) || next.pdf_w == REAL(0.0)) {
         next.weight /= REAL(1.0) - share;
-        next.is_valid = next.is_valid && !light_bent_leaves(scene, vertex, hit, next.wi, next.pdf_w);
+        next.is_valid = next.is_valid && !light_bent_leaves(vertex, next.wi, next.pdf_w);
     } else if (bsdf_eval(bsdf, next.wi).pdf_w == REAL(0.0))
         next.is_valid = false; /* on the other side of the plane than of the normal */
     else

@@ -40,10 +40,9 @@ static inline bool light_vertex_is_seen(const Bsdf* bsdf, real3 w)
 /* Completes the vertex on its surface, which light has come to from wo. */
 static inline void light_vertex_complete(const Scene* scene, real3 wo, LightVertex* vertex)
 {
-    const real3 lifted = surface_lifted(&vertex->surface);
     vertex->surface.is_curved = false;
     material_set_bsdf(scene, &vertex->surface, wo, TRANSPORT_IMPORTANCE, &vertex->bsdf);
-    vertex->view.position = lifted;
+    vertex->view.position = vertex->surface.position;
     vertex->view.normal = bsdf_light_normal(&vertex->bsdf);
 }
 
@@ -54,22 +53,6 @@ static inline void light_vertex_set(const Scene* scene, const RenderParams* para
     vertex->surface = visible_surface(scene, params, ray, hit);
     light_vertex_complete(scene, -ray->direction, vertex);
     TRACE_VECTOR(scene, TRACE_NORMAL_S, vertex->bsdf.frame.z);
-}
-
-/* True if a direction crosses a surface that bulges on its other side. A path from the eye that crosses it
-   the other way, by a lobe with a density, looks at lights from another point than its ray starts at. */
-static inline bool light_vertex_crosses_curved(const Scene* scene, const LightVertex* vertex, const Hit* hit,
-                                               real3 wi)
-{
-    if (!HAS(EFFECT_SMOOTH_NORMALS))
-        return false;
-    if (!HAS(EFFECT_ROUGH_REFRACTION))
-        return false;
-    if (surface_reflects(&vertex->surface, wi))
-        return false;
-    const Ray back = ray_make(vertex->surface.position, -wi, surface_time(&vertex->surface));
-    const Surface other_side = surface_at(scene, hit, &back);
-    return other_side.is_curved;
 }
 
 #endif

@@ -8,16 +8,10 @@
 #include "connect.h"
 #include "splat_weight.h"
 
-/* True if a path from a light can pass the vertex the other way, from direction wi (light_vertex.h).
-   `is_delta`: by a delta lobe. */
-static inline bool splat_can_pass(const Surface* surface, const Bsdf* bsdf, real3 wo, real3 wi, bool is_delta)
+/* True if a path from a light can pass the vertex the other way, from direction wi (light_vertex.h). */
+static inline bool splat_can_pass(const Bsdf* bsdf, real3 wo, real3 wi)
 {
-    if (!light_vertex_is_seen(bsdf, wo) || !light_vertex_is_seen(bsdf, wi))
-        return false;
-    if (!HAS(EFFECT_SMOOTH_NORMALS) || !surface->is_curved)
-        return true;
-    const bool is_above = vector_dot(wi, surface->normal_g) >= REAL(0.0);
-    return is_above == surface_reflects(surface, wi) && (is_above || is_delta);
+    return light_vertex_is_seen(bsdf, wo) && light_vertex_is_seen(bsdf, wi);
 }
 
 /* A segment of a path from the eye, of length t, has met a surface. */
@@ -36,14 +30,11 @@ static inline void splat_eye_meets(const RenderParams* params, const Sampler* sa
 }
 
 /* It leaves the vertex in a sampled direction. */
-static inline void splat_eye_leaves(const Surface* surface, const Bsdf* bsdf, real3 wo,
-                                    const BsdfSample* next, SplatWeights* weights)
+static inline void splat_eye_leaves(const Bsdf* bsdf, real3 wo, const BsdfSample* next, SplatWeights* weights)
 {
-    if (!splat_can_pass(surface, bsdf, wo, next->wi, next->pdf_w == REAL(0.0)))
+    if (!splat_can_pass(bsdf, wo, next->wi))
         weights->open = weights->closed = REAL(0.0);
     splat_weights_leave(bsdf, next->wi, next->pdf_w, weights);
-    if (surface->is_curved && !next->reflects) /* no inner connection crosses it (bdpt_connect.h) */
-        weights->open = REAL(0.0);
 }
 
 /* True if splats find the light at the end of a ray that leaves the last vertex by a density, 0 for a delta
@@ -84,11 +75,11 @@ static inline real3 splat_emission(const Scene* scene, const RenderParams* param
     const real3 emitted = material_emitted(scene, surface, wo);
     real light_pdf_w = REAL(0.0);
     if (path->pdf_w > REAL(0.0)) {
+        if (!emitter_is_met(path->lift, path->hit.t))
+            return (real3)(REAL(0.0));
         const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
         light_pdf_w =
-            HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_ROUGH_REFRACTION) && path->has_crossed_curved
-                ? emitter_crossed_pdf_w(scene, surface, pdf_a, path->view.position, path->hit.t, wo)
-                : emitter_hit_pdf_w(scene, surface, pdf_a, path->view.position, path->hit.t, wo);
+            emitter_met_pdf_w(scene, surface, pdf_a, path->view.position, path->lift, path->hit.t, wo);
     }
     real emission_pdf = REAL(0.0);
     if (splat_competes(path->pdf_w, weights))
@@ -173,7 +164,7 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
     if (vector_is_black(arriving))
         return;
     real splat = REAL(0.0);
-    if (!EMISSION_IS_AIMED && splat_can_pass(surface, bsdf, wo, light.wi, false))
+    if (!EMISSION_IS_AIMED && splat_can_pass(bsdf, wo, light.wi))
         splat = splat_weights_at(bsdf, light.wi, weights) * splat_cosine(surface->normal_g, light.wi) *
                 splat_sample_pdf(scene, params, surface, &light);
     const real hit = light.is_delta ? REAL(0.0) : eval.pdf_w;

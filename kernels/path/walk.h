@@ -28,7 +28,7 @@ typedef struct {
     SkySample sky;           /* drawn for it, where light_is_drawn */
     LightView view;          /* whence the surface that it left looked at lights; unused for camera rays and
                                 delta lobes */
-    bool has_crossed_curved; /* it did not start there but at the plane below */
+    real lift;               /* surface_lift of the ray */
     real3 throughput;        /* of the path so far: product of BSDF times cosine over pdf */
     real eta_squared;        /* product of the squared index ratios crossed */
     real pdf_w;              /* of the ray's direction over the light samples taken where it started; 0 for
@@ -80,7 +80,7 @@ static inline void path_begin(const Scene* scene, Path* path, const Ray* ray)
     path->ray = *ray;
     path->view.position = ray->origin;
     path->view.normal = (real3)(REAL(0.0));
-    path->has_crossed_curved = false;
+    path->lift = REAL(0.0);
     path->throughput = (real3)(REAL(1.0));
     path->watched = (real3)(REAL(0.0));
     path->eta_squared = REAL(1.0);
@@ -238,7 +238,7 @@ static inline void path_leave(const Scene* scene, const RenderParams* params, co
 #if SPLITS_LIGHT
     path->light_samples_log = next->pdf_w == REAL(0.0) ? path->light_samples_log : 0u;
 #endif
-    path->has_crossed_curved = surface->is_curved && !next->reflects;
+    path->lift = surface_lift(surface, next->reflects, next->wi);
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = solid_beside(scene, surface, next->reflects);
 #endif

@@ -31,7 +31,7 @@ SceneProbe& probe() {
         made.add("labels",
                  surface + "first = (vec4)(as_float(surface.emitter), as_float(surface.material), 0, 0);");
         made.add("origin", surface + "first = probe_vec4(surface_origin(&surface, surface_reflects(&surface, "
-                                     "vector_from(c))), 0.0f);");
+                                     "vector_from(c)), vector_from(c)), 0.0f);");
         // Meets the same triangle again, by the arithmetic of the traversal: first.x is 1.
         made.add("leave", surface + R"(
             const Ray ray = surface_ray(&surface, surface_reflects(&surface, vector_from(c)), vector_from(c));
@@ -450,6 +450,26 @@ TEST(Surface, RaysStartOnTheirOwnSideOfThePlane) {
     EXPECT_GT(got.first[2].z, 0.5f); // along the plane: on the eye's side
     EXPECT_GT(got.first[3].z, 0.5f);
     EXPECT_LT(got.first[4].z, 0.5f);
+}
+
+TEST(Surface, RaysStartOnTheCurvedSurfaceWhereTheFacetWouldHideAllFromThem) {
+    const dvec3 p[] = {{-0.3, -0.2, 0.9}, {0.3, -0.2, 0.9}, {0, 0.4, 0.9}};
+    Triangles triangles;
+    triangles.add(p[0], p[1], p[2]);
+    triangles.set_normals(0, glm::normalize(p[0]), glm::normalize(p[1]), glm::normalize(p[2]));
+    const vec4 above = {0, 0, 1, 0};
+    // There the normal leans to +x: over the plane, reflected below it, through the surface.
+    const std::vector<vec4> w = {
+        {-0.8f, 0, 0.6f, 0}, {0, 0, 1, 0}, {0.999f, 0, -0.02f, 0}, {0.6f, 0, -0.8f, 0}};
+    const std::vector<vec4> hits(4, hit(0.6, 0.2, 0)), wo(4, above);
+    const std::vector<vec4> start = probe().run("origin", triangles.scene, RenderParams{}, hits, wo, w).first;
+    const std::vector<vec4> bulge = probe().run("shape", triangles.scene, RenderParams{}, hits, wo).third;
+    ASSERT_GT(bulge[0].z, 1e-3f);
+    EXPECT_NEAR(start[0].z, 0.9, 1e-5);
+    EXPECT_NEAR(start[1].z, 0.9, 1e-5);
+    EXPECT_NEAR(start[2].z, 0.9 + bulge[2].z, 1e-5);
+    EXPECT_NEAR(start[3].z, 0.9, 1e-5);
+    EXPECT_LT(start[3].z, 0.9f);
 }
 
 TEST(Surface, LabelsAreThoseOfTheTriangle) {

@@ -52,7 +52,7 @@ static bool oracle_sample(const Scene* scene, const RenderParams* params, Camera
             return false;
         v->wi = next.wi;
         v->forward = next.pdf_w;
-        v->passes = splat_can_pass(&v->surface, &v->bsdf, v->wo, v->wi, next.pdf_w == REAL(0.0));
+        v->passes = splat_can_pass(&v->bsdf, v->wo, v->wi);
         ray = surface_ray(&v->surface, next.reflects, next.wi);
     }
     return false;
@@ -72,7 +72,7 @@ static void oracle_from_eye(const RenderParams* params, const Sampler* sampler, 
         next.wi = v->wi;
         next.pdf_w = v->forward;
         next.reflects = surface_reflects(&v->surface, v->wi);
-        splat_eye_leaves(&v->surface, &v->bsdf, v->wo, &next, &weights);
+        splat_eye_leaves(&v->bsdf, v->wo, &next, &weights);
     }
 }
 

@@ -193,6 +193,18 @@ TEST(DirectLight, PointLightsAddUpAndCastSharpShadows) {
     expect_radiance(scene, KD / PI * (4.0 / 4 + 25 * 0.8 / 25), 1e-2);
 }
 
+TEST(DirectLight, ASpotDimsTowardsItsOuterCone) {
+    const auto cosine = [](double degrees) { return std::cos(degrees * PI / 180); };
+    for (const double outer : {40.0, 24.0}) { // the patch is 25 degrees off the axis
+        FloorScene scene;
+        const SpotCone cone{{0, -cosine(25), std::sin(25 * PI / 180)}, outer, 10};
+        scene.options.light.points.push_back({{0, 100, 0}, glm::dvec3(7e4), cone});
+        scene.look_at_point({0.03, 0.02, 0}, {0, 0, 0});
+        const double share = std::max(0.0, (cosine(25) - cosine(outer)) / (cosine(10) - cosine(outer)));
+        expect_radiance(scene, KD / PI * 7 * share * share, 1e-5, 2e-4);
+    }
+}
+
 TEST(DirectLight, ASunGivesItsIrradianceTimesTheCosine) {
     for (const double diameter : {0.0, 0.5, 30.0}) {
         FloorScene scene;

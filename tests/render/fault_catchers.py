@@ -37,7 +37,6 @@ CAUGHT_BY = {
     "no tint of crossings": "Glass.EveryCrossingTints",
     "panes do not dim shadow rays": "Panes.ASunShinesThroughAStack",
     "a tree's ray forgets its way before the pane": "Panes.BothWaysToALampBehindThemAreWeightedAgainstEachOther",
-    "lamps hit through glass weighed as beside it": "LightOrigin.PathsThroughRoughGlassFindTheLampsThatLightSamplingKnows",
     "one polarisation of metals": "Furnace.ConductorsFollowFresnel",
     "several facets of metals by their absorption": "Furnace.ConductorsFollowFresnel",
     "no masking of microfacets": "Furnace.RoughMirrorsReflectMoreThanOnce",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where light reaches a coarse smooth mesh: sampling lights, sampling the BSDF, and both with their weights
-// see it from the same points.
+// Where light reaches a coarse smooth mesh: sampling lights, sampling the BSDF, both with their weights, and
+// paths from lights see it from the same points.
 #include "device/kernel_source.h"
 #include "probes/film_estimate.h"
 #include "render/kernels.h"
@@ -146,7 +146,8 @@ TEST(LightOrigin, AllIntegratorsLightAMatteBallAlike) {
         const Estimate combined = scene.by_paths();
         EXPECT_TRUE(agree(scene.by_paths(one_technique().bsdf()), combined)) << segments;
         EXPECT_TRUE(agree(scene.by_paths(one_technique().light()), combined)) << segments;
-        for (const Integrator integrator : {Integrator::RAYCAST, Integrator::WHITTED})
+        for (const Integrator integrator :
+             {Integrator::RAYCAST, Integrator::WHITTED, Integrator::DISTRIBUTION, Integrator::BDPT})
             EXPECT_TRUE(agree(scene.by(integrator), combined)) << segments << ", " << name_of(integrator);
     }
 }
@@ -160,6 +161,7 @@ TEST(LightOrigin, BothTechniquesLightAGlossyBallAlike) {
                 << material << ", " << segments;
             EXPECT_TRUE(agree(scene.by_paths(one_technique().light()), combined))
                 << material << ", " << segments;
+            EXPECT_TRUE(agree(scene.by(Integrator::BDPT), combined)) << material << ", " << segments;
         }
 }
 

@@ -118,7 +118,8 @@ const EntryPoint ENTRY_POINTS[] = {
     {"surface_leave", "float4", SURFACE_PARAMETERS, R"(
     const TracedHit traced = hits[i];
     const Surface surface = load_surface(&scene, &ray, &traced);
-    const real3 origin = surface_origin(&surface, surface_reflects(&surface, vector_from(in[i])));
+    const real3 w = vector_from(in[i]);
+    const real3 origin = surface_origin(&surface, surface_reflects(&surface, w), w);
     out[i] = (float4)((float)origin.x, (float)origin.y, (float)origin.z, 0.0f);)"},
     {"surface_normal", "float4", SURFACE_PARAMETERS, R"(
     const TracedHit traced = hits[i];

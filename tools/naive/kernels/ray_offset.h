@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How rays leave a surface after Waechter and Binder (2019, Ray Tracing Gems, ch. 6), in place of surface_origin: by 256 units
 // in the last place of each coordinate, near the origin by a fixed length. For comparison only; float alone.
-static inline real3 surface_origin(const Surface* surface, bool reflects)
+static inline real3 surface_origin(const Surface* surface, bool reflects, real3 w)
 {
     const real3 n = reflects ? surface->normal_g : -surface->normal_g;
     const real3 p = surface->position;
