@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path tracing and light tracing in one picture: hits, next-event estimation and splats are three ways to
 // find a path, weighted against each other (path/splat_weight.h); no vertex is kept, and no inner vertices
-// are connected. Simulates L(D|G|S)*E. Splats bring the caustics, LS(D|G|S)*(D|G)E, which paths from the eye
-// find by chance; light paths are aimed at what casts them. Paths from the eye may be guided (path/guide.h):
-// weights on both ends are by densities of the BSDF, as if nothing were.
+// are connected. Simulates L(D|G|S)*E. Splats bring the caustics, LS(D|G|S)*(D|G)E and those of sharp
+// reflections, which paths from the eye find by chance; light paths are aimed at what casts them. Paths from
+// the eye may be guided (path/guide.h): weights on both ends are by densities of the BSDF, as if nothing were.
 #ifndef CLRT_INTEGRATORS_PATH_LIGHT_H
 #define CLRT_INTEGRATORS_PATH_LIGHT_H
 
@@ -63,7 +63,7 @@ static CLRT_NOINLINE void path_light_trace(const Scene* scene, const RenderParam
                                            CameraSample* sample, PixelRays* rays)
 {
     Path path;
-    SplatWeights weights = {REAL(0.0), REAL(0.0)};
+    SplatWeights weights = splat_weights_none();
     path_begin(scene, &path, &sample->ray);
     splat_take_seen(scene, sample);
     guide_choose(params, &sample->sampler, &path.guided);

@@ -155,9 +155,7 @@ static inline void emission_of_point(const Scene* scene, const RenderParams* par
     const AimOrigin origin = aim_origin(scene, params, vector, (real3)(REAL(0.0)));
     const real3 w = EMISSION_IS_AIMED ? aim_direction(scene, params, &origin, u)
                                       : frame_to_world(&frame, warp_cone(u, cone.one_minus_cos));
-    emission->pdf = EMISSION_IS_AIMED ? (real)params->emit_light * (real)light->probability *
-                                            aim_pdf_w(scene, params, &origin, w)
-                                      : emission_delta_pdf(scene, params, index);
+    emission->pdf = emission_point_ray_pdf_w(scene, params, index, w);
     emission->point = vector;
     emission->ray = ray_make(vector, w, REAL(0.0));
     emission->power = vector_from(light->emission) / emission->pdf;
@@ -216,6 +214,8 @@ static inline EmissionNumbers emission_numbers(const Sampler* sampler)
 static inline Emission emission_sample(const Scene* scene, const RenderParams* params,
                                        const EmissionNumbers* numbers)
 {
+    if (EMISSION_IS_AIMED && params->caster_count == 0u)
+        return emission_none(NO_INDEX);
     const LightChoice choice = light_choose_by_tables(scene, params, emission_kinds(params), numbers->words,
                                                       numbers->alias_word);
     if (HAS(EFFECT_AREA_LIGHT) && choice.light < params->emitter_count)

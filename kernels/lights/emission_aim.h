@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission aimed at casters, the surfaces that may scatter by delta lobes: in builds with
-// -DEMISSION_IS_AIMED=1 light paths leave only towards the spheres that hold all of them (Scene::casters),
-// because only there caustics begin. Towards a sphere directions are uniform in the cone under which it is
-// seen; from a surface that is near it, by the cosine; parallel rays are uniform over the sphere's disc. A
-// ray that meets several spheres is found by the way of each, and its density says so.
+// Emission aimed at casters, the surfaces that may scatter by delta lobes or reflect almost as sharply: in
+// builds with -DEMISSION_IS_AIMED=1 light paths leave only towards the spheres that hold all of them
+// (Scene::casters), because only there caustics begin; where there are none, no light path leaves. Towards a
+// sphere directions are uniform in the cone under which it is seen; from a surface that is near it, by the
+// cosine; parallel rays are uniform over the sphere's disc. A ray that meets several spheres is found by the
+// way of each, and its density says so.
 #ifndef CLRT_LIGHTS_EMISSION_AIM_H
 #define CLRT_LIGHTS_EMISSION_AIM_H
 
@@ -176,7 +177,7 @@ static CLRT_NOINLINE real aim_disc_pdf_a(const Scene* scene, const RenderParams*
     uint met = 0u;
     for (uint i = 0; i < params->caster_count; ++i)
         met += aim_meets(scene, i, point, w) ? 1u : 0u;
-    return (real)met * REAL_INVERSE_PI / (real)params->caster_squares;
+    return met == 0u ? REAL(0.0) : (real)met * REAL_INVERSE_PI / (real)params->caster_squares;
 }
 
 #endif

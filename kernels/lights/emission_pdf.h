@@ -68,12 +68,6 @@ static inline real emission_sky_pdf_w(const Scene* scene, const RenderParams* pa
     return (real)params->emit_environment * pdf_w;
 }
 
-/* Density of the ray that comes from the sky in direction -wi. */
-static inline real emission_sky_pdf(const Scene* scene, const RenderParams* params, real3 wi)
-{
-    return emission_sky_pdf_w(scene, params, wi) * emission_disc_pdf_a(params);
-}
-
 /* The directions in which a point light sends its rays, all alike. */
 typedef struct {
     real3 axis;         /* unit */
@@ -109,15 +103,16 @@ static inline real emission_sun_pdf_w(const Scene* scene, const RenderParams* pa
            (disc > REAL(0.0) ? warp_cone_pdf_w(disc) : REAL(1.0));
 }
 
-/* Density of the ray that leaves a point or a sun: of a point within its cone, of a sun with a disc within
-   it. */
-static inline real emission_delta_pdf(const Scene* scene, const RenderParams* params, uint index)
+/* Density per steradian of the ray that leaves a point light along w, aimed or not: w is within its cone. */
+static inline real emission_point_ray_pdf_w(const Scene* scene, const RenderParams* params, uint index,
+                                            real3 w)
 {
     global const Light* light = scene->lights + index;
-    if (light->kind == LIGHT_POINT)
-        return (real)params->emit_light * (real)light->probability *
-               warp_cone_pdf_w(emission_point_cone(params, light).one_minus_cos);
-    return emission_sun_pdf_w(scene, params, index) * emission_disc_pdf_a(params);
+    const real chosen = (real)params->emit_light * (real)light->probability;
+    if (!EMISSION_IS_AIMED)
+        return chosen * warp_cone_pdf_w(emission_point_cone(params, light).one_minus_cos);
+    const AimOrigin origin = aim_origin(scene, params, vector_from(light->vector), (real3)(REAL(0.0)));
+    return chosen * aim_pdf_w(scene, params, &origin, w);
 }
 
 #endif

@@ -83,7 +83,7 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
                                          ChainPath* found, PixelRays* rays)
 {
     Path path;
-    SplatWeights weights = {REAL(0.0), REAL(0.0)};
+    SplatWeights weights = splat_weights_none();
     Ray ray = chain_camera_ray(params, sampler, &found->film);
     if (HAS(EFFECT_NESTED))
         visible_find_nest(scene, params, &ray);

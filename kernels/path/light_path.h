@@ -3,7 +3,7 @@
 // every vertex that scatters other than as a delta function it is connected to the camera. What arrives
 // there is splatted on the film. In builds with -DSPLATS_ARE_WEIGHTED=1 each splat is weighted against the
 // ways in which paths from the eye find the same light (path/splat_weight.h). Where emission is aimed at
-// casters (lights/emission_aim.h), only paths whose first vertex scatters by a delta lobe go on.
+// casters (lights/emission_aim.h), only paths whose first vertex scatters by a delta lobe or is sharp go on.
 #ifndef CLRT_PATH_LIGHT_PATH_H
 #define CLRT_PATH_LIGHT_PATH_H
 
@@ -198,8 +198,8 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
     return survives;
 }
 
-/* Whether emission was aimed at what ends a path's segment: a delta lobe there makes caustics, and nothing
-   else is looked for. */
+/* Whether emission was aimed at what ends a path's segment: a delta lobe or a sharp surface there makes
+   caustics, and nothing else is looked for. */
 static inline bool light_path_is_at_caster(uint segment) { return EMISSION_IS_AIMED && segment == 1u; }
 
 /* Whether paths from the eye are left to find what comes from where this one has, by lobes with a density at
@@ -258,7 +258,7 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     if (!next.is_valid)
         return false;
     if (next.pdf_w > REAL(0.0) &&
-        (light_path_is_at_caster(segment) ||
+        ((light_path_is_at_caster(segment) && !splat_is_sharp(bsdf)) ||
          light_path_is_behind_slabs(scene, params, &vertex->surface, path)))
         return false;
     TRACE_CHOICE(scene, TRACE_LOBE, next.lobe);

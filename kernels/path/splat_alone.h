@@ -8,14 +8,11 @@
 #include "splat_connect.h"
 
 #if FILM_MOMENTS
-/* Weights that leave the others out: those of paths that nothing else finds. */
-#define NO_OTHERS {REAL(0.0), REAL(0.0)}
-
 /* Notes what the present vertex of the path is connected to. */
 static inline void alone_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
                                  const Bsdf* bsdf, real3 wo, const Path* path, Moments* moments)
 {
-    const SplatWeights none = NO_OTHERS;
+    const SplatWeights none = splat_weights_none();
     Path alone = *path;
     splat_connect(scene, params, surface, bsdf, wo, &none, &alone);
     moments->connection = alone.connection;
@@ -25,7 +22,7 @@ static inline void alone_connect(const Scene* scene, const RenderParams* params,
 static inline void alone_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
                                   const Path* path, real3 wo, real3 emitted, Moments* moments)
 {
-    const SplatWeights none = NO_OTHERS;
+    const SplatWeights none = splat_weights_none();
     const real3 alone = splat_emission(scene, params, surface, path, wo, &none);
     moments_gather(path->throughput * emitted, path->throughput * alone, moments);
 }
@@ -34,7 +31,7 @@ static inline void alone_emission(const Scene* scene, const RenderParams* params
 static inline void alone_sky(const Scene* scene, const RenderParams* params, uint segment, const Path* path,
                              real3 sky, Moments* moments)
 {
-    const SplatWeights none = NO_OTHERS;
+    const SplatWeights none = splat_weights_none();
     const real3 alone = segment == 1u ? sky : path->throughput * splat_escape(scene, params, path, &none);
     moments_gather(sky, alone, moments);
 }

@@ -27,6 +27,20 @@ static inline void splat_eye_meets(const RenderParams* params, const Sampler* sa
     } else
         splat_weights_go(t, weights);
     splat_weights_meet(surface, wo, weights);
+#if EMISSION_IS_AIMED
+    weights->is_inner = segment > 1u;
+#endif
+}
+
+/* Whether splats find, too, what is connected to the path's present vertex, or found behind it by a
+   density. */
+static inline bool splat_joins(const Bsdf* bsdf, const SplatWeights* weights)
+{
+#if EMISSION_IS_AIMED
+    return weights->is_inner && splat_is_sharp(bsdf);
+#else
+    return true;
+#endif
 }
 
 /* It leaves the vertex in a sampled direction. */
@@ -35,6 +49,9 @@ static inline void splat_eye_leaves(const Bsdf* bsdf, real3 wo, const BsdfSample
     if (!splat_can_pass(bsdf, wo, next->wi))
         weights->open = weights->closed = REAL(0.0);
     splat_weights_leave(bsdf, next->wi, next->pdf_w, weights);
+#if EMISSION_IS_AIMED
+    weights->is_shared = splat_joins(bsdf, weights);
+#endif
 }
 
 /* True if splats find the light at the end of a ray that leaves the last vertex by a density, 0 for a delta
@@ -42,7 +59,7 @@ static inline void splat_eye_leaves(const Bsdf* bsdf, real3 wo, const BsdfSample
 static inline bool splat_competes(real pdf_w, const SplatWeights* weights)
 {
 #if EMISSION_IS_AIMED
-    if (pdf_w > REAL(0.0))
+    if (pdf_w > REAL(0.0) && !weights->is_shared)
         return false;
 #endif
     return weights->closed > REAL(0.0);
@@ -129,18 +146,37 @@ static CLRT_NOINLINE real3 splat_escape(const Scene* scene, const RenderParams* 
     return radiance;
 }
 
+/* Density of the ray from a sampled point on an emissive triangle to the surface, over the cosine there. */
+static CLRT_NOINLINE real splat_triangle_pdf(const Scene* scene, const RenderParams* params,
+                                             const LightSample* light)
+{
+    if (!EMISSION_IS_AIMED)
+        return emission_triangle_pdf(scene, params, light->light, REAL(1.0));
+    real3 p0, p1, p2;
+    surface_corners(scene, scene->triangles + light->triangle, &p0, &p1, &p2);
+    real3 normal = vector_normalize(surface_cross(p1 - p0, p2 - p0));
+    if (vector_dot(normal, light->wi) > REAL(0.0))
+        normal = -normal;
+    return emission_triangle_ray_pdf(scene, params, light->light, light->target, normal, -light->wi) /
+           splat_cosine(normal, light->wi);
+}
+
 /* Density of the ray from a sampled light to the surface, over the cosine on the light: of a point over the
    squared distance, so that it is per area across the ray as that of light at infinity is. */
 static inline real splat_sample_pdf(const Scene* scene, const RenderParams* params, const Surface* surface,
                                     const LightSample* light)
 {
     if (HAS(EFFECT_AREA_LIGHT) && light->light < params->emitter_count)
-        return emission_triangle_pdf(scene, params, light->light, REAL(1.0));
+        return splat_triangle_pdf(scene, params, light);
     if (HAS(EFFECT_ENVIRONMENT) && light->light == light_of_sky(params))
-        return emission_sky_pdf(scene, params, light->wi);
-    const real pdf = emission_delta_pdf(scene, params, light->light - params->emitter_count);
+        return emission_sky_pdf_w(scene, params, light->wi) *
+               emission_disc_ray_pdf_a(scene, params, surface->position, light->wi);
+    const uint index = light->light - params->emitter_count;
+    if (light->is_distant)
+        return emission_sun_pdf_w(scene, params, index) *
+               emission_disc_ray_pdf_a(scene, params, surface->position, light->wi);
     const real3 way = light->target - surface->position;
-    return light->is_distant ? pdf : pdf / vector_dot(way, way);
+    return emission_point_ray_pdf_w(scene, params, index, -light->wi) / vector_dot(way, way);
 }
 
 /* Samples a light and prepares the shadow ray to it, weighted against hits and splats. */
@@ -164,7 +200,7 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
     if (vector_is_black(arriving))
         return;
     real splat = REAL(0.0);
-    if (!EMISSION_IS_AIMED && splat_can_pass(bsdf, wo, light.wi))
+    if (splat_joins(bsdf, weights) && splat_can_pass(bsdf, wo, light.wi))
         splat = splat_weights_at(bsdf, light.wi, weights) * splat_cosine(surface->normal_g, light.wi) *
                 splat_sample_pdf(scene, params, surface, &light);
     const real hit = light.is_delta ? REAL(0.0) : eval.pdf_w;

@@ -13,8 +13,8 @@
 // roulette is left out: a weight needs to be no more than the same function of the path from both ends.
 //
 // Where emission is aimed (lights/emission_aim.h) splats find caustics alone: paths whose vertex next to the
-// light scatters by a delta lobe. No connection finds those, and all others are weighed as if there were no
-// splats.
+// light scatters by a delta lobe, which no connection finds, or is a sharp surface (splat_is_sharp) and not
+// the one that the camera sees. All others are weighed as if there were no splats.
 #ifndef CLRT_PATH_SPLAT_WEIGHT_H
 #define CLRT_PATH_SPLAT_WEIGHT_H
 
@@ -31,10 +31,33 @@
    paths from the eye find, and inner connections, over the splat that comes next. */
 typedef struct {
     real open, closed;
+#if EMISSION_IS_AIMED
+    bool is_inner; /* a path's from the eye: its present vertex is not its first */
+    bool is_shared; /* and splats find, too, what it finds behind the vertex that it has left by a density */
+#endif
 } SplatWeights;
+
+/* Before the first vertex of a path from the eye, and where nothing but paths from the eye is weighed. */
+static inline SplatWeights splat_weights_none(void)
+{
+    SplatWeights weights;
+    weights.open = weights.closed = REAL(0.0);
+#if EMISSION_IS_AIMED
+    weights.is_inner = weights.is_shared = false;
+#endif
+    return weights;
+}
 
 /* Smaller cosines count as this in weights, so that what is divided by one can be multiplied by it. */
 #define SPLAT_SMALLEST_COS REAL(1e-6)
+
+/* Whether a surface's reflection is so narrow that it casts caustics though it has a density: a function of
+   the point alone, the same from both ends. */
+static inline bool splat_is_sharp(const Bsdf* bsdf)
+{
+    return HAS(EFFECT_GLOSSY) && (bsdf->lobes & (LOBE_GLOSSY | LOBES_GLASS)) == LOBE_GLOSSY &&
+           fmax(bsdf->alpha_x, bsdf->alpha_y) <= (real)CASTER_LARGEST_ALPHA;
+}
 
 /* Of a direction and a surface, by its plane. */
 static inline real splat_cosine(real3 normal_g, real3 w)
@@ -116,7 +139,7 @@ static inline void splat_weights_begin(const Scene* scene, const RenderParams* p
 {
     weights->closed = emission->is_delta ? REAL(0.0) : emission->cosine / emission->pdf;
     weights->open = REAL(0.0);
-    if (EMISSION_IS_AIMED || !bsdf_has_smooth_lobe(&vertex->bsdf))
+    if (EMISSION_IS_AIMED ? !splat_is_sharp(&vertex->bsdf) : !bsdf_has_smooth_lobe(&vertex->bsdf))
         return;
     /* Of a point, emission has a density per steradian there, next-event estimation none. */
     const bool is_point = emission->is_delta && !emission->is_distant;

@@ -21,6 +21,10 @@
 /* Lobes of microfacets, which reflect light more than once (scattering/bsdf_energy.h). */
 #define LOBES_ROUGH (LOBE_GLOSSY | LOBE_DIELECTRIC | LOBE_PANE)
 
+/* Surfaces whose glossy reflection has an alpha up to this are casters, as those with delta lobes are: what
+   they reflect gathers in caustics that paths from the eye seldom find. */
+#define CASTER_LARGEST_ALPHA 0.1f
+
 /* Lobes that let light through. */
 #define LOBES_GLASS (LOBE_DIELECTRIC | LOBE_PANE)
 

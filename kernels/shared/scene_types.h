@@ -180,8 +180,8 @@ ASSERT_SIZE(Light, 64);
 /* Of spots, which are of LIGHT_POINT: 1 / (cos(inner angle) - cos(outer angle)); 0: it is none. */
 #define LIGHT_SHARPNESS(light) ((light).emission.w)
 
-/* A sphere that holds casters, surfaces that may scatter by delta lobes (lights/emission_aim.h), is a vec4:
-   centre, and as w its radius. */
+/* A sphere that holds casters, surfaces that may scatter by delta lobes or reflect almost as sharply
+   (lights/emission_aim.h), is a vec4: centre, and as w its radius. */
 #define CASTER_RADIUS(sphere) ((sphere).w)
 
 /* A lat-long environment map lies in tiles of 4 x 4 texels: tiles row by row, rows from +Y down, and so the

@@ -16,12 +16,12 @@ namespace clrt {
 namespace {
 
 /// The paths that light paths find best, and often alone.
-const char* const CAUSTICS = "LS+DE";
+const char* const CAUSTICS = "L(S|G)+(D|G)E";
 
 bool casts_caustics(const Scene& scene, Options options) {
     options.transport.paths = CAUSTICS;
     options.output.path_layers.clear();
-    return !plan_paths(scene, options).is_empty && !find_casters(scene).empty();
+    return has_casters(scene) && !plan_paths(scene, options).is_empty;
 }
 
 /// Without caustics light paths find nothing that others do not find with less work.
@@ -31,9 +31,9 @@ void leave_out_light_paths(Scene& scene, Options& options) {
     if (casts_caustics(scene, options))
         return;
     options.transport.integrator = Integrator::PATH;
-    scene.notices.push_back(fmt::format("no mirror or smooth glass casts light on a surface ({}): {} is {}",
-                                        CAUSTICS, name_of(Integrator::PATH_LIGHT),
-                                        name_of(Integrator::PATH)));
+    scene.notices.push_back(
+        fmt::format("no mirror, smooth glass or sharp reflection casts light on a surface ({}): {} is {}",
+                    CAUSTICS, name_of(Integrator::PATH_LIGHT), name_of(Integrator::PATH)));
 }
 
 /// Finds what casts caustics, of what is left of the scene, for those that aim light paths at it.

@@ -29,8 +29,8 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options);
 /// lost them. Buffers that were prepared by then have the one before.
 void plan_light_tree(PlannedScene& planned);
 
-/// Whether the scene as it is rendered casts light by mirrors or smooth glass on a surface (LS+DE) within
-/// --max-depth.
+/// Whether the scene as it is rendered casts light by mirrors, smooth glass or sharp reflection on a surface
+/// (L(S|G)+(D|G)E) within --max-depth.
 bool has_caustics(const PlannedScene& planned);
 
 /// Plans for another integrator of those that connect to one light, as if the options had named it: what is

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 
 namespace clrt {
@@ -93,7 +94,8 @@ std::pair<Part, Part> halves_of(Part part) {
     const auto second = std::partition(part.begin(), part.end(), [&](const CasterCorners& corners) {
         return corners.middle[axis] < middles.middle()[axis];
     });
-    return {Part(part.begin(), second), Part(second, part.end())};
+    return {Part(std::make_move_iterator(part.begin()), std::make_move_iterator(second)),
+            Part(std::make_move_iterator(second), std::make_move_iterator(part.end()))};
 }
 
 /// The cheapest cover by spheres of all ways to halve the part.
@@ -114,7 +116,16 @@ std::vector<vec4> cover(Part part, int level) {
 
 bool is_caster(const Material& material) {
     const bool may_be_smooth = material.alpha_x == 0 || material.map_roughness != NO_INDEX;
-    return (material.lobes & LOBE_MIRROR) || ((material.lobes & LOBES_GLASS) && may_be_smooth);
+    if ((material.lobes & LOBE_MIRROR) || ((material.lobes & LOBES_GLASS) && may_be_smooth))
+        return true;
+    return (material.lobes & (LOBE_GLOSSY | LOBES_GLASS)) == LOBE_GLOSSY &&
+           std::max(material.alpha_x, material.alpha_y) <= CASTER_LARGEST_ALPHA;
+}
+
+bool has_casters(const Scene& scene) {
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& triangle) {
+        return is_caster(scene.materials[triangle.material]);
+    });
 }
 
 std::vector<vec4> find_casters(const Scene& scene) {

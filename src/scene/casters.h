@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surfaces at which emission is aimed (kernels/lights/emission_aim.h): those that may scatter by a delta
-// lobe, where caustics begin.
+// lobe, or reflect almost as sharply, where caustics begin.
 #pragma once
 
 #include "scene/scene.h"
@@ -9,8 +9,12 @@
 
 namespace clrt {
 
-/// True if the material scatters by a delta lobe at some point.
+/// True if the material scatters by a delta lobe at some point, or reflects by an alpha of at most
+/// CASTER_LARGEST_ALPHA everywhere. What a map makes sharp here and there is left to paths from the eye.
 bool is_caster(const Material& material);
+
+/// Whether the scene has any: as good as whether find_casters finds spheres, at once.
+bool has_casters(const Scene& scene);
 
 /// Spheres in the normalised frame that hold all triangles of such materials wherever they move, at most
 /// LARGEST_CASTER_COUNT: more than one where together they are so much smaller that emission that is aimed at

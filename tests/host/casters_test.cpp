@@ -43,6 +43,21 @@ TEST(Casters, AreSmoothGlassAndMirrorsInSpheresThatHoldThem) {
     EXPECT_EQ(held, 2u * 20 * 64) << "each triangle in one of them";
 }
 
+TEST(Casters, AreWhatReflectsAlmostAsSharply) {
+    const auto is_one = [](const char* keys) {
+        ScratchScene scratch;
+        scratch.build.material("m", keys).use("m").floor(1);
+        const Scene scene = scratch.load();
+        return is_caster(scene.materials[scene.triangles[0].material]);
+    };
+    EXPECT_TRUE(is_one("Kd 0.8 0.8 0.8\nPm 1\nPr 0.3"));
+    EXPECT_FALSE(is_one("Kd 0.8 0.8 0.8\nPm 1\nPr 0.4"));
+    EXPECT_FALSE(is_one("Kd 0.8 0.8 0.8\nPm 1\nPr 0.3\naniso 0.9")) << "across, it is rough";
+    EXPECT_TRUE(is_one("Kd 0.5 0.5 0.5\nKs 0.05 0.05 0.05\nNs 400\nillum 2"));
+    EXPECT_FALSE(is_one("Kd 0.5 0.5 0.5\nKs 0.05 0.05 0.05\nNs 20\nillum 2"));
+    EXPECT_FALSE(is_one("Ni 1.5\nillum 7\nPr 0.2")) << "rough glass has other ways through it";
+}
+
 TEST(Casters, AreNoMoreThanEachLightPathCanLookAt) {
     ScratchScene scratch;
     scratch.build.material("glass", "Ni 1.5\nillum 7").use("glass");

@@ -53,6 +53,18 @@ TEST(PlannedScene, PathsAreThoseOfTheSceneAsItIsRendered) {
             EXPECT_TRUE(effect.present) << "of the scene as it was given";
 }
 
+TEST(PlannedScene, CausticsFallOnWhateverHasADensity) {
+    for (const char* receiver : {"Kd 0.5 0.5 0.5", "Kd 0.8 0.8 0.8\nPm 1\nPr 0.6"})
+        for (const char* caster : {"Kd 0 0 0\nKs 1 1 1\nillum 3", "Kd 0.8 0.8 0.8\nPm 1\nPr 0.2", ""}) {
+            SCOPED_TRACE(std::string(receiver) + " and " + caster);
+            TestScene scene;
+            scene.build.material("receiver", receiver).use("receiver").floor(1);
+            if (*caster)
+                scene.build.material("caster", caster).use("caster").floor(1, 1);
+            EXPECT_EQ(has_caustics(*plan_scene(scene.load(), scene.options)), *caster != 0);
+        }
+}
+
 TEST(PlannedScene, PathsThatAreNotToldApartAreAll) {
     MirrorScene scene;
     scene.options.transport.paths = "LaDE";

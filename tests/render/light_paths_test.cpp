@@ -245,6 +245,41 @@ TEST(WeightedSplats, ChangeNoMeanUnderAnyKindOfLight) {
     }
 }
 
+// What has a density and casts caustics is found from both ends, and by connections to the lights, too.
+TEST(WeightedSplats, ChangeNoMeanAroundSharpReflections) {
+    for (const Lighting& lighting : lightings()) {
+        SCOPED_TRACE(lighting.name);
+        Room room;
+        lighting.add(room);
+        room.add_sharp_reflections();
+        room.options.sampling.spp = 2048;
+        expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+                     tile_means(room, room.options, Integrator::PATH, ""), 0.05);
+    }
+}
+
+// The normal of a facet differs from that of its corners by more than the reflection is wide.
+TEST(WeightedSplats, ChangeNoMeanAroundCoarseBallsOfSharpMetal) {
+    Room room;
+    room.build.material("sharp", "Kd 0.9 0.8 0.6\nPm 1\nPr 0.1").use("sharp");
+    room.build.icosphere({-0.4, 0.5, 0.6}, 0.4, 1, Facing::OUTWARD, Shading::SMOOTH);
+    room.build.use("lamp").polygon({{-1.2, 1.2, 0.4}, {-0.4, 1.2, 0.4}, {-0.4, 1.2, 1.2}, {-1.2, 1.2, 1.2}});
+    room.options.sampling.spp = 4096;
+    expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+                 tile_means(room, room.options, Integrator::PATH, ""), 0.03);
+}
+
+TEST(WeightedSplats, GoOnWithoutWhatHasCastTheCaustics) {
+    Room room;
+    room.build.material("sharp", "Kd 0.9 0.8 0.6\nPm 1\nPr 0.1").use("sharp");
+    room.build.polygon({{2.6, 0.01, -1}, {2.6, 2, -1}, {2.6, 2, 2}, {2.6, 0.01, 2}});
+    room.options.light.suns.push_back({{-1, 1, 0.3}, {3, 3, 3}, 5});
+    room.options.effects.off = EFFECT_GLOSSY;
+    room.options.sampling.spp = 256;
+    expect_equal(tile_means(room, room.options, Integrator::PATH_LIGHT, ""),
+                 tile_means(room, room.options, Integrator::PATH, ""), 0.05);
+}
+
 TEST(WeightedSplats, ChangeNoMeanWhereCastersHideEachOtherAndEncloseLamps) {
     // Panes one behind the other as the lights see them, a mirror above the lamp's plane, a lamp in a glass.
     for (const bool is_distant : {false, true}) {
@@ -299,16 +334,27 @@ TEST(WeightedSplats, AreLeftOutWhereThereAreNoCaustics) {
 }
 
 TEST(WeightedSplats, TakeTheNoiseFromCaustics) {
-    Room room;
-    room.build.use("lamp").polygon({{-0.1, 3.9, 0.4}, {0.1, 3.9, 0.4}, {0.1, 3.9, 0.6}, {-0.1, 3.9, 0.6}});
-    room.build.use("glass").icosphere({0, 3.2, 0.5}, 0.4, 3); // above the view
-    const auto variance = [&](Integrator integrator) {
-        double sum = 0;
-        for (const double of_tile : tile_means(room, room.options, integrator, "").variance)
-            sum += of_tile;
-        return sum;
-    };
-    EXPECT_LT(variance(Integrator::PATH_LIGHT), 0.1 * variance(Integrator::PATH));
+    // Beside the view, a ball of glass below a lamp, or metal that is all but a mirror in the sun.
+    for (const bool is_metal : {false, true}) {
+        SCOPED_TRACE(is_metal);
+        Room room;
+        if (is_metal) {
+            room.options.light.suns.push_back({{-1, 1, 0.3}, {3, 3, 3}, 0.5});
+            room.build.material("polished", "Kd 0.8 0.8 0.8\nPm 1\nPr 0.1").use("polished");
+            room.build.polygon({{2.6, 0.01, -1}, {2.6, 2, -1}, {2.6, 2, 2}, {2.6, 0.01, 2}});
+        } else {
+            room.build.use("lamp").polygon(
+                {{-0.1, 3.9, 0.4}, {0.1, 3.9, 0.4}, {0.1, 3.9, 0.6}, {-0.1, 3.9, 0.6}});
+            room.build.use("glass").icosphere({0, 3.2, 0.5}, 0.4, 3);
+        }
+        const auto variance = [&](Integrator integrator) {
+            double sum = 0;
+            for (const double of_tile : tile_means(room, room.options, integrator, "").variance)
+                sum += of_tile;
+            return sum;
+        };
+        EXPECT_LT(variance(Integrator::PATH_LIGHT), 0.1 * variance(Integrator::PATH));
+    }
 }
 
 } // namespace clrt

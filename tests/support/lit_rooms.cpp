@@ -71,6 +71,16 @@ void Room::add_caustics() {
     build.use("glass").box({0.1, 0.9, 0.0}, {0.9, 1.2, 0.8});
 }
 
+void Room::add_sharp_reflections() {
+    build.material("polished", "Kd 0.8 0.8 0.7\nPm 1\nPr 0.3")
+        .material("brushed", "Kd 0.2 0.2 0.2\nPm 0.6\nPr 0.25\naniso 0.5")
+        .material("lacquer", "Kd 0.5 0.2 0.1\nKs 0.2 0.2 0.2\nNs 250\nillum 2");
+    build.use("polished").polygon({{-2.6, 0.01, -1}, {-2.6, 2, -1}, {-2.6, 2, 2}, {-2.6, 0.01, 2}});
+    build.use("brushed").textured_quad({{2.6, 0.01, 2}, {2.6, 2, 2}, {2.6, 2, -1}, {2.6, 0.01, -1}});
+    build.use("lacquer").box({-0.4, 0.01, -1.4}, {0.2, 1.1, -1.1});
+    build.use("polished").icosphere({0.6, 1.1, 0.2}, 0.3, 2, Facing::OUTWARD, Shading::SMOOTH);
+}
+
 void Room::add_bent_normals() {
     std::vector<unsigned char> heights;
     for (int i = 0; i < 8 * 8; ++i)

@@ -27,6 +27,8 @@ struct Room : TestScene {
     void add_hidden_mirrors();
     /// Bodies that throw caustics.
     void add_caustics();
+    /// Plates that reflect almost like mirrors, in view and beside it: metal, metal that is brushed, lacquer.
+    void add_sharp_reflections();
     /// A bumpy plate, and coarse balls with smooth normals: matte, of rough and of smooth glass.
     void add_bent_normals();
     /// Plates beside the camera's way of matte, metal and rough glass, whose maps lean far to all sides.
