@@ -60,16 +60,17 @@ static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* 
                                         const Bsdf* bsdf, bool highlight, PixelRays* rays)
 {
     real3 radiance = (real3)(REAL(0.0));
-    const real3 normal = bsdf->frame.z;
     const uint alias_word = sampler_word(sampler, node, SAMPLE_LIGHT_ALIAS);
     if (HAS(EFFECT_AREA_LIGHT) && params->emitter_count != 0u) {
         const uint2 words = sampler_light_words(sampler, node);
-        LightSample light = each_light_emitter(scene, params, surface, normal, words, alias_word);
+        LightSample light = emitter_sample(scene, params, surface->position, words.x, alias_word,
+                                           sampler_unit(words.y));
+        light_choose_side(scene, surface, &light);
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     if (HAS(EFFECT_ENVIRONMENT)) {
         const uint2 words = sampler_pair_words(sampler, node, SAMPLE_SKY);
-        LightSample light = each_light_sky(scene, params, surface, normal, words, alias_word);
+        LightSample light = each_light_sky(scene, params, surface, bsdf->frame.z, words, alias_word);
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }
     for (uint i = 0; HAS(EFFECT_DELTA_LIGHT) && i < params->light_count; ++i) {

@@ -20,7 +20,6 @@
 typedef struct {
     Surface surface; /* flat: its rays start at the facet */
     Bsdf bsdf;       /* as seen from the light's side, carrying importance */
-    LightView view;  /* whence a path from the eye would look at lights here */
 } LightVertex;
 
 /* Whether shading normals may differ from the facet's. */
@@ -42,8 +41,6 @@ static inline void light_vertex_complete(const Scene* scene, real3 wo, LightVert
 {
     vertex->surface.is_curved = false;
     material_set_bsdf(scene, &vertex->surface, wo, TRANSPORT_IMPORTANCE, &vertex->bsdf);
-    vertex->view.position = vertex->surface.position;
-    vertex->view.normal = bsdf_light_normal(&vertex->bsdf);
 }
 
 /* The vertex at the end of a light path's ray. */

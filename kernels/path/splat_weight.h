@@ -143,7 +143,8 @@ static inline void splat_weights_begin(const Scene* scene, const RenderParams* p
         return;
     /* Of a point, emission has a density per steradian there, next-event estimation none. */
     const bool is_point = emission->is_delta && !emission->is_distant;
-    weights->open = splat_light_pdf(scene, params, emission, &vertex->view) *
+    const LightView view = lights_view(&vertex->surface, bsdf_light_normal(&vertex->bsdf));
+    weights->open = splat_light_pdf(scene, params, emission, &view) *
                     (is_point ? t * t : emission->cosine) / emission->pdf;
 }
 

@@ -71,10 +71,8 @@ std::vector<Place> path_places() {
 /// Those of the integrators that light locally; `file` has the rest of the vertex, from the statement `first`
 /// on.
 std::vector<Place> direct_places(const char* file, const char* first) {
-    return {{"integrators/direct.h",
-             "LightSample light =\n            emitter_sample(scene, params, from, words.x, alias_word, "
-             "sampler_unit(words.y));",
-             light_values(), Reached::IF_LIT},
+    return {{"integrators/direct.h", "light_choose_side(scene, surface, &light);", light_values(),
+             Reached::IF_LIT},
             {file, first, surface_values()},
             {file,
              "const Bsdf bsdf = vertex_bsdf(scene, &surface, wo);",
