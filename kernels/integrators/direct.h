@@ -65,6 +65,7 @@ static CLRT_NOINLINE real3 direct_light(const Scene* scene, const RenderParams* 
         const uint2 words = sampler_light_words(sampler, node);
         LightSample light = emitter_sample(scene, params, surface->position, words.x, alias_word,
                                            sampler_unit(words.y));
+        light.kind = KIND_AREA;
         light_choose_side(scene, surface, &light);
         radiance += direct_from(scene, params, surface, bsdf, highlight, &light, rays);
     }

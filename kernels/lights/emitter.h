@@ -119,7 +119,7 @@ static CLRT_NOINLINE real emitter_hit_pdf_w(const Scene* scene, const Surface* s
 
 /* The same for a ray that started above `from`, on a curved surface (light_from_curved). */
 static CLRT_NOINLINE real emitter_lifted_pdf_w(const Scene* scene, const Surface* surface, real pdf_a,
-                                                real3 from, real t, real3 wo)
+                                               real3 from, real t, real3 wo)
 {
     const real3 way = surface->position - from;
     const real distance = vector_length(way);

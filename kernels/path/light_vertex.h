@@ -26,13 +26,17 @@ typedef struct {
 static inline bool light_vertex_is_bent(void) { return HAS(EFFECT_SMOOTH_NORMALS | EFFECT_NORMAL_MAP); }
 
 /* True if neither the BSDF's shading normal is bent nor would be that of the same point as seen from
-   direction w, by the plane's side that it is on. */
+   direction w, by the plane's side that it is on; and if the corners' normals, by which curved facets take
+   sides, have it on that side, too, whatever a map says. */
 static inline bool light_vertex_is_seen(const Bsdf* bsdf, real3 w)
 {
     if (!light_vertex_is_bent())
         return true;
     const real cosine = vector_dot(bsdf->frame.z, w);
     const bool is_above = vector_dot(bsdf->normal_g, w) >= REAL(0.0);
+    const bool is_above_corners = vector_dot(bsdf->normal_s, w) > REAL(0.0);
+    if (HAS(EFFECT_SMOOTH_NORMALS) && HAS(EFFECT_NORMAL_MAP) && is_above != is_above_corners)
+        return false;
     return !(bsdf->flags & BSDF_BENT) && (is_above ? cosine : -cosine) >= MATERIAL_SMALLEST_COS;
 }
 

@@ -10,7 +10,7 @@
 namespace clrt {
 
 /// True if the material scatters by a delta lobe at some point, or reflects by an alpha of at most
-/// CASTER_LARGEST_ALPHA everywhere. What a map makes sharp here and there is left to paths from the eye.
+/// CASTER_LARGEST_ALPHA everywhere. Light is not aimed at what a map makes sharp here and there.
 bool is_caster(const Material& material);
 
 /// Whether the scene has any: as good as whether find_casters finds spheres, at once.
