@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a light path scatters. Beside paths from the eye (SPLATS_ARE_WEIGHTED) it leaves to them what they see
-// by bent normals. Alone it finds what they see by bent normals too: the BSDF is
-// that of the point as seen from the direction that has been chosen, the eye's side. Such directions may be
-// below the horizon of the normal about which lobes are sampled, so some are sampled about the facet's own.
+// by bent normals. Alone it finds what they see by bent normals too: the BSDF is that of the point as seen
+// from the direction that has been chosen, the eye's side. Such directions may be below the horizon of the
+// normal about which lobes are sampled, so some are sampled about the facet's own.
 #ifndef CLRT_PATH_LIGHT_BENT_H
 #define CLRT_PATH_LIGHT_BENT_H
 
