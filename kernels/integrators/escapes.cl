@@ -22,6 +22,29 @@ static inline Hit escapes_hit(const Scene* scene, const RenderParams* params, co
     }
 }
 
+/* A direction from a surface; `segment` tells random numbers apart. */
+static inline Ray escapes_scattered(const Surface* surface, const Sampler* sampler, uint segment)
+{
+    const Frame frame = frame_make(surface->normal_g);
+    const real2 u = sampler_pair(sampler, segment, SAMPLE_DIRECTION);
+    return surface_ray(surface, true, frame_to_world(&frame, warp_cosine_hemisphere(u)));
+}
+
+/* Whether more ways from a surface lead out of the scene, as they do where no window is needed to see the
+   sky. */
+static inline bool escapes_is_open(const Scene* scene, const RenderParams* params, const Sampler* sampler,
+                                   uint segment, const Surface* surface)
+{
+    uint ways_out = 0u;
+    for (uint i = 1u; i <= ESCAPE_VIEWS; ++i) {
+        const uint key = segment + i * ESCAPE_SEGMENTS;
+        Ray ray = escapes_scattered(surface, sampler, key);
+        const Hit hit = escapes_hit(scene, params, sampler, key, &ray);
+        ways_out += hit.triangle == NO_INDEX ? 1u : 0u;
+    }
+    return ways_out >= ESCAPE_OPEN_VIEWS;
+}
+
 /* Follows a path from the pixel (x, y) of the picture. */
 static CLRT_NOINLINE Escape escapes_follow(const Scene* scene, const RenderParams* params, uint x, uint y,
                                            const Sampler* sampler)
@@ -30,19 +53,21 @@ static CLRT_NOINLINE Escape escapes_follow(const Scene* scene, const RenderParam
     Ray ray = camera_ray(params, sampler, x, y);
     if (HAS(EFFECT_NESTED))
         visible_find_nest(scene, params, &ray);
+    Surface surface;
     for (uint segment = 1u; segment <= ESCAPE_SEGMENTS; ++segment) {
         const real3 origin = ray.origin;
         Hit hit = escapes_hit(scene, params, sampler, segment, &ray);
         if (hit.triangle == NO_INDEX) {
             const real3 sky = environment_eval(scene, params, ray.direction);
-            escape.origin = (float4)(convert_float3(origin), (float)(segment - 1u));
+            const uint surfaces = segment - 1u;
+            const bool is_open =
+                surfaces > 0u && escapes_is_open(scene, params, sampler, surfaces, &surface);
+            escape.origin = (float4)(convert_float3(origin), is_open ? -(float)surfaces : (float)surfaces);
             escape.direction = (float4)(convert_float3(ray.direction), (float)vector_luminance(sky));
             break;
         }
-        const Surface surface = visible_surface(scene, params, &ray, &hit);
-        const Frame frame = frame_make(surface.normal_g);
-        const real2 u = sampler_pair(sampler, segment, SAMPLE_DIRECTION);
-        ray = surface_ray(&surface, true, frame_to_world(&frame, warp_cosine_hemisphere(u)));
+        surface = visible_surface(scene, params, &ray, &hit);
+        ray = escapes_scattered(&surface, sampler, segment);
     }
     return escape;
 }

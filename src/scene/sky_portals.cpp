@@ -20,7 +20,7 @@ constexpr float FEWEST_SURFACES = 1;
 constexpr double MOST_LEAVE_AT_ONCE = 0.4;
 /// Escapes from which on a rectangle tells where its edges are, and what part of all it must have.
 constexpr size_t FEWEST_ESCAPES = 24;
-constexpr double SMALLEST_PART = 0.01;
+constexpr double SMALLEST_PART = 0.02;
 /// Planes that are tried along an axis, and between the neighbours of the best of all, so many times; and
 /// escapes that they are judged by.
 constexpr int PLANES = 20, FINER_PLANES = 6, REFINEMENTS = 3;
@@ -31,6 +31,11 @@ constexpr double LEAST_QUANTILE = 0.25, BEYOND = 0.25;
 /// A gap divides a rectangle if it is this part of its side, and so many times as wide as the mean distance
 /// of points along it: chance leaves no such gaps.
 constexpr double WIDE_GAP = 0.04, CERTAIN_GAP = 12;
+/// A strip along a side is cut off if what is left has so many times as many points cubed for its area: so
+/// are strips with less than a third of the density of the others.
+constexpr double WORTHWHILE_CUT = 1.1;
+/// The last paths, with less than this part of the light of all, are left to the map's table and the BSDF.
+constexpr double LAST_PART = 0.05;
 /// Paths that go nearly along a plane tell little about it.
 constexpr double SMALLEST_COS = 0.1;
 /// Planes that are taken, one after the other, at most.
@@ -59,18 +64,16 @@ struct Plane {
     double sign = 1, place = 0; ///< paths leave towards sign * axis; the coordinate times the sign
     std::vector<Rectangle> rectangles;
 
-    double area() const {
-        double sum = 0;
-        for (const Rectangle& rectangle : rectangles)
-            sum += rectangle.area();
-        return sum;
+    /// How well its first `count` rectangles show windows: many paths pass them close together.
+    double merit(size_t count) const {
+        double points = 0, area = 0;
+        for (size_t i = 0; i < count; ++i) {
+            points += double(rectangles[i].points);
+            area += rectangles[i].area();
+        }
+        return points > 0 ? points * points / area : 0;
     }
-    double points() const {
-        double sum = 0;
-        for (const Rectangle& rectangle : rectangles)
-            sum += double(rectangle.points);
-        return sum;
-    }
+    double merit() const { return merit(rectangles.size()); }
 };
 
 /// Where a path crosses a plane; false where it does not.
@@ -84,61 +87,100 @@ bool crossing(const Plane& plane, const Ray& ray, glm::dvec2& at) {
     return true;
 }
 
-/// Divides points at wide gaps, and adds the box of what has none.
-void add_rectangles(std::vector<Point>::iterator begin, std::vector<Point>::iterator end, size_t fewest,
-                    std::vector<Rectangle>& rectangles) {
-    const auto count = size_t(end - begin);
-    if (count < fewest)
-        return;
-    Rectangle box{begin->at, begin->at, count, 0};
-    for (auto point = begin; point != end; ++point) {
+using PointRange = std::pair<std::vector<Point>::iterator, std::vector<Point>::iterator>;
+
+size_t size_of(const PointRange& points) {
+    return size_t(points.second - points.first);
+}
+
+/// A place along a side of a box: the points below it are another rectangle's than those above, or one of
+/// the two is none's.
+struct Cut {
+    enum class Keeps { BOTH, BELOW, ABOVE } keeps = Keeps::BOTH;
+    int axis = -1; ///< none
+    double place = 0;
+};
+
+Rectangle box_of(const PointRange& points) {
+    Rectangle box{points.first->at, points.first->at, size_of(points), 0};
+    for (auto point = points.first; point != points.second; ++point) {
         box.low = glm::min(box.low, point->at);
         box.high = glm::max(box.high, point->at);
-        box.luminance += point->luminance / double(count);
+        box.luminance += point->luminance / double(box.points);
     }
-    int axis = -1;
-    double widest = std::max(WIDE_GAP, CERTAIN_GAP / double(count)), cut = 0;
-    for (int side = 0; side < 2; ++side) {
-        std::sort(begin, end, [&](const Point& a, const Point& b) { return a.at[side] < b.at[side]; });
-        for (auto point = begin + 1; point != end; ++point) {
-            const double gap = (point->at[side] - (point - 1)->at[side]) / (box.high[side] - box.low[side]);
-            if (gap > widest) {
-                widest = gap;
-                axis = side;
-                cut = point->at[side];
+    return box;
+}
+
+/// Where the points of a box are divided: at the widest gap or, where there is none, at the edge of the strip
+/// without which they are densest. Ways through the windows of other walls cross a wall's plane beyond its
+/// own windows, far apart.
+Cut best_cut(const PointRange& points, const Rectangle& box, size_t fewest) {
+    Cut gap, strip;
+    double widest = std::max(WIDE_GAP, CERTAIN_GAP / double(box.points)), densest = WORTHWHILE_CUT;
+    for (int axis = 0; axis < 2; ++axis) {
+        std::sort(points.first, points.second,
+                  [&](const Point& a, const Point& b) { return a.at[axis] < b.at[axis]; });
+        const double low = box.low[axis], side = box.high[axis] - low;
+        double last = 0; // of the side's length
+        for (size_t below = 1; below < box.points; ++below) {
+            const double at = (points.first + long(below))->at[axis], place = (at - low) / side;
+            if (place - last > widest) {
+                widest = place - last;
+                gap = {Cut::Keeps::BOTH, axis, at};
             }
+            const auto take_denser = [&](Cut::Keeps keeps, size_t count, double length) {
+                const double part = double(count) / double(box.points);
+                if (count >= fewest && part * part * part > densest * length) {
+                    densest = part * part * part / length;
+                    strip = {keeps, axis, at};
+                }
+            };
+            take_denser(Cut::Keeps::BELOW, below, last);
+            take_denser(Cut::Keeps::ABOVE, box.points - below, 1 - place);
+            last = place;
         }
     }
-    if (axis < 0) {
+    return gap.axis >= 0 ? gap : strip;
+}
+
+/// Adds the boxes of the points, divided where they are to be, that have so many of them.
+void add_rectangles(const PointRange& points, size_t fewest, std::vector<Rectangle>& rectangles) {
+    if (size_of(points) < fewest)
+        return;
+    Rectangle box = box_of(points);
+    const Cut cut = best_cut(points, box, fewest);
+    if (cut.axis < 0) {
         // The edges are about as far beyond the outermost points as neighbours are from each other.
-        const glm::dvec2 beyond = (box.high - box.low) / double(count);
+        const glm::dvec2 beyond = (box.high - box.low) / double(box.points);
         box.low -= beyond;
         box.high += beyond;
         rectangles.push_back(box);
         return;
     }
-    const auto middle = std::partition(begin, end, [&](const Point& point) { return point.at[axis] < cut; });
-    add_rectangles(begin, middle, fewest, rectangles);
-    add_rectangles(middle, end, fewest, rectangles);
+    const auto middle = std::partition(points.first, points.second,
+                                       [&](const Point& point) { return point.at[cut.axis] < cut.place; });
+    if (cut.keeps != Cut::Keeps::ABOVE)
+        add_rectangles({points.first, middle}, fewest, rectangles);
+    if (cut.keeps != Cut::Keeps::BELOW)
+        add_rectangles({middle, points.second}, fewest, rectangles);
 }
 
-/// The rectangles of a plane, each with `fewest` of the paths at least; of all of them every `step`th is
-/// looked at.
+/// The rectangles of a plane that show windows best together, each with `fewest` of the paths at least; of all
+/// of them every `step`th is looked at.
 void fill(const std::vector<Ray>& rays, size_t step, size_t fewest, Plane& plane) {
     std::vector<Point> points;
     glm::dvec2 at;
     for (size_t i = 0; i < rays.size(); i += step)
         if (crossing(plane, rays[i], at))
             points.push_back({at, rays[i].luminance});
-    plane.rectangles.clear();
-    add_rectangles(points.begin(), points.end(), std::max(fewest / step, FEWEST_ESCAPES / 4),
-                   plane.rectangles);
-}
-
-/// How well a plane shows windows: many paths pass it close together.
-double merit(const Plane& plane) {
-    const double points = plane.points();
-    return points > 0 ? points * points / plane.area() : 0;
+    std::vector<Rectangle>& rectangles = plane.rectangles;
+    rectangles.clear();
+    add_rectangles({points.begin(), points.end()}, std::max(fewest / step, FEWEST_ESCAPES / 4), rectangles);
+    const auto density = [](const Rectangle& r) { return double(r.points) / r.area(); };
+    std::sort(rectangles.begin(), rectangles.end(),
+              [&](const Rectangle& a, const Rectangle& b) { return density(a) > density(b); });
+    while (rectangles.size() > 1 && plane.merit(rectangles.size() - 1) > plane.merit())
+        rectangles.pop_back();
 }
 
 /// A search for the plane through which most paths pass closest together.
@@ -180,7 +222,7 @@ private:
     bool look_at(int axis, double sign, double place) {
         Plane plane{axis, sign, place, {}};
         fill(rays_, step_, fewest_, plane);
-        const double found = merit(plane);
+        const double found = plane.merit();
         if (!(found > most_))
             return false;
         most_ = found;
@@ -229,15 +271,22 @@ std::vector<Ray> ways_out(const std::vector<Escape>& escapes, const glm::dmat3& 
     const glm::dmat3 to_axes = glm::transpose(axes);
     double at_once = 0;
     for (const Escape& escape : escapes) {
+        at_once += std::abs(escape.origin.w) == FEWEST_SURFACES ? 1 : 0;
         if (escape.origin.w < FEWEST_SURFACES)
             continue;
-        at_once += escape.origin.w == FEWEST_SURFACES ? 1 : 0;
         rays.push_back({to_axes * to_dvec3(escape.origin), to_axes * to_dvec3(escape.direction),
                         double(escape.direction.w)});
     }
     if (at_once > MOST_LEAVE_AT_ONCE * double(escapes.size()))
         rays.clear();
     return rays;
+}
+
+double light_of(const std::vector<Ray>& rays) {
+    double sum = 0;
+    for (const Ray& ray : rays)
+        sum += ray.luminance;
+    return sum;
 }
 
 } // namespace
@@ -277,7 +326,8 @@ std::vector<SkyPortal> find_portals(const std::vector<Escape>& escapes, const gl
     std::vector<Ray> rays = ways_out(escapes, axes);
     const size_t fewest = std::max(size_t(SMALLEST_PART * double(rays.size())), FEWEST_ESCAPES);
     std::vector<SkyPortal> portals;
-    for (int k = 0; k < MOST_PLANES && rays.size() >= fewest; ++k) {
+    const double all = light_of(rays);
+    for (int k = 0; k < MOST_PLANES && rays.size() >= fewest && light_of(rays) >= LAST_PART * all; ++k) {
         const Plane plane = PlaneSearch(rays, fewest).best();
         if (plane.rectangles.empty() || portals.size() + plane.rectangles.size() > MOST_PORTALS)
             break;

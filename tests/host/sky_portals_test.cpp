@@ -16,7 +16,7 @@ namespace {
 
 using glm::dvec3;
 
-/// A window in the plane x = 2, from low to high in y and z.
+/// A window in a wall, from low to high.
 struct Window {
     dvec3 low, high;
 };
@@ -47,6 +47,7 @@ glm::dmat3 axes_turned(double angle) {
 }
 
 const Window LEFT = {{2, 1, -1.5}, {2, 2, -0.5}}, RIGHT = {{2, 0.5, 0}, {2, 2.2, 1.6}};
+const Window OF_THE_NEXT_WALL = {{-0.5, 0.3, -2}, {1.2, 2.3, -2}};
 
 } // namespace
 
@@ -66,6 +67,25 @@ TEST(SkyPortals, AreWhereTheWindowsAre) {
             EXPECT_NEAR(glm::dot(to_dvec3(portal.corner), normal), -2, 0.15);
         }
     }
+}
+
+TEST(SkyPortals, AreInTwoWalls) {
+    // Ways through each wall's windows cross the plane of the other's somewhere outside.
+    const std::vector<Window> windows = {LEFT, RIGHT, OF_THE_NEXT_WALL};
+    const std::vector<SkyPortal> portals = find_portals(escapes_of(windows, 0, 9000, 3), axes_turned(0));
+    for (const Window& window : windows) {
+        const dvec3 middle = (window.low + window.high) * 0.5, size = window.high - window.low;
+        const double area = size.x == 0 ? size.y * size.z : size.x * size.y;
+        double covered = 0;
+        for (const SkyPortal& portal : portals) {
+            const dvec3 u = to_dvec3(portal.edge_u), v = to_dvec3(portal.edge_v);
+            const dvec3 away = to_dvec3(portal.corner) + (u + v) * 0.5 - middle;
+            if (glm::all(glm::lessThan(glm::abs(away), size * 0.5 + dvec3(0.1))))
+                covered += double(portal.normal.w);
+        }
+        EXPECT_NEAR(covered, area, 0.15 * area) << middle.x << " " << middle.z;
+    }
+    EXPECT_LE(portals.size(), 5u);
 }
 
 TEST(SkyPortals, AreNoneInTheOpenOrWhereFewPathsLeave) {
