@@ -21,6 +21,7 @@
 typedef double real;
 typedef double2 real2;
 typedef double3 real3;
+typedef double4 real4;
 typedef double8 real8;
 typedef long8 mask8; /* what comparing two real8 gives */
 #define REAL(x) x
@@ -34,6 +35,7 @@ typedef long8 mask8; /* what comparing two real8 gives */
 typedef float real;
 typedef float2 real2;
 typedef float3 real3;
+typedef float4 real4;
 typedef float8 real8;
 typedef int8 mask8;
 #define REAL(x) x##f

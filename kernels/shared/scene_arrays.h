@@ -39,6 +39,7 @@
     ROW(SkyTile, sky_tiles, environment.tiles)                                                               \
     ROW(u32, sky_texels, environment.texels)                                                                 \
     ROW(SkyPortal, sky_portals, environment.portals)                                                         \
+    ROW(u32, sky_sums, environment.portal_sums)                                                              \
     ROW(LightNode, light_nodes, light_tree.nodes)                                                            \
     ROW(LightPlace, light_places, light_tree.places)
 

@@ -201,14 +201,20 @@ ASSERT_SIZE(SkyTile, 32);
 
 #define SKY_SHARES 240u /* 15 for each of 16 equal texels */
 
+/* Texels along a side of a rectified map (lights/rectified_sky.h); its sums are at their corners. */
+#define RECTIFIED_SIZE 128u
+#define RECTIFIED_SUMS ((RECTIFIED_SIZE + 1u) * (RECTIFIED_SIZE + 1u))
+
 /* A rectangle through which the sky is seen from within, such as a window (lights/sky_portal.h). */
 typedef struct {
-    vec4 corner; /* w: mean luminance of the sky behind it */
-    vec4 edge_u; /* w: 1 / its squared length */
-    vec4 edge_v; /* likewise */
-    vec4 normal; /* of unit length, inwards; w: area */
+    vec4 corner;   /* w: light of the sky, luminance times solid angle, for a unit of the sums */
+    vec4 axis_u;   /* along an edge, of unit length; w: length of the edge */
+    vec4 axis_v;   /* likewise */
+    vec4 normal;   /* likewise, inwards; w: 0 */
+    u32 first_sum; /* of the sky seen from within along it */
+    u32 unused0, unused1, unused2;
 } SkyPortal;
-ASSERT_SIZE(SkyPortal, 64);
+ASSERT_SIZE(SkyPortal, 80);
 
 /* How texels of the map are stored, in words tile by tile. */
 #define SKY_TEXEL_RGBE 0u  /* one word: bytes r, g, b, e from the lowest; a channel is byte 2^(e - 136) */

@@ -68,13 +68,14 @@ public:
     }
     void add(const Environment& environment) {
         const auto& [radiance, width, height, texel_format, texels, tiles, rotation_degrees, mean_radiance,
-                     sampling, tabulated_share, portals, portal_share] = environment;
+                     sampling, tabulated_share, portals, portal_sums, portal_share] = environment;
         (void)texels; // of SCENE_ARRAYS
         (void)tiles;
         (void)mean_radiance; // of the others
         (void)sampling;      // the tiles tell
         (void)tabulated_share;
         (void)portals;
+        (void)portal_sums;
         (void)portal_share;
         vector(radiance);
         number(width);

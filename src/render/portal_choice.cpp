@@ -10,6 +10,7 @@
 #include "render/pilot.h"
 #include "render/render_params.h"
 #include "render/reuse_choice.h"
+#include "scene/rectified_sky.h"
 #include "scene/sky_portals.h"
 
 #include <algorithm>
@@ -71,6 +72,7 @@ std::vector<Escape> find_escapes(const PreparedScene& prepared) {
 /// Gives the plan portals, or none.
 void set_portals(std::vector<SkyPortal> portals, PlannedScene& planned) {
     planned.scene.environment.portals = std::move(portals);
+    rectify_sky(planned.scene.environment);
     plan_light_tree(planned);
 }
 

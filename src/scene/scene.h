@@ -56,6 +56,7 @@ struct Environment {
     std::optional<SkySampling> sampling;
     double tabulated_share = 1; ///< of the map's light: what the table is in proportion to
     std::vector<SkyPortal> portals; ///< through which it is seen (scene/sky_portals.h), normalised frame
+    std::vector<u32> portal_sums;   ///< of the sky seen through them (scene/rectified_sky.h)
     double portal_share = 0;        ///< of its light samples
 };
 

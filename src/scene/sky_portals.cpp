@@ -46,15 +46,9 @@ struct Ray {
     double luminance;
 };
 
-struct Point {
-    glm::dvec2 at;
-    double luminance;
-};
-
 struct Rectangle {
     glm::dvec2 low, high;
     size_t points = 0;
-    double luminance = 0; ///< the mean
     double area() const { return (high.x - low.x) * (high.y - low.y); }
 };
 
@@ -87,7 +81,8 @@ bool crossing(const Plane& plane, const Ray& ray, glm::dvec2& at) {
     return true;
 }
 
-using PointRange = std::pair<std::vector<Point>::iterator, std::vector<Point>::iterator>;
+using Points = std::vector<glm::dvec2>;
+using PointRange = std::pair<Points::iterator, Points::iterator>;
 
 size_t size_of(const PointRange& points) {
     return size_t(points.second - points.first);
@@ -102,11 +97,10 @@ struct Cut {
 };
 
 Rectangle box_of(const PointRange& points) {
-    Rectangle box{points.first->at, points.first->at, size_of(points), 0};
+    Rectangle box{*points.first, *points.first, size_of(points)};
     for (auto point = points.first; point != points.second; ++point) {
-        box.low = glm::min(box.low, point->at);
-        box.high = glm::max(box.high, point->at);
-        box.luminance += point->luminance / double(box.points);
+        box.low = glm::min(box.low, *point);
+        box.high = glm::max(box.high, *point);
     }
     return box;
 }
@@ -119,11 +113,11 @@ Cut best_cut(const PointRange& points, const Rectangle& box, size_t fewest) {
     double widest = std::max(WIDE_GAP, CERTAIN_GAP / double(box.points)), densest = WORTHWHILE_CUT;
     for (int axis = 0; axis < 2; ++axis) {
         std::sort(points.first, points.second,
-                  [&](const Point& a, const Point& b) { return a.at[axis] < b.at[axis]; });
+                  [&](const glm::dvec2& a, const glm::dvec2& b) { return a[axis] < b[axis]; });
         const double low = box.low[axis], side = box.high[axis] - low;
         double last = 0; // of the side's length
         for (size_t below = 1; below < box.points; ++below) {
-            const double at = (points.first + long(below))->at[axis], place = (at - low) / side;
+            const double at = points.first[long(below)][axis], place = (at - low) / side;
             if (place - last > widest) {
                 widest = place - last;
                 gap = {Cut::Keeps::BOTH, axis, at};
@@ -158,7 +152,7 @@ void add_rectangles(const PointRange& points, size_t fewest, std::vector<Rectang
         return;
     }
     const auto middle = std::partition(points.first, points.second,
-                                       [&](const Point& point) { return point.at[cut.axis] < cut.place; });
+                                       [&](const glm::dvec2& point) { return point[cut.axis] < cut.place; });
     if (cut.keeps != Cut::Keeps::ABOVE)
         add_rectangles({points.first, middle}, fewest, rectangles);
     if (cut.keeps != Cut::Keeps::BELOW)
@@ -168,11 +162,11 @@ void add_rectangles(const PointRange& points, size_t fewest, std::vector<Rectang
 /// The rectangles of a plane that show windows best together, each with `fewest` of the paths at least; of all
 /// of them every `step`th is looked at.
 void fill(const std::vector<Ray>& rays, size_t step, size_t fewest, Plane& plane) {
-    std::vector<Point> points;
+    Points points;
     glm::dvec2 at;
     for (size_t i = 0; i < rays.size(); i += step)
         if (crossing(plane, rays[i], at))
-            points.push_back({at, rays[i].luminance});
+            points.push_back(at);
     std::vector<Rectangle>& rectangles = plane.rectangles;
     rectangles.clear();
     add_rectangles({points.begin(), points.end()}, std::max(fewest / step, FEWEST_ESCAPES / 4), rectangles);
@@ -260,9 +254,12 @@ SkyPortal make_portal(const Plane& plane, const Rectangle& rectangle, const glm:
     const glm::dvec2 size = rectangle.high - rectangle.low;
     const glm::dvec3 corner =
         axes[plane.axis] * (plane.sign * plane.place) + axes[u] * rectangle.low.x + axes[v] * rectangle.low.y;
-    return {packed(corner, rectangle.luminance), packed(axes[u] * size.x, 1 / (size.x * size.x)),
-            packed(axes[v] * size.y, 1 / (size.y * size.y)),
-            packed(axes[plane.axis] * -plane.sign, rectangle.area())};
+    SkyPortal portal{};
+    portal.corner = packed(corner, 0);
+    portal.axis_u = packed(axes[u], size.x);
+    portal.axis_v = packed(axes[v], size.y);
+    portal.normal = packed(axes[plane.axis] * -plane.sign, 0);
+    return portal;
 }
 
 /// The paths that leave within, in the frame of the axes; none where there is no within.

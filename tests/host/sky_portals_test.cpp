@@ -46,6 +46,10 @@ glm::dmat3 axes_turned(double angle) {
     return axes;
 }
 
+double area_of(const SkyPortal& portal) {
+    return double(portal.axis_u.w) * double(portal.axis_v.w);
+}
+
 const Window LEFT = {{2, 1, -1.5}, {2, 2, -0.5}}, RIGHT = {{2, 0.5, 0}, {2, 2.2, 1.6}};
 const Window OF_THE_NEXT_WALL = {{-0.5, 0.3, -2}, {1.2, 2.3, -2}};
 
@@ -57,9 +61,9 @@ TEST(SkyPortals, AreWhereTheWindowsAre) {
             find_portals(escapes_of({LEFT, RIGHT}, angle, 8000, 3), axes_turned(angle));
         ASSERT_EQ(portals.size(), 2u) << angle;
         std::sort(portals.begin(), portals.end(),
-                  [](const SkyPortal& a, const SkyPortal& b) { return a.normal.w < b.normal.w; });
-        EXPECT_NEAR(double(portals[0].normal.w), 1.0 * 1.0, 0.1);
-        EXPECT_NEAR(double(portals[1].normal.w), 1.7 * 1.6, 0.2);
+                  [](const SkyPortal& a, const SkyPortal& b) { return area_of(a) < area_of(b); });
+        EXPECT_NEAR(area_of(portals[0]), 1.0 * 1.0, 0.1);
+        EXPECT_NEAR(area_of(portals[1]), 1.7 * 1.6, 0.2);
         for (const SkyPortal& portal : portals) {
             // Inwards, in the wall.
             const dvec3 normal = to_dvec3(portal.normal);
@@ -78,10 +82,11 @@ TEST(SkyPortals, AreInTwoWalls) {
         const double area = size.x == 0 ? size.y * size.z : size.x * size.y;
         double covered = 0;
         for (const SkyPortal& portal : portals) {
-            const dvec3 u = to_dvec3(portal.edge_u), v = to_dvec3(portal.edge_v);
+            const dvec3 u = to_dvec3(portal.axis_u) * double(portal.axis_u.w);
+            const dvec3 v = to_dvec3(portal.axis_v) * double(portal.axis_v.w);
             const dvec3 away = to_dvec3(portal.corner) + (u + v) * 0.5 - middle;
             if (glm::all(glm::lessThan(glm::abs(away), size * 0.5 + dvec3(0.1))))
-                covered += double(portal.normal.w);
+                covered += area_of(portal);
         }
         EXPECT_NEAR(covered, area, 0.15 * area) << middle.x << " " << middle.z;
     }

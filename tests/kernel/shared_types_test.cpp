@@ -162,7 +162,7 @@ const Layout RENDER_PARAMS = {
 const Layout SKY_PORTAL = {
     "SkyPortal",
     sizeof(SkyPortal),
-    {M(corner), M(edge_u), M(edge_v), M(normal)}};
+    {M(corner), M(axis_u), M(axis_v), M(normal), M(first_sum), M(unused0), M(unused1), M(unused2)}};
 #undef M
 #define M(name) MEMBER(Escape, name)
 const Layout ESCAPE = {

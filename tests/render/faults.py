@@ -140,7 +140,10 @@ FAULTS = [
      "vector_make(fma(c, d.x, -(s * d.z)), d.y, fma(s, d.x, c * d.z))",
      "vector_make(fma(c, d.x, s * d.z), d.y, fma(-s, d.x, c * d.z))", "sky_light_test"),
     ("hits of the sky know nothing of portals", "lights/sky_portal.h",
-     "wi, place, portals_weight(scene, params, view));", "wi, place, REAL(0.0));", "portal_choice_test"),
+     "NO_INDEX),\n                           portals_weight(scene, params, view));", "NO_INDEX),\n                           REAL(0.0));",
+     "portal_choice_test"),
+    ("rectified skies sampled as if flat", "lights/rectified_sky.h", "stretch * stretch * square * real_sqrt(square)",
+     "stretch * stretch", "sky_portal_test"),
     ("sky that its table leaves to the BSDF is lost", "lights/lights.h",
      "environment_eval_at(scene, params, place) * mis_weight(pdf_w, light_pdf_w);",
      "environment_eval_at(scene, params, place) * mis_weight(pdf_w, light_pdf_w);\n        if (pdf_w > REAL(0.0) && "

@@ -74,8 +74,9 @@ TEST(PortalChoice, ARoomGetsItsWindow) {
         ASSERT_EQ(sky.portals.size(), 1u) << has_map;
         EXPECT_TRUE(without->scene.environment.portals.empty());
         const double scale = with->scene.normalisation.scale;
-        EXPECT_NEAR(double(sky.portals[0].normal.w) / (scale * scale), 1, 0.04);
-        EXPECT_NEAR(double(sky.portals[0].normal.x), -1, 1e-3);
+        const SkyPortal& window = sky.portals[0];
+        EXPECT_NEAR(double(window.axis_u.w) * double(window.axis_v.w) / (scale * scale), 1, 0.04);
+        EXPECT_NEAR(double(window.normal.x), -1, 1e-3);
         const Film portal_film = film_of(with), plain_film = film_of(without);
         const Estimate portal = mean_of(portal_film), plain = mean_of(plain_film);
         EXPECT_LT(std::abs(portal.mean - plain.mean), 4 * std::hypot(portal.error, plain.error));
@@ -123,7 +124,7 @@ TEST(PortalChoice, CropsAndSeedsChooseAlike) {
     room.options.sampling.seed = 7;
     const auto crop = room.plan(true);
     ASSERT_EQ(whole->scene.environment.portals.size(), crop->scene.environment.portals.size());
-    EXPECT_EQ(whole->scene.environment.portals[0].edge_u.y, crop->scene.environment.portals[0].edge_u.y);
+    EXPECT_EQ(whole->scene.environment.portals[0].axis_u.w, crop->scene.environment.portals[0].axis_u.w);
     EXPECT_EQ(whole->scene.environment.portal_share, crop->scene.environment.portal_share);
     EXPECT_TRUE(crop->options.film.crop);
 }
