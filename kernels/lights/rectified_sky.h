@@ -27,7 +27,7 @@ typedef struct {
 /* Map coordinates in [0, RECTIFIED_SIZE] of slopes. */
 static inline real4 rectified_sky_coordinates(real4 a)
 {
-    const real4 steepness = fmin(fabs(a), RECTIFIED_STEEPEST);
+    const real4 steepness = fmin(fabs(a), (real4)(RECTIFIED_STEEPEST));
     return fma(copysign(steepness / (REAL(1.0) + steepness), a), REAL(0.5), REAL(0.5)) * (real)RECTIFIED_SIZE;
 }
 
@@ -41,7 +41,7 @@ static inline real rectified_sky_slope(real coordinate)
 static inline RectifiedWindow rectified_sky_window(global const uint* map, real2 low, real2 high)
 {
     const real4 edges = rectified_sky_coordinates((real4)(low, high));
-    const uint4 texels = min(convert_uint4(edges), RECTIFIED_SIZE - 1u);
+    const uint4 texels = min(convert_uint4(edges), (uint4)(RECTIFIED_SIZE - 1u));
     RectifiedWindow window;
     window.first_x = texels.x;
     window.first_y = texels.y;

@@ -3,8 +3,8 @@
 // the sky is free; those that are lie in a few rectangles (src/scene/sky_portals.h finds them). One is chosen
 // by what it shows the vertex of the sky: of a map, a direction through it by the same
 // (lights/rectified_sky.h), of an even sky a point on it. The density is that of the mixture with the map's
-// table, and shadow rays tell what is in between. So a rectangle where there is no window costs samples, never
-// light, and a window without one is found by the table and by the BSDF.
+// table, and shadow rays tell what is in between. So a rectangle where there is no window costs samples,
+// never light, and a window without one is found by the table and by the BSDF.
 #ifndef CLRT_LIGHTS_SKY_PORTAL_H
 #define CLRT_LIGHTS_SKY_PORTAL_H
 
@@ -81,8 +81,8 @@ static inline real portal_even_density(const PortalView* seen, real2 slopes)
 }
 
 /* What is seen of the sky through a portal, in units of its map. */
-static inline real portal_total(const Scene* scene, const RenderParams* params, global const SkyPortal* portal,
-                                const PortalView* seen)
+static inline real portal_total(const Scene* scene, const RenderParams* params,
+                                global const SkyPortal* portal, const PortalView* seen)
 {
     if (!environment_is_map(params))
         return portal_even_total(seen);
@@ -92,7 +92,8 @@ static inline real portal_total(const Scene* scene, const RenderParams* params, 
 
 /* Factor by which what is seen through a portal counts at a vertex: the light of a unit of the sums, and the
    cosine of its middle. */
-static inline real portal_factor(global const SkyPortal* portal, const LightView* view, const PortalView* seen)
+static inline real portal_factor(global const SkyPortal* portal, const LightView* view,
+                                 const PortalView* seen)
 {
     const real3 way = portal_way(portal, seen->height, REAL(0.5) * (seen->low + seen->high));
     const bool has_horizon = !vector_is_black(fabs(view->normal));

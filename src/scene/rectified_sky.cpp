@@ -116,7 +116,8 @@ void rectify_sky(Environment& sky) {
     std::vector<std::pair<glm::dmat3, double>> made; // axes and units
     for (SkyPortal& portal : sky.portals) {
         const glm::dmat3 axes(to_dvec3(portal.axis_u), to_dvec3(portal.axis_v), -to_dvec3(portal.normal));
-        auto like = std::find_if(made.begin(), made.end(), [&](const auto& map) { return map.first == axes; });
+        auto like =
+            std::find_if(made.begin(), made.end(), [&](const auto& map) { return map.first == axes; });
         if (like == made.end())
             like = made.insert(made.end(), {axes, add_sums(light_along(cells, axes), sky.portal_sums)});
         portal.first_sum = u32(like - made.begin()) * RECTIFIED_SUMS;

@@ -159,8 +159,8 @@ void add_rectangles(const PointRange& points, size_t fewest, std::vector<Rectang
         add_rectangles({middle, points.second}, fewest, rectangles);
 }
 
-/// The rectangles of a plane that show windows best together, each with `fewest` of the paths at least; of all
-/// of them every `step`th is looked at.
+/// The rectangles of a plane that show windows best together, each with `fewest` of the paths at least; of
+/// all of them every `step`th is looked at.
 void fill(const std::vector<Ray>& rays, size_t step, size_t fewest, Plane& plane) {
     Points points;
     glm::dvec2 at;

@@ -109,7 +109,8 @@ double luminance_at(const Environment& sky, double u, double v) {
     const double x = u * sky.width - 0.5, y = v * sky.height - 0.5;
     const int column = int(std::floor(x)), row = int(std::floor(y));
     const auto mixed = [&](int at) {
-        return glm::mix(double(sky_texel(sky, column, at).x), double(sky_texel(sky, column + 1, at).x), x - column);
+        return glm::mix(double(sky_texel(sky, column, at).x), double(sky_texel(sky, column + 1, at).x),
+                        x - column);
     };
     return glm::mix(mixed(row), mixed(row + 1), y - row);
 }
@@ -119,7 +120,8 @@ double light_through(const Environment& sky, double width, double height, double
     const int steps = 1000;
     double sum = 0;
     for (int i = 0; i < steps * steps; ++i) {
-        const double x = width * ((i % steps + 0.5) / steps - 0.5), y = height * ((i / steps + 0.5) / steps - 0.5);
+        const double x = width * ((i % steps + 0.5) / steps - 0.5),
+                     y = height * ((i / steps + 0.5) / steps - 0.5);
         const double square = x * x + y * y + depth * depth;
         const double u = 0.5 + std::atan2(depth, x) / (2 * PI), v = std::acos(y / std::sqrt(square)) / PI;
         sum += luminance_at(sky, u, v) * depth / (square * std::sqrt(square));

@@ -44,6 +44,7 @@ inline std::string vector_builtins() {
                   "#define max body_max\n"
                   "BODY int body_min(int a, int b) { return a < b ? a : b; }\n"
                   "BODY uint body_min(uint a, uint b) { return a < b ? a : b; }\n"
+                  "BODY uint4 body_min(uint4 a, uint4 b) { return min(a, b); }\n"
                   "BODY ulong body_min(ulong a, ulong b) { return a < b ? a : b; }\n"
                   "BODY float body_min(float a, float b) { return a < b ? a : b; }\n"
                   "BODY float2 body_min(float2 a, float2 b) { return min(a, b); }\n"
