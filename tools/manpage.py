@@ -52,7 +52,7 @@ REPORT = [
                "itself and there are no caustics to be."),
     ("portals", "Where light samples look for the sky: rectangles in which paths that leave the scene have met nothing, such as windows, "
      "doors and skylights, and the share of the samples that go through them; the others go to bright places of its map. They are "
-     "there where pilots found them to at least halve the squared error."),
+     "there where pilots found them to at least halve the squared error or, beside other lights, to lower it."),
     ("slabs", "Materials whose facets make plane-parallel slabs, such as panes that have a thickness. Light of sky and suns behind them "
      "goes on in the direction that it had, so it is found by next-event estimation through the glass as through an open window; "
      "what is reflected within the glass is left to paths that meet the light by themselves, and to paths from the light."),

@@ -68,7 +68,7 @@ public:
     }
     void add(const Environment& environment) {
         const auto& [radiance, width, height, texel_format, texels, tiles, rotation_degrees, mean_radiance,
-                     sampling, tabulated_share, portals, portal_sums, portal_share] = environment;
+                     sampling, tabulated_share, portals, portal_sums, portal_share, let_in] = environment;
         (void)texels; // of SCENE_ARRAYS
         (void)tiles;
         (void)mean_radiance; // of the others
@@ -77,6 +77,7 @@ public:
         (void)portals;
         (void)portal_sums;
         (void)portal_share;
+        (void)let_in;
         vector(radiance);
         number(width);
         number(height);

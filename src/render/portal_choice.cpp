@@ -31,14 +31,25 @@ constexpr double FEWEST_PIXELS = 96 * 72;
 constexpr u32 ESCAPES = 32768;
 constexpr u32 ESCAPE_SEED = 0x65736370u;
 
-/// Shares of the light samples of a map that portals are tried with: a map with a sun wants the table, too.
-constexpr double SHARES_OF_MAP[] = {0.5, 0.9};
-/// A constant sky has no table.
-constexpr double SHARE_OF_CONSTANT = 1;
-
 /// Squared error that portals must spare: light samples through them take up to twice the time of a path, for
-/// all of them are weighed at each vertex, and few shadow rays end early.
-constexpr double WORTHWHILE_PORTAL_GAIN = 2;
+/// all of them are weighed at each vertex, and few shadow rays end early. Where other lights are sampled,
+/// too, most of that is spent anyway.
+constexpr double WORTHWHILE_PORTAL_GAIN = 2, WORTHWHILE_GAIN_AMONG_LIGHTS = 1.05;
+
+/// How portals are used: their share of the light samples of the sky, and how much of what they let in counts
+/// where a light is chosen. Others may shine in fewer places, but brightly, as the sun does.
+struct PortalUse {
+    double share, weight;
+};
+
+/// Those that are tried: a map with a sun wants its table, too, a constant sky has none.
+std::vector<PortalUse> portal_uses(bool is_map, bool is_alone) {
+    std::vector<PortalUse> uses;
+    for (const double share : is_map ? std::vector<double>{0.5, 0.9} : std::vector<double>{1})
+        for (const double weight : is_alone ? std::vector<double>{1} : std::vector<double>{1, 0.125})
+            uses.push_back({share, weight});
+    return uses;
+}
 
 /// Whether the sky is a light that portals can help to find.
 bool may_have_portals(const PlannedScene& planned) {
@@ -69,33 +80,47 @@ std::vector<Escape> find_escapes(const PreparedScene& prepared) {
     return read_values<Escape>(device, doing, escapes, 0, ESCAPES);
 }
 
+/// Portals, and what they let in.
+struct Windows {
+    std::vector<SkyPortal> portals;
+    SkyThroughPortals let_in;
+};
+
 /// Gives the plan portals, or none.
-void set_portals(std::vector<SkyPortal> portals, PlannedScene& planned) {
-    planned.scene.environment.portals = std::move(portals);
-    rectify_sky(planned.scene.environment);
+void set_portals(Windows windows, PlannedScene& planned) {
+    Environment& sky = planned.scene.environment;
+    sky.portals = std::move(windows.portals);
+    sky.let_in = windows.let_in;
+    rectify_sky(sky);
     plan_light_tree(planned);
 }
 
 /// Decides between no portals and these, with each share of the samples, for path.
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
-            std::vector<SkyPortal> portals) {
-    Environment& sky = planned->scene.environment;
+            Windows windows) {
+    Scene& scene = planned->scene;
+    Environment& sky = scene.environment;
     const PilotSize size = *sky_pilot_size(planned->options);
     const auto error_of = [&] { return path_pilot_error(prepare_path_pilot(device, planned, parts), size); };
-    const double usual = error_of();
-    double least = usual / WORTHWHILE_PORTAL_GAIN, best = 0;
-    set_portals(std::move(portals), *planned);
-    const bool is_map = !sky.texels.empty();
-    for (const double share : is_map ? std::vector<double>(std::begin(SHARES_OF_MAP), std::end(SHARES_OF_MAP))
-                                     : std::vector<double>{SHARE_OF_CONSTANT}) {
-        sky.portal_share = share;
+    const bool is_alone = scene.emitters.empty() && scene.lights.empty();
+    const double usual = error_of(), let_in = windows.let_in.irradiance;
+    double least = usual / (is_alone ? WORTHWHILE_PORTAL_GAIN : WORTHWHILE_GAIN_AMONG_LIGHTS);
+    PortalUse best{0, 0};
+    const auto use = [&](PortalUse how) {
+        sky.portal_share = how.share;
+        sky.let_in.irradiance = let_in * how.weight;
+        plan_light_tree(*planned);
+    };
+    set_portals(std::move(windows), *planned);
+    for (const PortalUse& how : portal_uses(!sky.texels.empty(), is_alone)) {
+        use(how);
         if (const double error = error_of(); error < least && !stop_signal()) {
             least = error;
-            best = share;
+            best = how;
         }
     }
-    sky.portal_share = best;
-    if (best == 0)
+    use(best);
+    if (best.share == 0)
         set_portals({}, *planned);
     else
         spdlog::info(
@@ -108,13 +133,13 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, 
 /// The same where another integrator renders: all choose alike, so that it does not matter to the picture
 /// whether its integrator was named or chosen (render/integrator_choice.h).
 void decide_as_path(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
-                    std::vector<SkyPortal> portals) {
+                    Windows windows) {
     const Integrator integrator = planned->options.transport.integrator;
     if (integrator == Integrator::PATH)
-        return decide(device, planned, parts, std::move(portals));
+        return decide(device, planned, parts, std::move(windows));
     parts.programs.reset();
     take_integrator(Integrator::PATH, *planned);
-    decide(device, planned, parts, std::move(portals));
+    decide(device, planned, parts, std::move(windows));
     take_integrator(integrator, *planned);
     parts.programs.reset(); // path's
 }
@@ -129,9 +154,11 @@ void choose_portals(const Device& device, const std::shared_ptr<PlannedScene>& p
     const std::optional<Crop> crop = std::exchange(planned->options.film.crop, std::nullopt);
     const PreparedScene prepared = prepare_scene(device, planned, {parts.tree, nullptr});
     parts.tree = prepared.tree;
-    std::vector<SkyPortal> portals = find_portals(find_escapes(prepared), scene_axes(planned->scene));
-    if (!portals.empty())
-        decide_as_path(device, planned, parts, std::move(portals));
+    const std::vector<Escape> escapes = find_escapes(prepared);
+    Windows windows{find_portals(escapes, scene_axes(planned->scene)), {}};
+    windows.let_in = light_through(windows.portals, escapes);
+    if (!windows.portals.empty())
+        decide_as_path(device, planned, parts, std::move(windows));
     planned->options.film.crop = crop;
     progress.finish();
 }

@@ -147,12 +147,10 @@ bool is_chosen(const Light& light, unsigned kinds) {
     return (kinds & (light.kind == LIGHT_SUN ? KIND_SUN : KIND_POINT)) != 0;
 }
 
-/// What a surface gets whose normal points to the middle of a map's light, on average; or from a whole
-/// constant sky, however little of it portals show.
+/// What a surface gets whose normal points to the middle of a map's light, on average, or through portals.
 double sky_irradiance(const Environment& sky) {
-    const double mean =
-        sky.texels.empty() ? luminance(sky.radiance) : sky.mean_radiance * sky.tabulated_share;
-    return 0.5 * mean * 4 * PI;
+    return sky.portals.empty() ? 0.5 * sky.mean_radiance * sky.tabulated_share * 4 * PI
+                               : sky.let_in.irradiance;
 }
 
 void add_fans(const Scene& scene, std::vector<LightLeaf>& leaves) {

@@ -104,12 +104,13 @@ double environment_power(const Scene& scene) {
     const Environment& sky = scene.environment;
     if (!(largest_component(sky.radiance) > 0))
         return 0;
+    if (!sky.portals.empty())
+        return sky.let_in.flux;
     // A direction's radiance meets the sphere over a disc of its radius.
     const double disc = PI * scene.radius * scene.radius;
     if (!sky.texels.empty())
         return sky.mean_radiance * sky.tabulated_share * 4 * PI * disc;
-    // The BSDF's samples find a constant sky without noise, but where portals lead to it.
-    return sky.portals.empty() ? 0 : luminance(sky.radiance) * 4 * PI * disc;
+    return 0; // the BSDF's samples find a constant sky without noise
 }
 
 std::vector<double> mixed_weights(const std::vector<double>& powers, const std::vector<u32>& groups,

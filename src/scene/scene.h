@@ -43,6 +43,12 @@ struct Camera {
     std::optional<CameraPose> end{}; ///< when the shutter closes; none: it does not move
 };
 
+/// The sky's light, luminance, on surfaces from which paths have gone on, on average, and what all portals
+/// let in.
+struct SkyThroughPortals {
+    double irradiance = 0, flux = 0;
+};
+
 /// A lat-long environment or, without texels, a constant one.
 struct Environment {
     glm::dvec3 radiance{0}; ///< constant radiance, or the factor of the map
@@ -54,10 +60,11 @@ struct Environment {
     double mean_radiance = 0;           ///< over the sphere, luminance, factor included
     /// What the table is made for; none: there is none yet.
     std::optional<SkySampling> sampling;
-    double tabulated_share = 1; ///< of the map's light: what the table is in proportion to
+    double tabulated_share = 1;     ///< of the map's light: what the table is in proportion to
     std::vector<SkyPortal> portals; ///< through which it is seen (scene/sky_portals.h), normalised frame
     std::vector<u32> portal_sums;   ///< of the sky seen through them (scene/rectified_sky.h)
     double portal_share = 0;        ///< of its light samples
+    SkyThroughPortals let_in;       ///< what they show of it
 };
 
 /// The tree that chooses lights (scene/light_tree.h); empty: tables do.

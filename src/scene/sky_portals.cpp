@@ -335,4 +335,20 @@ std::vector<SkyPortal> find_portals(const std::vector<Escape>& escapes, const gl
     return portals;
 }
 
+SkyThroughPortals light_through(const std::vector<SkyPortal>& portals, const std::vector<Escape>& escapes) {
+    double light = 0, ways_out = 0, ways = 0, area = 0;
+    for (const Escape& escape : escapes) {
+        ways += escape.origin.w == 0 ? ESCAPE_SEGMENTS - 1 : std::abs(double(escape.origin.w));
+        if (escape.origin.w > 0) {
+            light += double(escape.direction.w);
+            ways_out += 1;
+        }
+    }
+    for (const SkyPortal& portal : portals)
+        area += double(portal.axis_u.w) * double(portal.axis_v.w);
+    // Ways are chosen by the cosine.
+    return ways_out > 0 ? SkyThroughPortals{PI * light / ways, PI * light / ways_out * area}
+                        : SkyThroughPortals{};
+}
+
 } // namespace clrt

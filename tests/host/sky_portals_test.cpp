@@ -93,6 +93,22 @@ TEST(SkyPortals, AreInTwoWalls) {
     EXPECT_LE(portals.size(), 5u);
 }
 
+TEST(SkyPortals, LetInWhatPathsHaveSeen) {
+    // Every path of four leaves from its third surface, two from the open; one stays within.
+    std::vector<Escape> escapes = escapes_of({LEFT}, 0, 8000, 3);
+    for (size_t i = 0; i < escapes.size(); i += 4) {
+        escapes[i].origin.w = escapes[i + 1].origin.w = -3;
+        escapes[i + 2].origin.w = 0;
+    }
+    SkyPortal portal{};
+    portal.axis_u.w = 2;
+    portal.axis_v.w = 3;
+    const SkyThroughPortals let_in = light_through({portal}, escapes);
+    EXPECT_NEAR(let_in.irradiance, PI / (3 * 3 + ESCAPE_SEGMENTS - 1), 1e-9);
+    EXPECT_NEAR(let_in.flux, 6 * PI, 1e-9);
+    EXPECT_EQ(light_through({portal}, {}).flux, 0);
+}
+
 TEST(SkyPortals, AreNoneInTheOpenOrWhereFewPathsLeave) {
     EXPECT_TRUE(find_portals(escapes_of({LEFT}, 0, 8000, 1), axes_turned(0)).empty());
     EXPECT_TRUE(find_portals(escapes_of({LEFT}, 0, 10, 3), axes_turned(0)).empty());
