@@ -31,10 +31,12 @@ constexpr double FEWEST_PIXELS = 96 * 72;
 constexpr u32 ESCAPES = 32768;
 constexpr u32 ESCAPE_SEED = 0x65736370u;
 
-/// Squared error that portals must spare: light samples through them take up to twice the time of a path, for
-/// all of them are weighed at each vertex, and few shadow rays end early. Where other lights are sampled,
-/// too, most of that is spent anyway.
-constexpr double WORTHWHILE_PORTAL_GAIN = 2, WORTHWHILE_GAIN_AMONG_LIGHTS = 1.05;
+/// How many times less squared error portals must have. Light samples through them take up to twice the time
+/// of a path, for all of them are weighed at each vertex, and few shadow rays end early. Where other lights
+/// are sampled, too, most of that is spent anyway, but for searching a map.
+double worthwhile_gain(bool is_map, bool is_alone) {
+    return is_alone ? 2 : is_map ? 1.5 : 1.05;
+}
 
 /// How portals are used: their share of the light samples of the sky, and how much of what they let in counts
 /// where a light is chosen. Others may shine in fewer places, but brightly, as the sun does.
@@ -102,9 +104,9 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, 
     Environment& sky = scene.environment;
     const PilotSize size = *sky_pilot_size(planned->options);
     const auto error_of = [&] { return path_pilot_error(prepare_path_pilot(device, planned, parts), size); };
-    const bool is_alone = scene.emitters.empty() && scene.lights.empty();
+    const bool is_map = !sky.texels.empty(), is_alone = scene.emitters.empty() && scene.lights.empty();
     const double usual = error_of(), let_in = windows.let_in.irradiance;
-    double least = usual / (is_alone ? WORTHWHILE_PORTAL_GAIN : WORTHWHILE_GAIN_AMONG_LIGHTS);
+    double least = usual / worthwhile_gain(is_map, is_alone);
     PortalUse best{0, 0};
     const auto use = [&](PortalUse how) {
         sky.portal_share = how.share;
@@ -112,7 +114,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, 
         plan_light_tree(*planned);
     };
     set_portals(std::move(windows), *planned);
-    for (const PortalUse& how : portal_uses(!sky.texels.empty(), is_alone)) {
+    for (const PortalUse& how : portal_uses(is_map, is_alone)) {
         use(how);
         if (const double error = error_of(); error < least && !stop_signal()) {
             least = error;
