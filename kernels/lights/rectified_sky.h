@@ -3,7 +3,8 @@
 // and Jarosz 2015, "Portal-Masked Environment Map Sampling". A rectified map is seen along an axis, with the
 // directions a U + b V + axis at (m(a), m(b)), m(a) = a / (1 + |a|), so that a rectangle across the axis with
 // edges along U and V is one in the map from wherever it is seen. Sums over the map's texels are integers
-// (src/scene/rectified_sky.h), whose differences are exact.
+// (src/scene/rectified_sky.h), whose differences are exact; texels are found by sums in floats, whose
+// roundings move up to 2^-23 of what a window shows from a texel to its neighbour.
 #ifndef CLRT_LIGHTS_RECTIFIED_SKY_H
 #define CLRT_LIGHTS_RECTIFIED_SKY_H
 
@@ -40,7 +41,8 @@ static inline real rectified_sky_slope(real coordinate)
 /* The window between slopes. `map`: the sums of a whole map. */
 static inline RectifiedWindow rectified_sky_window(global const uint* map, real2 low, real2 high)
 {
-    const real4 edges = rectified_sky_coordinates((real4)(low, high));
+    const real4 rounded = rectified_sky_coordinates((real4)(low, high));
+    const real4 edges = (real4)(rounded.xy, fmax(rounded.zw, rounded.xy));
     const uint4 texels = min(convert_uint4(edges), (uint4)(RECTIFIED_SIZE - 1u));
     RectifiedWindow window;
     window.first_x = texels.x;
@@ -187,7 +189,7 @@ static inline real rectified_sky_density(const RectifiedWindow* window, uint x, 
     global const uint* high = low + (RECTIFIED_SIZE + 1u);
     const uint value = (high[1] - high[0]) - (low[1] - low[0]);
     const real2 wide = REAL(1.0) + fabs(slopes);
-    const real square = REAL(1.0) + dot(slopes, slopes);
+    const real square = fma(slopes.x, slopes.x, fma(slopes.y, slopes.y, REAL(1.0)));
     const real stretch = REAL(0.5) * (real)RECTIFIED_SIZE / (wide.x * wide.y);
     return (real)value * stretch * stretch * square * real_sqrt(square);
 }

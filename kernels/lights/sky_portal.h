@@ -55,7 +55,7 @@ static inline RectifiedWindow portal_window(const Scene* scene, global const Sky
 static inline real portal_square(const PortalView* seen, real2 slopes)
 {
     const real2 along = slopes * seen->height;
-    return fma(seen->height, seen->height, dot(along, along));
+    return fma(seen->height, seen->height, fma(along.x, along.x, along.y * along.y));
 }
 
 /* Squared distance of the middle, from near by the portal's size. */
@@ -157,7 +157,7 @@ static inline real portals_density(const Scene* scene, const RenderParams* param
         const real2 slopes = (real2)(vector_dot(vector_from(portal->axis_u), wi),
                                      vector_dot(vector_from(portal->axis_v), wi)) /
                              cosine;
-        if (any(slopes < seen.low) || any(slopes > seen.high))
+        if (!all(slopes >= seen.low) || !all(slopes <= seen.high))
             continue;
         real density;
         if (environment_is_map(params)) {

@@ -33,7 +33,8 @@ constexpr u32 ESCAPE_SEED = 0x65736370u;
 
 /// How many times less squared error portals must have. Light samples through them take up to twice the time
 /// of a path, for all of them are weighed at each vertex, and few shadow rays end early. Where other lights
-/// are sampled, too, most of that is spent anyway, but for searching a map.
+/// are sampled, too, most of that is spent anyway, but for searching a map. Pilots reuse no paths, whose
+/// noise hides some of the gain.
 double worthwhile_gain(bool is_map, bool is_alone) {
     return is_alone ? 2 : is_map ? 1.5 : 1.05;
 }
@@ -44,11 +45,12 @@ struct PortalUse {
     double share, weight;
 };
 
-/// Those that are tried: a map with a sun wants its table, too, a constant sky has none.
-std::vector<PortalUse> portal_uses(bool is_map, bool is_alone) {
+/// Those that are tried: a map with a sun wants its table, too, a constant sky has none. A tree alone asks
+/// for the weight.
+std::vector<PortalUse> portal_uses(bool is_map, bool has_tree) {
     std::vector<PortalUse> uses;
     for (const double share : is_map ? std::vector<double>{0.5, 0.9} : std::vector<double>{1})
-        for (const double weight : is_alone ? std::vector<double>{1} : std::vector<double>{1, 0.125})
+        for (const double weight : has_tree ? std::vector<double>{1, 0.125} : std::vector<double>{1})
             uses.push_back({share, weight});
     return uses;
 }
@@ -92,12 +94,13 @@ struct Windows {
 void set_portals(Windows windows, PlannedScene& planned) {
     Environment& sky = planned.scene.environment;
     sky.portals = std::move(windows.portals);
+    sky.portal_share = 0;
     sky.let_in = windows.let_in;
     rectify_sky(sky);
     plan_light_tree(planned);
 }
 
-/// Decides between no portals and these, with each share of the samples, for path.
+/// Decides between no portals and these, used in each of several ways, for path.
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
             Windows windows) {
     Scene& scene = planned->scene;
@@ -114,22 +117,20 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned, 
         plan_light_tree(*planned);
     };
     set_portals(std::move(windows), *planned);
-    for (const PortalUse& how : portal_uses(is_map, is_alone)) {
+    for (const PortalUse& how : portal_uses(is_map, !scene.light_tree.nodes.empty())) {
         use(how);
         if (const double error = error_of(); error < least && !stop_signal()) {
             least = error;
             best = how;
         }
     }
-    use(best);
     if (best.share == 0)
-        set_portals({}, *planned);
-    else
-        spdlog::info(
-            "sky: light samples through {} window{} have {:.2f} times less squared error, by pilots of "
-            "{} x {} pixels, {} spp",
-            sky.portals.size(), sky.portals.size() == 1 ? "" : "s", usual / least, size.width, size.height,
-            size.spp);
+        return set_portals({}, *planned);
+    use(best);
+    spdlog::info("sky: light samples through {} window{} have {:.2f} times less squared error, by pilots of "
+                 "{} x {} pixels, {} spp",
+                 sky.portals.size(), sky.portals.size() == 1 ? "" : "s", usual / least, size.width,
+                 size.height, size.spp);
 }
 
 /// The same where another integrator renders: all choose alike, so that it does not matter to the picture

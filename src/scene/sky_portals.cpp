@@ -36,6 +36,8 @@ constexpr double WIDE_GAP = 0.04, CERTAIN_GAP = 12;
 constexpr double WORTHWHILE_CUT = 1.1;
 /// The last paths, with less than this part of the light of all, are left to the map's table and the BSDF.
 constexpr double LAST_PART = 0.05;
+/// Of the median luminance: what is brighter counts as this.
+constexpr double BRIGHTEST = 16;
 /// Paths that go nearly along a plane tell little about it.
 constexpr double SMALLEST_COS = 0.1;
 /// Planes that are taken, one after the other, at most.
@@ -262,17 +264,36 @@ SkyPortal make_portal(const Plane& plane, const Rectangle& rectangle, const glm:
     return portal;
 }
 
+/// Escapes from surfaces that see little of the sky.
+bool is_from_within(const Escape& escape) {
+    return escape.origin.w >= FEWEST_SURFACES;
+}
+
+/// Luminance beyond which what a path sees counts no more: few meet the sun, by chance.
+double largest_luminance(const std::vector<Escape>& escapes) {
+    std::vector<double> all;
+    for (const Escape& escape : escapes)
+        if (is_from_within(escape))
+            all.push_back(double(escape.direction.w));
+    if (all.empty())
+        return 0;
+    const auto middle = all.begin() + long(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    return BRIGHTEST * *middle;
+}
+
 /// The paths that leave within, in the frame of the axes; none where there is no within.
 std::vector<Ray> ways_out(const std::vector<Escape>& escapes, const glm::dmat3& axes) {
     std::vector<Ray> rays;
     const glm::dmat3 to_axes = glm::transpose(axes);
+    const double largest = largest_luminance(escapes);
     double at_once = 0;
     for (const Escape& escape : escapes) {
         at_once += std::abs(escape.origin.w) == FEWEST_SURFACES ? 1 : 0;
-        if (escape.origin.w < FEWEST_SURFACES)
+        if (!is_from_within(escape))
             continue;
         rays.push_back({to_axes * to_dvec3(escape.origin), to_axes * to_dvec3(escape.direction),
-                        double(escape.direction.w)});
+                        std::fmin(double(escape.direction.w), largest)});
     }
     if (at_once > MOST_LEAVE_AT_ONCE * double(escapes.size()))
         rays.clear();
@@ -336,11 +357,15 @@ std::vector<SkyPortal> find_portals(const std::vector<Escape>& escapes, const gl
 }
 
 SkyThroughPortals light_through(const std::vector<SkyPortal>& portals, const std::vector<Escape>& escapes) {
+    const double largest = largest_luminance(escapes);
     double light = 0, ways_out = 0, ways = 0, area = 0;
     for (const Escape& escape : escapes) {
-        ways += escape.origin.w == 0 ? ESCAPE_SEGMENTS - 1 : std::abs(double(escape.origin.w));
-        if (escape.origin.w > 0) {
-            light += double(escape.direction.w);
+        // One that has never left has no direction; one from the open has no way more from within.
+        const bool is_lost = escape.direction.x == 0 && escape.direction.y == 0 && escape.direction.z == 0;
+        const double surfaces = is_lost ? ESCAPE_SEGMENTS - 1 : std::abs(double(escape.origin.w));
+        ways += is_lost || is_from_within(escape) ? surfaces : std::fmax(surfaces - 1, 0.0);
+        if (is_from_within(escape)) {
+            light += std::fmin(double(escape.direction.w), largest);
             ways_out += 1;
         }
     }

@@ -25,8 +25,8 @@ glm::dmat3 scene_axes(const Scene& scene);
 /// the paths that are left. In a plane, points with a wide gap between them belong to two rectangles.
 std::vector<SkyPortal> find_portals(const std::vector<Escape>& escapes, const glm::dmat3& axes);
 
-/// What portals let in, as the paths tell that have left the scene, or not. Surfaces that see much of the sky
-/// do not count.
+/// What portals let in, as the paths tell that have left the scene, or not, but for the sun, which few meet.
+/// Ways from surfaces that see much of the sky do not count.
 SkyThroughPortals light_through(const std::vector<SkyPortal>& portals, const std::vector<Escape>& escapes);
 
 } // namespace clrt
