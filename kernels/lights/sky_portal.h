@@ -20,7 +20,7 @@
 
 /* A portal as a vertex sees it. */
 typedef struct {
-    real height; /* of the vertex before its plane; not positive behind it */
+    real height;     /* of the vertex before its plane; not positive behind it */
     real2 low, high; /* slopes of its edges */
 } PortalView;
 

@@ -207,7 +207,7 @@ ASSERT_SIZE(SkyTile, 32);
 
 /* A rectangle through which the sky is seen from within, such as a window (lights/sky_portal.h). */
 typedef struct {
-    vec4 corner;   /* w: light of the sky, luminance times solid angle, for a unit of the sums */
+    vec4 corner;   /* w: light, luminance times solid angle, of a unit of a map's sums; else 1 */
     vec4 axis_u;   /* along an edge, of unit length; w: length of the edge */
     vec4 axis_v;   /* likewise */
     vec4 normal;   /* likewise, inwards; w: 0 */

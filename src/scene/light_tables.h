@@ -20,7 +20,8 @@ struct KindShares {
 std::vector<double> mixed_weights(const std::vector<double>& powers, const std::vector<u32>& groups,
                                   u32 group_count, double even = 0.5);
 
-/// What the table of an environment map sends into the bounding sphere; 0 for a constant sky, which has none.
+/// What portals let in; without them what the table of an environment map sends into the bounding sphere, and
+/// 0 for a constant sky, which has none.
 double environment_power(const Scene& scene);
 
 /// Tabulates emissive triangles, and point lights with suns. LightSampler::MIXTURE: the groups are the
