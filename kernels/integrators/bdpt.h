@@ -4,6 +4,10 @@
 // inner vertices are ways to find a path, weighted against each other (path/splat_weight.h). A vertex of the
 // path from the eye is connected to one vertex of the light path, all equally likely, and weighted as if all
 // were connected: that is unbiased, costs as much as one more light, and is as efficient as all pairs.
+//
+// Where nothing but hits finds what mirrors and glass cast, because it is seen in mirrors or through glass
+// itself, paths from the eye may be guided (path/guide.h), by what light paths bring there. Weights are by
+// densities of the BSDF, as if nothing were.
 #ifndef CLRT_INTEGRATORS_BDPT_H
 #define CLRT_INTEGRATORS_BDPT_H
 
@@ -50,6 +54,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     const Sampler* sampler = &sample->sampler;
     SplatWeights* weights = &eye->weights;
     path->is_alive = path->is_connected = false;
+    guide_arrive(sample->radiance, &path->guided);
     if (path->hit.triangle == NO_INDEX) {
         path_absorb(scene, 0, path);
         path_skip_slabs(params, path);
@@ -80,7 +85,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     eye->surface = &surface;
     eye->bsdf = &bsdf;
     eye->wo = wo;
-    Guide guide = guide_none();
+    Guide guide = splat_is_alone(weights) ? guide_of(scene, &bsdf, &path->guided) : guide_none();
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS
@@ -104,9 +109,11 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
     path_begin(scene, &path, &sample->ray);
     splat_take_seen(scene, sample);
     bdpt_book(params, 0u, 2u, sample);
+    guide_choose(params, &sample->sampler, &path.guided);
     for (uint segment = 1u; path.is_alive; ++segment) {
-        path.numbers = numbers_make(&sample->sampler, segment, 0u);
+        path.numbers = numbers_make(&sample->sampler, segment, params->epoch);
         path.hit = vertex_hit(scene, params, &sample->sampler, segment, 0u, &path.ray, &path.throughput);
+        guide_approach(scene, params, &path.ray, &path.hit, path.numbers.direction, &path.guided);
         bdpt_vertex(scene, params, segment, &path, &eye, kept, sample, rays);
         rays->secondary += path.is_alive ? 1u : 0u;
         rays->shadow += path.is_connected ? 1u : 0u;
@@ -120,6 +127,9 @@ static CLRT_NOINLINE void bdpt_trace(const Scene* scene, const RenderParams* par
 #endif
     }
     nan_carry(scene, nan_of_vector(path.throughput + path.watched), &sample->radiance);
+#if PATH_GUIDE
+    sample->guide_gain = guide_learn(scene, params, sample->radiance, &path.guided);
+#endif
 }
 
 static CLRT_NOINLINE void bdpt_radiance(const Scene* scene, const RenderParams* params, CameraSample* samples,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a path teaches the cells that it went through: the light that it found behind each of its first
-// vertices, as seen from there. Sums are integers, so they are the same in any order; and they hold no more
-// of a path than 2^GUIDE_RECORD_BITS quanta, which keeps outliers from the guide, not from the picture.
+// vertices, as seen from there. Paths from lights teach, too, whence light comes by mirrors and glass that
+// paths from the eye hardly find (Jensen 1995). Sums are integers, so they are the same in any order; and
+// they hold no more of a path than 2^GUIDE_RECORD_BITS quanta, which keeps outliers from the guide, not from
+// the picture.
 #ifndef CLRT_PATH_GUIDE_LEARN_H
 #define CLRT_PATH_GUIDE_LEARN_H
 
@@ -157,6 +159,14 @@ static inline void guide_survive(real survival, real size, GuidePath* path)
 }
 
 #if PATH_GUIDE
+/* Adds a record of light to the sums of a cell. */
+static inline void guide_record(global long* sums, uint bin, real quanta)
+{
+    if (quanta >= REAL(1.0))
+        sum_add_modulo(sums + bin, (1ul << GUIDE_SUM_BITS) +
+                                       (ulong)fmin(quanta, (real)(1u << GUIDE_RECORD_BITS)));
+}
+
 /* Adds what a finished path has found to the sums of its vertices; returns what the guide gains by it. */
 static inline real guide_learn(const Scene* scene, const RenderParams* params, real3 radiance,
                                GuidePath* path)
@@ -167,13 +177,23 @@ static inline real guide_learn(const Scene* scene, const RenderParams* params, r
         const GuideVertex* vertex = &path->vertices[i];
         global long* sums = scene->guide.sums + (ulong)vertex->cell * GUIDE_SUMS;
         sum_add_modulo(sums + GUIDE_SUM_VERTICES, 1ul);
-        const real found = (whole - vertex->radiance) * vertex->weight * (real)params->inverse_quantum;
-        if (!(found >= REAL(1.0)))
-            continue;
-        const real quanta = fmin(found, (real)(1u << GUIDE_RECORD_BITS));
-        sum_add_modulo(sums + vertex->bin, (1ul << GUIDE_SUM_BITS) + (ulong)quanta);
+        guide_record(sums, vertex->bin,
+                     (whole - vertex->radiance) * vertex->weight * (real)params->inverse_quantum);
     }
     return path->gain.gain;
+}
+
+/* Adds the power that a light path brings along a ray to the cell of what it has hit. */
+static CLRT_NOINLINE void guide_learn_light(const Scene* scene, const RenderParams* params, const Ray* ray,
+                                            const Hit* hit, real3 power)
+{
+    Guide guide = guide_none();
+    guide.cell = guide_find_cell(scene, params, ray, hit, (real2)(REAL(0.0)));
+    guide_pdf_w(scene, &guide, -ray->direction, &guide.bin);
+    const real side = REAL(2.0) * (real)params->scene_extent;
+    const real density = (real)scene->guide.cells[guide.cell].light / (side * side);
+    guide_record(scene->guide.sums + (ulong)guide.cell * GUIDE_SUMS, guide.bin,
+                 guide_size(power) * density * (real)params->inverse_quantum);
 }
 #endif
 

@@ -10,6 +10,7 @@
 #include "camera/camera_splat.h"
 #include "film/moments.h"
 #include "film/splat.h"
+#include "guide_learn.h"
 #include "light_bent.h"
 #include "light_vertices.h"
 #include "roulette.h"
@@ -43,6 +44,9 @@ typedef struct {
     SlabChain slabs; /* since it has begun */
 #endif
     SplatWeights weights;
+#if PATH_GUIDE
+    bool is_specular; /* it has been scattered by delta lobes alone */
+#endif
 #if FILM_MOMENTS
     SplatWeights alone; /* the same without inner connections */
 #endif
@@ -82,6 +86,9 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     if (HAS(EFFECT_NESTED) && !path->emission.is_distant)
         visible_find_nest(scene, params, &path->ray);
     path->throughput = (real3)(REAL(1.0));
+#if PATH_GUIDE
+    path->is_specular = true;
+#endif
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
     path->solid = NO_INDEX;
 #endif
@@ -283,6 +290,9 @@ static inline bool light_path_leave(const Scene* scene, const RenderParams* para
     else
         slab_end(&path->slabs);
 #endif
+#if PATH_GUIDE
+    path->is_specular = path->is_specular && next.pdf_w == REAL(0.0);
+#endif
     path->ray = surface_ray(&vertex->surface, next.reflects, next.wi);
     dispersion_leave(dispersion_splits(bsdf, next.reflects), &path->ray);
 #if CLRT_EFFECTS & EFFECT_ATTENUATION
@@ -305,6 +315,16 @@ static inline void light_path_keep(uint segment, const Hit* hit, const LightPath
 #endif
 }
 
+/* Teaches guides of paths from the eye whence the vertex is lit by mirrors and glass. */
+static inline void light_path_teach(const Scene* scene, const RenderParams* params, uint segment,
+                                    const Hit* hit, const LightVertex* vertex, const LightPath* path)
+{
+#if PATH_GUIDE
+    if (INNER_CONNECTIONS && segment > 1u && path->is_specular && guide_suits(&vertex->bsdf))
+        guide_learn_light(scene, params, &path->ray, hit, path->emission.power * path->throughput);
+#endif
+}
+
 /* Handles the vertex at the end of a segment; false where the path ends. */
 static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderParams* params, uint segment,
                                             Hit* hit, LightPath* path, SplatSink* sink, PixelRays* rays)
@@ -316,6 +336,7 @@ static CLRT_NOINLINE bool light_path_vertex(const Scene* scene, const RenderPara
         !light_path_is_behind_slabs(scene, params, &vertex.surface, path)) {
         light_path_splat(scene, params, segment, hit, &vertex, path, sink, rays);
         light_path_keep(segment, hit, path, sink->kept);
+        light_path_teach(scene, params, segment, hit, &vertex, path);
     }
     return light_path_leave(scene, params, segment, hit, &vertex, path, &sink->watched, rays);
 }

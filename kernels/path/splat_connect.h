@@ -43,6 +43,13 @@ static inline bool splat_joins(const Bsdf* bsdf, const SplatWeights* weights)
 #endif
 }
 
+/* True if nothing but hits finds the light that arrives at the present vertex by delta lobes: the path has
+   come by such a lobe, and none of its vertices before can be connected. */
+static inline bool splat_is_alone(const SplatWeights* weights)
+{
+    return weights->open == REAL(0.0) && weights->closed == REAL(0.0);
+}
+
 /* It leaves the vertex in a sampled direction. */
 static inline void splat_eye_leaves(const Bsdf* bsdf, real3 wo, const BsdfSample* next, SplatWeights* weights)
 {

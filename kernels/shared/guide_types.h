@@ -44,7 +44,9 @@ SHARED_BEGIN
 typedef struct {
     float share;    /* probability of sampling a direction here instead of by the BSDF */
     float radiance; /* that a path finds behind a vertex, the mean; 0 where too little is known */
-    u32 unused[6];
+    float light;    /* what power counts that light paths bring (guide_learn_light): times the area of a side
+                       of the cube */
+    u32 unused[5];
     /* Splits of the inner nodes of each subtree, its root first and that one's children next, two in a word:
        what is below belongs to the first child. */
     u32 splits[GUIDE_SUBTREES * GUIDE_SUBTREE_LEAVES / 2];

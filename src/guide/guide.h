@@ -53,6 +53,7 @@ public:
 private:
     u32 node_below(u32 node, u32 levels, u32 path) const;
     u32 octree_link(u32 node, std::vector<u32>& links) const;
+    void find_areas(size_t node, double area, std::vector<double>& areas) const;
     void divide(size_t node, u32 level, double most);
 
     std::vector<u32> nodes_;

@@ -176,7 +176,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_EMISSION_RAYS},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_GUIDE | TAKES_EMISSION_RAYS},
     {Integrator::MLT,
      "mlt",
      "global illumination by Markov chains",

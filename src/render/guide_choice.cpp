@@ -4,6 +4,8 @@
 #include "console/signals.h"
 #include "options/path_refusals.h"
 #include "render/guiding.h"
+#include "scene/brightness.h"
+#include "scene/casters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,22 +31,33 @@ constexpr double JUDGING_SHARE = 1.0 / 16, FEWEST_JUDGING = 1 << 20, MOST_JUDGIN
 constexpr double LARGE_ERROR = 50;
 constexpr double TEACHING_SHARE = 1.0 / 16, FEWEST_TEACHING = 1 << 17, MOST_TEACHING = 1 << 18;
 
+/// The least part of a picture's light for whose sake a guide is tried.
+constexpr double LEAST_BY_HITS = 0.01;
+
 /// Whether the options leave it open.
 bool is_open(const Options& options) {
     return options.transport.guide == Toggle::AUTO && may_guide(options) &&
            options.film_file.resume_path.empty();
 }
 
-/// The squared error of a sample that decides.
-double error_of(const PathPilot& unguided) {
+/// What decides for path and path+light.
+double error_of_paths(const PathPilot& unguided) {
     return guide_error(unguided.errors[0], unguided.errors[1], unguided.trimmed);
 }
 
-/// Whether a guide may be worth its learning: light is hard to find, but is found, and there is time.
-bool is_promising(const PathPilot& unguided, const Options& options) {
-    const double rays = expected_samples(options) * unguided.rays;
-    return std::isfinite(error_of(unguided)) && error_of(unguided) >= worthwhile_guide_error(options) &&
-           rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
+/// What decides for bdpt, which guides paths where nothing but hits finds light. They are so few that a pilot
+/// may have met none: the squared error of a sample if they bring LEAST_BY_HITS of the picture's light, of
+/// the brightest light that there is. Where nothing casts caustics there are no such places.
+double error_of_hits(const Scene& scene, const PathPilot& unguided) {
+    return has_casters(scene) && unguided.mean > 0
+               ? LEAST_BY_HITS * largest_radiance(scene, KINDS_ALL) / unguided.mean
+               : 0;
+}
+
+/// The squared error of a sample that decides.
+double error_to_lower(const PlannedScene& planned, const PathPilot& unguided) {
+    return planned.options.transport.integrator == Integrator::BDPT ? error_of_hits(planned.scene, unguided)
+                                                                    : error_of_paths(unguided);
 }
 
 /// Size of the pilot that teaches; none: the picture's own samples do.
@@ -62,7 +75,7 @@ std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
 GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguided) {
     const Options& options = prepared.planned->options;
     const int replicates = options.sampling.replicates;
-    const double error = error_of(unguided);
+    const double error = error_to_lower(*prepared.planned, unguided);
     std::optional<PilotSize> teaching = teaching_pilot(options, error);
     if (!teaching)
         return untaught_guide(replicates, error);
@@ -74,6 +87,14 @@ GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguid
 
 } // namespace
 
+bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided) {
+    const Options& options = planned.options;
+    const double rays = expected_samples(options) * unguided.rays;
+    const double error = error_to_lower(planned, unguided);
+    return is_open(options) && std::isfinite(error) && error >= worthwhile_guide_error(options) &&
+           rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
+}
+
 void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                   std::optional<PathPilot> unguided, Progress& progress) {
     const Options& options = planned->options;
@@ -82,7 +103,7 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
     if (size && shares)
         size = in_tiles(*size);
     if (!is_open(options) || planned->effects.paths.is_empty ||
-        (unguided ? !is_promising(*unguided, options) : !size))
+        (unguided ? !is_guide_promising(*planned, *unguided) : !size))
         return;
     progress.update({"pilot", -1, 0, -1, -1});
     if (unguided)
@@ -91,7 +112,7 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
     parts = {prepared.tree, prepared.programs, nullptr};
     if (!unguided)
         unguided = run_path_pilot(prepared, *size, shares);
-    if (is_promising(*unguided, options) && !stop_signal())
+    if (is_guide_promising(*planned, *unguided) && !stop_signal())
         parts.guide = std::make_shared<GuideProgress>(first_guide(prepared, *unguided));
     progress.finish();
 }

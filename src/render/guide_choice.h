@@ -15,6 +15,10 @@
 
 namespace clrt {
 
+/// Whether a guide may be worth its learning, where the options leave it open: light is hard to find, but is
+/// found, and there is time. `unguided`: what a pilot has told of the plan's integrator.
+bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided);
+
 /// Decides, and adds to `parts` what the picture is to begin with; nothing where its own first samples are to
 /// tell. `unguided`: what another pilot has told of the plan's integrator; none: one is taken where the
 /// options leave the choice. Throws as choose_integrator.

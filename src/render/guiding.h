@@ -71,6 +71,7 @@ private:
     u32 next_teachers(std::uint64_t length) const;
     void end_pilot(std::uint64_t samples);
     void end_epoch(std::uint64_t samples, const RenderCounts& counts);
+    bool guides_hits_alone() const;
     bool is_trial() const;
     bool has_learnt_enough(std::uint64_t samples, const RenderCounts& counts) const;
     void judge(std::uint64_t samples, const RenderCounts& counts);

@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace clrt {
 
@@ -182,6 +183,7 @@ void set_errors(const RenderProgress& render, ErrorMeasure measure, PilotResult&
     if (!error)
         return;
     const double errors = error->relative_rmse * error->relative_rmse * n;
+    result.mean = mean / count;
     result.own[size_t(measure)] = errors;
     result.path[size_t(measure)] = errors + more * count / (mean * mean);
 }
@@ -216,6 +218,8 @@ PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size, b
         for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
             pilot.errors[size_t(measure)] = sample_error(render.film, measure);
     pilot.trimmed = trimmed_sample_error(render.film);
+    const std::vector<float> picture = film_mean(render.film);
+    pilot.mean = std::accumulate(picture.begin(), picture.end(), 0.0) / double(picture.size());
     return pilot;
 }
 

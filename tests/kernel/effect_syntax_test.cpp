@@ -64,12 +64,13 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
                 EXPECT_EQ(complaints(own, "CL1.2", mask), "") << name << ", " << describe_effects(mask);
             EXPECT_EQ(complaints(traced, "CL1.2", EFFECT_ALL), "") << name;
         }
-        for (const char* const name : {"path_light", "bdpt"}) {
-            const std::string pilot =
-                folder.write("pilot.cl", "#define FILM_MOMENTS 1\n" + defines + entry_points({name}));
-            for (const EffectMask mask : {EFFECT_ALL, EffectMask(0)})
-                EXPECT_EQ(complaints(pilot, "CL1.2", mask), "") << "pilot, " << describe_effects(mask);
-        }
+        for (const char* const name : {"path_light", "bdpt"})
+            for (const char* const kind : {"FILM_MOMENTS", "PATH_GUIDE"}) {
+                const std::string other = folder.write("other.cl", fmt::format("#define {} 1\n", kind) +
+                                                                       defines + entry_points({name}));
+                for (const EffectMask mask : {EFFECT_ALL, EffectMask(0)})
+                    EXPECT_EQ(complaints(other, "CL1.2", mask), "") << kind << ", " << describe_effects(mask);
+            }
         const std::string recording = folder.write("replay.cl", "#define CLRT_TRACE 1\n" + defines +
                                                                     "#include \"integrators/path.cl\"\n");
         EXPECT_EQ(complaints(recording, "CL1.2", EFFECT_ALL), "") << int64;

@@ -121,7 +121,7 @@ const Layout LIGHT_PLACE = {
 const Layout GUIDE_CELL = {
     "GuideCell",
     sizeof(GuideCell),
-    {M(share), M(radiance), M(unused), M(splits)}};
+    {M(share), M(radiance), M(light), M(unused), M(splits)}};
 #undef M
 #define M(name) MEMBER(Chain, name)
 const Layout CHAIN = {

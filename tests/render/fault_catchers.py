@@ -103,6 +103,7 @@ CAUGHT_BY = {
     "the density before slabs as if one light was sampled": "LightSamples.ChangeNoMeanBelowAPaneUnderSunAndSky",
     "light samples that repeat the first": "LightSamples.LowerTheNoiseOfManyLights",
     "several light samples at every vertex": "LightSamples.AreTakenAtTheFirstVertexAlone",
+    "light paths teach whither light goes": "Guide.LightPathsTellBdptOfLightBehindWater",
     "guided paths reused as if nothing were guided": "Guide.BringsTheSameLightToPathsThatServeOthers",
     "reused through walls": "PathReuse.ChangesNoMeanWhereSurfacesAreHidden",
     "cut paths not counted": "CutPaths.WhiteWallsHaveNoBound",

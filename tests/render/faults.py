@@ -28,6 +28,8 @@ FAULTS = [
     ("guided directions without the guide's density", "path/guide.h",
      "next.weight = value.value / mixture;", "next.weight = value.value / value.pdf_w;", "guide_test"),
     ("directions of the BSDF as if nothing were guided", "path/guide.h", "    next.weight /= guide->ratio;\n", "", "guide_test"),
+    ("light paths teach whither light goes", "path/guide_learn.h", "guide_pdf_w(scene, &guide, -ray->direction,",
+     "guide_pdf_w(scene, &guide, ray->direction,", "guide_test"),
     ("a guide's gain without its directions", "path/guide_gain.h", "gain->ratio * ratio;", "gain->ratio;", "guide_test"),
     ("a guide's gain without its roulette", "path/guide_gain.h",
      "    gain->next_ratio *= survival / roulette_survival(size * gain->next_ratio);\n", "", "guide_test"),

@@ -138,6 +138,28 @@ TEST(GuideChoice, APilotTurnsAUselessGuideOff) {
     EXPECT_EQ(render.film.sums, Choice(scene).render(16).film.sums);
 }
 
+// Pilots of bdpt hardly ever hit a sun by way of water, so its brightness tells, where there is water.
+TEST(GuideChoice, BdptIsGuidedWhereHitsAreRareAndBright) {
+    TestScene scene;
+    scene.build.material("floor", "Kd 0.7 0.6 0.5").use("floor").floor(1);
+    scene.build.material("water", "Kd 0 0 0\nKs 1 1 1\nTf 1 1 1\nNi 1.33\nillum 7").use("water");
+    scene.build.polygon({{-1, 0.5, 1}, {1, 0.5, 1}, {1, 0.6, -1}, {-1, 0.6, -1}});
+    scene.look({0, 2.5, 1}, {0, 0, 0}, 25);
+    scene.options.light.suns.push_back({{0.3, 1, 0.2}, {3, 3, 3}, 0.5});
+    scene.options.transport.integrator = Integrator::BDPT;
+    scene.options.film.size = {32, 24};
+    scene.options.sampling.spp = LONG_SPP;
+    const PathPilot clean{{1, 1}, 20, 1, 0.7};
+    const Choice choice(scene, clean);
+    ASSERT_TRUE(choice.parts.guide && choice.parts.guide->guide);
+    EXPECT_EQ(choice.parts.guide->stage, GuideStage::ON);
+    EXPECT_LT(*choice.parts.guide->error, 0.5);
+    EXPECT_FALSE(Choice(scene, PathPilot{{1, 1}, 20, 1, 700}).parts.guide) << "the sun is no brighter";
+    for (auto& sun : scene.options.light.suns)
+        sun.diameter_degrees = 60;
+    EXPECT_FALSE(Choice(scene, clean).parts.guide) << "the sun is large";
+}
+
 TEST(GuideChoice, ElsewhereThePictureFindsOut) {
     TestScene scene;
     add_adjoining_rooms(scene);

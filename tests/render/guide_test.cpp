@@ -115,11 +115,34 @@ TEST(Guide, BringsTheSameLightBesideSplats) {
     expect_same_light_with_less_noise(scene);
 }
 
+/// The floor of a basin under the sun, seen through its water: nothing but hits of the sun finds the light
+/// that the water throws on it.
+struct Basin : TestScene {
+    explicit Basin(double sun_degrees) {
+        build.material("floor", "Kd 0.7 0.6 0.5").use("floor").floor(1);
+        build.material("water", "Kd 0 0 0\nKs 1 1 1\nTf 1 1 1\nNi 1.33\nillum 7").use("water");
+        build.polygon({{-1, 0.5, 1}, {1, 0.5, 1}, {1, 0.6, -1}, {-1, 0.6, -1}});
+        look({0, 2.5, 1}, {0, 0, 0}, 25);
+        options.light.suns.push_back({{0.3, 1, 0.2}, {3, 3, 3}, sun_degrees});
+        options.light.environment = glm::dvec3(0.05);
+        options.transport.integrator = Integrator::BDPT;
+        options.film.size = {32, 24};
+        options.effects.all = false;
+    }
+};
+
+TEST(Guide, LightPathsTellBdptOfLightBehindWater) {
+    Basin basin(4);
+    expect_same_light_with_less_noise(basin);
+    Basin rare(0.5); // hardly any path finds such a sun, but light paths find the floor
+    const auto error = [&](Toggle guide) {
+        return sample_error(render_guided(rare, guide, 512, 16).film, ErrorMeasure::MSE);
+    };
+    EXPECT_LT(error(Toggle::ON), 0.05 * error(Toggle::OFF));
+}
+
 /// Whether a picture is the same in one run as in two, by way of a film file.
-void expect_same_bits_in_pieces(Toggle path_reuse) {
-    TestScene scene;
-    add_adjoining_rooms(scene);
-    scene.options.transport.path_reuse = path_reuse;
+void expect_same_bits_in_pieces(TestScene& scene) {
     const Render whole = render_guided(scene, Toggle::ON, 24, 4);
     const Render again = render_guided(scene, Toggle::ON, 24, 4);
     EXPECT_EQ(whole.film.sums, again.film.sums);
@@ -137,8 +160,23 @@ void expect_same_bits_in_pieces(Toggle path_reuse) {
 }
 
 TEST(Guide, KeepsItsBitsInPieces) {
-    for (const Toggle path_reuse : {Toggle::OFF, Toggle::ON})
-        expect_same_bits_in_pieces(path_reuse);
+    for (const Toggle path_reuse : {Toggle::OFF, Toggle::ON}) {
+        TestScene scene;
+        add_adjoining_rooms(scene);
+        scene.options.transport.path_reuse = path_reuse;
+        expect_same_bits_in_pieces(scene);
+    }
+    Basin basin(4);
+    expect_same_bits_in_pieces(basin);
+}
+
+// Whether bdpt is guided is decided before the picture.
+TEST(Guide, BdptIsNotGuidedUnasked) {
+    Basin basin(4);
+    basin.options.transport.guide_after_rays = 1;
+    const Render render = render_guided(basin, Toggle::AUTO, 64, 4);
+    EXPECT_EQ(render.guide.stage, GuideStage::OFF);
+    EXPECT_EQ(render.film.sums, render_guided(basin, Toggle::OFF, 64, 4).film.sums);
 }
 
 TEST(Guide, AutoLeavesEasyScenesAlone) {
