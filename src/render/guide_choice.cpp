@@ -60,18 +60,29 @@ double error_to_lower(const PlannedScene& planned, const PathPilot& unguided) {
                                                                     : error_of_paths(unguided);
 }
 
-/// Size of the pilot that teaches; none: the picture's own samples do.
+/// Size of the pilot that teaches; none: the picture's own samples do. Light paths teach bdpt so much at once
+/// that the pilot can judge it, however small.
 std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
     const double judging = JUDGING_SHARE * expected_samples(options);
     if (judging >= FEWEST_JUDGING)
         return scaled_pilot(options, std::min(judging, MOST_JUDGING), JUDGING_SPP);
     const double teaching = TEACHING_SHARE * expected_samples(options);
     if (error >= LARGE_ERROR && teaching >= FEWEST_TEACHING)
-        return scaled_pilot(options, std::min(teaching, MOST_TEACHING), JUDGING_SPP / 2);
+        return scaled_pilot(options, std::min(teaching, MOST_TEACHING),
+                            options.transport.integrator == Integrator::BDPT ? JUDGING_SPP : JUDGING_SPP / 2);
     return std::nullopt;
 }
 
-/// What the picture begins with.
+} // namespace
+
+bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided) {
+    const Options& options = planned.options;
+    const double rays = expected_samples(options) * unguided.rays;
+    const double error = error_to_lower(planned, unguided);
+    return is_open(options) && std::isfinite(error) && error >= worthwhile_guide_error(options) &&
+           rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
+}
+
 GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguided) {
     const Options& options = prepared.planned->options;
     const int replicates = options.sampling.replicates;
@@ -85,16 +96,6 @@ GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguid
     return taught_guide(pilot, replicates, unguided.rays * double(teaching->samples()));
 }
 
-} // namespace
-
-bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided) {
-    const Options& options = planned.options;
-    const double rays = expected_samples(options) * unguided.rays;
-    const double error = error_to_lower(planned, unguided);
-    return is_open(options) && std::isfinite(error) && error >= worthwhile_guide_error(options) &&
-           rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
-}
-
 void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                   std::optional<PathPilot> unguided, Progress& progress) {
     const Options& options = planned->options;
@@ -102,7 +103,7 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
     std::optional<PilotSize> size = size_of_pilots(1, options);
     if (size && shares)
         size = in_tiles(*size);
-    if (!is_open(options) || planned->effects.paths.is_empty ||
+    if (parts.guide || !is_open(options) || planned->effects.paths.is_empty ||
         (unguided ? !is_guide_promising(*planned, *unguided) : !size))
         return;
     progress.update({"pilot", -1, 0, -1, -1});

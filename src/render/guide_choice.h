@@ -19,9 +19,13 @@ namespace clrt {
 /// found, and there is time. `unguided`: what a pilot has told of the plan's integrator.
 bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided);
 
+/// What a picture begins with whose guide is promising: what a pilot has learnt and judged, or what its own
+/// samples are to teach. Throws as choose_integrator.
+GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguided);
+
 /// Decides, and adds to `parts` what the picture is to begin with; nothing where its own first samples are to
 /// tell. `unguided`: what another pilot has told of the plan's integrator; none: one is taken where the
-/// options leave the choice. Throws as choose_integrator.
+/// options leave the choice. A guide that is there already stays. Throws as choose_integrator.
 void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                   std::optional<PathPilot> unguided, Progress& progress);
 

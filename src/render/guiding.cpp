@@ -154,7 +154,7 @@ bool Guiding::has_learnt_enough(std::uint64_t samples, const RenderCounts& count
     const double part = double(progress_.begin - progress_.pilot_end) / double(samples);
     const double rays = progress_.taught_rays + part * double(counts.rays());
     return progress_.begin > *progress_.guided_from &&
-           rays >= prepared_.planned->options.transport.guide_after_rays;
+           (guides_hits_alone() || rays >= prepared_.planned->options.transport.guide_after_rays);
 }
 
 /// Squared error of the samples of a guided epoch over that of unguided ones, as their gains tell.

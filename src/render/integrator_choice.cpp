@@ -73,11 +73,11 @@ double light_paths_a_sample(const Options& options) {
            (double(window.x1 - window.x0) * double(window.y1 - window.y0));
 }
 
-/// The candidates between whom pilots decide.
-/// Squared error without the noisiest pixels times work, over that of path+light, up to which bdpt is taken
-/// for the sake of its guide. In a pool under the sun it was 1.3, and bdpt had 1/37 of the squared error.
-constexpr double MOST_BUT_FOR_HITS = 1.5;
+/// A guide for the sake of which bdpt is taken leaves a twentieth of its squared error at least: where others
+/// have more than so many times its efficiency none is tried.
+constexpr double LARGEST_GAIN_OF_GUIDE = 20;
 
+/// The candidates between whom pilots decide.
 std::vector<Candidate> candidates_of(const PlannedScene& planned) {
     std::vector<Candidate> candidates;
     for (const Candidate& candidate : CANDIDATES)
@@ -97,7 +97,7 @@ double pilot_work(const std::vector<Candidate>& candidates, const Options& optio
 /// What a candidate's pilot says of it. Its errors are compared with those that the same samples tell of
 /// path.
 IntegratorPrice price_of(const Candidate& candidate, const PilotResult& pilot, const Options& options) {
-    IntegratorPrice price{candidate.integrator, pilot.own, pilot.path, pilot.trimmed};
+    IntegratorPrice price{candidate.integrator, pilot.own, pilot.path};
     price.work = candidate.eye_ray * pilot.eye_rays + candidate.light_ray * pilot.light_rays +
                  candidate.inner_ray * pilot.inner_rays + candidate.light_path * pilot.light_paths;
     price.efficiency = deciding_error(pilot.path, options) * pilot.eye_rays /
@@ -217,20 +217,28 @@ std::string try_path_again(const Device& device, const std::shared_ptr<PlannedSc
 std::string told_text(const IntegratorChoice& choice, const std::string& reuse) {
     std::vector<std::string> told;
     for (const IntegratorPrice& price : choice.prices)
-        told.push_back(fmt::format("{} {:.2g}", name_of(price.integrator), price.efficiency));
+        told.push_back(
+            fmt::format("{} {:.2g}{}", name_of(price.integrator), price.efficiency,
+                        price.guided > 0 ? fmt::format(" ({:.2g} with its guide)", price.guided) : ""));
     if (!reuse.empty())
         told.push_back(reuse);
     return fmt::format("efficiency {} by pilots of {} x {} pixels, {} spp", fmt::join(told, ", "),
                        choice.pilot.width, choice.pilot.height, choice.pilot.spp);
 }
 
-/// Whether bdpt is about as good as path+light but for hits that hardly any path makes: pilots meet some or
-/// none, connections leave fewer to bdpt, and there alone a guide knows of them before any is made.
-bool is_better_but_for_hits(const IntegratorPrice& price, const IntegratorPrice& chosen,
-                            const PathPilot& unguided, const PlannedScene& planned) {
-    return price.integrator == Integrator::BDPT && chosen.integrator == Integrator::PATH_LIGHT &&
-           price.trimmed * price.work < MOST_BUT_FOR_HITS * chosen.trimmed * chosen.work &&
-           is_guide_promising(planned, unguided);
+/// A guide to hits that hardly any path makes, whatever the integrator, and that bdpt alone is guided to
+/// before any is made, if a pilot tells that bdpt is better with it than what has the efficiency `best`; else
+/// null.
+std::shared_ptr<GuideProgress> guide_to_hits(const PreparedScene& prepared, const PathPilot& unguided,
+                                             double best, IntegratorPrice& price) {
+    if (price.integrator != Integrator::BDPT || price.efficiency * LARGEST_GAIN_OF_GUIDE <= best ||
+        !is_guide_promising(*prepared.planned, unguided))
+        return nullptr;
+    const auto guide = std::make_shared<GuideProgress>(first_guide(prepared, unguided));
+    if (guide->stage != GuideStage::ON || !guide->error)
+        return nullptr;
+    price.guided = price.efficiency / (*guide->error * *guide->work);
+    return price.guided > best ? guide : nullptr;
 }
 
 /// Decides by pilots, a candidate after the other.
@@ -261,27 +269,33 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         if (choice.prices.empty()) {
             const double trimmed = choice.unguided ? choice.unguided->trimmed : pilot.trimmed;
             choice.unguided = PathPilot{pilot.path, pilot.eye_rays, trimmed, pilot.mean};
-            choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, 0, pilot.eye_rays});
+            choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
         }
         IntegratorPrice price = price_of(candidate, pilot, planned->options);
         if (measured)
             measure(*measured, {}, planned->options, price); // there are no caustics
         choice.prices.push_back(price);
         const PathPilot unguided{pilot.own, pilot.eye_rays, pilot.trimmed, pilot.mean};
-        if (price.efficiency > std::max(best, smallest_gain(price, is_guided, planned->options)) ||
-            is_better_but_for_hits(price, choice.prices[chosen], unguided, *planned)) {
-            best = price.efficiency;
+        IntegratorPrice& told = choice.prices.back();
+        const double least = std::max(best, smallest_gain(told, is_guided, planned->options));
+        if (told.efficiency <= least)
+            parts.guide = guide_to_hits(prepared, unguided, least, told);
+        if (told.efficiency > least || parts.guide) {
+            best = std::max(told.efficiency, told.guided);
             chosen = choice.prices.size() - 1;
-            choice.integrator = price.integrator;
+            choice.integrator = told.integrator;
             choice.unguided = unguided;
         }
     }
     std::string reuse;
-    if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < most_of_path(*planned)) {
+    if (choice.integrator != Integrator::PATH && choice.reason.empty() && !parts.guide &&
+        best < most_of_path(*planned)) {
         take(choice.integrator, asked, *planned);
         expect_program(device, *planned);
         reuse = try_path_again(device, planned, asked, is_guided, choice.prices[chosen], parts, choice);
     }
+    if (choice.integrator == Integrator::PATH)
+        parts.guide = nullptr;
     if (choice.reason.empty())
         choice.reason = told_text(choice, reuse);
     take(choice.integrator, asked, *planned);

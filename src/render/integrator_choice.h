@@ -33,10 +33,9 @@ struct IntegratorPrice {
     Integrator integrator = Integrator::PATH;
     SquaredErrors errors{}; ///< squared, by ErrorMeasure
     SquaredErrors path{};   ///< those of path, by the same samples or by path's own pilot, caustics apart
-    double trimmed = 0;     ///< that without the noisiest pixels (trimmed_sample_error), which hits of bright
-                            ///< lights may be
     double work = 0;        ///< in rays of path
     double efficiency = 1;  ///< 1 / (squared error times work), path's being 1
+    double guided = 0;      ///< bdpt's with a guide that a pilot has judged; 0: none has
 };
 
 /// Which integrator renders, and why.
