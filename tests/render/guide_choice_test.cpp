@@ -7,6 +7,7 @@
 #include "render/guiding.h"
 #include "support/adjoining_rooms.h"
 #include "support/saved_render.h"
+#include "support/sunlit_basin.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -141,13 +142,7 @@ TEST(GuideChoice, APilotTurnsAUselessGuideOff) {
 // Pilots of bdpt hardly ever hit a sun by way of water, so its brightness tells, where there is water.
 TEST(GuideChoice, BdptIsGuidedWhereHitsAreRareAndBright) {
     TestScene scene;
-    scene.build.material("floor", "Kd 0.7 0.6 0.5").use("floor").floor(1);
-    scene.build.material("water", "Kd 0 0 0\nKs 1 1 1\nTf 1 1 1\nNi 1.33\nillum 7").use("water");
-    scene.build.polygon({{-1, 0.5, 1}, {1, 0.5, 1}, {1, 0.6, -1}, {-1, 0.6, -1}});
-    scene.look({0, 2.5, 1}, {0, 0, 0}, 25);
-    scene.options.light.suns.push_back({{0.3, 1, 0.2}, {3, 3, 3}, 0.5});
-    scene.options.transport.integrator = Integrator::BDPT;
-    scene.options.film.size = {32, 24};
+    add_sunlit_basin(scene, 0.5);
     scene.options.sampling.spp = LONG_SPP;
     const PathPilot clean{{1, 1}, 20, 1, 0.7};
     const Choice choice(scene, clean);
@@ -155,8 +150,7 @@ TEST(GuideChoice, BdptIsGuidedWhereHitsAreRareAndBright) {
     EXPECT_EQ(choice.parts.guide->stage, GuideStage::ON);
     EXPECT_LT(*choice.parts.guide->error, 0.5);
     EXPECT_FALSE(Choice(scene, PathPilot{{1, 1}, 20, 1, 700}).parts.guide) << "the sun is no brighter";
-    for (auto& sun : scene.options.light.suns)
-        sun.diameter_degrees = 60;
+    scene.options.light.suns[0].diameter_degrees = 60;
     EXPECT_FALSE(Choice(scene, clean).parts.guide) << "the sun is large";
 }
 

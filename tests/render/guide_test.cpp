@@ -8,6 +8,7 @@
 #include "support/adjoining_rooms.h"
 #include "support/drawn.h"
 #include "support/saved_render.h"
+#include "support/sunlit_basin.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -115,28 +116,14 @@ TEST(Guide, BringsTheSameLightBesideSplats) {
     expect_same_light_with_less_noise(scene);
 }
 
-/// The floor of a basin under the sun, seen through its water: nothing but hits of the sun finds the light
-/// that the water throws on it.
-struct Basin : TestScene {
-    explicit Basin(double sun_degrees) {
-        build.material("floor", "Kd 0.7 0.6 0.5").use("floor").floor(1);
-        build.material("water", "Kd 0 0 0\nKs 1 1 1\nTf 1 1 1\nNi 1.33\nillum 7").use("water");
-        build.polygon({{-1, 0.5, 1}, {1, 0.5, 1}, {1, 0.6, -1}, {-1, 0.6, -1}});
-        look({0, 2.5, 1}, {0, 0, 0}, 25);
-        options.light.suns.push_back({{0.3, 1, 0.2}, {3, 3, 3}, sun_degrees});
-        options.light.environment = glm::dvec3(0.05);
-        options.transport.integrator = Integrator::BDPT;
-        options.film.size = {32, 24};
-        options.effects.all = false;
-    }
-};
-
 TEST(Guide, LightPathsTellBdptOfLightBehindWater) {
-    Basin basin(4);
+    TestScene basin;
+    add_sunlit_basin(basin, 4);
     expect_same_light_with_less_noise(basin);
-    Basin rare(0.5); // hardly any path finds such a sun, but light paths find the floor
+    // Hardly any path finds a smaller sun, but light paths find the floor.
+    basin.options.light.suns[0].diameter_degrees = 0.5;
     const auto error = [&](Toggle guide) {
-        return sample_error(render_guided(rare, guide, 512, 16).film, ErrorMeasure::MSE);
+        return sample_error(render_guided(basin, guide, 512, 16).film, ErrorMeasure::MSE);
     };
     EXPECT_LT(error(Toggle::ON), 0.05 * error(Toggle::OFF));
 }
@@ -166,13 +153,15 @@ TEST(Guide, KeepsItsBitsInPieces) {
         scene.options.transport.path_reuse = path_reuse;
         expect_same_bits_in_pieces(scene);
     }
-    Basin basin(4);
+    TestScene basin;
+    add_sunlit_basin(basin, 4);
     expect_same_bits_in_pieces(basin);
 }
 
 // Whether bdpt is guided is decided before the picture.
 TEST(Guide, BdptIsNotGuidedUnasked) {
-    Basin basin(4);
+    TestScene basin;
+    add_sunlit_basin(basin, 4);
     basin.options.transport.guide_after_rays = 1;
     const Render render = render_guided(basin, Toggle::AUTO, 64, 4);
     EXPECT_EQ(render.guide.stage, GuideStage::OFF);

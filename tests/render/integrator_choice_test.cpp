@@ -6,6 +6,7 @@
 #include "render/reuse_choice.h"
 #include "support/adjoining_rooms.h"
 #include "support/render_scene.h"
+#include "support/sunlit_basin.h"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,14 @@ struct Chosen {
     std::shared_ptr<PlannedScene> planned;
     PreparedParts parts;
 };
+
+Chosen choose(const TestScene& scene) {
+    Chosen chosen{{}, plan_loaded(test_device(), scene.load(), scene.options), {}};
+    Progress silent(Toggle::OFF, true);
+    chosen.choice = choose_integrator(test_device(), chosen.planned, chosen.parts, silent);
+    EXPECT_EQ(chosen.planned->options.transport.integrator, chosen.choice.integrator);
+    return chosen;
+}
 
 /// A box with a lamp under its ceiling, and spheres on its floor.
 struct Box : TestScene {
@@ -45,13 +54,7 @@ struct Box : TestScene {
         add_glass();
     }
 
-    Chosen choose() const {
-        Chosen chosen{{}, plan_loaded(test_device(), load(), options), {}};
-        Progress silent(Toggle::OFF, true);
-        chosen.choice = choose_integrator(test_device(), chosen.planned, chosen.parts, silent);
-        EXPECT_EQ(chosen.planned->options.transport.integrator, chosen.choice.integrator);
-        return chosen;
-    }
+    Chosen choose() const { return clrt::choose(*this); }
     Integrator integrator() const { return choose().choice.integrator; }
 };
 
@@ -230,6 +233,21 @@ TEST(IntegratorChoice, WherePathMayBeGuidedBdptMustGainMore) {
 }
 
 // A tree chooses path's lights, and tables those of bdpt, whose pilot cannot tell what a tree gains.
+// Pilots meet no such sun by way of water: path+light looks as good as bdpt, for less work.
+TEST(IntegratorChoice, BdptIsTakenForTheSakeOfItsGuide) {
+    TestScene basin;
+    add_sunlit_basin(basin, 0.5);
+    basin.options.film.size = {64, 48};
+    basin.options.sampling.spp = 2048;
+    basin.options.transport.choose = Toggle::ON;
+    for (const Toggle guide : {Toggle::AUTO, Toggle::OFF}) {
+        basin.options.transport.guide = guide;
+        const Chosen chosen = choose(basin);
+        EXPECT_EQ(chosen.choice.integrator == Integrator::BDPT, guide == Toggle::AUTO);
+        EXPECT_EQ(chosen.parts.guide != nullptr, guide == Toggle::AUTO);
+    }
+}
+
 TEST(IntegratorChoice, WhereATreeChoosesLightsAPilotOfPathsOwnTellsOfPath) {
     for (const bool has_several_lamps : {false, true}) {
         TestScene scene;
