@@ -62,6 +62,14 @@ class AgreeCommand(unittest.TestCase):
                          {"path": 5, "bdpt": 5, "raycast": 5, "path --paths LD?E": 5})
         self.assertIn("2 pairs: 2 equivalent, 0 undecided, 0 different", out)
 
+    def test_a_scene_that_asks_for_paths_is_rendered_by_what_takes_them(self):
+        with open(os.path.join(self.folder, "scene.clrt"), "w", encoding="utf-8") as file:
+            file.write("--paths LD?E\n")
+        _, out, found = self.study()
+        self.assertEqual([(each["a"], each["b"], each["verdict"]) for each in found["pairs"]],
+                         [("path", "distribution --min-contribution 0", "equivalent")])
+        self.assertIn("1 pairs: 1 equivalent", out)
+
     def test_what_lacks_paths_differs(self):
         code, out, _ = self.study("-g", "path", "raycast")
         self.assertEqual(code, DISAGREE)

@@ -8,6 +8,7 @@ mean of m others is scattered as x around the truth, times sqrt((m + 1) / m)."""
 import dataclasses
 import itertools
 import math
+import os
 import shlex
 
 import numpy
@@ -26,11 +27,22 @@ GROUPS = (("path", "path+light", "bdpt", "mlt"),
           ("distribution --min-contribution 0", "path --paths LD?(G|S)*E"),
           ("whitted --min-contribution 0", "path --paths LD?S*E"),
           ("raycast", "path --paths LD?E"))
+# Of a scene that asks for some paths by itself, by --paths in its own options: what takes them.
+GROUPS_OF_PATHS = (("path", "distribution --min-contribution 0"),)
 # Effects of a scene under which an integrator's paths are others than those of `path`, or its light is: light paths meet no light
 # below facets that corner normals round, and the two classics give highlights where `path` follows rays.
 APART = {"light": ("smooth normals",),
          "whitted": ("glossy", "rough refraction", "coat", "sheen"),
          "raycast": ("glossy", "rough refraction", "coat", "sheen")}
+
+
+def default_groups(scene):
+    """The groups for a scene that is rendered with its own options, which stand beside it (src/app/options_file.cpp)."""
+    options = os.path.splitext(scene)[0] + ".clrt"
+    if not os.path.isfile(options):
+        return GROUPS
+    with open(options, encoding="utf-8") as file:
+        return GROUPS_OF_PATHS if any(line.split()[:1] == ["--paths"] for line in file) else GROUPS
 
 
 @dataclasses.dataclass(frozen=True)
