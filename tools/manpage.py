@@ -46,7 +46,8 @@ REPORT = [
                            "Absolute: what stands under `error' otherwise."),
     ("chosen", "Where no integrator is named: the one that rendered the picture, and why: what the options or the scene "
                "leave, or the efficiency of each integrator (1 over squared error times work, that of path being 1) by a pilot. "
-               "Pilots are coarse pictures of at most 5 % of the work, which is counted in rays; their samples are dropped, and "
+               "Pilots are coarse pictures of at most 5 % of the work, which is counted in rays, and a thirty-second of the samples "
+               "more where one guides bdpt; their samples are dropped, and "
                "the picture is the one that --integrator with this name gives where both guide paths or neither does. Without the "
                "line it is path: the picture takes too few samples for a pilot, is a part (--first-sample), or path finds the light by "
                "itself and there are no caustics to be."),

@@ -86,6 +86,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     eye->bsdf = &bsdf;
     eye->wo = wo;
     Guide guide = splat_is_alone(weights) ? guide_of(scene, &bsdf, &path->guided) : guide_none();
+    guide.radiance = REAL(0.0); /* light paths have added to it: roulette goes by throughput */
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path guiding: directions are sampled where paths have found light before. Every cell of space (cell.h)
 // has a distribution of directions (guide_bins.h), in proportion to radiance times BSDF times cosine as
-// paths have met them. A direction is sampled by the BSDF or by the cell and weighted by the density of the
-// mixture, so the estimate is unbiased whatever the cell has learnt (Mueller, Gross and Novak 2017). What
-// paths find is summed while they are traced (guide_learn.h); the host makes the next distributions of the
-// sums, between launches.
+// paths have met them, from either end. A direction is sampled by the BSDF or by the cell and weighted by the
+// density of the mixture, so the estimate is unbiased whatever the cell has learnt (Mueller, Gross and Novak
+// 2017). What paths find is summed while they are traced (guide_learn.h); the host makes the next
+// distributions of the sums, between launches.
 #ifndef CLRT_PATH_GUIDE_H
 #define CLRT_PATH_GUIDE_H
 

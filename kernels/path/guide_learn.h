@@ -49,12 +49,17 @@ static inline void guide_begin(GuidePath* path)
 #endif
 }
 
-/* Chooses whether cells learn from the path of this sample: the same part of the samples of every pixel and
+/* Whether cells learn from the path of this sample: the same part of the samples of every pixel and
    replicate, and of all pixels' where an epoch has only one of each. */
+static inline bool guide_teaches(const RenderParams* params, const Sampler* sampler)
+{
+    return sampler->index_reversed + sampler->key <= params->guide_learns;
+}
+
 static inline void guide_choose(const RenderParams* params, const Sampler* sampler, GuidePath* path)
 {
 #if PATH_GUIDE
-    path->teaches = sampler->index_reversed + sampler->key <= params->guide_learns;
+    path->teaches = guide_teaches(params, sampler);
 #endif
 }
 
@@ -183,7 +188,8 @@ static inline real guide_learn(const Scene* scene, const RenderParams* params, r
     return path->gain.gain;
 }
 
-/* Adds the power that a light path brings along a ray to the cell of what it has hit. */
+/* Adds the power that a light path brings along a ray to the cell of what it has hit: as radiance that a
+   vertex of its own there scatters to the eye. */
 static CLRT_NOINLINE void guide_learn_light(const Scene* scene, const RenderParams* params, const Ray* ray,
                                             const Hit* hit, real3 power)
 {

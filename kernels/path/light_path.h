@@ -315,12 +315,14 @@ static inline void light_path_keep(uint segment, const Hit* hit, const LightPath
 #endif
 }
 
-/* Teaches guides of paths from the eye whence the vertex is lit by mirrors and glass. */
+/* Teaches guides of paths from the eye whence the vertex is lit by mirrors and glass, if rays can meet the
+   light. */
 static inline void light_path_teach(const Scene* scene, const RenderParams* params, uint segment,
                                     const Hit* hit, const LightVertex* vertex, const LightPath* path)
 {
 #if PATH_GUIDE
-    if (INNER_CONNECTIONS && segment > 1u && path->is_specular && guide_suits(&vertex->bsdf))
+    if (INNER_CONNECTIONS && segment > 1u && path->is_specular && !path->emission.is_delta &&
+        guide_suits(&vertex->bsdf) && guide_teaches(params, &path->sampler))
         guide_learn_light(scene, params, &path->ray, hit, path->emission.power * path->throughput);
 #endif
 }

@@ -43,8 +43,8 @@ static inline bool splat_joins(const Bsdf* bsdf, const SplatWeights* weights)
 #endif
 }
 
-/* True if nothing but hits finds the light that arrives at the present vertex by delta lobes: the path has
-   come by such a lobe, and none of its vertices before can be connected. */
+/* True if nothing but hits finds the light that arrives at the present vertex by delta lobes: neither it nor
+   any vertex before can be connected to the camera or to the one before it. */
 static inline bool splat_is_alone(const SplatWeights* weights)
 {
     return weights->open == REAL(0.0) && weights->closed == REAL(0.0);

@@ -43,7 +43,8 @@ SHARED_BEGIN
 
 typedef struct {
     float share;    /* probability of sampling a direction here instead of by the BSDF */
-    float radiance; /* that a path finds behind a vertex, the mean; 0 where too little is known */
+    float radiance; /* that a path finds behind a vertex, the mean; 0 where too little is known; more where
+                       light paths teach */
     float light;    /* what power counts that light paths bring (guide_learn_light): times the area of a side
                        of the cube */
     u32 unused[5];

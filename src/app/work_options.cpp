@@ -131,11 +131,13 @@ std::vector<OptionSpec> work_options() {
          }},
         {group, "", "--guide", "auto|on|off",
          takers(TAKES_GUIDE) +
-             fmt::format("sample directions where paths have found light before: off, on, or auto: where a "
-                         "pilot is noisy, or the picture after {:.0f} million rays, if the guided samples "
-                         "then tell that it lowers noise times rays; not with --first-sample, --adaptive, "
-                         "--ledger, --pixel or fewer than 4 replicates (default auto)",
-                         defaults.guide_after_rays * 1e-6),
+             fmt::format(
+                 "sample directions where paths have found light before: off, on, or auto: where a "
+                 "pilot is noisy, or the picture after {:.0f} million rays, if the guided samples "
+                 "then tell that it lowers noise times rays, for bdpt where mirrors or glass and a "
+                 "bright light call for a pilot, and that tells so; not with --first-sample, --adaptive, "
+                 "--ledger, --pixel or fewer than 4 replicates (default auto)",
+                 defaults.guide_after_rays * 1e-6),
          [](Options& o, const OptionValue& v) { o.transport.guide = parse_choice<Toggle>(v); }},
         {group, "", "--path-reuse", "auto|on|off",
          takers(TAKES_PATH_REUSE) +

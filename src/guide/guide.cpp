@@ -18,9 +18,10 @@ constexpr double MOST_RECORDS = 200;
 constexpr double FEW_RECORDS = 64;
 /// The part of the directions that a cell chooses at most: what it has not seen is left to the BSDF.
 constexpr double LARGEST_SHARE = 0.7;
-/// Where paths from lights teach, irradiance counts so much at each vertex. What a grey surface scatters of
-/// it to the eye is a sixth; but directions that hit the light are far fewer than those of a bin, so that
-/// more of them are worth it (Rath et al. 2020). Eight times as much makes no other guide of a pool.
+/// Where paths from lights teach, irradiance counts so much, as if the eye had sent a path for each of them.
+/// What a grey surface scatters of it to the eye is a sixth; but directions that hit the light are far fewer
+/// than those of a bin, so that more of them are worth it (Rath et al. 2020). Eight times as much makes no
+/// other guide of a pool.
 constexpr double LIGHT_WEIGHT = 1;
 
 /// What an epoch adds to what a cell knew.
@@ -41,7 +42,7 @@ GuideCell make_cell(const GuideLore& lore, double density) {
     const double count = lore.weight.count;
     GuideCell cell{};
     cell.share = float(LARGEST_SHARE * count / (count + FEW_RECORDS));
-    cell.radiance = count >= FEW_RECORDS ? float(lore.weight.sum / lore.vertices) : 0;
+    cell.radiance = count >= FEW_RECORDS && lore.vertices > 0 ? float(lore.weight.sum / lore.vertices) : 0;
     cell.light = float(LIGHT_WEIGHT * density);
     pack_splits(lore.splits, cell);
     return cell;

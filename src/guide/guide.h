@@ -17,7 +17,7 @@ namespace clrt {
 struct GuideLore {
     DirectionSplits splits = {};
     DirectionWeight weight; ///< of its records of light
-    double vertices = 0;    ///< that could have found some
+    double vertices = 0;    ///< of paths from the eye, that could have found some
 };
 
 /// Trees over space, with a distribution of directions in every leaf.

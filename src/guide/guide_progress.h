@@ -23,7 +23,9 @@ struct GuideProgress {
     std::uint64_t pilot_end = 0;      ///< likewise
     std::optional<std::uint64_t> guided_from; ///< samples before any were guided; none: none are
     std::uint64_t guided_to = 0;              ///< where that ended; 0: it has not
-    std::optional<double> pilot_error;        ///< by guide_error (render/guiding.h), before there was a guide
+    std::optional<double> pilot_error; ///< of a sample before there was a guide, by which it is tried:
+                                       ///< guide_error (render/guiding.h), or what bdpt's may be
+                                       ///< (render/guide_choice.h)
     double plain_error = 0;                   ///< of a sample where the first guided epoch begins, likewise
     double plain_rays = 0;                    ///< of a sample then
     double taught_rays = 0;                   ///< of a pilot that the guide has been learnt from

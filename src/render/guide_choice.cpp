@@ -30,6 +30,8 @@ constexpr double JUDGING_SHARE = 1.0 / 16, FEWEST_JUDGING = 1 << 20, MOST_JUDGIN
 /// smaller one, teaches, and the picture's samples judge.
 constexpr double LARGE_ERROR = 50;
 constexpr double TEACHING_SHARE = 1.0 / 16, FEWEST_TEACHING = 1 << 17, MOST_TEACHING = 1 << 18;
+/// The same of bdpt, of which no pilot has told that there is anything to find.
+constexpr double TEACHING_BDPT_SHARE = 1.0 / 32;
 
 /// The least part of a picture's light for whose sake a guide is tried.
 constexpr double LEAST_BY_HITS = 0.01;
@@ -66,10 +68,11 @@ std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
     const double judging = JUDGING_SHARE * expected_samples(options);
     if (judging >= FEWEST_JUDGING)
         return scaled_pilot(options, std::min(judging, MOST_JUDGING), JUDGING_SPP);
-    const double teaching = TEACHING_SHARE * expected_samples(options);
+    const bool is_bdpt = options.transport.integrator == Integrator::BDPT;
+    const double teaching = (is_bdpt ? TEACHING_BDPT_SHARE : TEACHING_SHARE) * expected_samples(options);
     if (error >= LARGE_ERROR && teaching >= FEWEST_TEACHING)
         return scaled_pilot(options, std::min(teaching, MOST_TEACHING),
-                            options.transport.integrator == Integrator::BDPT ? JUDGING_SPP : JUDGING_SPP / 2);
+                            is_bdpt ? JUDGING_SPP : JUDGING_SPP / 2);
     return std::nullopt;
 }
 
@@ -103,7 +106,8 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
     std::optional<PilotSize> size = size_of_pilots(1, options);
     if (size && shares)
         size = in_tiles(*size);
-    if (parts.guide || !is_open(options) || planned->effects.paths.is_empty ||
+    const bool has_none = options.transport.integrator == Integrator::BDPT && !has_casters(planned->scene);
+    if (parts.guide || has_none || !is_open(options) || planned->effects.paths.is_empty ||
         (unguided ? !is_guide_promising(*planned, *unguided) : !size))
         return;
     progress.update({"pilot", -1, 0, -1, -1});

@@ -15,8 +15,9 @@
 
 namespace clrt {
 
-/// Whether a guide may be worth its learning, where the options leave it open: light is hard to find, but is
-/// found, and there is time. `unguided`: what a pilot has told of the plan's integrator.
+/// Whether a guide may be worth its learning, where the options leave it open: light is hard to find, and
+/// there is time. Of path and path+light a pilot must have found some; bdpt is guided to what a pilot hardly
+/// can find. `unguided`: what a pilot has told of the plan's integrator.
 bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided);
 
 /// What a picture begins with whose guide is promising: what a pilot has learnt and judged, or what its own

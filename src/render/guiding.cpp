@@ -24,6 +24,8 @@ constexpr double GUIDED_BDPT_RAY_WORK = 1.15;
 /// work, over that of samples without a guide, may be so much: what unguided paths have taught is poor where
 /// light is hard to find, and what guided ones teach is better. One that passes the last of these stays.
 constexpr std::array<double, 2> LARGEST_COSTS = {1.1, 1};
+/// Light paths of the first epoch that teach bdpt at most: bins are large then, and sums would overflow.
+constexpr double MOST_FIRST_LIGHT_PATHS = 1 << 19;
 /// What guide_error allows the error to be over that of most pixels.
 constexpr double MOST_OVER_TRIMMED = 4;
 /// Of the variance, at least so much is left by a guide, whatever its gain is said to be.
@@ -82,6 +84,10 @@ Guiding::Guiding(const PreparedScene& prepared, const RenderParams& params, cons
 void Guiding::start() {
     const std::uint64_t replicates = std::uint64_t(prepared_.planned->options.sampling.replicates);
     progress_ = {};
+    if (guides_hits_alone())
+        for (double paths = double(replicates) * double(params_.light_path_count);
+             paths > MOST_FIRST_LIGHT_PATHS; paths /= 2)
+            progress_.teachers >>= 1;
     if (prepared_.planned->options.transport.guide == Toggle::ON) {
         progress_.stage = GuideStage::ON;
         progress_.end = replicates;

@@ -7,12 +7,12 @@
 // All samples weigh the same. Where there are more than it needs, only some samples of an epoch teach the
 // guide.
 //
-// --guide auto begins with what pilots have found out (render/guide_choice.h). Without them the picture's
-// first samples are the pilot, and where they are noisy an epoch half as long teaches. The guided samples
-// that follow are a trial: they tell what the variance would have been without the guide
-// (kernels/path/guide_gain.h), and the guide goes where that gains less than its work costs. Of paths that
-// serve several pixels the film's noise is compared with what it was before, instead. Work is counted
-// in rays, never measured in seconds: the same picture comes out everywhere.
+// --guide auto begins with what pilots have found out (render/guide_choice.h). Without them bdpt is not
+// guided; of path and path+light the picture's first samples are the pilot, and where they are noisy an epoch
+// half as long teaches. The guided samples that follow are a trial: they tell what the variance would have
+// been without the guide (kernels/path/guide_gain.h), and the guide goes where that gains less than its work
+// costs. Of paths that serve several pixels the film's noise is compared with what it was before, instead.
+// Work is counted in rays, never measured in seconds: the same picture comes out everywhere.
 #pragma once
 
 #include "film/film_buffers.h"

@@ -278,8 +278,11 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         const PathPilot unguided{pilot.own, pilot.eye_rays, pilot.trimmed, pilot.mean};
         IntegratorPrice& told = choice.prices.back();
         const double least = std::max(best, smallest_gain(told, is_guided, planned->options));
+        // A replay is of the picture's integrator.
+        const auto pixel = std::exchange(planned->options.run.pixel, std::nullopt);
         if (told.efficiency <= least)
             parts.guide = guide_to_hits(prepared, unguided, least, told);
+        planned->options.run.pixel = pixel;
         if (told.efficiency > least || parts.guide) {
             best = std::max(told.efficiency, told.guided);
             chosen = choice.prices.size() - 1;
@@ -287,15 +290,19 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             choice.unguided = unguided;
         }
     }
+    const auto guide = std::exchange(parts.guide, nullptr);
     std::string reuse;
-    if (choice.integrator != Integrator::PATH && choice.reason.empty() && !parts.guide &&
-        best < most_of_path(*planned)) {
+    if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < most_of_path(*planned) &&
+        !(guide && has_light_tree(*planned))) {
         take(choice.integrator, asked, *planned);
         expect_program(device, *planned);
-        reuse = try_path_again(device, planned, asked, is_guided, choice.prices[chosen], parts, choice);
+        IntegratorPrice guided = choice.prices[chosen];
+        guided.efficiency = best;
+        reuse = try_path_again(device, planned, asked, is_guided, guide ? guided : choice.prices[chosen],
+                               parts, choice);
     }
-    if (choice.integrator == Integrator::PATH)
-        parts.guide = nullptr;
+    if (choice.integrator == Integrator::BDPT && !planned->options.run.pixel)
+        parts.guide = guide;
     if (choice.reason.empty())
         choice.reason = told_text(choice, reuse);
     take(choice.integrator, asked, *planned);

@@ -17,7 +17,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace clrt {
 
@@ -157,6 +156,19 @@ private:
     double samples_, quantum_;
 };
 
+/// Mean radiance over the pixels that show the scene, and channels.
+double scene_mean(const Film& film) {
+    const PixelChoice choice(film, ErrorPixels::SCENE);
+    const std::vector<float> picture = film_mean(film);
+    double sum = 0, count = 0;
+    for (size_t i = 0; i < picture.size(); ++i)
+        if (choice.has(i / 3)) {
+            sum += double(picture[i]);
+            count += 1;
+        }
+    return count > 0 ? sum / count : 0;
+}
+
 /// Squared errors of a sample by a measure, over the pixels that show the scene. The integrator's are what
 /// its replicates scatter by; by how much more path's would, its moments tell.
 void set_errors(const RenderProgress& render, ErrorMeasure measure, PilotResult& result) {
@@ -218,8 +230,7 @@ PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size, b
         for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
             pilot.errors[size_t(measure)] = sample_error(render.film, measure);
     pilot.trimmed = trimmed_sample_error(render.film);
-    const std::vector<float> picture = film_mean(render.film);
-    pilot.mean = std::accumulate(picture.begin(), picture.end(), 0.0) / double(picture.size());
+    pilot.mean = scene_mean(render.film);
     return pilot;
 }
 

@@ -24,7 +24,7 @@ struct PathPilot {
     SquaredErrors errors{}; ///< infinite: no light was found
     double rays = 0;
     double trimmed = HUGE_VAL; ///< the relative one without the noisiest pixels (trimmed_sample_error)
-    double mean = 0;           ///< radiance, over pixels and channels; 0: not known
+    double mean = 0;           ///< radiance, over the pixels that show the scene; 0: not known
 };
 
 /// What a pilot has found out, a sample a pixel.
@@ -35,7 +35,7 @@ struct PilotResult {
     double inner_rays = 0;       ///< between both
     double light_paths = 0;
     double trimmed = 0;    ///< relative squared error of the integrator without its noisiest pixels
-    double mean = 0;       ///< radiance, over pixels and channels
+    double mean = 0;       ///< radiance, likewise
     bool is_black = false; ///< no light was found: there are no errors
 };
 

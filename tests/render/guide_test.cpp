@@ -128,6 +128,18 @@ TEST(Guide, LightPathsTellBdptOfLightBehindWater) {
     EXPECT_LT(error(Toggle::ON), 0.05 * error(Toggle::OFF));
 }
 
+// No path can be guided to a sun without a disc.
+TEST(Guide, LightThatNoRayMeetsTeachesNothing) {
+    TestScene basin;
+    add_sunlit_basin(basin, 0);
+    const auto records = [&] { return Guide::records(render_guided(basin, Toggle::ON, 64, 4).guide.sums); };
+    const double without = records();
+    basin.options.light.suns[0].diameter_degrees = 0.5;
+    EXPECT_GT(records(), 1.2 * without);
+    basin.options.light.suns.clear();
+    EXPECT_NEAR(records() / without, 1, 0.02);
+}
+
 /// Whether a picture is the same in one run as in two, by way of a film file.
 void expect_same_bits_in_pieces(TestScene& scene) {
     const Render whole = render_guided(scene, Toggle::ON, 24, 4);
