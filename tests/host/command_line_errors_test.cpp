@@ -309,7 +309,7 @@ TEST(CommandLine, ContradictionsAreNamed) {
            "options --ledger and --integrator mlt: expected one of them, found both; the ledger compares");
     expect({"--guide", "on", "--first-sample", "8"},
            "options --guide on and --first-sample: expected one of them, found both; guided samples need");
-    for (const std::string name : {"whitted", "mlt", "mlt"})
+    for (const std::string name : {"whitted", "mlt"})
         expect({"--guide", "on", "-i", name},
                "options --guide on and --integrator " + name +
                    ": expected one of them, found both; its paths are not guided");
