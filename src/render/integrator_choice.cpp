@@ -330,6 +330,17 @@ Integrator integrator_of_film(const std::string& path) {
     return is_candidate ? integrator : Integrator::PATH;
 }
 
+/// Plans for paths as long as those of the film that is gone on with, unless a length is asked for: which one
+/// is usual depends on whether the integrator was named.
+void take_depth_of_film(Options& options) {
+    if (options.film_file.resume_path.empty() || options.transport.max_depth)
+        return;
+    const FilmIdentity identity = read_film_content(options.film_file.resume_path).identity;
+    const auto depth = identity.find("max_depth");
+    if (depth != identity.end() && depth->is_number_integer())
+        options.transport.max_depth = depth->get<int>();
+}
+
 /// Decides by what the options and the scene say; false where pilots must, whose size is set.
 bool decide_by_facts(const PlannedScene& planned, const std::vector<Candidate>& candidates,
                      IntegratorChoice& choice) {
@@ -370,9 +381,10 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     if (wish == Toggle::AUTO && !may_try(candidates, planned->options))
         return choice;
     choice.is_told = wish == Toggle::ON;
-    if (decide_by_facts(*planned, candidates, choice))
+    if (decide_by_facts(*planned, candidates, choice)) {
+        take_depth_of_film(planned->options);
         take_integrator(choice.integrator, *planned);
-    else {
+    } else {
         progress.update({"pilot", -1, 0, -1, -1});
         if (wish == Toggle::ON || !path_suffices(device, planned, parts, choice)) {
             decide(device, planned, candidates, parts, choice);

@@ -80,6 +80,19 @@ TEST_F(ChoiceCommand, AFilmGoesOnByItsIntegrator) {
     EXPECT_TRUE(holds(unnamed.out, {"chosen   path+light: as the film that is gone on with"}));
 }
 
+// bdpt has shorter paths where it is named than where it is chosen.
+TEST_F(ChoiceCommand, AFilmGoesOnByPathsAsLongAsItsOwn) {
+    const std::vector<std::string> usual, asked = {"--max-depth", "4096"};
+    for (const auto& depth : {usual, asked}) {
+        std::vector<std::string> named = {"-i", "bdpt", "-s", "8", "-o", "a.exr", "--checkpoint", "c.film"};
+        named.insert(named.end(), depth.begin(), depth.end());
+        clrt(small(named));
+        const auto result = clrt(small({"--resume", "c.film", "-s", "16", "-o", "b.exr"}));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_TRUE(holds(result.out, {"chosen   bdpt: as the film that is gone on with"}));
+    }
+}
+
 TEST_F(ChoiceCommand, ASampleIsReplayedByTheChosenOne) {
     const auto result = clrt(small({"-i", "auto", "-s", "512", "--pixel", "32,40", "--stats", "a.json"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
