@@ -322,30 +322,32 @@ bool may_try(const std::vector<Candidate>& candidates, const Options& options) {
 }
 
 /// The integrator of a film that one of those chosen from has rendered; else path, which the film refuses.
-Integrator integrator_of_film(const std::string& path) {
-    const Integrator integrator = film_integrator(read_film_content(path).identity);
+Integrator integrator_of_film(const FilmIdentity& film) {
+    const Integrator integrator = film_integrator(film);
     const bool is_candidate =
         std::any_of(std::begin(CANDIDATES), std::end(CANDIDATES),
                     [&](const Candidate& candidate) { return candidate.integrator == integrator; });
     return is_candidate ? integrator : Integrator::PATH;
 }
 
-/// Plans for paths as long as those of the film that is gone on with, unless a length is asked for: which one
-/// is usual depends on whether the integrator was named.
-void take_depth_of_film(Options& options) {
-    if (options.film_file.resume_path.empty() || options.transport.max_depth)
-        return;
-    const FilmIdentity identity = read_film_content(options.film_file.resume_path).identity;
-    const auto depth = identity.find("max_depth");
-    if (depth != identity.end() && depth->is_number_integer())
-        options.transport.max_depth = depth->get<int>();
+/// The longest path of a film, which is usual or not by whether its integrator was named; none: it says none
+/// that can be asked for.
+std::optional<int> depth_of_film(const FilmIdentity& film) {
+    const auto depth = film.find("max_depth");
+    if (depth == film.end() || !depth->is_number_integer() || *depth < 1 || *depth > LARGEST_DEPTH)
+        return std::nullopt;
+    return depth->get<int>();
 }
 
-/// Decides by what the options and the scene say; false where pilots must, whose size is set.
-bool decide_by_facts(const PlannedScene& planned, const std::vector<Candidate>& candidates,
+/// Decides by what the options and the scene say, and plans for paths as long as those of a film that is gone
+/// on with unless a length is asked for; false where pilots must decide, whose size is set.
+bool decide_by_facts(PlannedScene& planned, const std::vector<Candidate>& candidates,
                      IntegratorChoice& choice) {
     if (!planned.options.film_file.resume_path.empty()) {
-        choice.integrator = integrator_of_film(planned.options.film_file.resume_path);
+        const FilmIdentity film = read_film_content(planned.options.film_file.resume_path).identity;
+        choice.integrator = integrator_of_film(film);
+        if (!planned.options.transport.max_depth)
+            planned.options.transport.max_depth = depth_of_film(film);
         choice.reason = "as the film that is gone on with";
     } else if (const auto reason = reason_for_path(planned.options)) {
         choice.reason = *reason;
@@ -381,10 +383,9 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     if (wish == Toggle::AUTO && !may_try(candidates, planned->options))
         return choice;
     choice.is_told = wish == Toggle::ON;
-    if (decide_by_facts(*planned, candidates, choice)) {
-        take_depth_of_film(planned->options);
+    if (decide_by_facts(*planned, candidates, choice))
         take_integrator(choice.integrator, *planned);
-    } else {
+    else {
         progress.update({"pilot", -1, 0, -1, -1});
         if (wish == Toggle::ON || !path_suffices(device, planned, parts, choice)) {
             decide(device, planned, candidates, parts, choice);
