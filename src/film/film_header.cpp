@@ -125,6 +125,8 @@ FilmHeader film_header(const FilmFile& film) {
     const std::optional<double>& radiance = film.bias.cut_radiance;
     json["cut_radiance"] = radiance ? Json(*radiance) : Json(nullptr);
     json["blind_spots"] = blind_spots_json(film.bias.blind_spots);
+    if (const std::optional<HitLight>& hits = film.bias.hits)
+        json["hits"] = {{"paths", hits->paths}, {"radiance", hits->radiance}};
     if (const PixelRuns runs = runs_of(render.film.shown); !runs.empty() && runs.size() <= MOST_RUNS)
         json["shown"] = runs;
     json["history"] = history_json(render.history);
@@ -160,6 +162,8 @@ FilmFile film_of_header(const FilmHeader& json) {
     if (const Json& radiance = json.at("cut_radiance"); !radiance.is_null())
         film.bias.cut_radiance = radiance.get<double>();
     film.bias.blind_spots = read_blind_spots(json.at("blind_spots"));
+    if (json.contains("hits"))
+        film.bias.hits = HitLight{json.at("hits").at("paths"), json.at("hits").at("radiance")};
     film.render.history = read_history(json.at("history"));
     json.at("seconds").get_to(film.render.seconds);
     film.render.path_layers.assign(film_layer_names(film.identity).size(), film_layer(sums));

@@ -27,16 +27,20 @@ constexpr size_t READABLE_STATES = 16;
 using Joint = std::array<int, 5>;
 enum { LANGUAGE, PICTURE, RAYS, CONNECTION, IMAGES };
 
-/// The unsampled language, walked from the eye: state 0 is the start.
-struct Unsampled {
+/// Paths of a picture, as told from the others by which techniques find them: none, or hits alone.
+enum class Finding { NONE, HITS };
+
+/// Such paths, walked from the eye: state 0 is the start.
+struct FoundPaths {
     std::vector<std::array<int, LETTER_COUNT>> next;
-    std::vector<unsigned> kinds; ///< KIND_* that end an unsampled path
+    std::vector<unsigned> kinds; ///< KIND_* that end such a path
     std::vector<int> distance;   ///< letters from the start
 };
 
 class Product {
 public:
-    Product(const PathPlan& plan, const PathExpression& picture, Integrator integrator) : plan_(plan) {
+    Product(const PathPlan& plan, const PathExpression& picture, Integrator integrator, Finding finding)
+        : plan_(plan), finding_(finding) {
         const SimulatedPaths& simulated = integrator_row(integrator).paths;
         const PathExpression expressions[] = {
             parse_path_expression(simulated.all), picture, parse_path_expression(simulated.by_rays),
@@ -50,15 +54,18 @@ public:
         for (size_t s = 0; s < joints_.size(); ++s)
             expand(s);
     }
-    Unsampled result;
+    FoundPaths result;
 
 private:
     const AutomatonState& state(const Joint& joint, size_t i) const {
         return automata_[i].states[size_t(joint[i])];
     }
 
-    unsigned unsampled_kinds(const Joint& joint) const {
+    unsigned found_kinds(const Joint& joint) const {
         const auto kinds = [&](size_t i) { return state(joint, i).kinds; };
+        if (finding_ == Finding::HITS)
+            return kinds(LANGUAGE) & kinds(PICTURE) & plan_.found_by_rays & kinds(RAYS) &
+                   ~(kinds(CONNECTION) | kinds(IMAGES));
         const unsigned by_extent = plan_.found_by_rays & ~(kinds(RAYS) | kinds(CONNECTION));
         const unsigned without = plan_.missed_by_rays & ~(kinds(CONNECTION) | kinds(IMAGES));
         return kinds(LANGUAGE) & kinds(PICTURE) & (by_extent | without);
@@ -69,7 +76,7 @@ private:
         if (is_new) {
             joints_.push_back(joint);
             result.next.emplace_back();
-            result.kinds.push_back(unsampled_kinds(joint));
+            result.kinds.push_back(found_kinds(joint));
             result.distance.push_back(distance);
         }
         return entry->second;
@@ -87,14 +94,15 @@ private:
     }
 
     const PathPlan& plan_;
+    const Finding finding_;
     std::array<Automaton, 5> automata_;
     std::map<Joint, int> numbers_;
     std::vector<Joint> joints_;
 };
 
-/// The paths of one kind of light, read from the light, whose first letter is one of `first`. Turning a
+/// The paths of such kinds of light, read from the light, whose first letter is one of `first`. Turning a
 /// deterministic automaton round and making it deterministic gives the smallest one (Brzozowski 1962).
-std::vector<LightState> from_light(const Unsampled& paths, unsigned kind, unsigned first) {
+std::vector<LightState> from_light(const FoundPaths& paths, unsigned kinds, unsigned first) {
     using PlaceSet = std::set<int>;
     std::map<PlaceSet, int> numbers;
     std::vector<PlaceSet> sets;
@@ -106,7 +114,7 @@ std::vector<LightState> from_light(const Unsampled& paths, unsigned kind, unsign
     };
     PlaceSet ends;
     for (size_t s = 0; s < paths.kinds.size(); ++s)
-        if (paths.kinds[s] & kind)
+        if (paths.kinds[s] & kinds)
             ends.insert(int(s));
     sets.push_back(ends); // the start has a number of its own: only there the letter is restricted
     std::vector<LightState> states;
@@ -126,20 +134,20 @@ std::vector<LightState> from_light(const Unsampled& paths, unsigned kind, unsign
     return states;
 }
 
-/// Letters that a path of one kind of light can have next to the light, within so many segments.
-unsigned first_letters(const Unsampled& paths, unsigned kind, int max_depth) {
+/// Letters that a path of such kinds of light can have next to the light, within so many segments.
+unsigned first_letters(const FoundPaths& paths, unsigned kinds, int max_depth) {
     unsigned letters = 0;
     for (const std::array<int, LETTER_COUNT>& next : paths.next)
         for (unsigned letter = 0; letter < LETTER_COUNT; ++letter)
             if (const int s = next[letter];
-                s >= 0 && (paths.kinds[size_t(s)] & kind) && paths.distance[size_t(s)] + 1 <= max_depth)
+                s >= 0 && (paths.kinds[size_t(s)] & kinds) && paths.distance[size_t(s)] + 1 <= max_depth)
                 letters |= 1u << letter;
     return letters;
 }
 
-/// Surfaces of the paths of one kind of light whose letter next to it is one of `first`.
-std::string surfaces_text(const Unsampled& paths, unsigned kind, unsigned first) {
-    std::vector<LightState> states = from_light(paths, kind, first);
+/// Surfaces of the paths of such kinds of light whose letter next to it is one of `first`.
+std::string surfaces_text(const FoundPaths& paths, unsigned kinds, unsigned first) {
+    std::vector<LightState> states = from_light(paths, kinds, first);
     if (states.size() > READABLE_STATES) {
         states.assign(2, {});
         states[1].accepts = true;
@@ -159,7 +167,7 @@ std::string light_text(const PathPlan& plan, unsigned bit) {
 }
 
 /// One spot for the light itself, one for each material next to it.
-void add_spots(const PathPlan& plan, const Unsampled& paths, unsigned bit, int max_depth,
+void add_spots(const PathPlan& plan, const FoundPaths& paths, unsigned bit, int max_depth,
                std::vector<BlindSpot>& spots) {
     if (paths.kinds[0] >> bit & 1u)
         spots.push_back({plan.letters[LETTER_COUNT + bit].symbol + "E", light_text(plan, bit), ""});
@@ -189,11 +197,32 @@ void add_spots(const PathPlan& plan, const Unsampled& paths, unsigned bit, int m
 
 std::vector<BlindSpot> find_blind_spots(const PathPlan& plan, const PathExpression& picture,
                                         Integrator integrator, int max_depth) {
-    const Unsampled paths = Product(plan, picture, integrator).result;
+    const FoundPaths paths = Product(plan, picture, integrator, Finding::NONE).result;
     std::vector<BlindSpot> spots;
     for (unsigned bit = 0; LETTER_COUNT + bit < plan.letters.size(); ++bit)
         add_spots(plan, paths, bit, max_depth, spots);
     return spots;
+}
+
+HitPaths find_hit_paths(const PathPlan& plan, const PathExpression& picture, Integrator integrator,
+                        int max_depth) {
+    const FoundPaths paths = Product(plan, picture, integrator, Finding::HITS).result;
+    HitPaths hits;
+    std::string lights;
+    unsigned first = 0;
+    for (unsigned bit = 0; LETTER_COUNT + bit < plan.letters.size(); ++bit)
+        if (const unsigned letters = first_letters(paths, 1u << bit, max_depth)) {
+            hits.kinds |= 1u << bit;
+            lights += (lights.empty() ? "" : "|") + plan.letters[LETTER_COUNT + bit].symbol;
+            first |= letters;
+        }
+    if (hits.kinds == plan.alphabet.kinds)
+        lights = "L";
+    else if (hits.kinds & (hits.kinds - 1))
+        lights = "(" + lights + ")";
+    if (hits.kinds != 0)
+        hits.paths = lights + surfaces_text(paths, hits.kinds, first) + "E";
+    return hits;
 }
 
 std::string format_blind_spots(const std::vector<BlindSpot>& spots) {

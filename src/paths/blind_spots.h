@@ -37,6 +37,17 @@ struct BlindSpot {
 std::vector<BlindSpot> find_blind_spots(const PathPlan& plan, const PathExpression& picture,
                                         Integrator integrator, int max_depth);
 
+/// Paths that no technique finds but a path from the eye that happens to hit the light, other than by delta
+/// lobes alone: by chance, and the rarer the smaller the light is.
+struct HitPaths {
+    std::string paths;  ///< as an expression, such as "LS(D|S)*DSE"; empty: there are none
+    unsigned kinds = 0; ///< KIND_* of their lights
+};
+
+/// Those of an integrator; arguments as those of find_blind_spots.
+HitPaths find_hit_paths(const PathPlan& plan, const PathExpression& picture, Integrator integrator,
+                        int max_depth);
+
 /// Lines "not seen ...", one a blind spot.
 std::string format_blind_spots(const std::vector<BlindSpot>& spots);
 

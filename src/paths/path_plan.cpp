@@ -181,9 +181,11 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
         parse_path_expression(plan.expression.empty() ? EVERY_PATH : plan.expression);
     if (plan.is_asked)
         plan_automaton(picture, options, plan);
-    plan.blind_spots =
-        find_blind_spots(plan, picture, options.transport.integrator, effective_max_depth(options.transport));
-    if (auto spot = find_rounded_facets(scene, options.transport.integrator))
+    const Integrator integrator = options.transport.integrator;
+    const int max_depth = effective_max_depth(options.transport);
+    plan.blind_spots = find_blind_spots(plan, picture, integrator, max_depth);
+    plan.hit_paths = find_hit_paths(plan, picture, integrator, max_depth);
+    if (auto spot = find_rounded_facets(scene, integrator))
         plan.blind_spots.push_back(std::move(*spot));
     return plan;
 }

@@ -2,6 +2,7 @@
 #include "render/cut_paths.h"
 
 #include "kernels/shared/render_types.h"
+#include "render/unmet_light.h"
 #include "scene/brightness.h"
 #include "scene/vectors.h"
 
@@ -44,11 +45,12 @@ std::optional<double> cut_radiance(const Scene& scene, unsigned kinds) {
 }
 
 BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const RenderProgress& render,
-                         FilmAccess film) {
+                         Integrator integrator) {
     BiasSources sources;
-    if (render.counts.cut_paths > 0 && film == FilmAccess::GATHER)
+    if (render.counts.cut_paths > 0 && integrator_row(integrator).film == FilmAccess::GATHER)
         sources.cut_radiance = cut_radiance(scene, accepted_kinds(paths));
     sources.blind_spots = paths.blind_spots;
+    sources.hits = hit_light(scene, paths, integrator, render.guide);
     return sources;
 }
 

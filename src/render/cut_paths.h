@@ -33,7 +33,7 @@ std::optional<double> cut_radiance(const Scene& scene, unsigned kinds);
 /// Those of a render; bounds nothing where nothing was cut, or where what was cut are paths from the lights,
 /// whose weights are not those of radiance.
 BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const RenderProgress& render,
-                         FilmAccess film = FilmAccess::GATHER);
+                         Integrator integrator);
 
 /// What --max-depth cut from a picture.
 struct CutPaths {

@@ -57,6 +57,7 @@ ErrorReport make_error_report(const RenderProgress& render, const BiasSources& b
     ErrorReport report;
     report.cut = cut_paths(render, bias.cut_radiance);
     report.blind_spots = bias.blind_spots;
+    report.unmet = unmet_light(render, bias.hits);
     report.replicates = int(ReplicateMeans(render.film).count());
     report.window_x = x;
     report.window_y = y;
@@ -111,7 +112,7 @@ const char* verdict_name(Verdict verdict) {
 }
 
 bool is_complete(const ErrorReport& report) {
-    return report.cut.paths == 0 && report.blind_spots.empty();
+    return report.cut.paths == 0 && report.blind_spots.empty() && !report.unmet;
 }
 
 Json error_report_json(const ErrorReport& report) {
@@ -159,6 +160,8 @@ void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
     for (const BlindSpot& spot : report.blind_spots)
         spots.push_back(spot.paths);
     metadata.emplace_back("blind_spots", fmt::format("{}", fmt::join(spots, ", ")));
+    if (report.unmet)
+        add("unmet.rel_light_bound", report.unmet->relative_bound);
     if (!report.error)
         return;
     metadata.emplace_back("error.measure", name_of(report.measure));

@@ -8,6 +8,7 @@
 #include "output/image.h"
 #include "render/cut_paths.h"
 #include "render/error_price.h"
+#include "render/unmet_light.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -28,7 +29,8 @@ struct ErrorReport {
     std::optional<ErrorPrice> price;        ///< of half the error
     std::optional<ErrorPrice> target_price; ///< of the error that is asked for, where it is not reached
     CutPaths cut;                           ///< what the error does not hold: light of paths that were cut,
-    std::vector<BlindSpot> blind_spots;     ///< and of paths that are never sampled
+    std::vector<BlindSpot> blind_spots;     ///< of paths that are never sampled,
+    std::optional<UnmetLight> unmet;        ///< and of paths so rare that none may have been sampled
     int replicates = 0;                     ///< with samples
     int window_x = 0, window_y = 0;         ///< the window's place in the whole picture
 };
@@ -42,7 +44,7 @@ ErrorReport make_error_report(const RenderProgress& render, const BiasSources& b
 enum class Verdict {
     NONE,       ///< there is no error
     TRUSTED,    ///< it holds all that is wrong with the picture
-    INCOMPLETE, ///< it holds what was sampled; paths are cut, or never sampled
+    INCOMPLETE, ///< it holds what was sampled; paths are cut, never sampled, or too rare
     UNTRUSTED   ///< bright samples decide it that single replicates saw: ErrorSpread::usable()
 };
 Verdict verdict_on(const ErrorReport& report);

@@ -74,15 +74,17 @@ std::string verdict_line(const ErrorReport& report) {
     case Verdict::INCOMPLETE:
         break;
     }
-    std::string text = "verdict  trust the error for what was sampled, which is not all:";
+    std::vector<std::string> missing, spots;
     if (report.cut.paths > 0)
-        text += " long paths are cut";
+        missing.emplace_back("long paths are cut");
     for (const BlindSpot& spot : report.blind_spots)
-        text += (&spot != &report.blind_spots.front() ? ", "
-                 : report.cut.paths > 0               ? "; not seen: "
-                                                      : " not seen: ") +
-                spot.paths;
-    return text + "\n";
+        spots.push_back(spot.paths);
+    if (!spots.empty())
+        missing.push_back(fmt::format("not seen: {}", fmt::join(spots, ", ")));
+    if (report.unmet)
+        missing.push_back(fmt::format("hardly ever met: {}", report.unmet->paths));
+    return fmt::format("verdict  trust the error for what was sampled, which is not all: {}\n",
+                       fmt::join(missing, "; "));
 }
 
 std::string price_line(const ErrorReport& report) {
@@ -122,7 +124,7 @@ std::string gain_text(const AdaptiveRound& round) {
 std::string format_error_report(const ErrorReport& report) {
     std::string text = fmt::format("error    {}\n", error_line(report)) + other_line(report) +
                        scene_line(report) + verdict_line(report) + format_cut(report.cut) +
-                       format_blind_spots(report.blind_spots);
+                       format_blind_spots(report.blind_spots) + format_unmet(report.unmet);
     if (report.error && report.error->relative_rmse > 0)
         text += fmt::format("price    {}\n", price_line(report));
     text += target_line(report);

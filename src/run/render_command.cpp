@@ -82,8 +82,7 @@ struct Job {
 Report make_report(const Job& job, const Simulation& done, const SceneTree& tree) {
     const auto& [scene, options, effects] = *job.planned;
     const Crop window = render_window(options.film);
-    const BiasSources bias =
-        bias_sources(scene, effects.paths, done.render, integrator_row(options.transport.integrator).film);
+    const BiasSources bias = bias_sources(scene, effects.paths, done.render, options.transport.integrator);
     return {options,
             scene,
             effects,

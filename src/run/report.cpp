@@ -277,6 +277,7 @@ std::string report_json(const Report& report) {
     json["denoised"] = denoised_json(render, verdict_on(report.error) == Verdict::UNTRUSTED);
     json["cut"] = cut_json(report.error.cut);
     json["blind_spots"] = blind_spots_json(report.error.blind_spots);
+    json["unmet"] = unmet_json(report.error.unmet);
     json["stop"] = stop_json(report);
     json["nonfinite"] = {{"nan", counts.nan},
                          {"infinite", counts.infinite},

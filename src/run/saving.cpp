@@ -153,8 +153,7 @@ void Saving::write_film(const Render& render) const {
             throw SceneError(
                 path, 0,
                 fmt::format("the film of this run is not written: {}; --force replaces it", *obstacle));
-    const BiasSources bias =
-        bias_sources(scene_, paths_, render, integrator_row(options_.transport.integrator).film);
+    const BiasSources bias = bias_sources(scene_, paths_, render, options_.transport.integrator);
     write_film_file(path, make_film_file(render, bias, identity, options_, device_));
 }
 

@@ -189,6 +189,31 @@ TEST(BlindSpots, ThoseOfDistributionEndAtRoughSurfaces) {
     EXPECT_EQ(scene.pane("shiny").paths(), "LpS+G(G|S)*E");
 }
 
+TEST(HitPaths, AreThoseThatNoConnectionAndNoSplatFinds) {
+    const auto hits = [](Integrator integrator, const std::string& pane, const std::string& asked = "") {
+        LitFloor scene;
+        scene.options.light.environment = glm::dvec3(1);
+        scene.options.transport.integrator = integrator;
+        scene.options.transport.paths = asked;
+        if (!pane.empty())
+            scene.pane(pane);
+        return plan_paths(scene.load(), scene.options).hit_paths;
+    };
+    EXPECT_EQ(hits(Integrator::PATH, "").paths, "") << "all is connected";
+    EXPECT_EQ(hits(Integrator::PATH, "frosted").paths, "");
+    EXPECT_EQ(hits(Integrator::PATH, "mirror").kinds, unsigned(KIND_SKY)) << "no ray meets the point";
+    EXPECT_TRUE(same_paths(hits(Integrator::PATH, "mirror").paths, "LeR+D(D|R)*E"))
+        << hits(Integrator::PATH, "mirror").paths;
+    for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::MLT})
+        EXPECT_TRUE(same_paths(hits(integrator, "mirror").paths, "LeR+D(D|R)*RE"))
+            << hits(integrator, "mirror").paths;
+    EXPECT_TRUE(same_paths(hits(Integrator::BDPT, "mirror").paths, "LeR+D(R+D)*R+E"))
+        << hits(Integrator::BDPT, "mirror").paths << ": two matte vertices in a row are connected";
+    EXPECT_EQ(hits(Integrator::LIGHT, "mirror").paths, "");
+    EXPECT_EQ(hits(Integrator::WHITTED, "mirror").paths, "") << "images are met always";
+    EXPECT_EQ(hits(Integrator::PATH, "mirror", "LD+E|LS+E").paths, "") << "not asked for";
+}
+
 TEST(BlindSpots, AreExplained) {
     LitFloor scene;
     const auto text = [&] {
@@ -229,6 +254,14 @@ TEST(BlindSpots, TheVerdictOnTheErrorNamesThem) {
     report.cut.paths = 5;
     text = format_error_report(report);
     EXPECT_NE(text.find("which is not all: long paths are cut; not seen: LpS+DE\n"), std::string::npos)
+        << text;
+    report.unmet = UnmetLight{"LS+DE", 0.13};
+    text = format_error_report(report);
+    EXPECT_NE(text.find("; not seen: LpS+DE; hardly ever met: LS+DE\n"), std::string::npos) << text;
+    EXPECT_NE(
+        text.find("unmet    only paths that happen to hit a light find LS+DE: by ways that no sample took, "
+                  "the picture may lack up to 13 % of its mean (95 % confidence)\n"),
+        std::string::npos)
         << text;
     report.error.reset();
     EXPECT_NE(format_error_report(report).find("not seen LpS+DE"), std::string::npos) << "of black pictures";

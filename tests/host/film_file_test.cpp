@@ -38,6 +38,7 @@ FilmFile make_film() {
     counts.cut_weight = 1ull << 41;
     file.bias.cut_radiance = 1.0 / 3;
     file.bias.blind_spots = {{"LpS+DE", "a light", "a.mtl:3"}};
+    file.bias.hits = {{"LS+DE", 1.0 / 7}};
     counts.bad_samples = {{7, 9}, {8, 10}};
     file.render.history = {{8, 0.1, 1.0 / 3, {1, 2, 3, 0.1}}};
     file.render.film.shown = {0, 1, 1, 0, 0, 0, 0, 1, 0, 1, 1, 1, 1, 1, 1};
@@ -113,6 +114,9 @@ TEST_F(FilmFileTest, EverythingComesBack) {
     EXPECT_EQ(read.bias.cut_radiance, 1.0 / 3);
     ASSERT_EQ(read.bias.blind_spots.size(), 1u);
     EXPECT_EQ(read.bias.blind_spots[0].where, "a.mtl:3");
+    ASSERT_TRUE(read.bias.hits);
+    EXPECT_EQ(read.bias.hits->paths, "LS+DE");
+    EXPECT_EQ(read.bias.hits->radiance, 1.0 / 7);
     EXPECT_EQ(read.render.counts.bad_samples, written.render.counts.bad_samples);
     ASSERT_EQ(read.render.history.size(), 1u);
     EXPECT_EQ(read.render.history[0].samples, 8u);

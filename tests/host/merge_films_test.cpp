@@ -78,7 +78,7 @@ TEST(MergeFilms, WhatWasCutAddsUp) {
     FilmFile sum = part(0, 4), other = part(4, 4);
     other.render.counts.cut_paths = 3;
     other.render.counts.cut_weight = 7;
-    other.bias = {0.5, {{"LpS+DE", "a light", ""}}};
+    other.bias = {0.5, {{"LpS+DE", "a light", ""}}, {}};
     sum.bias.blind_spots = other.bias.blind_spots;
     merge_film(sum, "a", other, "b");
     EXPECT_EQ(sum.render.counts.cut_paths, 3u);

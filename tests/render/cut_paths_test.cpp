@@ -31,7 +31,7 @@ public:
     }
     CutPaths cut(const Render& render) const {
         const Scene scene = load();
-        const BiasSources bias = bias_sources(scene, plan_paths(scene, options), render);
+        const BiasSources bias = bias_sources(scene, plan_paths(scene, options), render, options.transport.integrator);
         return cut_paths(render, bias.cut_radiance);
     }
 };
