@@ -13,6 +13,14 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Work that is worth nothing before it is done, ended by a signal (exit 128 and its number).
+class StoppedError : public std::runtime_error {
+public:
+    StoppedError(int signal_number, const std::string& message)
+        : std::runtime_error(message), signal_number(signal_number) {}
+    const int signal_number;
+};
+
 /// A file that cannot be read, understood or written (exit 1). Positions print as "file:line: message".
 class SceneError : public std::runtime_error {
 public:

@@ -32,6 +32,8 @@ int run_program(const char* name, const std::function<int()>& program) {
         return code == EXIT_DONE ? EXIT_SCENE : code;
     } catch (const UsageError& error) {
         return report(EXIT_USAGE, error.what());
+    } catch (const StoppedError& error) {
+        return report(128 + error.signal_number, error.what());
     } catch (const SceneError& error) {
         return report(EXIT_SCENE, error.what());
     } catch (const DeviceError& error) {

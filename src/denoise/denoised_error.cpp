@@ -120,9 +120,10 @@ DenoisedError errors_over(const SquaredErrors& errors, const std::vector<size_t>
         squares += square;
         fourths += square * square;
     }
-    const double reach = reach_of(squares, fourths);
+    // Noise may make the sum negative; the errors of which it is the sum are not.
+    const double reach = reach_of(squares, fourths), high = std::max(sum, 0.0) + reach;
     return {relative_root(raw, values, mean), relative_root(sum, values, mean),
-            relative_root(sum - reach, values, mean), relative_root(sum + reach, values, mean)};
+            relative_root(sum - reach, values, mean), relative_root(high, values, mean)};
 }
 
 /// The places of the worst pixels and of all others, each in order. Which these are is told by their

@@ -10,7 +10,7 @@
 
 namespace clrt {
 
-/// Light that only hits find (HitPaths), and that nothing looks for.
+/// Light that only hits find (HitPaths).
 struct HitLight {
     std::string paths;   ///< as an expression
     double radiance = 0; ///< the largest that one sample of the picture brings by such a path

@@ -146,7 +146,7 @@ void AtomicFile::commit() {
 void AtomicFile::reject(const std::string& attempt, int error) const {
     const std::string hint = error == ENOSPC || error == EDQUOT ? "free some space or choose another folder"
                              : error == ENOENT                  ? "make its folder first"
-                                               : "choose another name or folder with --output";
+                                               : "choose another name or folder";
     throw SceneError(path_, 0, "cannot " + attempt + " the file: " + std::strerror(error) + "; " + hint);
 }
 

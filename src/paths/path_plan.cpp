@@ -3,6 +3,7 @@
 
 #include "colour.h"
 #include "paths/rounded_facets.h"
+#include "scene/casters.h"
 #include "scene/lights.h"
 #include "scene/lobes.h"
 #include "scene/material_table.h"
@@ -46,6 +47,10 @@ bool can_be_smooth(const Material& m) {
     return m.alpha_x == 0 || MATERIAL_INDEX(m) == 1.0f;
 }
 
+/// Lobes of a GGX alpha up to this are about as narrow as the sun: what they send is met as seldom as what
+/// smooth ones do, though connections find it.
+constexpr float NEARLY_SMOOTH = 0.01f;
+
 /// Letters (bits LETTER_BIT) that a material may write.
 unsigned letters_of(const Material& m) {
     unsigned letters = 0;
@@ -57,6 +62,29 @@ unsigned letters_of(const Material& m) {
         letters |= !has_choice || can_be_smooth(m) ? lobe.delta_letters : 0u;
     }
     return letters;
+}
+
+/// Letters of smooth lobes that used materials nearly write.
+unsigned nearly_smooth_letters(const Scene& scene) {
+    unsigned letters = 0;
+    for (const Triangle& triangle : scene.triangles)
+        if (const Material& m = scene.materials[triangle.material];
+            std::max(m.alpha_x, m.alpha_y) <= NEARLY_SMOOTH) {
+            letters |= m.lobes & LOBE_GLOSSY ? LETTER_BIT(LETTER_MIRROR) : 0u;
+            letters |= m.lobes & LOBES_GLASS ? LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION) : 0u;
+        }
+    return letters;
+}
+
+/// Paths that only hits find, nearly smooth lobes counted as smooth.
+HitPaths plan_hit_paths(const Scene& scene, const PathPlan& plan, const PathExpression& picture,
+                        Integrator integrator, int max_depth) {
+    PathPlan smooth = plan;
+    smooth.alphabet.letters |= nearly_smooth_letters(scene);
+    // Where nothing casts caustics there are no splats.
+    if (integrator == Integrator::PATH_LIGHT && !has_casters(scene))
+        integrator = Integrator::PATH;
+    return find_hit_paths(smooth, picture, integrator, max_depth);
 }
 
 PathLetter find_letter(const char* symbol, const Scene& scene, unsigned letter) {
@@ -184,7 +212,7 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
     const Integrator integrator = options.transport.integrator;
     const int max_depth = effective_max_depth(options.transport);
     plan.blind_spots = find_blind_spots(plan, picture, integrator, max_depth);
-    plan.hit_paths = find_hit_paths(plan, picture, integrator, max_depth);
+    plan.hit_paths = plan_hit_paths(scene, plan, picture, integrator, max_depth);
     if (auto spot = find_rounded_facets(scene, integrator))
         plan.blind_spots.push_back(std::move(*spot));
     return plan;

@@ -22,7 +22,8 @@ bool has_highlights(const Scene& scene) {
     });
 }
 
-/// Samples a pixel by which a sum over all pixels is a mean, or more than the mean.
+} // namespace
+
 double samples_of_mean(const Film& film) {
     if (!is_adaptive(film))
         return double(film_samples(film));
@@ -31,8 +32,6 @@ double samples_of_mean(const Film& film) {
         fewest = std::min(fewest, *std::min_element(half.begin(), half.end()));
     return 2.0 * fewest; // the picture is the mean of both halves' means
 }
-
-} // namespace
 
 std::optional<double> cut_radiance(const Scene& scene, unsigned kinds) {
     const double albedo = largest_albedo(scene);

@@ -35,6 +35,9 @@ std::optional<double> cut_radiance(const Scene& scene, unsigned kinds);
 BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const RenderProgress& render,
                          Integrator integrator);
 
+/// Samples a pixel by which a sum over all pixels is a mean, or more than the mean.
+double samples_of_mean(const Film& film);
+
 /// What --max-depth cut from a picture.
 struct CutPaths {
     std::uint64_t paths = 0;

@@ -2,6 +2,7 @@
 #include "render/dark_picture.h"
 
 #include "output/exposure.h"
+#include "paths/path_plan.h"
 #include "scene/camera_params.h"
 #include "scene/enclosed_volume.h"
 #include "scene/voxel_grid.h"
@@ -152,10 +153,17 @@ std::string explain_darkness(const Scene& scene, const Options& options, const s
         return "all emissive faces shine into closed lamps, their corners run the wrong way round: "
                "--two-sided-lights lets their backs shine as well";
     if (view.backs >= NEARLY_ALL)
-        return fmt::format("the camera at {} sees nothing but backs of surfaces: it is inside a closed one",
-                           short_triple(scene.camera.eye));
+        return fmt::format(
+            "the camera at {} sees nothing but backs of surfaces: it is inside a closed one, or "
+            "behind an open one",
+            short_triple(scene.camera.eye));
     if (!options.transport.paths.empty())
-        return fmt::format("paths {} carry no light to the camera here", options.transport.paths);
+        return fmt::format(
+            plan_paths(scene, options).hit_paths.kinds != 0
+                ? "paths {} are found where one happens to hit a light, and hardly any does: more "
+                  "samples (--spp) or a larger light show them"
+                : "paths {} carry no light to the camera here",
+            options.transport.paths);
     if (brightest > 0 && brightest < MIDDLE_GREY)
         return fmt::format(
             "the light is weak, the brightest pixel has radiance {:.2g}: --exposure {:.0f} shows it",

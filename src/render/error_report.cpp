@@ -160,8 +160,10 @@ void add_error_metadata(const ErrorReport& report, Metadata& metadata) {
     for (const BlindSpot& spot : report.blind_spots)
         spots.push_back(spot.paths);
     metadata.emplace_back("blind_spots", fmt::format("{}", fmt::join(spots, ", ")));
-    if (report.unmet)
-        add("unmet.rel_light_bound", report.unmet->relative_bound);
+    if (report.unmet) {
+        metadata.emplace_back("unmet", report.unmet->paths);
+        add("unmet.light_bound", report.unmet->light_bound);
+    }
     if (!report.error)
         return;
     metadata.emplace_back("error.measure", name_of(report.measure));

@@ -213,23 +213,6 @@ std::string try_path_again(const Device& device, const std::shared_ptr<PlannedSc
     return fmt::format("path that reuses paths {:.2g}", gain);
 }
 
-/// Paths of the plan that only hits find, and that no pilot has looked for. Where path+light's splats have
-/// told path's error, caustics that path finds by hits alone are part of it, and path is taken where they are
-/// nothing. A guide that has been judged found the rest not worth it.
-HitPaths paths_not_looked_for(const PlannedScene& planned, const IntegratorChoice& choice) {
-    HitPaths paths = planned.effects.paths.hit_paths;
-    for (const IntegratorPrice& price : choice.prices) {
-        if (price.guided > 0)
-            return {};
-        if (price.integrator == Integrator::PATH_LIGHT && choice.integrator == Integrator::PATH) {
-            Options options = planned.options;
-            options.transport.integrator = price.integrator;
-            paths = plan_paths(planned.scene, options).hit_paths;
-        }
-    }
-    return paths;
-}
-
 /// What pilots have told, in words.
 std::string told_text(const IntegratorChoice& choice, const std::string& reuse) {
     std::vector<std::string> told;
@@ -411,7 +394,6 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     }
     if (choice.integrator != Integrator::PATH)
         parts.programs.reset(); // path's, which pilots have taken
-    planned->effects.paths.hit_paths = paths_not_looked_for(*planned, choice);
     choice.is_told = choice.is_told || choice.integrator != Integrator::PATH;
     choice.seconds = seconds_since(start);
     progress.finish();

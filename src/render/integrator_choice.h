@@ -16,9 +16,6 @@
 // Where another one than path wins, path that reuses paths gets a pilot as well (render/reuse_choice.h), and
 // the plan is for that if it gains as much.
 //
-// Light that only hits find, and that a pilot has looked for and not found, is not said to be possibly
-// missing (render/unmet_light.h); of a film that is gone on with it is.
-//
 // Where --max-depth is not asked for, bdpt takes as long paths as path does.
 #pragma once
 

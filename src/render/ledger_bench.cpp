@@ -127,8 +127,8 @@ Render LedgerBench::render_once(const LedgerVariant& variant) const {
     const PreparedScene prepared = prepare_render(device_, variant.planned, variant.parts);
     Progress silent(Toggle::OFF, true);
     Render result = render(prepared, silent);
-    if (stop_signal())
-        throw UsageError("the ledger was stopped by a signal; it needs all its pairs");
+    if (const int number = stop_signal())
+        throw StoppedError(number, "the ledger was stopped by a signal; it needs all its pairs");
     return result;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/unmet_light.h"
 
+#include "film/error_pixels.h"
+#include "render/cut_paths.h"
 #include "scene/brightness.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 namespace clrt {
 
@@ -19,48 +21,67 @@ constexpr double RULE_OF_THREE = 3;
 /// (kernels/path/chain_path.h).
 constexpr double CHAIN_HITS_SHARE = 0.1;
 
-/// Whether a guide leads paths to such light: it learns from light paths whence it comes, before any path
-/// from the eye has met it (kernels/path/guide_learn.h). Path's guide learns from those that have.
-bool is_looked_for(Integrator integrator, const GuideProgress& guide) {
-    return integrator == Integrator::BDPT && guide.guided_from && guide.guided_to == 0;
+/// What a guide leaves of the largest sample: that of bdpt learns from light paths whence such light comes,
+/// before any path from the eye has met it (kernels/path/guide_learn.h). Path's learns from those that have.
+double left_by_guide(Integrator integrator, const GuideProgress& guide) {
+    const bool leads = integrator == Integrator::BDPT && guide.stage == GuideStage::ON && guide.error;
+    return leads ? std::min(*guide.error, 1.0) : 1;
 }
 
 } // namespace
 
 std::optional<HitLight> hit_light(const Scene& scene, const PathPlan& paths, Integrator integrator,
                                   const GuideProgress& guide) {
-    if (paths.hit_paths.kinds == 0 || is_looked_for(integrator, guide))
+    if (paths.hit_paths.kinds == 0)
         return std::nullopt;
     const double share = walks_chains(integrator) ? CHAIN_HITS_SHARE : 1;
-    return HitLight{paths.hit_paths.paths, largest_radiance(scene, paths.hit_paths.kinds) / share};
+    return HitLight{paths.hit_paths.paths, largest_radiance(scene, paths.hit_paths.kinds) *
+                                               left_by_guide(integrator, guide) / share};
 }
 
 std::optional<UnmetLight> unmet_light(const RenderProgress& render, const std::optional<HitLight>& hits) {
-    const double samples = film_all_samples(render.film);
-    if (!hits || !(samples > 0))
+    if (!hits || film_samples(render.film) == 0)
         return std::nullopt;
     const std::vector<float> picture = film_mean(render.film);
-    const double mean = std::accumulate(picture.begin(), picture.end(), 0.0) / double(picture.size());
-    const double bound = RULE_OF_THREE * hits->radiance / (samples * mean);
-    if (!(mean > 0) || bound < LEAST_UNMET)
+    const PixelChoice choice(render.film, ErrorPixels::SCENE);
+    double sum = 0, pixels = 0;
+    for (size_t i = 0; i < picture.size(); ++i)
+        if (choice.has(i / 3)) {
+            sum += picture[i];
+            pixels += 1. / 3;
+        }
+    UnmetLight unmet{
+        hits->paths, RULE_OF_THREE * hits->radiance / (pixels * samples_of_mean(render.film)), {}};
+    if (sum > 0)
+        unmet.relative_bound = unmet.light_bound / (sum / (3 * pixels));
+    if (!(unmet.light_bound > 0) || (unmet.relative_bound && *unmet.relative_bound < LEAST_UNMET))
         return std::nullopt;
-    return UnmetLight{hits->paths, bound};
+    return unmet;
 }
 
 std::string format_unmet(const std::optional<UnmetLight>& unmet) {
     if (!unmet)
         return "";
-    const double percent = 100 * unmet->relative_bound;
+    std::string bound = fmt::format("a mean radiance of up to {:.3g}", unmet->light_bound);
+    if (unmet->relative_bound) {
+        const double percent = 100 * *unmet->relative_bound;
+        bound = fmt::format("up to {:.{}f} % of the scene's mean", percent, percent < 10 ? 1 : 0);
+    }
     return fmt::format(
-        "unmet    only paths that happen to hit a light find {}: by ways that no sample took, the "
-        "picture may lack up to {:.{}f} % of its mean (95 % confidence)\n",
-        unmet->paths, percent, percent < 10 ? 1 : 0);
+        "unmet    hardly any but paths that happen to hit a light find {}: by ways that no sample took, "
+        "the picture may lack {} (95 % confidence)\n",
+        unmet->paths, bound);
 }
 
 nlohmann::ordered_json unmet_json(const std::optional<UnmetLight>& unmet) {
     if (!unmet)
         return nullptr;
-    return {{"paths", unmet->paths}, {"rel_light_bound", unmet->relative_bound}, {"confidence", 0.95}};
+    nlohmann::ordered_json json = {{"paths", unmet->paths}, {"light_bound", unmet->light_bound}};
+    json["rel_light_bound"] = nullptr;
+    if (unmet->relative_bound)
+        json["rel_light_bound"] = *unmet->relative_bound;
+    json["confidence"] = 0.95;
+    return json;
 }
 
 } // namespace clrt

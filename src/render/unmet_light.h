@@ -21,21 +21,24 @@
 
 namespace clrt {
 
-/// Such light of a scene; none where there is none, or where a guide leads paths to it, as that of bdpt does.
-/// Weights of paths are taken as 1 at most, as if surfaces reflected all light.
+/// Such light of a scene; none where there is none. Weights of paths are taken as 1 at most, as if surfaces
+/// reflected all light. A guide that leads paths to it, as that of bdpt does, makes the largest sample as
+/// much smaller as it has made their squared error.
 std::optional<HitLight> hit_light(const Scene& scene, const PathPlan& paths, Integrator integrator,
                                   const GuideProgress& guide);
 
 /// What may be missing.
 struct UnmetLight {
-    std::string paths;         ///< as an expression
-    double relative_bound = 0; ///< mean radiance over that of the picture, with 95 % confidence
+    std::string paths;                    ///< as an expression
+    double light_bound = 0;               ///< mean radiance over the scene's pixels, with 95 % confidence
+    std::optional<double> relative_bound; ///< the same over the scene's mean; none of a black picture
 };
 
-/// Less than this share of the picture's mean is not worth a word.
+/// Less than this share of the scene's mean is not worth a word.
 constexpr double LEAST_UNMET = 0.01;
 
-/// None where it is less than LEAST_UNMET, or where the picture is black.
+/// None where it is less than LEAST_UNMET. The bound is that of an --adaptive picture as if all tiles had the
+/// fewest samples of any. It is over the pixels that errors are stated over (ErrorPixels::SCENE).
 std::optional<UnmetLight> unmet_light(const RenderProgress& render, const std::optional<HitLight>& hits);
 
 /// The line "unmet" of the report; empty where there is nothing to say.

@@ -2,6 +2,7 @@
 #include "run/turntable.h"
 
 #include "exit_code.h"
+#include "render/error_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +34,13 @@ Camera turned_camera(const Camera& camera, int frame, int frames) {
 
 std::string format_frame(const Report& report) {
     const std::optional<FilmError>& error = report.error.error;
+    const Verdict verdict = verdict_on(report.error);
+    const bool is_doubtful = verdict == Verdict::INCOMPLETE || verdict == Verdict::UNTRUSTED;
     return fmt::format("frame {} of {}: {} spp, {}{:.2f} s\n", report.options.camera.frame,
                        *report.options.camera.frames, film_samples(report.render.film),
-                       error ? fmt::format("error {:.2g} %, ", 100 * error->relative_rmse) : "",
+                       error ? fmt::format("error {}{}, ", percent_text(error->relative_rmse),
+                                           is_doubtful ? fmt::format(" ({})", verdict_name(verdict)) : "")
+                             : "",
                        report.render.run_seconds);
 }
 

@@ -282,6 +282,46 @@ TEST_F(ErrorReport, WhatNoPathCanShowIsNamed) {
     EXPECT_EQ(stats()["blind_spots"], nlohmann::json::array());
 }
 
+// A sun that a mirror before the floor reflects on it, which only paths that hit its disc find.
+TEST_F(ErrorReport, WhatNoSampleMayHaveMetIsBounded) {
+    folder.write("m.mtl", "newmtl white\nKd 0.7 0.7 0.7\nnewmtl mirror\nKd 0 0 0\nKs 1 1 1\nillum 3\n");
+    folder.write("m.obj", "mtllib m.mtl\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nv 2 2 -2\nv -2 2 -2\n"
+                          "usemtl white\nf 1 2 3 4\nusemtl mirror\nf 4 3 5 6\n");
+    const auto mirror = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(),
+                         {"m.obj", "-r", "16x16", "--stats", "s.json", "--eye", "0,1,4", "--at", "0,0,0",
+                          "-i", "path", "--spp", "16", "--env", "0.1,0.1,0.1"});
+        const CommandResult result = clrt(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result;
+    };
+    CommandResult result = mirror({"--sun", "0,1,1,3,3,3,60"});
+    EXPECT_EQ(stats()["unmet"], nullptr) << "so large a sun is met often";
+    EXPECT_EQ(result.out.find("unmet"), std::string::npos);
+
+    result = mirror({"--sun", "0,1,1,3,3,3,0.5", "--checkpoint", "a.film", "-o", "a.exr"});
+    const nlohmann::json unmet = stats()["unmet"];
+    EXPECT_EQ(unmet["paths"], "LR+D(D|R)*E");
+    EXPECT_GT(unmet["rel_light_bound"], 0.01);
+    EXPECT_FALSE(stats()["error"]["complete"]);
+    EXPECT_TRUE(
+        holds(result.out, {"unmet    hardly any but paths that happen to hit a light find LR+D(D|R)*E"}));
+    EXPECT_EQ(ReadPicture(folder.file("a.exr")).spec.get_string_attribute("clrt.unmet"), "LR+D(D|R)*E");
+    const CommandResult merged =
+        run_command({CLRT_MERGE_EXECUTABLE, folder.file("a.film"), "-o", folder.file("m.exr")});
+    EXPECT_TRUE(holds(merged.out, {"LR+D(D|R)*E"}));
+
+    // Nobody knows how much of a black picture that is, nor that there is none.
+    result = mirror({"--sun", "0,1,1,3,3,3,0.001", "--paths", "LdS+DE", "--force"});
+    EXPECT_EQ(stats()["unmet"]["rel_light_bound"], nullptr);
+    EXPECT_GT(stats()["unmet"]["light_bound"], 0.0);
+    EXPECT_FALSE(stats()["error"]["complete"]);
+    EXPECT_TRUE(holds(result.err, {"paths LdS+DE are found where one happens to hit a light"}));
+
+    result = mirror({"--sun", "0,1,1,3,3,3,0.5", "--frames", "2", "-o", "t.png"});
+    EXPECT_TRUE(holds(result.out, {"frame 1 of 2", "% (", "frame 2 of 2"}));
+}
+
 // A small floor before the sky. Whatever colour a backdrop has and however much of it the picture shows, the
 // error is that of the floor.
 TEST_F(ErrorReport, IsThatOfThePixelsThatShowTheScene) {

@@ -179,6 +179,15 @@ TEST_F(ExitCode, AnInterruptSavesThePictureAndExits130) {
     EXPECT_EQ(listing(), (std::vector<std::string>{"begun.film", "long.exr", "scene.obj"}));
 }
 
+TEST_F(ExitCode, ALedgerThatIsInterruptedExits130) {
+    write_square("scene");
+    CommandSettings settings;
+    settings.signals = {{3, SIGINT}};
+    const CommandResult result = clrt({"scene.obj", "-r", "512x512", "-s", "4096", "--ledger"}, settings);
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_TRUE(holds(result.err, {"the ledger was stopped by a signal"}));
+}
+
 TEST_F(ExitCode, ATerminationSavesThePictureAndExits143) {
     write_square("scene");
     const CommandResult result = clrt(LONG_RUN, signals_while_rendering({SIGTERM}));

@@ -24,7 +24,8 @@ public:
         options.effects.all = false;
         build.material("floor", "Kd 0.5 0.5 0.5").material("glass", "Ni 1.5\nillum 7");
         build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3")
-            .material("frosted", "Ni 1.5\nillum 7\nPr 0.5");
+            .material("frosted", "Ni 1.5\nillum 7\nPr 0.5")
+            .material("polished", "Ni 1.5\nillum 7\nPr 0.05");
         build.material("shiny", "Kd 0.3 0.3 0.3\nKs 0.3 0.3 0.3\nNs 20\nillum 2");
         build.use("floor").floor(1);
         options.light.points = {{{0, 2, 0}, glm::dvec3(1)}};
@@ -201,6 +202,9 @@ TEST(HitPaths, AreThoseThatNoConnectionAndNoSplatFinds) {
     };
     EXPECT_EQ(hits(Integrator::PATH, "").paths, "") << "all is connected";
     EXPECT_EQ(hits(Integrator::PATH, "frosted").paths, "");
+    EXPECT_EQ(hits(Integrator::PATH, "polished").paths, "LeS+D.*E") << "as rare as by smooth glass";
+    EXPECT_EQ(hits(Integrator::PATH_LIGHT, "polished").paths, hits(Integrator::PATH, "polished").paths)
+        << "nothing is aimed at it";
     EXPECT_EQ(hits(Integrator::PATH, "mirror").kinds, unsigned(KIND_SKY)) << "no ray meets the point";
     EXPECT_TRUE(same_paths(hits(Integrator::PATH, "mirror").paths, "LeR+D(D|R)*E"))
         << hits(Integrator::PATH, "mirror").paths;
@@ -255,12 +259,13 @@ TEST(BlindSpots, TheVerdictOnTheErrorNamesThem) {
     text = format_error_report(report);
     EXPECT_NE(text.find("which is not all: long paths are cut; not seen: LpS+DE\n"), std::string::npos)
         << text;
-    report.unmet = UnmetLight{"LS+DE", 0.13};
+    report.unmet = UnmetLight{"LS+DE", 0.5, 0.13};
     text = format_error_report(report);
     EXPECT_NE(text.find("; not seen: LpS+DE; hardly ever met: LS+DE\n"), std::string::npos) << text;
     EXPECT_NE(
-        text.find("unmet    only paths that happen to hit a light find LS+DE: by ways that no sample took, "
-                  "the picture may lack up to 13 % of its mean (95 % confidence)\n"),
+        text.find(
+            "unmet    hardly any but paths that happen to hit a light find LS+DE: by ways that no sample "
+            "took, the picture may lack up to 13 % of the scene's mean (95 % confidence)\n"),
         std::string::npos)
         << text;
     report.error.reset();

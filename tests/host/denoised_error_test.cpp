@@ -154,6 +154,27 @@ TEST(DenoisedError, HoldsWhereFewPixelsDecide) {
     EXPECT_GE(held, 0.9 * 2 * TRIALS) << "1.96 standard errors hold 0.86";
 }
 
+TEST(DenoisedError, IsNeverNoneByNoiseAlone) {
+    // Replicates of a half that lie on both sides of what the other half says make its squared error
+    // negative.
+    NoisyPictures pictures(4);
+    pictures.fill();
+    const size_t plane = pictures.truth.size();
+    for (size_t i = 0; i < plane; ++i)
+        for (const size_t half : {0, 1}) {
+            std::int64_t* const sums = &pictures.film.sums[2 * half * plane + i];
+            const std::int64_t off = std::abs(sums[0] - sums[plane]) + 1,
+                               middle = std::llround(pictures.truth[i] / pictures.film.scale.quantum);
+            sums[0] = middle - off;
+            sums[plane] = middle + off;
+        }
+    const std::array halves = {pictures.smoothed_half(0, 0), pictures.smoothed_half(1, 0)};
+    const DenoisedError error = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
+    EXPECT_EQ(error.denoised, 0);
+    EXPECT_EQ(error.low, 0);
+    EXPECT_GT(error.high, 0) << "how little there is of it is not known";
+}
+
 TEST(DenoisedError, TheHalvesDifferenceAloneSeesNoSmear) {
     const Calibration result = calibrate(8, 6);
     EXPECT_LT(result.naive_mean, 0.5 * result.true_mean) << "else the scene does not show the difference";
