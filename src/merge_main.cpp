@@ -141,6 +141,7 @@ std::string merge_json(const FilmFile& sum, const ErrorReport& error, size_t fil
         json["ranges"].push_back({range.first, range.end});
     json["seconds"] = sum.render.seconds;
     json["error"] = error_report_json(error);
+    json["unmet"] = unmet_json(error.unmet);
     return json.dump(2) + "\n";
 }
 

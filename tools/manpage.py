@@ -88,10 +88,10 @@ REPORT = [
     ("not seen", "Light that the integrator cannot find in this scene, in path notation (--paths), and why."),
     ("unmet", "Light that a path finds hardly ever but where it happens to hit a small and bright source, such as what the sun sends through "
               "glass or by a mirror, seen through glass or in a mirror again. Until the first path has hit, all samples agree on a "
-              "picture without it. If a hundredth of the picture's mean or more could be missing so, the line says how much at "
+              "picture without it. If a hundredth of the scene's mean or more could be missing so, the line says how much at "
               "most, with 95 % confidence, were every surface in between to pass all light on; more samples lower it, and so does "
               "the guide of bdpt, which leads paths to such light. Surfaces of a roughness up to 0.1 count as mirrors and smooth "
-              "glass; panes that light is connected to through are no exception."),
+              "glass, but not coats and maps. Highlights of small lights in curved mirrors are not spoken of."),
     ("denoised", "With --denoise: what denoising makes of the error, smear included, with 95 % confidence, over all pixels and "
                  "without those that are expected to be the worst. The replicates are two halves; each is denoised by itself "
                  "and judged by the other, so that nothing is judged by the noise that it was made of. 'At most' is said where "

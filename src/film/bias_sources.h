@@ -22,8 +22,7 @@ struct BiasSources {
     std::optional<double> cut_radiance; ///< where paths were cut: what bounds the light of one by its weight
                                         ///< (render/cut_paths.h)
     std::vector<BlindSpot> blind_spots;
-    std::optional<HitLight>
-        hits; ///< (render/unmet_light.h); none: there is no such light, or it is looked for
+    std::optional<HitLight> hits; ///< (render/unmet_light.h); none: there is no such light
 };
 
 } // namespace clrt

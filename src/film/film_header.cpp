@@ -101,6 +101,13 @@ AdaptiveRound read_round(const Json& json, const Film& film, ErrorMeasure measur
     return round;
 }
 
+HitLight read_hits(const Json& json) {
+    HitLight hits{json.at("paths"), json.at("radiance")};
+    if (!(hits.radiance >= 0))
+        throw Json::out_of_range::create(401, "expected a radiance of 0 or more", &json);
+    return hits;
+}
+
 } // namespace
 
 FilmHeader film_header(const FilmFile& film) {
@@ -163,7 +170,7 @@ FilmFile film_of_header(const FilmHeader& json) {
         film.bias.cut_radiance = radiance.get<double>();
     film.bias.blind_spots = read_blind_spots(json.at("blind_spots"));
     if (json.contains("hits"))
-        film.bias.hits = HitLight{json.at("hits").at("paths"), json.at("hits").at("radiance")};
+        film.bias.hits = read_hits(json.at("hits"));
     film.render.history = read_history(json.at("history"));
     json.at("seconds").get_to(film.render.seconds);
     film.render.path_layers.assign(film_layer_names(film.identity).size(), film_layer(sums));

@@ -85,6 +85,11 @@ void merge_film(FilmFile& sum, const std::string& sum_path, FilmFile part, const
     sum.render.counts.add(part.render.counts);
     if (!sum.bias.cut_radiance) // a film of which nothing was cut does not tell
         sum.bias.cut_radiance = part.bias.cut_radiance;
+    if (const std::optional<HitLight>& hits = part.bias.hits) { // guides of parts are worth more or less
+        if (!sum.bias.hits)
+            sum.bias.hits = hits;
+        sum.bias.hits->radiance = std::max(sum.bias.hits->radiance, hits->radiance);
+    }
     sum.render.seconds += part.render.seconds;
     sum.render.history.clear();
     sum.render.guide = {}; // what was learnt is of one part alone: samples that --resume adds are not guided

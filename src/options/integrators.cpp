@@ -30,6 +30,11 @@ unsigned light_tree_kinds(Integrator integrator) {
     return KINDS_ALL;
 }
 
+bool connects_through_slabs(Integrator integrator) {
+    return integrator == Integrator::PATH || integrator == Integrator::PATH_LIGHT ||
+           integrator == Integrator::BDPT;
+}
+
 bool walks_chains(Integrator integrator) {
     return integrator == Integrator::MLT;
 }

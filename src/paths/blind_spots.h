@@ -40,8 +40,9 @@ std::vector<BlindSpot> find_blind_spots(const PathPlan& plan, const PathExpressi
 /// Paths that no technique finds but a path from the eye that happens to hit the light, other than by delta
 /// lobes alone: by chance, and the rarer the smaller the light is.
 struct HitPaths {
-    std::string paths;  ///< as an expression, such as "LS(D|S)*DSE"; empty: there are none
-    unsigned kinds = 0; ///< KIND_* of their lights
+    std::string paths;      ///< as an expression, such as "LS(D|S)*DSE"; empty: there are none
+    unsigned kinds = 0;     ///< KIND_* of their lights
+    bool are_smooth = true; ///< no lobes count as smooth that are only nearly so
 };
 
 /// Those of an integrator; arguments as those of find_blind_spots.

@@ -7,6 +7,7 @@
 #include "scene/lights.h"
 #include "scene/lobes.h"
 #include "scene/material_table.h"
+#include "scene/slabs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -48,7 +49,7 @@ bool can_be_smooth(const Material& m) {
 }
 
 /// Lobes of a GGX alpha up to this are about as narrow as the sun: what they send is met as seldom as what
-/// smooth ones do, though connections find it.
+/// smooth ones do, though connections find it. Coats and what maps make smooth are not looked at.
 constexpr float NEARLY_SMOOTH = 0.01f;
 
 /// Letters (bits LETTER_BIT) that a material may write.
@@ -64,27 +65,48 @@ unsigned letters_of(const Material& m) {
     return letters;
 }
 
-/// Letters of smooth lobes that used materials nearly write.
-unsigned nearly_smooth_letters(const Scene& scene) {
-    unsigned letters = 0;
-    for (const Triangle& triangle : scene.triangles)
-        if (const Material& m = scene.materials[triangle.material];
-            std::max(m.alpha_x, m.alpha_y) <= NEARLY_SMOOTH) {
-            letters |= m.lobes & LOBE_GLOSSY ? LETTER_BIT(LETTER_MIRROR) : 0u;
-            letters |= m.lobes & LOBES_GLASS ? LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION) : 0u;
-        }
+bool has_material(const Scene& scene, const std::function<bool(const Material&)>& has) {
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const Triangle& triangle) { return has(scene.materials[triangle.material]); });
+}
+
+bool is_nearly_smooth(const Material& m) {
+    const float alpha = std::max(m.alpha_x, m.alpha_y);
+    return alpha > 0 && alpha <= NEARLY_SMOOTH;
+}
+
+/// The letters that count for paths that only hits find. What connections cross straight does not
+/// (scene/slabs.h): the panes that are left reflect.
+unsigned letters_for_hits(const Scene& scene, const PathPlan& plan, Integrator integrator) {
+    unsigned letters = plan.alphabet.letters;
+    if (plan.is_asked) // a nearly smooth lobe is another letter
+        return letters;
+    if (has_material(scene, [](const Material& m) { return is_nearly_smooth(m) && (m.lobes & LOBE_GLOSSY); }))
+        letters |= LETTER_BIT(LETTER_MIRROR);
+    if (has_material(scene, [](const Material& m) { return is_nearly_smooth(m) && (m.lobes & LOBES_GLASS); }))
+        letters |= LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION);
+    const bool crosses = connects_through_slabs(integrator) && has_slabs_before_the_sky(scene);
+    if (crosses && !has_material(scene, [](const Material& m) {
+            return (letters_of(m) & LETTER_BIT(LETTER_REFRACTION)) && !(m.flags & MATERIAL_SLAB);
+        }))
+        letters &= ~LETTER_BIT(LETTER_REFRACTION);
     return letters;
 }
 
 /// Paths that only hits find, nearly smooth lobes counted as smooth.
 HitPaths plan_hit_paths(const Scene& scene, const PathPlan& plan, const PathExpression& picture,
                         Integrator integrator, int max_depth) {
-    PathPlan smooth = plan;
-    smooth.alphabet.letters |= nearly_smooth_letters(scene);
-    // Where nothing casts caustics there are no splats.
-    if (integrator == Integrator::PATH_LIGHT && !has_casters(scene))
+    PathPlan counted = plan;
+    counted.alphabet.letters = letters_for_hits(scene, plan, integrator);
+    // Splats begin at casters.
+    const bool is_aimed = has_casters(scene) && !has_material(scene, [](const Material& m) {
+                              return is_nearly_smooth(m) && (m.lobes & LOBES_GLASS) && !is_caster(m);
+                          });
+    if (integrator == Integrator::PATH_LIGHT && !is_aimed)
         integrator = Integrator::PATH;
-    return find_hit_paths(smooth, picture, integrator, max_depth);
+    HitPaths hits = find_hit_paths(counted, picture, integrator, max_depth);
+    hits.are_smooth = (counted.alphabet.letters & ~plan.alphabet.letters) == 0;
+    return hits;
 }
 
 PathLetter find_letter(const char* symbol, const Scene& scene, unsigned letter) {

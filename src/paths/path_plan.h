@@ -37,7 +37,7 @@ struct PathPlan {
     bool is_empty = false;              ///< no path of the scene is accepted within --max-depth
     std::optional<int> segments;        ///< most that an accepted path has; none: no bound but --max-depth
     std::vector<BlindSpot> blind_spots; ///< what is asked for and cannot be sampled
-    HitPaths hit_paths;                 ///< what is asked for and hard to sample
+    HitPaths hit_paths; ///< what is asked for and hard to sample; nearly smooth lobes count as smooth
 };
 
 /// Examines materials on triangles and lights. Pure. Throws UsageError for expressions that are wrong or too

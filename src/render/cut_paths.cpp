@@ -49,7 +49,7 @@ BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const Render
     if (render.counts.cut_paths > 0 && integrator_row(integrator).film == FilmAccess::GATHER)
         sources.cut_radiance = cut_radiance(scene, accepted_kinds(paths));
     sources.blind_spots = paths.blind_spots;
-    sources.hits = hit_light(scene, paths, integrator, render.guide);
+    sources.hits = hit_light(scene, paths, integrator, render);
     return sources;
 }
 

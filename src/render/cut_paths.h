@@ -30,8 +30,8 @@ namespace clrt {
 /// Lights of other kinds (KIND_*) than `kinds` are not asked for.
 std::optional<double> cut_radiance(const Scene& scene, unsigned kinds);
 
-/// Those of a render; bounds nothing where nothing was cut, or where what was cut are paths from the lights,
-/// whose weights are not those of radiance.
+/// Those of a render (light that only hits find: render/unmet_light.h); bounds nothing where nothing was cut,
+/// or where what was cut are paths from the lights, whose weights are not those of radiance.
 BiasSources bias_sources(const Scene& scene, const PathPlan& paths, const RenderProgress& render,
                          Integrator integrator);
 

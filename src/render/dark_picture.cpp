@@ -157,13 +157,14 @@ std::string explain_darkness(const Scene& scene, const Options& options, const s
             "the camera at {} sees nothing but backs of surfaces: it is inside a closed one, or "
             "behind an open one",
             short_triple(scene.camera.eye));
-    if (!options.transport.paths.empty())
-        return fmt::format(
-            plan_paths(scene, options).hit_paths.kinds != 0
-                ? "paths {} are found where one happens to hit a light, and hardly any does: more "
-                  "samples (--spp) or a larger light show them"
-                : "paths {} carry no light to the camera here",
-            options.transport.paths);
+    if (const std::string& paths = options.transport.paths; !paths.empty()) {
+        const std::string hits = plan_paths(scene, options).hit_paths.paths;
+        return hits.empty()
+                   ? fmt::format("paths {} carry no light to the camera here", paths)
+                   : fmt::format("of paths {}, {} are found where one happens to hit a light, which hardly "
+                                 "any does: more samples (--spp) may show some",
+                                 paths, hits);
+    }
     if (brightest > 0 && brightest < MIDDLE_GREY)
         return fmt::format(
             "the light is weak, the brightest pixel has radiance {:.2g}: --exposure {:.0f} shows it",

@@ -125,11 +125,8 @@ Crop render_window(const FilmOptions& film) {
 }
 
 bool crosses_slabs(const Scene& scene, const Options& options) {
-    const Integrator integrator = options.transport.integrator;
-    const bool can = integrator == Integrator::PATH || integrator == Integrator::PATH_LIGHT ||
-                     integrator == Integrator::BDPT;
-    return can && options.transport.paths.empty() && options.output.path_layers.empty() &&
-           has_slabs_before_the_sky(scene);
+    return connects_through_slabs(options.transport.integrator) && options.transport.paths.empty() &&
+           options.output.path_layers.empty() && has_slabs_before_the_sky(scene);
 }
 
 int light_samples(const Scene& scene, const Options& options) {

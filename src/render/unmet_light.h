@@ -22,10 +22,12 @@
 namespace clrt {
 
 /// Such light of a scene; none where there is none. Weights of paths are taken as 1 at most, as if surfaces
-/// reflected all light. A guide that leads paths to it, as that of bdpt does, makes the largest sample as
-/// much smaller as it has made their squared error.
+/// reflected all light, and as if none were guided: they can be larger where a guide expects no light. A
+/// guide that leads paths to such light, as that of bdpt does, makes the largest sample about as much smaller
+/// as it has made their squared error. Highlights, LS+E, are not held to be rare, though small ones in curved
+/// mirrors are.
 std::optional<HitLight> hit_light(const Scene& scene, const PathPlan& paths, Integrator integrator,
-                                  const GuideProgress& guide);
+                                  const RenderProgress& render);
 
 /// What may be missing.
 struct UnmetLight {
@@ -37,8 +39,9 @@ struct UnmetLight {
 /// Less than this share of the scene's mean is not worth a word.
 constexpr double LEAST_UNMET = 0.01;
 
-/// None where it is less than LEAST_UNMET. The bound is that of an --adaptive picture as if all tiles had the
-/// fewest samples of any. It is over the pixels that errors are stated over (ErrorPixels::SCENE).
+/// None where it is less than LEAST_UNMET, but for black pictures. The bound is that of an --adaptive picture
+/// as if all tiles had the fewest samples of any. It is over the pixels that errors are stated over
+/// (ErrorPixels::SCENE).
 std::optional<UnmetLight> unmet_light(const RenderProgress& render, const std::optional<HitLight>& hits);
 
 /// The line "unmet" of the report; empty where there is nothing to say.

@@ -30,7 +30,8 @@ struct Price : ClrtCommand, testing::WithParamInterface<const char*> {
 TEST_P(Price, IsWhatHalfTheErrorTakes) {
     const nlohmann::json first = render({"--checkpoint", "a.film"});
     const nlohmann::json promise = first["error"]["half"];
-    ASSERT_EQ(first["error"]["verdict"], "trusted");
+    // In so small a picture the sun by way of the vase may have been met by no sample.
+    ASSERT_EQ(first["error"]["verdict"], first["unmet"].is_null() ? "trusted" : "incomplete");
     EXPECT_EQ(promise["slope_measured"], true);
     const unsigned spp = promise["spp"];
     const nlohmann::json second =

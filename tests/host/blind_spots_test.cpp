@@ -205,6 +205,12 @@ TEST(HitPaths, AreThoseThatNoConnectionAndNoSplatFinds) {
     EXPECT_EQ(hits(Integrator::PATH, "polished").paths, "LeS+D.*E") << "as rare as by smooth glass";
     EXPECT_EQ(hits(Integrator::PATH_LIGHT, "polished").paths, hits(Integrator::PATH, "polished").paths)
         << "nothing is aimed at it";
+    LitFloor both;
+    both.options.light.environment = glm::dvec3(1);
+    both.options.transport.integrator = Integrator::PATH_LIGHT;
+    both.pane("polished").pane("mirror");
+    EXPECT_EQ(plan_paths(both.load(), both.options).hit_paths.paths, "LeS+D.*E") << "whatever else is there";
+    EXPECT_EQ(hits(Integrator::PATH, "polished", "LS+DE|LDE").paths, "") << "none of its paths is an S";
     EXPECT_EQ(hits(Integrator::PATH, "mirror").kinds, unsigned(KIND_SKY)) << "no ray meets the point";
     EXPECT_TRUE(same_paths(hits(Integrator::PATH, "mirror").paths, "LeR+D(D|R)*E"))
         << hits(Integrator::PATH, "mirror").paths;

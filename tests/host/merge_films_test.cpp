@@ -87,6 +87,22 @@ TEST(MergeFilms, WhatWasCutAddsUp) {
     EXPECT_EQ(sum.bias.blind_spots.size(), 1u);
 }
 
+TEST(MergeFilms, TheLargestSampleIsThatOfAnyPart) {
+    const auto merged = [](std::optional<double> a, std::optional<double> b) {
+        FilmFile sum = part(0, 4), other = part(4, 4);
+        for (auto& [film, radiance] : {std::pair{&sum, a}, std::pair{&other, b}})
+            if (radiance)
+                film->bias.hits = HitLight{"LS+DE", *radiance};
+        merge_film(sum, "a", other, "b");
+        return sum.bias.hits ? sum.bias.hits->radiance : 0;
+    };
+    EXPECT_EQ(merged(0.05, 1), 1) << "the first is guided";
+    EXPECT_EQ(merged(1, 0.05), 1);
+    EXPECT_EQ(merged({}, 1), 1);
+    EXPECT_EQ(merged(1, {}), 1);
+    EXPECT_EQ(merged({}, {}), 0);
+}
+
 TEST(MergeFilms, GapsStayGaps) {
     FilmFile sum = part(20, 4);
     merge_film(sum, "a", part(0, 8), "b");
