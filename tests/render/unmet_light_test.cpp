@@ -51,7 +51,7 @@ TEST(UnmetLight, MakesThePictureIncompleteUntilThereAreEnoughSamples) {
         EXPECT_FALSE(is_complete(few));
         EXPECT_NE(verdict_on(few), Verdict::TRUSTED);
         EXPECT_GT(few.unmet->relative_bound, 2 * *more.unmet->relative_bound);
-        const ErrorReport large = Basin(integrator, 60).report(64);
+        const ErrorReport large = Basin(integrator, 60).report(1024);
         EXPECT_FALSE(large.unmet) << "a sun of a tenth of the sky is met often enough: "
                                   << large.unmet->light_bound;
     }
