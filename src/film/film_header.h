@@ -15,9 +15,8 @@
 //                 bad_pixels (absent without bad samples) pairs of pixel and count
 //   cut_radiance  what bounds the light of cut paths (render/cut_paths.h), or null
 //   blind_spots   paths that no sample shows: paths, cause, where
-//   hits          light that only hits find: paths, and the most that a sample brings by one; absent: none,
-//   or not known shown         pixels that show the scene: lengths of runs of pixels, row by row, that do
-//   not, that do,
+//   hits          light that only hits find: paths, and the most a sample brings; absent: none or unknown
+//   shown         pixels that show the scene: lengths of runs of pixels, row by row, that do not, that do,
 //                 that do not, ...; absent where that is not known
 //   history       errors at doublings of the samples
 //   seconds       of rendering

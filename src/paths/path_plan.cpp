@@ -27,15 +27,22 @@ constexpr int LARGEST_DISTANCE = 0xffff;
 /// Number of the state in which paths start.
 constexpr u32 START_NUMBER = 1;
 
-/// A letter that the first material on a triangle that has a property writes.
-PathLetter find_material(const char* symbol, const Scene& scene,
-                         const std::function<bool(const Material&)>& has) {
+/// The first material on a triangle that has a property; none: there is no such.
+std::optional<size_t> find_used(const Scene& scene, const std::function<bool(const Material&)>& has) {
     std::vector<bool> is_used(scene.materials.size(), false);
     for (const Triangle& triangle : scene.triangles)
         is_used[triangle.material] = true;
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (is_used[i] && has(scene.materials[i]))
-            return {symbol, describe_material(scene, i), scene.material_places[i]};
+            return i;
+    return std::nullopt;
+}
+
+/// A letter that the first material on a triangle that has a property writes.
+PathLetter find_material(const char* symbol, const Scene& scene,
+                         const std::function<bool(const Material&)>& has) {
+    if (const std::optional<size_t> i = find_used(scene, has))
+        return {symbol, describe_material(scene, *i), scene.material_places[*i]};
     return {symbol, "", {}};
 }
 
@@ -65,11 +72,6 @@ unsigned letters_of(const Material& m) {
     return letters;
 }
 
-bool has_material(const Scene& scene, const std::function<bool(const Material&)>& has) {
-    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                       [&](const Triangle& triangle) { return has(scene.materials[triangle.material]); });
-}
-
 bool is_nearly_smooth(const Material& m) {
     const float alpha = std::max(m.alpha_x, m.alpha_y);
     return alpha > 0 && alpha <= NEARLY_SMOOTH;
@@ -81,12 +83,12 @@ unsigned letters_for_hits(const Scene& scene, const PathPlan& plan, Integrator i
     unsigned letters = plan.alphabet.letters;
     if (plan.is_asked) // a nearly smooth lobe is another letter
         return letters;
-    if (has_material(scene, [](const Material& m) { return is_nearly_smooth(m) && (m.lobes & LOBE_GLOSSY); }))
+    if (find_used(scene, [](const Material& m) { return is_nearly_smooth(m) && (m.lobes & LOBE_GLOSSY); }))
         letters |= LETTER_BIT(LETTER_MIRROR);
-    if (has_material(scene, [](const Material& m) { return is_nearly_smooth(m) && (m.lobes & LOBES_GLASS); }))
+    if (find_used(scene, [](const Material& m) { return is_nearly_smooth(m) && (m.lobes & LOBES_GLASS); }))
         letters |= LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION);
     const bool crosses = connects_through_slabs(integrator) && has_slabs_before_the_sky(scene);
-    if (crosses && !has_material(scene, [](const Material& m) {
+    if (crosses && !find_used(scene, [](const Material& m) {
             return (letters_of(m) & LETTER_BIT(LETTER_REFRACTION)) && !(m.flags & MATERIAL_SLAB);
         }))
         letters &= ~LETTER_BIT(LETTER_REFRACTION);
@@ -99,7 +101,7 @@ HitPaths plan_hit_paths(const Scene& scene, const PathPlan& plan, const PathExpr
     PathPlan counted = plan;
     counted.alphabet.letters = letters_for_hits(scene, plan, integrator);
     // Splats begin at casters.
-    const bool is_aimed = has_casters(scene) && !has_material(scene, [](const Material& m) {
+    const bool is_aimed = has_casters(scene) && !find_used(scene, [](const Material& m) {
                               return is_nearly_smooth(m) && (m.lobes & LOBES_GLASS) && !is_caster(m);
                           });
     if (integrator == Integrator::PATH_LIGHT && !is_aimed)
