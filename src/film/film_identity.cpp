@@ -150,7 +150,7 @@ FilmIdentity film_identity(const Scene& scene, const Options& options, const Ren
     identity["light_samples"] = 1 << LIGHT_SAMPLES_LOG(params);
     identity["emission_rays"] = options.transport.emission_rays;
     identity["adaptive"] = false;
-    if (options.sampling.adaptive)
+    if (is_adaptive(options))
         identity["adaptive"] = name_of(*options.sampling.adaptive);
     identity["seed"] = params.seed;
     identity["replicates"] = params.replicates;

@@ -9,6 +9,11 @@ int effective_max_depth(const TransportOptions& transport) {
     return takes_option(transport.integrator, TAKES_MAX_DEPTH) ? transport.max_depth.value_or(usual) : usual;
 }
 
+bool is_adaptive(const Options& options) {
+    return options.sampling.adaptive &&
+           integrator_row(options.transport.integrator).film == FilmAccess::GATHER;
+}
+
 bool has_transparent_background(const LightOptions& light) {
     return light.background && light.background->is_transparent;
 }

@@ -37,4 +37,8 @@ struct Options {
     BvhOptions bvh;
 };
 
+/// Whether tiles get samples of their own, as --adaptive asks. Light paths reach all tiles at once, so that an
+/// integrator with them, which pilots may have chosen, takes samples evenly.
+bool is_adaptive(const Options& options);
+
 } // namespace clrt

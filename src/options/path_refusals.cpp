@@ -30,7 +30,7 @@ std::optional<PathRefusal> guide_refusal(const Options& options) {
     if (options.sampling.first_sample != 0)
         return PathRefusal{"--first-sample", "guided samples need those before them; render other parts of a "
                                              "picture with other seeds"};
-    if (options.sampling.adaptive)
+    if (is_adaptive(options))
         return PathRefusal{"--adaptive",
                            "its halves decide for each other and must not share what paths have learnt"};
     if (options.sampling.replicates < FEWEST_GUIDED_REPLICATES)

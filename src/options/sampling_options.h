@@ -49,7 +49,7 @@ struct SamplingOptions {
     std::uint32_t seed = 0;
     std::uint32_t first_sample = 0;
     int replicates = 4;
-    std::optional<ErrorMeasure> adaptive; ///< samples go where this error is made least
+    std::optional<ErrorMeasure> adaptive; ///< samples are to make this error least (is_adaptive)
     SamplerChoice sampler = SamplerChoice::SOBOL;
     LightSampler light_sampler = LightSampler::TREE;
     /// The error that reports name first and --error judges by.

@@ -50,7 +50,7 @@ RenderParams begin_film(const PlannedScene& planned, const std::vector<const Dev
     params.film_replicates = u32(film.replicates);
     say_layers(options, film);
     check_film_capacity(options, film);
-    if (options.sampling.adaptive && film.replicates != options.sampling.replicates)
+    if (is_adaptive(options) && film.replicates != options.sampling.replicates)
         throw DeviceError(
             fmt::format("--adaptive compares {} replicates, but the film of only {} fits the device; take "
                         "a smaller --size or fewer --replicates",

@@ -68,7 +68,7 @@ HitLayers::HitLayers(const Device& device, const Program& program, const RenderP
 HitLayers::HitLayers(const PreparedScene& prepared, const RenderParams& params, FilmBuffers& film_buffers,
                      HitSums& sums)
     : HitLayers(prepared.device, *prepared.programs->layers, params,
-                prepared.planned->options.sampling.adaptive || prepared.planned->options.denoise.denoiser,
+                is_adaptive(prepared.planned->options) || prepared.planned->options.denoise.denoiser,
                 prepared.buffers, film_buffers, sums, wants_mattes(prepared.planned->options)) {
     sums.most_samples = most_hit_samples(prepared.planned->options);
 }

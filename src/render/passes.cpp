@@ -131,7 +131,7 @@ void Passes::give_up_hits(const DeviceError& error) {
 std::uint32_t Passes::next_samples(const RenderState& state) const {
     std::uint64_t end = std::min(rules_.last_samples(), rules_.next_check(samples_));
     end = std::min(end, samples_ + (lacking_end_ - first_));
-    if (options_.sampling.adaptive)
+    if (is_adaptive(options_))
         end = std::min(end, result_.round.end);
     if (guiding_)
         end = std::min(end, guiding_->end());
@@ -149,7 +149,7 @@ std::uint32_t Passes::next_samples(const RenderState& state) const {
                 std::min(samples, std::max(1.0, (*options_.sampling.time_seconds - state.seconds) / pass));
     }
     // Adaptive tiles advance by whole samples of every replicate.
-    if (options_.sampling.adaptive)
+    if (is_adaptive(options_))
         samples = std::ceil(samples / options_.sampling.replicates) * options_.sampling.replicates;
     return std::uint32_t(std::min(double(end - samples_), samples));
 }
@@ -170,7 +170,7 @@ void Passes::keep_film(const RenderState& state, std::uint32_t samples) {
 bool Passes::may_be_interrupted(const RenderState& state, std::uint32_t samples) const {
     const double seconds = state.pass_seconds * samples;
     const bool is_one_launch =
-        !options_.sampling.adaptive && launch_size_.tiles(samples, params_.tile_count) == params_.tile_count;
+        !is_adaptive(options_) && launch_size_.tiles(samples, params_.tile_count) == params_.tile_count;
     const bool may_be_late = options_.sampling.time_seconds &&
                              state.seconds + LARGEST_SLOWDOWN * seconds > *options_.sampling.time_seconds;
     return seconds > LONGEST_WAIT || (may_be_late && !is_one_launch);
@@ -313,7 +313,7 @@ bool Passes::run_adaptive(std::uint64_t end) {
 
 /// Runs whole passes; false where they are interrupted.
 bool Passes::run_launches(std::uint32_t samples) {
-    const bool done = options_.sampling.adaptive
+    const bool done = is_adaptive(options_)
                           ? run_adaptive(samples_ + samples)
                           : run_tiles(samples, double(samples_), [&](u32 tile, u32 end) {
                                 launcher().run(std::uint32_t(first_), samples, tile, end);
@@ -400,7 +400,7 @@ StopRule Passes::run_until_stopped() {
         const RenderState state = measured_state();
         if (const std::optional<StopRule> rule = rules_.ended(state))
             return *rule;
-        if (options_.sampling.adaptive)
+        if (is_adaptive(options_))
             begin_round();
         if (guiding_)
             begin_epoch();
@@ -442,7 +442,7 @@ void Passes::run() {
     if (has_gaps())
         advance_hits("layers");
     finish();
-    const std::uint64_t fewest = options_.sampling.adaptive ? std::uint64_t(options_.sampling.replicates) : 1;
+    const std::uint64_t fewest = is_adaptive(options_) ? std::uint64_t(options_.sampling.replicates) : 1;
     const bool is_first_pass = samples_ == fewest && result_.passes == fewest;
     result_.stop_text =
         rules_.describe(result_.stop, {samples_, stop_seconds,

@@ -216,7 +216,8 @@ void count_rays(const PilotRender& pilot, PilotResult& result) {
 
 double deciding_error(const SquaredErrors& errors, const Options& options) {
     const SamplingOptions& sampling = options.sampling;
-    return errors[size_t(sampling.has_target() ? sampling.measure() : ErrorMeasure::RELATIVE)];
+    const bool is_named = sampling.has_target() || sampling.adaptive;
+    return errors[size_t(is_named ? sampling.measure() : ErrorMeasure::RELATIVE)];
 }
 
 PathPilot run_path_pilot(const PreparedScene& prepared, const PilotSize& size, bool reuses_paths) {

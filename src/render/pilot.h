@@ -16,7 +16,7 @@ namespace clrt {
 /// Squared errors of one sample a pixel, by ErrorMeasure: the mean over pixels and channels of the variance.
 using SquaredErrors = std::array<double, 2>;
 
-/// That by which pilots are compared: the relative one, or that which --error judges by.
+/// That by which pilots are compared: the relative one, or that which --error judges by or --adaptive names.
 double deciding_error(const SquaredErrors& errors, const Options& options);
 
 /// What a pilot of path has found out, a sample a pixel.

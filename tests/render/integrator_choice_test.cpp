@@ -107,6 +107,30 @@ TEST(IntegratorChoice, APilotToldWhatSplatsWouldNotGain) {
     EXPECT_EQ(chosen.choice.unguided->errors, price.path);
 }
 
+TEST(IntegratorChoice, SamplesAreEvenWhereLightPathsGainMoreThanAdaptiveOnes) {
+    for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE}) {
+        Box caustic;
+        caustic.add_caustic();
+        caustic.options.transport.choose = Toggle::AUTO;
+        caustic.options.sampling.adaptive = measure;
+        const Chosen chosen = caustic.choose();
+        EXPECT_EQ(chosen.choice.integrator, Integrator::PATH_LIGHT) << chosen.choice.reason;
+        EXPECT_FALSE(is_adaptive(chosen.planned->options));
+        EXPECT_NE(chosen.choice.reason.find("in spite of --adaptive"), std::string::npos)
+            << chosen.choice.reason;
+        // An error that is asked for is judged by the measure that --adaptive names all the same.
+        EXPECT_EQ(chosen.planned->options.sampling.measure(), measure);
+        EXPECT_FALSE(is_adaptive(render_loaded(chosen.planned->scene, chosen.planned->options).film));
+    }
+    Box mild;
+    mild.add_lamp(2.6);
+    mild.add_glass();
+    mild.options.sampling.adaptive = ErrorMeasure::RELATIVE;
+    const Chosen chosen = mild.choose();
+    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
+    EXPECT_TRUE(is_adaptive(chosen.planned->options));
+}
+
 TEST(IntegratorChoice, APilotsErrorsAreThoseOfTheIntegrators) {
     // Of the smallest lamp paths from the eye find next to nothing in so few samples, and what path+light is
     // left with are paths as rare.
@@ -345,7 +369,6 @@ TEST(IntegratorChoice, WhatOptionsNeedComesFirst) {
     };
     EXPECT_EQ(reason([](Options& o) { o.transport.paths = "LD*E"; }), "--paths");
     EXPECT_EQ(reason([](Options& o) { o.output.path_layers = {{"direct", "LDE"}}; }), "--aov");
-    EXPECT_EQ(reason([](Options& o) { o.sampling.adaptive = ErrorMeasure::RELATIVE; }), "--adaptive");
     EXPECT_EQ(reason([](Options& o) { o.transport.guide = Toggle::ON; }), "--guide");
     EXPECT_EQ(reason([](Options& o) { o.transport.path_reuse = Toggle::ON; }), "--path-reuse");
     EXPECT_EQ(reason([](Options& o) { o.scene.texture_filter = TextureFilter::FOOTPRINT; }),
