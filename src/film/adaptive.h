@@ -35,7 +35,7 @@ using TileNoise = std::array<std::vector<double>, 2>;
 
 /// One round: from so many samples a pixel, on average over the picture, to so many.
 struct AdaptiveRound {
-    ErrorMeasure measure = ErrorMeasure::MSE; ///< the error that the samples are to make least
+    ErrorMeasure measure = ErrorMeasure::MSE; ///< the error that samples are to make least, and are judged by
     std::uint64_t first = 0, end = 0;
     TileSamples start, target; ///< what the tiles of both halves have before and after it
     /// Noise as the first p, 2 p, 4 p, ... samples of a half told it, p being those of the first round;

@@ -38,7 +38,7 @@ struct RenderProgress {
     RenderCounts counts;
     std::vector<Film> path_layers;     ///< of each of summed_layers() in one replicate
     std::vector<SquaredError> history; ///< errors at doublings, for the slope
-    AdaptiveRound round;               ///< of an adaptive render: the present one
+    AdaptiveRound round;               ///< of an adaptive render: the present one; of all, its measure
     GuideProgress guide;               ///< of a render that may guide paths
     double seconds = 0;                ///< of rendering them
 };

@@ -45,6 +45,7 @@ Passes::Passes(const PreparedScene& prepared, const RenderParams& params, Progre
         samples_ = film_samples(result.film);
         earlier_samples_ = film_all_samples(result.film);
     }
+    result.round.measure = options_.sampling.measure();
     go_to_next_sample();
     earlier_counts_ = result.counts;
     earlier_seconds_ = result.seconds;
