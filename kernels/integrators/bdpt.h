@@ -65,7 +65,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     path_absorb(scene, &surface, path);
     splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
-    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && !splat_has_seen(segment, sample)) {
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && !pixel_has_seen(sample)) {
         const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
         bdpt_book(params, 0u, segment + 1u, sample);
@@ -88,6 +88,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     Guide guide = splat_is_alone(weights) ? guide_of(scene, &bsdf, &path->guided) : guide_none();
     guide.radiance = REAL(0.0); /* light paths have added to it: roulette goes by throughput */
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
+    pixel_leave(segment, next.pdf_w, sample);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS
     alone_connect(scene, params, &surface, &bsdf, wo, path, &sample->moments);

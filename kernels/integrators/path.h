@@ -47,7 +47,7 @@ static inline void path_add_emission(const Scene* scene, const RenderParams* par
 {
     if (!HAS(EFFECT_AREA_LIGHT) || surface->emitter == NO_INDEX || !(path_accepted(path) & KIND_AREA))
         return;
-    if (segment == 1u && pixel_has_seen(sample))
+    if (pixel_has_seen(sample))
         return;
     const real3 emitted = path_emission(scene, params, surface, path, -path->ray.direction);
     vertex_add(scene, path->throughput * emitted, &sample->radiance);
@@ -86,6 +86,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     reuse_keep_first(params, segment, &surface, &bsdf, &guide, path, reused);
     reuse_keep_second(scene, segment, &surface, &bsdf, path, &sample->radiance, reused);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, continues, &guide, path);
+    pixel_leave(segment, next.pdf_w, sample);
     light_samples_connect(scene, params, segment, &surface, &bsdf, &step, path, &sample->radiance,
                           &sample->layers, rays);
     reuse_keep_shares(segment, &bsdf, &next, path, reused);

@@ -31,7 +31,8 @@ typedef struct {
     Ray ray;
     real3 radiance;
 #if SPLITS_EMISSION
-    bool has_seen; /* `radiance` starts with the emission that the camera sees, as rays of its own tell */
+    uint emission; /* EMISSION_* of its pixel: by rays, `radiance` starts with what the camera sees of lights;
+                      by paths once its own is where no such ray comes */
 #endif
 #if PATH_GUIDE
     real guide_gain; /* path/guide_gain.h */
@@ -50,13 +51,29 @@ typedef struct {
 #endif
 } CameraSample;
 
-/* True where a sample's path leaves out the emission that its first segment meets. */
+/* True where a sample's path leaves out the emission that its segment meets. */
 static inline bool pixel_has_seen(const CameraSample* sample)
 {
 #if SPLITS_EMISSION
-    return sample->has_seen;
+    return (sample->emission & EMISSION_BY_RAYS) != 0u;
 #else
     return false;
+#endif
+}
+
+/* Whether what lies behind the vertex at the end of a segment is still the camera's view: through a lobe of
+   this density, 0 for delta lobes. */
+static inline bool pixel_view_goes_on(uint emission, uint segment, real pdf_w)
+{
+    return (emission & EMISSION_GOES_ON) && segment < EMISSION_SEGMENTS && pdf_w == REAL(0.0);
+}
+
+/* The sample's path leaves such a vertex. */
+static inline void pixel_leave(uint segment, real pdf_w, CameraSample* sample)
+{
+#if SPLITS_EMISSION
+    if (!pixel_view_goes_on(sample->emission, segment, pdf_w))
+        sample->emission = EMISSION_BY_PATHS;
 #endif
 }
 

@@ -7,13 +7,7 @@
 #include "path/splat_alone.h"
 #include "pixel.h"
 
-/* True where a path leaves out the emission that it meets at the end of a segment. */
-static inline bool splat_has_seen(uint segment, const CameraSample* sample)
-{
-    return segment == 1u && pixel_has_seen(sample);
-}
-
-/* Takes what the sample has begun with instead, if it has. */
+/* Takes what the sample has begun with, if it has. */
 static inline void splat_take_seen(const Scene* scene, CameraSample* sample)
 {
     if (!pixel_has_seen(sample))

@@ -85,6 +85,8 @@ ASSERT_SIZE(RenderParams, 448);
 #define LIGHT_SAMPLES_SHIFT 2u
 #define LIGHT_SAMPLES_LOG(params) ((params).path_choices >> LIGHT_SAMPLES_SHIFT & 3u)
 #define MOST_LIGHT_SAMPLES 8
+/* Camera rays for emission may go on at mirrors and smooth glass, where EMISSION_GOES_ON says so. */
+#define MIRRORS_SHOW_EMISSION 16u
 /* Camera rays a sample from which emission comes, where it does not come from paths. */
 #define EMISSION_RAYS_SHIFT 8u
 #define EMISSION_RAYS(params) ((params).path_choices >> EMISSION_RAYS_SHIFT)
@@ -114,10 +116,16 @@ ASSERT_SIZE(RenderParams, 448);
 #define PIXEL_EMISSION 7        /* EMISSION_*: whence the emission comes that the pixel sees */
 
 /* From the first segments of its paths, from camera rays of its own (integrators/emission_rays.h), or from
-   whichever of both the pixel's first launch finds better. */
+   whichever of both the pixel's first launch finds better. Bits beside the latter two: lights may be too small
+   there for the first launch to find them; what is seen by way of lobes without a density is emission that the
+   pixel sees, too. */
 #define EMISSION_BY_PATHS 0u
 #define EMISSION_BY_RAYS 1u
 #define EMISSION_OPEN 2u
+#define EMISSION_SMALL 4u
+#define EMISSION_GOES_ON 8u
+/* Segments of a camera ray that goes on. */
+#define EMISSION_SEGMENTS 8u
 
 /* Weights of paths that max_depth cuts are summed in units of 2^-20, each rounded up: the sum is a bound, and
    the same in any order. Larger weights count as the largest, so that 2^27 of them fit the 64 bits of a

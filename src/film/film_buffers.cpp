@@ -234,7 +234,7 @@ RenderCounts FilmBuffers::read_counts() const {
             counts.cut_paths += rays[i + PIXEL_CUT_PATHS];
             counts.cut_weight +=
                 std::uint64_t(rays[i + PIXEL_CUT_WEIGHT_HIGH]) << 32 | rays[i + PIXEL_CUT_WEIGHT_LOW];
-            counts.outline_pixels += rays[i + PIXEL_EMISSION] == EMISSION_BY_RAYS;
+            counts.outline_pixels += (rays[i + PIXEL_EMISSION] & EMISSION_BY_RAYS) != 0;
             if (const u32 bad = rays[i + PIXEL_BAD_SAMPLES])
                 counts.bad_pixels[pixel_of_slot(first + i / PIXEL_RAYS_WORDS)] = bad;
         }

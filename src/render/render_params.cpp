@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render_params.h"
 
+#include "options/summed_layers.h"
 #include "scene/camera_params.h"
 #include "scene/casters.h"
 #include "scene/light_tables.h"
@@ -109,9 +110,18 @@ u32 light_samples_log(int samples) {
     return log;
 }
 
+/// Whether camera rays for emission may go on at mirrors and smooth glass: where a path that meets emission
+/// behind them does not tell what it has met, by an integrator that sees into them.
+bool mirrors_show_emission(const Options& options) {
+    return takes_option(options.transport.integrator, TAKES_EMISSION_RAYS) &&
+           integrator_row(options.transport.integrator).connections == Connections::ONE_LIGHT &&
+           options.transport.paths.empty() && summed_layers(options).empty();
+}
+
 u32 path_choices(const Scene& scene, const Options& options) {
     return (options.transport.path_reuse == Toggle::ON ? PATHS_ARE_SHARED : 0) |
            (crosses_slabs(scene, options) ? SLABS_ARE_CROSSED : 0) |
+           (mirrors_show_emission(options) ? MIRRORS_SHOW_EMISSION : 0) |
            light_samples_log(light_samples(scene, options)) << LIGHT_SAMPLES_SHIFT |
            (takes_option(options.transport.integrator, TAKES_EMISSION_RAYS)
                 ? u32(options.transport.emission_rays) << EMISSION_RAYS_SHIFT

@@ -114,9 +114,13 @@ std::vector<vec4> cover(Part part, int level) {
 
 } // namespace
 
-bool is_caster(const Material& material) {
+bool is_smooth(const Material& material) {
     const bool may_be_smooth = material.alpha_x == 0 || material.map_roughness != NO_INDEX;
-    if ((material.lobes & LOBE_MIRROR) || ((material.lobes & LOBES_GLASS) && may_be_smooth))
+    return (material.lobes & LOBE_MIRROR) || ((material.lobes & LOBES_GLASS) && may_be_smooth);
+}
+
+bool is_caster(const Material& material) {
+    if (is_smooth(material))
         return true;
     return (material.lobes & (LOBE_GLOSSY | LOBES_GLASS)) == LOBE_GLOSSY &&
            std::max(material.alpha_x, material.alpha_y) <= CASTER_LARGEST_ALPHA;

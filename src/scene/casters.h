@@ -9,6 +9,9 @@
 
 namespace clrt {
 
+/// True if the material scatters by a delta lobe at some point.
+bool is_smooth(const Material& material);
+
 /// True if the material scatters by a delta lobe at some point, or reflects by an alpha of at most
 /// CASTER_LARGEST_ALPHA everywhere. Light is not aimed at what a map makes sharp here and there.
 bool is_caster(const Material& material);

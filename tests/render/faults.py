@@ -153,7 +153,7 @@ FAULTS = [
      "sky_light_test"),
     ("screens cast no shadow", "path/visibility.h", "passage.share *= crossing.share;", "", "cut_out_test"),
     ("lights seen by rays of their own are met again", "integrators/path.h",
-     "    if (segment == 1u && pixel_has_seen(sample))\n        return;\n", "", "emission_rays_test"),
+     "    if (pixel_has_seen(sample))\n        return;\n", "", "emission_rays_test"),
     ("several light samples weighted as one", "path/connect.h", "    light.pdf_w *= (real)path_light_samples(path);\n", "",
      "light_samples_test"),
     ("lamps met by chance as if one light was sampled", "path/walk.h", "next->pdf_w / (real)path_light_samples(path)", "next->pdf_w",
