@@ -16,7 +16,6 @@
 
 #include "geometry/ray_cone.h"
 #include "path/automaton.h"
-#include "path/numbers.h"
 #include "path/solid.h"
 #include "pixel.h"
 
@@ -45,13 +44,15 @@ static CLRT_NOINLINE bool emission_go_on(const Scene* scene, const RenderParams*
                                          const Sampler* sampler, uint segment, const Surface* surface,
                                          EmissionView* view)
 {
-    if (segment >= params->max_depth || !pixel_view_goes_on(state, segment, REAL(0.0)))
+    if (!EMISSION_VIEW_GOES_ON || segment >= params->max_depth ||
+        !pixel_view_goes_on(state, segment, REAL(0.0)))
         return false;
     const Bsdf bsdf = material_bsdf(scene, surface, -view->ray->direction, TRANSPORT_RADIANCE);
     if (bsdf.lobes == 0u)
         return false;
-    const PathNumbers numbers = numbers_make(sampler, segment, 0u);
-    const BsdfSample next = bsdf_sample(&bsdf, numbers.lobe, numbers.direction);
+    const uint2 choices = sampler_partner_words(sampler, segment, SAMPLE_DIRECTION);
+    const BsdfSample next = bsdf_sample(&bsdf, sampler_unit(choices.x),
+                                        sampler_pair(sampler, segment, SAMPLE_DIRECTION));
     if (!next.is_valid || next.pdf_w != REAL(0.0))
         return false;
     view->carried *= next.weight;

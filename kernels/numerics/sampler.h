@@ -219,12 +219,12 @@ CLRT_INLINE uint2 sampler_words(const Sampler* sampler, uint address, bool is_pa
     return sampler_net_words(sampler, address, is_partner);
 }
 
-static inline uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
+CLRT_INLINE uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
 {
     return sampler_words(sampler, sampler_address(bounce, purpose), false);
 }
 
-static inline uint2 sampler_partner_words(const Sampler* sampler, uint bounce, uint purpose)
+CLRT_INLINE uint2 sampler_partner_words(const Sampler* sampler, uint bounce, uint purpose)
 {
     return sampler_words(sampler, sampler_address(bounce, purpose), true);
 }

@@ -149,7 +149,9 @@ std::vector<OptionSpec> work_options() {
          [](Options& o, const OptionValue& v) { o.transport.path_reuse = parse_choice<Toggle>(v); }},
         {group, "", "--emission-rays", "N",
          fmt::format("{}camera rays a sample from which a pixel takes the emission of lights, if the outline "
-                     "of one crosses it; 1: paths find it there as everywhere (default {})",
+                     "of one crosses it, seen by itself or, where few pixels see such, in mirrors and glass; "
+                     "1: paths "
+                     "find it there as everywhere (default {})",
                      takers(TAKES_EMISSION_RAYS), defaults.emission_rays),
          [](Options& o, const OptionValue& v) { o.transport.emission_rays = parse_branch(v); }},
         {group, "", "--light-samples", "auto|N",

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace clrt {
 
@@ -57,6 +58,24 @@ double share_of_pixel(const glm::dvec2& low, const glm::dvec2& high, int x, int 
     };
     return overlap(low.x, high.x, left) * overlap(low.y, high.y, bottom);
 }
+
+/// Has the camera look at a lamp behind it by way of a mirror of 4 x 4 pixels; the image goes from `low` to
+/// `high`.
+struct MirroredLamp : Lamp {
+    MirroredLamp(const glm::dvec2& low, const glm::dvec2& high) : Lamp({-40, -40}, {-39, -39}) {
+        constexpr double BEHIND = 10, SCALE = (SIDE + BEHIND) / (SIDE / 2.);
+        build.use("lamp").polygon({{low.x * SCALE, low.y * SCALE, BEHIND},
+                                   {low.x * SCALE, high.y * SCALE, BEHIND},
+                                   {high.x * SCALE, high.y * SCALE, BEHIND},
+                                   {high.x * SCALE, low.y * SCALE, BEHIND}});
+        shared_effects |= EFFECT_MIRROR | EFFECT_LIGHT_TREE;
+    }
+    void add_mirror(double half, const std::string& colour = "1 1 1") {
+        constexpr double z = -SIDE / 2.;
+        build.material("mirror", "Kd 0 0 0\nKs " + colour + "\nillum 3").use("mirror");
+        build.polygon({{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
+    }
+};
 
 /// Root of the mean square of a picture's distance from what the camera sees of a rectangle.
 double distance_from(const Film& film, const glm::dvec2& low, const glm::dvec2& high) {
@@ -146,6 +165,85 @@ TEST(EmissionRays, LampsOutOfFocusAreOpenAsWideAsTheyAreBlurred) {
     const Film few = lamp.render_by(1).film;
     lamp.options.sampling.seed = 1;
     expect_equal_means(few, lamp.render_by(8).film, "out of focus");
+}
+
+TEST(EmissionRays, ALampSmallerThanAPixelIsSeenInASmallMirror) {
+    const glm::dvec2 low(0.4, 0.45), high(0.6, 0.6);
+    double with = 0, without = 0;
+    MirroredLamp lamp(low, high);
+    lamp.add_mirror(2);
+    for (int seed = 0; seed < 16; ++seed) {
+        lamp.options.sampling.seed = std::uint32_t(seed);
+        with += distance_from(lamp.render_by(16).film, low, high);
+        without += distance_from(lamp.render_by(1).film, low, high);
+    }
+    EXPECT_LT(with, 16 * 0.1 * RADIANCE * 0.2 * 0.15 / SIDE);
+    EXPECT_LT(4 * with, without);
+}
+
+TEST(EmissionRays, ALampThatProbesMissIsLookedAt) {
+    EXPECT_GT(Lamp({2.49, 2.49}, {2.51, 2.51}).render_by(16).counts.outline_pixels, 0);
+}
+
+TEST(EmissionRays, LightOnWhatIsSeenBesideLampsIsKept) {
+    for (const Integrator integrator : {Integrator::PATH, Integrator::PATH_LIGHT, Integrator::BDPT}) {
+        SCOPED_TRACE(name_of(integrator));
+        // A strip and a block of glass before a wall, whose light comes from a large lamp behind the camera, by
+        // hits as well as by connections.
+        Lamp strip({-15, -0.05}, {15, 0.05});
+        strip.build.use("lamp").polygon({{-40, -40, 4}, {-40, 40, 4}, {40, 40, 4}, {40, -40, 4}});
+        strip.build.use("wall").polygon({{-40, -40, -20}, {40, -40, -20}, {40, 40, -20}, {-40, 40, -20}});
+        strip.build.material("glass", "Ni 1.5\nillum 7").use("glass").box({-1, 1, -11}, {1, 3, -10});
+        strip.shared_effects |= EFFECT_LIGHT_TREE | EFFECT_REFRACTION;
+        strip.options.transport.integrator = integrator;
+        strip.options.sampling.spp = 1024;
+        const Film few = strip.render_by(1).film;
+        strip.options.sampling.seed = 1;
+        const Render many = strip.render_by(4);
+        EXPECT_GT(many.counts.outline_pixels, SIDE);
+        expect_equal_means(few, many.film, name_of(integrator));
+    }
+}
+
+TEST(EmissionRays, OnlyFewPixelsLookIntoMirrors) {
+    MirroredLamp small({-1, -1}, {1, 1});
+    small.add_mirror(2);
+    const std::vector<std::uint8_t> few = small.outlines();
+    EXPECT_EQ(few[SIDE * (SIDE / 2) + SIDE / 2], EMISSION_OPEN | EMISSION_SMALL | EMISSION_GOES_ON);
+    EXPECT_EQ(few[SIDE * (SIDE / 2) + SIDE / 2 + 8], EMISSION_BY_PATHS);
+    MirroredLamp large({-1, -1}, {1, 1});
+    large.add_mirror(6); // a seventh of the picture
+    EXPECT_EQ(large.outlines()[SIDE * (SIDE / 2) + SIDE / 2], EMISSION_BY_PATHS);
+    small.options.transport.integrator = Integrator::LIGHT; // which sees nothing in mirrors
+    EXPECT_EQ(small.outlines()[SIDE * (SIDE / 2) + SIDE / 2], EMISSION_BY_PATHS);
+    small.options.transport.integrator = Integrator::PATH;
+    small.options.transport.paths = "LS*E";
+    EXPECT_EQ(small.outlines()[SIDE * (SIDE / 2) + SIDE / 2], EMISSION_BY_PATHS);
+}
+
+TEST(EmissionRays, WhatIsSeenInMirrorsAndThroughGlassIsKept) {
+    for (const Integrator integrator : {Integrator::PATH, Integrator::PATH_LIGHT, Integrator::BDPT}) {
+        SCOPED_TRACE(name_of(integrator));
+        // The lamp in a mirror, through a block of coloured glass that is partly a mirror, too, and by way of
+        // both the wall.
+        MirroredLamp lamp({-0.7, -0.3}, {0.6, 0.9});
+        lamp.add_mirror(1.5, "0.9 0.6 0.3");
+        lamp.build.material("glass", "Ni 1.5\nillum 7\nattenuation 0.5 0.7 0.9");
+        lamp.build.use("glass").box({-0.5, -1, -10}, {0.4, 0.8, -9});
+        lamp.build.use("wall").polygon({{-20, -6, -30}, {20, -6, -30}, {20, -6, 9}, {-20, -6, 9}});
+        lamp.shared_effects |= EFFECT_REFRACTION | EFFECT_ATTENUATION;
+        lamp.options.sampling.spp = 1024;
+        lamp.options.transport.integrator = integrator;
+        for (const int depth : {2, 3, 16}) {
+            lamp.options.transport.max_depth = depth;
+            lamp.options.sampling.seed = 0;
+            const Film few = lamp.render_by(1).film;
+            lamp.options.sampling.seed = 1;
+            const Render many = lamp.render_by(4);
+            EXPECT_GT(many.counts.outline_pixels, 0);
+            expect_equal_means(few, many.film, name_of(integrator));
+        }
+    }
 }
 
 TEST(EmissionRays, AllIntegratorsKeepTheirLight) {
