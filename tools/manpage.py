@@ -67,7 +67,7 @@ REPORT = [
     ("outlines", "Where the outline of a light crosses a pixel, whether the ray of a sample meets the light is most of the noise: lamps "
      "are much brighter than what they light. Such pixels take the emission that the camera sees from several camera rays a sample "
      "(--emission-rays). Probes find them, the same whatever the seed; lights of few pixels' size count without. Where at most a "
-     "twentieth of the pixels may see mirrors and smooth glass, these rays go on there by up to 8 segments. The picture has no bias."),
+     "twentieth of the pixels may see mirrors and smooth glass, these rays go on there by up to 8 segments. There is no bias."),
     ("guide", "Which samples paths were guided in, and, with --guide auto, what the guide made of the squared error and the work "
      "of a sample; the cells of space that have learnt, and the memory that they take."),
     ("chains", "Of --integrator mlt: steps of Markov chains in this run, one for every sample of every pixel, or a few more so "

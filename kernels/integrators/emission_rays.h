@@ -9,7 +9,7 @@
 //
 // The host tells the pixels that may see an outline or look into mirrors (render/light_outlines.h). Which of
 // them do is looked at once, by rays that are the same whatever the seed; the picture has no bias whatever
-// they find. Where lights may be so small that they find none, and few pixels are such, these take emission by
+// they find. Lights may be so small that these find none: where few pixels may see such, they take emission by
 // rays unless they see a light all over.
 #ifndef CLRT_INTEGRATORS_EMISSION_RAYS_H
 #define CLRT_INTEGRATORS_EMISSION_RAYS_H

@@ -24,8 +24,8 @@
 #endif
 
 /* 1 where such rays may go on, by lobes without a density. */
-#if SPLITS_EMISSION && (CLRT_EFFECTS & (EFFECT_MIRROR | EFFECT_REFRACTION | EFFECT_THIN_WALL)) &&                \
-    !(CLRT_EFFECTS & EFFECT_PATH_FILTER)
+#if SPLITS_EMISSION && !(CLRT_EFFECTS & EFFECT_PATH_FILTER) &&                                               \
+    (CLRT_EFFECTS & (EFFECT_MIRROR | EFFECT_REFRACTION | EFFECT_THIN_WALL))
 #define EMISSION_VIEW_GOES_ON 1
 #else
 #define EMISSION_VIEW_GOES_ON 0
@@ -73,7 +73,8 @@ static inline bool pixel_has_seen(const CameraSample* sample)
    this density, 0 for delta lobes. */
 static inline bool pixel_view_goes_on(uint emission, uint segment, real pdf_w)
 {
-    return EMISSION_VIEW_GOES_ON && (emission & EMISSION_GOES_ON) && segment < EMISSION_SEGMENTS && pdf_w == REAL(0.0);
+    return EMISSION_VIEW_GOES_ON && (emission & EMISSION_GOES_ON) && segment < EMISSION_SEGMENTS &&
+           pdf_w == REAL(0.0);
 }
 
 /* The sample's path leaves such a vertex. */

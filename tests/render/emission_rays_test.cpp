@@ -188,8 +188,8 @@ TEST(EmissionRays, ALampThatProbesMissIsLookedAt) {
 TEST(EmissionRays, LightOnWhatIsSeenBesideLampsIsKept) {
     for (const Integrator integrator : {Integrator::PATH, Integrator::PATH_LIGHT, Integrator::BDPT}) {
         SCOPED_TRACE(name_of(integrator));
-        // A strip and a block of glass before a wall, whose light comes from a large lamp behind the camera, by
-        // hits as well as by connections.
+        // A strip and a block of glass before a wall, whose light comes from a large lamp behind the camera,
+        // by hits as well as by connections.
         Lamp strip({-15, -0.05}, {15, 0.05});
         strip.build.use("lamp").polygon({{-40, -40, 4}, {-40, 40, 4}, {40, 40, 4}, {40, -40, 4}});
         strip.build.use("wall").polygon({{-40, -40, -20}, {40, -40, -20}, {40, 40, -20}, {-40, 40, -20}});

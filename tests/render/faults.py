@@ -154,7 +154,7 @@ FAULTS = [
     ("screens cast no shadow", "path/visibility.h", "passage.share *= crossing.share;", "", "cut_out_test"),
     ("lights seen by rays of their own are met again", "integrators/path.h",
      "    if (pixel_has_seen(sample))\n        return;\n", "", "emission_rays_test"),
-    ("all hits behind a light's outline are left out", "integrators/path.h", "    pixel_leave(segment, next.pdf_w, sample);\n", "",
+    ("all hits behind an outline are left out", "integrators/path.h", "    pixel_leave(segment, next.pdf_w, sample);\n", "",
      "emission_rays_test"),
     ("lamps in mirrors as bright as by themselves", "integrators/emission_rays.h", "    view->carried *= next.weight;\n", "",
      "emission_rays_test"),
