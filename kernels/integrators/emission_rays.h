@@ -63,10 +63,11 @@ static CLRT_NOINLINE bool emission_go_on(const Scene* scene, const RenderParams*
     return true;
 }
 
-/* The emission that a camera ray of pixel (x, y) of the whole picture meets, number `index` of a replicate;
-   `state`: EMISSION_* of the pixel. `ray` is room for it. */
+/* The emission that a camera ray of pixel (x, y) of the whole picture meets, number `index` of a replicate, and
+   its segments, which are added to `segments`; `state`: EMISSION_* of the pixel. `ray` is room for it. */
 static CLRT_NOINLINE real3 emission_seen(const Scene* scene, const RenderParams* params, uint state, uint x,
-                                         uint y, uint seed, uint replicate, uint index, Ray* ray)
+                                         uint y, uint seed, uint replicate, uint index, Ray* ray,
+                                         uint* segments)
 {
     const Sampler sampler = sampler_make(seed, tile_pixel_number(params, x, y), replicate, index);
     *ray = camera_ray(params, &sampler, x, y);
@@ -75,6 +76,7 @@ static CLRT_NOINLINE real3 emission_seen(const Scene* scene, const RenderParams*
     EmissionView view = {ray, (real3)(REAL(1.0)), NO_INDEX};
     real3 seen = (real3)(REAL(0.0));
     for (uint segment = 1u;; ++segment) {
+        ++*segments;
         Hit hit = visible_hit(scene, params, &sampler, segment, ray, &view.carried);
         if (hit.triangle == NO_INDEX)
             return seen;
@@ -95,11 +97,12 @@ static inline bool emission_varies(const Scene* scene, const RenderParams* param
                                    Ray* ray)
 {
     real least = REAL(0.0), most = REAL(0.0);
+    uint unused = 0u;
     for (uint k = 0; k < 2u * EMISSION_PROBES; ++k) {
         const uint around = k / 2u % 8u;
         const int2 place = emission_neighbour(k % 2u == 0u ? 4u : around < 4u ? around : around + 1u);
         const real3 emission = emission_seen(scene, params, state, x + (uint)place.x, y + (uint)place.y,
-                                             EMISSION_PROBE_SEED, 0u, k / 2u, ray);
+                                             EMISSION_PROBE_SEED, 0u, k / 2u, ray, &unused);
         const real seen = vector_max_component(emission);
         least = k == 0u ? seen : fmin(least, seen);
         most = fmax(most, seen);
@@ -120,9 +123,8 @@ static CLRT_NOINLINE void emission_look(const Scene* scene, const RenderParams* 
         real3 seen = (real3)(REAL(0.0));
         for (uint k = 0; k < count; ++k)
             seen += emission_seen(scene, params, state, x, y, params->seed + EMISSION_RAY_SEED,
-                                  counter.replicate, counter.index * count + k, &samples[i].ray);
+                                  counter.replicate, counter.index * count + k, &samples[i].ray, &rays->secondary);
         samples[i].radiance = seen / (real)count;
-        rays->secondary += count;
     }
 }
 #endif
