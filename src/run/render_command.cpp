@@ -4,6 +4,7 @@
 #include "console/progress.h"
 #include "device/compile_ahead.h"
 #include "exit_code.h"
+#include "options/unread_options.h"
 #include "render/dark_picture.h"
 #include "render/guide_choice.h"
 #include "render/light_samples_choice.h"
@@ -168,6 +169,8 @@ std::string end_text(const Render& render) {
 void announce(const PlannedScene& planned) {
     for (const std::string& notice : planned.scene.notices)
         spdlog::info("{}", notice);
+    for (const std::string& line : unread_options(planned.options))
+        spdlog::info("{}", line);
     for (const std::string& line : describe_left_out(planned.effects))
         spdlog::warn("{}", line);
     for (const BlindSpot& spot : planned.effects.paths.blind_spots)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 clrt_test(host crew_test)
 clrt_test(host daylight_test)
+clrt_test(host unread_options_test GTest::gmock)
 clrt_test(host denoise_choice_test)
 clrt_test(host denoised_error_test)
 clrt_test(host device_choose_test GTest::gmock)
