@@ -9,8 +9,8 @@
 //
 // The host tells the pixels that may see an outline or look into mirrors (render/light_outlines.h). Which of
 // them do is looked at once, by rays that are the same whatever the seed; the picture has no bias whatever
-// they find. Lights may be so small that these find none: where few pixels may see such, they take emission by
-// rays unless they see a light all over.
+// they find. Lights may be so small that these find none: where few pixels may see such, they take emission
+// by rays unless they see a light all over.
 #ifndef CLRT_INTEGRATORS_EMISSION_RAYS_H
 #define CLRT_INTEGRATORS_EMISSION_RAYS_H
 
@@ -44,8 +44,7 @@ static CLRT_NOINLINE bool emission_go_on(const Scene* scene, const RenderParams*
                                          const Sampler* sampler, uint segment, const Surface* surface,
                                          EmissionView* view)
 {
-    if (!EMISSION_VIEW_GOES_ON || segment >= params->max_depth ||
-        !pixel_view_goes_on(state, segment, REAL(0.0)))
+    if (segment >= params->max_depth || !pixel_view_goes_on(state, segment, REAL(0.0)))
         return false;
     const Bsdf bsdf = material_bsdf(scene, surface, -view->ray->direction, TRANSPORT_RADIANCE);
     if (bsdf.lobes == 0u)
@@ -63,8 +62,8 @@ static CLRT_NOINLINE bool emission_go_on(const Scene* scene, const RenderParams*
     return true;
 }
 
-/* The emission that a camera ray of pixel (x, y) of the whole picture meets, number `index` of a replicate, and
-   its segments, which are added to `segments`; `state`: EMISSION_* of the pixel. `ray` is room for it. */
+/* The emission that a camera ray of pixel (x, y) of the whole picture meets, number `index` of a replicate.
+   Its segments are added to `segments`; `state`: EMISSION_* of the pixel. `ray` is room for it. */
 static CLRT_NOINLINE real3 emission_seen(const Scene* scene, const RenderParams* params, uint state, uint x,
                                          uint y, uint seed, uint replicate, uint index, Ray* ray,
                                          uint* segments)
@@ -123,7 +122,8 @@ static CLRT_NOINLINE void emission_look(const Scene* scene, const RenderParams* 
         real3 seen = (real3)(REAL(0.0));
         for (uint k = 0; k < count; ++k)
             seen += emission_seen(scene, params, state, x, y, params->seed + EMISSION_RAY_SEED,
-                                  counter.replicate, counter.index * count + k, &samples[i].ray, &rays->secondary);
+                                  counter.replicate, counter.index * count + k, &samples[i].ray,
+                                  &rays->secondary);
         samples[i].radiance = seen / (real)count;
     }
 }

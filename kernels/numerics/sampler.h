@@ -219,6 +219,7 @@ CLRT_INLINE uint2 sampler_words(const Sampler* sampler, uint address, bool is_pa
     return sampler_net_words(sampler, address, is_partner);
 }
 
+/* Its pairs and partners are drawn for vectors of paths, which a call would keep from being vectors. */
 CLRT_INLINE uint2 sampler_pair_words(const Sampler* sampler, uint bounce, uint purpose)
 {
     return sampler_words(sampler, sampler_address(bounce, purpose), false);

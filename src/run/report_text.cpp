@@ -91,7 +91,7 @@ std::string light_line(const Report& report) {
 std::string outline_line(const Report& report) {
     if (report.render.counts.outline_pixels == 0)
         return "";
-    return fmt::format("outlines of lights cross {} pixels, which see them by {} camera rays a sample\n",
+    return fmt::format("outlines of lights may cross {} pixels, which see them by {} camera rays a sample\n",
                        report.render.counts.outline_pixels, report.options.transport.emission_rays);
 }
 
