@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path reuse (Bekaert, Sbert and Halton 2002): what a path has gathered behind its second vertex is light for
-// the first vertices of the paths of other pixels, too. For builds with -DPATH_REUSE=1.
+// the first vertices of the paths of other pixels, too. First is the vertex that has a lobe with a density
+// where none before it has, so behind mirrors and glass as well; second is the one after it. For builds with
+// -DPATH_REUSE=1.
 //
 // Let x_i be the first vertices of a group's paths and y_j the second ones, f_i the BSDF times cosine at x_i,
 // p_i the density with which it samples the direction to y_j, by BSDF and guide, V_ij the share of light that
@@ -13,10 +15,11 @@
 // panes.
 //
 // L_j must be the same for all: y_j is on a surface with a matte lobe, L_j is what that sends
-// (reuse_matte.h), and y_j is seen from the side that path j has seen. All else, such as emission that a path
-// meets there, what other lobes send, paths that leave x_j by a delta lobe, and those that come to glass,
-// that leave x_j into an absorbing solid or with one colour of three, is its own pixel's alone. Which of both
-// a path is depends on x and y only, so that every light path is counted by one of them.
+// (reuse_matte.h), y_j is seen from the side that path j has seen, and as many segments lead to x_i as to x_j,
+// so that max_depth leaves both as many behind. All else, such as emission that a path meets there, what other
+// lobes send, paths that leave x_j by a delta lobe, and those that come to glass, that leave x_j into an
+// absorbing solid or with one colour of three, is its own pixel's alone. Which of both a path is depends on x
+// and y only, so that every light path is counted by one of them.
 #ifndef CLRT_INTEGRATORS_PATH_REUSE_H
 #define CLRT_INTEGRATORS_PATH_REUSE_H
 
@@ -27,7 +30,7 @@
 #if PATH_REUSE
 /* A path's two vertices. */
 typedef struct {
-    bool has_first;  /* the first vertex is there: */
+    uint segment;    /* of the path up to the first vertex, from 1; 0: there is none */
     Surface surface; /* its surface, */
     Bsdf bsdf;
     GuideShare guide; /* of its directions */
@@ -47,16 +50,29 @@ typedef struct {
     real3 matte_next;                   /* and that of what the path finds on its way on */
 } ReusedPath;
 
-static inline void reuse_begin(ReusedPath* reused) { reused->has_first = reused->has_second = false; }
+static inline void reuse_begin(ReusedPath* reused)
+{
+    reused->segment = 0u;
+    reused->has_second = false;
+}
 
-/* Keeps the first vertex, which some lobe connects to others; without it nothing is shared. */
+/* True if a segment leads to the second vertex of a path that has a first one. */
+static inline bool reuse_is_second(uint segment, const ReusedPath* reused)
+{
+    return reused->segment != 0u && segment == reused->segment + 1u;
+}
+
+/* Keeps the first vertex, which some lobe connects to others; without it nothing is shared. None is first
+   where Russian roulette could end the path there, or where it has one colour left. */
 static inline void reuse_keep_first(const RenderParams* params, uint segment, const Surface* surface,
                                     const Bsdf* bsdf, const Guide* guide, const Path* path,
                                     ReusedPath* reused)
 {
-    if (!(params->path_choices & PATHS_ARE_SHARED) || segment != 1u || !bsdf_has_smooth_lobe(bsdf))
+    if (!(params->path_choices & PATHS_ARE_SHARED) || reused->segment != 0u || !bsdf_has_smooth_lobe(bsdf))
         return;
-    reused->has_first = true;
+    if (segment >= params->roulette_depth || (surface_wave(surface) & WAVE_ALONE))
+        return;
+    reused->segment = segment;
     reused->surface = *surface;
     reused->bsdf = *bsdf;
     reused->guide = guide_share(guide);
@@ -75,7 +91,7 @@ static inline bool reuse_leaves(const Scene* scene, const Surface* surface, cons
 static inline void reuse_keep_second(const Scene* scene, uint segment, const Surface* surface,
                                      const Bsdf* bsdf, Path* path, real3* radiance, ReusedPath* reused)
 {
-    if (segment != 2u || !reused->has_first || path->pdf_w == REAL(0.0) ||
+    if (!reuse_is_second(segment, reused) || path->pdf_w == REAL(0.0) ||
         !reuse_leaves(scene, &reused->surface, &reused->bsdf, path->ray.direction))
         return;
     const real scale = vector_max_component(path->throughput);
@@ -102,7 +118,7 @@ static inline void reuse_keep_second(const Scene* scene, uint segment, const Sur
 static inline void reuse_keep_shares(uint segment, const Bsdf* bsdf, const BsdfSample* next, const Path* path,
                                      ReusedPath* reused)
 {
-    if (segment != 2u || !reused->has_second || !reused->is_mixed)
+    if (!reused->has_second || !reuse_is_second(segment, reused) || !reused->is_mixed)
         return;
     const bool is_smooth = next->is_valid && next->pdf_w > REAL(0.0);
     reused->matte_next = is_smooth ? reuse_matte_share(bsdf, next->wi) : (real3)(REAL(0.0));
@@ -113,7 +129,7 @@ static inline void reuse_keep_shares(uint segment, const Bsdf* bsdf, const BsdfS
 /* Keeps what the path has found by the connection of a vertex. */
 static inline void reuse_keep_connection(uint segment, real3 radiance, ReusedPath* reused)
 {
-    if (segment == 2u && reused->has_second)
+    if (reused->has_second && reuse_is_second(segment, reused))
         reused->connection = radiance;
 }
 
@@ -159,7 +175,7 @@ static CLRT_NOINLINE BsdfValue reuse_connect(const Scene* scene, const RenderPar
     const BsdfValue nothing = bsdf_value_none();
     const real3 way = source->second.position - eye->surface.position;
     const real square = vector_dot(way, way);
-    if (!eye->has_first || square == REAL(0.0))
+    if (eye->segment != source->segment || square == REAL(0.0))
         return nothing;
     const real3 wi = way / real_sqrt(square);
     const real cosine = -source->side * vector_dot(source->second.normal_g, wi);

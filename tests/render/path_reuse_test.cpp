@@ -99,6 +99,15 @@ struct Lit : TestScene {
     PreparedParts parts;
 };
 
+/// A closed room with dim mirrors on parts of two walls that see each other.
+struct MirrorRoom : Lit {
+    MirrorRoom() : Lit(true) {
+        build.material("mirror", "Kd 0 0 0\nKs 0.3 0.25 0.2\nillum 3").use("mirror");
+        build.polygon({{-1.9, 0.3, -1.95}, {0.4, 0.3, -1.95}, {0.4, 2.2, -1.95}, {-1.9, 2.2, -1.95}});
+        build.polygon({{-1.95, 0.3, -1.9}, {-1.95, 2.2, -1.9}, {-1.95, 2.2, 0.4}, {-1.95, 0.3, 0.4}});
+    }
+};
+
 /// A closed room of one material with a lamp, before a dark wall and a bright one.
 struct GlossyRoom : TestScene {
     explicit GlossyRoom(const char* material) {
@@ -223,6 +232,46 @@ TEST(PathReuse, ChangesNoMeanAroundGlassThatAbsorbsOrDisperses) {
         room.options.sampling.spp = 1024;
         EXPECT_LT(mean_square_z(both_ways(room)), LARGEST_MEAN_SQUARE_Z) << kind;
     }
+}
+
+// In the picture walls are side by side that are seen at once, in a mirror, in two and through glass: as many
+// segments are left behind each as max_depth says.
+TEST(PathReuse, ChangesNoMeanBehindMirrorsAndGlass) {
+    struct Limits {
+        int max_depth, roulette_depth;
+    };
+    for (const Limits limits : drawn<Limits>({{4, 5}, {64, 2}, {64, 3}}, 2)) {
+        SCOPED_TRACE(testing::Message() << limits.max_depth << ", " << limits.roulette_depth);
+        MirrorRoom room;
+        room.build
+            .material("glass", "Kd 0 0 0\nKs 1 1 1\nTf 0.9 1 0.8\nNi 1.5\nillum 7\nattenuation 0.1 0.3 0.6")
+            .material("gem", "Kd 0 0 0\nKs 1 1 1\nTf 1 1 1\nNi 1.7\nillum 7\nabbe 10");
+        room.build.use("glass").box({-0.5, 0.7, 0.2}, {0.3, 1.3, 0.6});
+        room.build.use("gem").box({0.3, 0.4, -0.9}, {1, 0.9, -0.3});
+        room.options.film.size = {24, 24};
+        room.options.sampling.spp = 2048;
+        room.options.transport.max_depth = limits.max_depth;
+        room.options.transport.roulette_depth = limits.roulette_depth;
+        EXPECT_LT(mean_square_z(both_ways(room)), LARGEST_MEAN_SQUARE_Z);
+    }
+}
+
+// A wall that is seen in a mirror, by light from a lamp that shines at the ceiling.
+TEST(PathReuse, LowersNoiseBehindMirrors) {
+    TestScene room;
+    room.build.material("white", "Kd 0.75 0.75 0.75").material("lamp", "Kd 0 0 0\nKe 9 9 9").use("white");
+    room.build.box({-2, 0, -2}, {2, 2.5, 2}, Facing::INWARD).box({-1, 1.8, 0}, {1, 1.9, 1});
+    room.build.use("lamp").polygon(
+        {{-0.9, 1.95, 0.1}, {-0.9, 1.95, 0.9}, {0.9, 1.95, 0.9}, {0.9, 1.95, 0.1}});
+    room.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror");
+    room.build.polygon({{-1.9, 0.1, -1.95}, {1.9, 0.1, -1.95}, {1.9, 1.7, -1.95}, {-1.9, 1.7, -1.95}});
+    room.look({0.3, 1, -0.5}, {0, 0.9, -2}, 60);
+    room.options.film.size = {32, 32};
+    room.options.sampling.spp = 256;
+    room.options.transport.guide = Toggle::OFF;
+    room.options.effects.all = false;
+    const Cost alone(room, Toggle::OFF), reusing(room, Toggle::ON);
+    EXPECT_LT(reusing.cost, 0.6 * alone.cost);
 }
 
 TEST(PathReuse, LowersNoiseTimesRays) {
