@@ -15,11 +15,11 @@
 // panes.
 //
 // L_j must be the same for all: y_j is on a surface with a matte lobe, L_j is what that sends
-// (reuse_matte.h), y_j is seen from the side that path j has seen, and as many segments lead to x_i as to x_j,
-// so that max_depth leaves both as many behind. All else, such as emission that a path meets there, what other
-// lobes send, paths that leave x_j by a delta lobe, and those that come to glass, that leave x_j into an
-// absorbing solid or with one colour of three, is its own pixel's alone. Which of both a path is depends on x
-// and y only, so that every light path is counted by one of them.
+// (reuse_matte.h), y_j is seen from the side that path j has seen, and as many segments lead to x_i as to
+// x_j, so that max_depth leaves both as many behind. All else, such as emission that a path meets there, what
+// other lobes send, paths that leave x_j by a delta lobe, and those that come to glass, that leave x_j into
+// an absorbing solid or with one colour of three, is its own pixel's alone. Which of both a path is depends
+// on x and y only, so that every light path is counted by one of them.
 #ifndef CLRT_INTEGRATORS_PATH_REUSE_H
 #define CLRT_INTEGRATORS_PATH_REUSE_H
 
