@@ -43,13 +43,14 @@ static inline void path_take_seen(const Scene* scene, const Path* path, CameraSa
 
 /* Adds what the surface emits. */
 static inline void path_add_emission(const Scene* scene, const RenderParams* params, uint segment,
-                                     const Surface* surface, const Path* path, CameraSample* sample)
+                                     const Surface* surface, const Path* path, CameraSample* sample,
+                                     PixelRays* rays)
 {
     if (!HAS(EFFECT_AREA_LIGHT) || surface->emitter == NO_INDEX || !(path_accepted(path) & KIND_AREA))
         return;
     if (pixel_has_seen(sample))
         return;
-    const real3 emitted = path_emission(scene, params, surface, path, -path->ray.direction);
+    const real3 emitted = path_emission(scene, params, surface, path, -path->ray.direction, rays);
     vertex_add(scene, path->throughput * emitted, &sample->radiance);
     path_add_layers(scene, path, KIND_AREA, emitted, &sample->layers);
 }
@@ -72,7 +73,7 @@ static CLRT_NOINLINE void path_vertex(const Scene* scene, const RenderParams* pa
     }
     const Surface surface = visible_surface(scene, params, &path->ray, &path->hit);
     path_absorb(scene, &surface, path);
-    path_add_emission(scene, params, segment, &surface, path, sample);
+    path_add_emission(scene, params, segment, &surface, path, sample, rays);
     if (segment >= params->max_depth) {
         path_cut(scene, params, sampler, segment, &surface, path, rays);
         return;

@@ -6,15 +6,57 @@
 
 #include "walk.h"
 
+#if LAMPS_BEHIND_SLABS
+/* The density with which the vertex before a chain of slabs samples a lamp's point that was hit behind it
+   (slab_bend.h); 0 where it is not connected to it. */
+static CLRT_NOINLINE real path_slab_pdf_w(const Scene* scene, const RenderParams* params,
+                                          const Surface* surface, const Path* path, real3 wo, PixelRays* rays)
+{
+    if (!slab_is_straight(&path->slabs, path->before_slabs, path->ray.direction))
+        return REAL(0.0);
+    const real3 target = surface_origin(surface, true, wo);
+    Ray ray = path->ray;
+    ray.origin = path->slab_origin;
+    SlabStack stack;
+    SlabBend bend;
+    if (!slab_find_stack(scene, params, path->slabs.facets, &ray, target, &stack, rays) ||
+        stack.facets != path->slabs.facets || !slab_bend(&stack, target - ray.origin, &bend))
+        return REAL(0.0);
+    const real3 turn = bend.wi - path->before_slabs;
+    const real3 way = surface->position - path->view.position;
+    const real distance = vector_length(way);
+    const real3 straight = way / distance;
+    const real cosines = vector_dot(straight, surface->normal_g) / vector_dot(wo, -surface->normal_g);
+    if (!(vector_dot(turn, turn) <= SLAB_SAME_DIRECTION * SLAB_SAME_DIRECTION) || !(cosines > REAL(0.0)) ||
+        !slab_is_ahead(path->slab_facet, straight, bend.wi))
+        return REAL(0.0);
+    const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
+    return cosines * bend.spread *
+           emitter_hit_pdf_w(scene, surface, pdf_a, path->view.position, distance, -straight);
+}
+#endif
+
+/* The weight of emission that was hit by a delta lobe: next-event estimation finds it behind slabs alone. */
+static inline real path_delta_weight(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                     const Path* path, real3 wo, PixelRays* rays)
+{
+#if LAMPS_BEHIND_SLABS
+    const real light_pdf_w = path_slab_pdf_w(scene, params, surface, path, wo, rays);
+    if (light_pdf_w > REAL(0.0))
+        return mis_weight(path->pdf_w_before_slabs, light_pdf_w);
+#endif
+    return REAL(1.0);
+}
+
 /* Emission of the surface that was hit, weighted against the light sampling at the vertex before that could
    have found it. */
 static inline real3 path_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                  const Path* path, real3 wo)
+                                  const Path* path, real3 wo, PixelRays* rays)
 {
     const real3 emitted = material_emitted(scene, surface, wo);
     const real pdf_w = path->pdf_w;
     if (pdf_w == REAL(0.0))
-        return emitted;
+        return emitted * path_delta_weight(scene, params, surface, path, wo, rays);
     if (!emitter_is_met(path->lift, path->hit.t))
         return (real3)(REAL(0.0));
     const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
@@ -101,10 +143,58 @@ static inline uint path_connection_facets(const Path* path)
 #endif
 }
 
+#if LAMPS_BEHIND_SLABS
+/* Sees a lamp's point straight or through slabs, as path_see_light says. */
+static CLRT_NOINLINE bool path_bend_light(const Scene* scene, const RenderParams* params, uint most,
+                                          const Surface* surface, LightSample* light, Ray* shadow,
+                                          PixelRays* rays)
+{
+    SlabStack stack;
+    SlabBend bend;
+    if (!slab_find_stack(scene, params, most, shadow, light->target, &stack, rays))
+        return false;
+    if (stack.facets == 0u) {
+        if (!HAS(EFFECTS_PASSED))
+            shadow->t_max = REAL(0.0); /* it has been seen that nothing is in between */
+        return true;
+    }
+    if (!slab_bend(&stack, light->target - shadow->origin, &bend) ||
+        !slab_is_ahead(light->reflects ? surface->normal_g : -surface->normal_g, light->wi, bend.wi))
+        return false;
+    real3 p0, p1, p2;
+    surface_corners(scene, scene->triangles + light->triangle, &p0, &p1, &p2);
+    const real3 normal = surface_cross(p1 - p0, p2 - p0);
+    const real cosines = vector_dot(light->wi, normal) / vector_dot(bend.wi, normal);
+    Ray ray = surface_ray(surface, light->reflects, bend.wi);
+    if (!(cosines > REAL(0.0)) || !slab_follow(scene, params, stack.facets, &ray, &light->radiance, rays))
+        return false;
+    light->wi = bend.wi;
+    light->pdf_w *= cosines * bend.spread;
+    ray_end_at(light->target, &ray);
+    *shadow = ray;
+    return true;
+}
+#endif
+
+/* Prepares the shadow ray to a sampled light. Where nothing but slabs is in between, it is what is left of the
+   way behind them, and the sample is what their bending makes of it; false where the light cannot be seen. */
+static inline bool path_see_light(const Scene* scene, const RenderParams* params, uint segment,
+                                  const Surface* surface, LightSample* light, Ray* shadow, PixelRays* rays)
+{
+    *shadow = light_shadow_ray(surface, light);
+#if LAMPS_BEHIND_SLABS
+    if (light->triangle != NO_INDEX && !surface_is_lifted(surface, light->reflects, light->wi) &&
+        solid_beside(scene, surface, light->reflects) == NO_INDEX)
+        return path_bend_light(scene, params, params->max_depth - 1u - segment, surface, light, shadow, rays);
+#endif
+    return true;
+}
+
 /* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling.
    Nothing where delta lobes or the automaton keep a light from being found so. */
-static inline void path_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                const Bsdf* bsdf, const AutomatonStep* step, Path* path)
+static inline void path_connect(const Scene* scene, const RenderParams* params, uint segment,
+                                const Surface* surface, const Bsdf* bsdf, const AutomatonStep* step,
+                                Path* path, PixelRays* rays)
 {
     if (!bsdf_has_smooth_lobe(bsdf))
         return;
@@ -112,9 +202,12 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
         return;
     LightSample light = path_light(scene, params, surface, bsdf, path);
     solid_dim_light(scene, surface, &light);
+    Ray shadow;
+    const bool is_seen = light.pdf_w != REAL(0.0) &&
+                         path_see_light(scene, params, segment, surface, &light, &shadow, rays);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);
-    if (light.pdf_w == REAL(0.0))
+    if (!is_seen)
         return;
     light.pdf_w *= (real)path_light_samples(path);
     BsdfValue eval = bsdf_eval(bsdf, light.wi);
@@ -130,7 +223,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     path->connection = path->throughput * arriving * (weight / light.pdf_w);
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, weight);
     TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
-    path->shadow = light_shadow_ray(surface, &light);
+    path->shadow = shadow;
     path_note_connection(scene, surface, &light, REAL(1.0), path);
     path_connect_layers(bsdf, step, &light, path->throughput * light.radiance * (weight / light.pdf_w), path);
 }

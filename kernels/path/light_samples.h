@@ -38,7 +38,7 @@ static inline void light_samples_connect(const Scene* scene, const RenderParams*
     const uint2 words = path->numbers.light;
     for (uint number = path_light_samples(path) - 1u;; --number) {
         path->numbers.light = light_samples_words(words, number, path_light_samples_log(path));
-        path_connect(scene, params, surface, bsdf, step, path);
+        path_connect(scene, params, segment, surface, bsdf, step, path, rays);
         if (number == 0u)
             return;
         if (!path->is_connected)

@@ -24,8 +24,15 @@
 #define CONNECTS_THROUGH_SLABS 0
 #endif
 
+/* Whether there are lamps that next-event estimation finds behind slabs (slab_bend.h): said where the program
+   is built. */
+#ifndef LAMPS_BEHIND_SLABS
+#define LAMPS_BEHIND_SLABS 0
+#endif
+
 #define HAS_SLABS                                                                                            \
-    (CONNECTS_THROUGH_SLABS && HAS(EFFECT_REFRACTION) && HAS(EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHT))
+    (CONNECTS_THROUGH_SLABS && HAS(EFFECT_REFRACTION) &&                                                     \
+     (LAMPS_BEHIND_SLABS || HAS(EFFECT_ENVIRONMENT | EFFECT_DELTA_LIGHT)))
 
 /* Directions before and behind a chain are the same within so many radians, a fiftieth of the sun's radius:
    facets of panes are parallel but for the roundings of their corners. */
@@ -77,16 +84,21 @@ static inline void slab_leave(const Scene* scene, const Surface* surface, bool r
     }
 }
 
-/* True if the chain that the path has come through is of slabs. `before`, `behind`: its directions there. */
-static inline bool slab_is_behind(const RenderParams* params, const SlabChain* chain, real3 before,
-                                  real3 behind)
+/* True if a chain is of slabs. `before`, `behind`: its directions there. */
+static inline bool slab_is_straight(const SlabChain* chain, real3 before, real3 behind)
 {
-    if (!(params->path_choices & SLABS_ARE_CROSSED) || chain->facets < SLAB_FEWEST_FACETS ||
-        chain->facets == SLAB_NO_CHAIN)
+    if (chain->facets < SLAB_FEWEST_FACETS || chain->facets == SLAB_NO_CHAIN)
         return false;
     const real3 turn = behind - before;
     return vector_dot(turn, turn) <= SLAB_LARGEST_TURN * SLAB_LARGEST_TURN &&
            fabs(chain->eta - REAL(1.0)) <= SLAB_LARGEST_INDEX_RATIO;
+}
+
+/* The same of the chain that a path has come through, where connections cross slabs. */
+static inline bool slab_is_behind(const RenderParams* params, const SlabChain* chain, real3 before,
+                                  real3 behind)
+{
+    return (params->path_choices & SLABS_ARE_CROSSED) && slab_is_straight(chain, before, behind);
 }
 
 /* The direction behind a facet, which is of smooth glass in air and nothing else, and its index ratio;
@@ -122,6 +134,20 @@ static inline Hit slab_next_hit(const Scene* scene, const RenderParams* params, 
     }
 }
 
+/* Takes a ray through the facet that it has met, if its chain may go on. `solid`: that the ray goes through. */
+static inline bool slab_cross(const Scene* scene, const Hit* hit, Ray* ray, uint* solid, SlabChain* chain,
+                              real3* share)
+{
+    const Surface surface = surface_at(scene, hit, ray);
+    solid_arrive(scene, *solid, &surface, hit->t, share);
+    real eta;
+    const real3 wi = slab_refract(scene, &surface, -ray->direction, &eta, share);
+    slab_leave(scene, &surface, false, eta, chain);
+    *ray = surface_ray(&surface, false, wi);
+    *solid = solid_beside(scene, &surface, false);
+    return chain->facets != SLAB_NO_CHAIN;
+}
+
 /* The share of light that reaches the end of a shadow ray, or its origin from infinity, straight or through
    slabs of at most `most` facets, 0 where there is an end; and their number. 0 where anything else is in
    between, NaNs where a coverage is one. */
@@ -147,15 +173,8 @@ static CLRT_NOINLINE real3 slab_share(const Scene* scene, const RenderParams* pa
         }
         if (chain.facets >= most || !slab_is_of(scene, scene->triangles[hit.triangle].material))
             return nothing;
-        const Surface surface = surface_at(scene, &hit, &ray);
-        solid_arrive(scene, solid, &surface, hit.t, &share);
-        real eta;
-        const real3 wi = slab_refract(scene, &surface, -ray.direction, &eta, &share);
-        slab_leave(scene, &surface, false, eta, &chain);
-        if (chain.facets == SLAB_NO_CHAIN)
+        if (!slab_cross(scene, &hit, &ray, &solid, &chain, &share))
             return nothing;
-        ray = surface_ray(&surface, false, wi);
-        solid = solid_beside(scene, &surface, false);
     }
     return share;
 }

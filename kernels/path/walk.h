@@ -10,7 +10,7 @@
 #include "numbers.h"
 #include "roulette.h"
 #include "sky.h"
-#include "slab.h"
+#include "slab_bend.h"
 #include "vertex.h"
 
 /* 1 where a path's first vertex may take several light samples (light_samples.h). */
@@ -51,6 +51,10 @@ typedef struct {
     real connects_with_others; /* weight of the connection beside light paths over that without; 0: it cannot
                                   cross slabs, */
     uint facets;               /* of which it has crossed so many */
+#endif
+#if LAMPS_BEHIND_SLABS
+    real3 slab_origin; /* where it began its way to slabs, */
+    real3 slab_facet;  /* and the facet's normal there, towards them */
 #endif
     LayerPath layers;
     GuidePath guided;
@@ -200,6 +204,10 @@ static inline void path_look(const Scene* scene, const Surface* surface, const B
         slab_end(&path->slabs);
     path->before_slabs = next->wi;
     path->pdf_w_before_slabs = path->pdf_w;
+#endif
+#if LAMPS_BEHIND_SLABS
+    path->slab_origin = path->ray.origin;
+    path->slab_facet = next->reflects ? surface->normal_g : -surface->normal_g;
 #endif
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
 }

@@ -8,6 +8,7 @@
 #include "scene/sky_table.h"
 #include "scene/slabs.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -51,12 +52,13 @@ std::shared_ptr<PlannedScene> plan_scene(Scene scene, Options options) {
     planned->options = std::move(options);
     leave_out_light_paths(planned->scene, planned->options);
     tabulate_sky(planned->scene.environment, integrator_row(planned->options.transport.integrator).sky);
+    mark_slabs(planned->scene);
     planned->effects = find_effects(planned->scene, planned->options);
     if (planned->effects.left_out) {
         take_out_effects(planned->effects.left_out, planned->scene, planned->options);
+        mark_slabs(planned->scene);
         planned->effects.paths = plan_paths(planned->scene, planned->options);
     }
-    mark_slabs(planned->scene);
     aim_emission(*planned);
     tabulate_lights(planned->options.sampling.light_sampler, planned->scene);
     plan_light_tree(*planned);
@@ -72,6 +74,17 @@ void plan_light_tree(PlannedScene& planned) {
 
 bool has_caustics(const PlannedScene& planned) {
     return casts_caustics(planned.scene, planned.options);
+}
+
+bool path_connects_to_caustics(const PlannedScene& planned) {
+    const Scene& scene = planned.scene;
+    const bool has_points = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                        [](const Light& light) { return light.kind == LIGHT_POINT; });
+    return !has_points && has_slabs_before_lamps(scene) &&
+           std::all_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& triangle) {
+               const Material& material = scene.materials[triangle.material];
+               return (material.flags & MATERIAL_SLAB) || !is_caster(material);
+           });
 }
 
 void take_integrator(Integrator integrator, PlannedScene& planned) {

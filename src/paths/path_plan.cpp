@@ -87,7 +87,8 @@ unsigned letters_for_hits(const Scene& scene, const PathPlan& plan, Integrator i
         letters |= LETTER_BIT(LETTER_MIRROR);
     if (find_used(scene, [](const Material& m) { return is_nearly_smooth(m) && (m.lobes & LOBES_GLASS); }))
         letters |= LETTER_BIT(LETTER_MIRROR) | LETTER_BIT(LETTER_REFRACTION);
-    const bool crosses = connects_through_slabs(integrator) && has_slabs_before_the_sky(scene);
+    const bool crosses = plan.are_lamps_behind_slabs ||
+                         (connects_through_slabs(integrator) && has_slabs_before_the_sky(scene));
     if (crosses && !find_used(scene, [](const Material& m) {
             return (letters_of(m) & LETTER_BIT(LETTER_REFRACTION)) && !(m.flags & MATERIAL_SLAB);
         }))
@@ -235,11 +236,17 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
         plan_automaton(picture, options, plan);
     const Integrator integrator = options.transport.integrator;
     const int max_depth = effective_max_depth(options.transport);
+    plan.are_lamps_behind_slabs = finds_lamps_behind_slabs(scene, options);
     plan.blind_spots = find_blind_spots(plan, picture, integrator, max_depth);
     plan.hit_paths = plan_hit_paths(scene, plan, picture, integrator, max_depth);
     if (auto spot = find_rounded_facets(scene, integrator))
         plan.blind_spots.push_back(std::move(*spot));
     return plan;
+}
+
+bool finds_lamps_behind_slabs(const Scene& scene, const Options& options) {
+    return options.transport.integrator == Integrator::PATH && options.transport.paths.empty() &&
+           options.output.path_layers.empty() && has_slabs_before_lamps(scene);
 }
 
 PathTables path_tables(const PathPlan& plan) {
@@ -260,9 +267,12 @@ PathTables path_tables(const PathPlan& plan) {
 }
 
 std::vector<std::string> path_defines(const PathPlan& plan) {
-    if (plan.layers.empty() || !plan.is_filter)
-        return {};
-    return {fmt::format("PATH_LAYERS={}", plan.layers.size())};
+    std::vector<std::string> defines;
+    if (!plan.layers.empty() && plan.is_filter)
+        defines.push_back(fmt::format("PATH_LAYERS={}", plan.layers.size()));
+    if (plan.are_lamps_behind_slabs)
+        defines.emplace_back("LAMPS_BEHIND_SLABS=1");
+    return defines;
 }
 
 unsigned accepted_kinds(const PathPlan& plan) {

@@ -30,19 +30,23 @@ struct PathPlan {
     PathAlphabet alphabet;               ///< those with a witness
     unsigned found_by_rays =
         0; ///< KIND_* of lights that a ray can meet: all but points and suns without a disc
-    unsigned missed_by_rays = 0;        ///< KIND_* of lights that no ray meets; suns can be in both
-    Automaton automaton;                ///< empty where nothing was asked for
-    bool is_asked = false;              ///< --paths or a layer was given
-    bool is_filter = false;             ///< the kernel needs the automaton; else it changes nothing
-    bool is_empty = false;              ///< no path of the scene is accepted within --max-depth
-    std::optional<int> segments;        ///< most that an accepted path has; none: no bound but --max-depth
-    std::vector<BlindSpot> blind_spots; ///< what is asked for and cannot be sampled
+    unsigned missed_by_rays = 0;         ///< KIND_* of lights that no ray meets; suns can be in both
+    Automaton automaton;                 ///< empty where nothing was asked for
+    bool is_asked = false;               ///< --paths or a layer was given
+    bool is_filter = false;              ///< the kernel needs the automaton; else it changes nothing
+    bool is_empty = false;               ///< no path of the scene is accepted within --max-depth
+    std::optional<int> segments;         ///< most that an accepted path has; none: no bound but --max-depth
+    std::vector<BlindSpot> blind_spots;  ///< what is asked for and cannot be sampled
+    bool are_lamps_behind_slabs = false; ///< finds_lamps_behind_slabs
     HitPaths hit_paths; ///< what is asked for and hard to sample; nearly smooth lobes count as smooth
 };
 
 /// Examines materials on triangles and lights. Pure. Throws UsageError for expressions that are wrong or too
 /// large.
 PathPlan plan_paths(const Scene& scene, const Options& options);
+
+/// Whether the integrator connects to lamps through slabs of glass (kernels/path/slab_bend.h).
+bool finds_lamps_behind_slabs(const Scene& scene, const Options& options);
 
 /// The automaton as the kernels take it (kernels/shared/path_types.h).
 struct PathTables {
@@ -52,7 +56,8 @@ struct PathTables {
 /// The tables of a plan; those of one state that accepts every path where it is no filter.
 PathTables path_tables(const PathPlan& plan = {});
 
-/// What a program is built with besides: the number of layers (kernels/path/layers.h), if there are any.
+/// What a program is built with besides: the number of layers (kernels/path/layers.h), if there are any, and
+/// whether lamps are connected to through slabs (kernels/path/slab_bend.h).
 std::vector<std::string> path_defines(const PathPlan& plan);
 
 /// KIND_* of lights that end some accepted path: next-event estimation leaves the others alone.

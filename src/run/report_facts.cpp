@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/report_facts.h"
 
+#include "paths/path_plan.h"
 #include "render/render_params.h"
 #include "scene/slabs.h"
 
@@ -23,8 +24,9 @@ std::vector<std::string> names_of_effects(const Effects& effects, bool present) 
 std::vector<std::string> crossed_slabs(const Scene& scene, const Options& options) {
     const Environment& sky = scene.environment;
     const bool is_sky_sampled = !sky.texels.empty() || !sky.portals.empty();
+    const bool is_outside_found = crosses_slabs(scene, options) && (is_sky_sampled || has_suns(scene));
     std::vector<std::string> names;
-    if (!crosses_slabs(scene, options) || !(is_sky_sampled || has_suns(scene)))
+    if (!is_outside_found && !finds_lamps_behind_slabs(scene, options))
         return names;
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (scene.materials[i].flags & MATERIAL_SLAB)

@@ -16,8 +16,8 @@ double rays_per_second(const Render& render);
 /// Effects that the scene calls for, or that are proved absent; without those that are left out.
 std::vector<std::string> names_of_effects(const Effects& effects, bool present);
 
-/// Names of the materials whose slabs connections to light from outside have crossed; empty where nothing
-/// outside is connected to.
+/// Names of the materials whose slabs connections have crossed, to light from outside or to lamps; empty
+/// where neither is connected to.
 std::vector<std::string> crossed_slabs(const Scene& scene, const Options& options);
 
 /// Samples a pixel of the tiles of an adaptive film.

@@ -71,7 +71,7 @@ std::string slab_line(const Report& report) {
     const std::vector<std::string> names = crossed_slabs(report.scene, report.options);
     if (names.empty())
         return "";
-    return fmt::format("slabs    light from outside is connected to through panes of {}\n",
+    return fmt::format("slabs    light behind panes of {} is connected to through them\n",
                        fmt::join(names, ", "));
 }
 

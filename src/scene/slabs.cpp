@@ -85,6 +85,15 @@ bool is_clear(const Scene& scene, size_t index) {
            (scene.extensions[index].coat == 0 && is_zero(scene.extensions[index].sheen));
 }
 
+/// Whether connections can cross slabs: there are some, and no solids within each other.
+bool has_slabs(const Scene& scene) {
+    const auto any = [&](u32 flag) {
+        return std::any_of(scene.materials.begin(), scene.materials.end(),
+                           [&](const Material& material) { return (material.flags & flag) != 0; });
+    };
+    return any(MATERIAL_SLAB) && !any(MATERIAL_NESTED);
+}
+
 } // namespace
 
 void mark_slabs(Scene& scene) {
@@ -111,13 +120,17 @@ bool has_suns(const Scene& scene) {
 }
 
 bool has_slabs_before_the_sky(const Scene& scene) {
-    const auto any = [&](u32 flag) {
-        return std::any_of(scene.materials.begin(), scene.materials.end(),
-                           [&](const Material& material) { return (material.flags & flag) != 0; });
-    };
     const Environment& sky = scene.environment;
     const bool has_sky = (sky.texels.empty() ? luminance(sky.radiance) : sky.mean_radiance) > 0;
-    return (has_suns(scene) || has_sky) && any(MATERIAL_SLAB) && !any(MATERIAL_NESTED);
+    return (has_suns(scene) || has_sky) && has_slabs(scene);
+}
+
+bool has_slabs_before_lamps(const Scene& scene) {
+    const auto dims = [&](const Emitter& emitter) {
+        return (scene.materials[scene.triangles[emitter.triangle].material].lobes & LOBE_COAT) != 0;
+    };
+    return !scene.emitters.empty() && has_slabs(scene) &&
+           std::none_of(scene.emitters.begin(), scene.emitters.end(), dims);
 }
 
 } // namespace clrt

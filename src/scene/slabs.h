@@ -18,4 +18,7 @@ bool has_suns(const Scene& scene);
 /// solids lie within each other, which only the whole path before can tell apart.
 bool has_slabs_before_the_sky(const Scene& scene);
 
+/// The same of connections to lamps (kernels/path/slab_bend.h), whose emission depends on no direction.
+bool has_slabs_before_lamps(const Scene& scene);
+
 } // namespace clrt

@@ -2,6 +2,7 @@
 // Which glass makes slabs, and when connections cross them.
 #include "scene/slabs.h"
 
+#include "paths/path_plan.h"
 #include "probes/scratch_scene.h"
 #include "render/render_params.h"
 
@@ -80,6 +81,25 @@ TEST(Slabs, AreCrossedTowardsLightFromOutside) {
     EXPECT_TRUE(crosses_slabs(scene, options));
     scene.materials[0].flags |= MATERIAL_NESTED;
     EXPECT_FALSE(crosses_slabs(scene, options));
+}
+
+TEST(Slabs, AreCrossedTowardsLamps) {
+    Scene scene = glass(CLEAR, pane);
+    Options options;
+    options.transport.integrator = Integrator::PATH;
+    EXPECT_FALSE(finds_lamps_behind_slabs(scene, options)) << "there are none";
+    scene.emitters.push_back({});
+    EXPECT_TRUE(finds_lamps_behind_slabs(scene, options));
+    for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT, Integrator::WHITTED}) {
+        options.transport.integrator = integrator;
+        EXPECT_FALSE(finds_lamps_behind_slabs(scene, options)) << name_of(integrator);
+    }
+    options.transport.integrator = Integrator::PATH;
+    options.transport.paths = "LDE";
+    EXPECT_FALSE(finds_lamps_behind_slabs(scene, options));
+    options.transport.paths.clear();
+    scene.materials[scene.triangles[scene.emitters[0].triangle].material].lobes |= LOBE_COAT;
+    EXPECT_FALSE(finds_lamps_behind_slabs(scene, options)) << "a coat dims them by direction";
 }
 
 } // namespace clrt

@@ -148,6 +148,12 @@ TEST_F(CodeGeneration, OfPathReuse) {
         }
 }
 
+TEST_F(CodeGeneration, OfLampsBehindSlabs) {
+    for (const EffectMask effects : {EFFECT_ALL, EFFECT_MATTE | EFFECT_REFRACTION | EFFECT_AREA_LIGHT})
+        expect_clean(fmt::format("lamps behind slabs, effects {:#x}", effects), entry_points({"path"}),
+                     {"-DLAMPS_BEHIND_SLABS=1", fmt::format("-DCLRT_EFFECTS={:#x}u", effects)});
+}
+
 TEST_F(CodeGeneration, OfTheRandomNumbersOfAGroupOfPathsIsInVectors) {
     const std::string file = folder.write("kernels.cl", include({"integrators/path.cl"}));
     for (const Target& target : {AVX2, AVX512})
@@ -237,6 +243,7 @@ TEST_F(CodeGeneration, PrivateMemoryOfAWorkItemIsBounded) {
     // needs its BSDF. Rays and surfaces hold the solids around them.
     effects = EFFECT_ALL;
     EXPECT_LT(bytes("path", {gpu_layout}), 5 << 10);
+    EXPECT_LT(bytes("path", {gpu_layout, "-DLAMPS_BEHIND_SLABS=1"}), 6 << 10);
     EXPECT_LT(bytes("path", {}), 12 << 10);
     EXPECT_LT(paired(USUAL_BDPT_DEPTH), 10 << 10);
 }

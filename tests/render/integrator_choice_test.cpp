@@ -212,6 +212,20 @@ TEST(IntegratorChoice, WherePathFindsTheLightBdptIsNotTriedUnasked) {
     }
 }
 
+// Of what only hits find without it (kernels/path/slab_bend.h) the candidates' samples tell nothing.
+TEST(IntegratorChoice, LampsBehindPanesAreLeftToPath) {
+    Box box;
+    box.add_lamp(0.2);
+    box.build.use("glass").box({-1, 2.6, -1}, {1, 2.65, 1});
+    for (const Toggle choose : {Toggle::AUTO, Toggle::ON}) {
+        box.options.transport.choose = choose;
+        const IntegratorChoice choice = box.choose().choice;
+        EXPECT_EQ(choice.integrator, Integrator::PATH) << choice.reason;
+    }
+    box.build.icosphere({0, 0.8, 0}, 0.5, 3, Facing::OUTWARD, Shading::SMOOTH);
+    EXPECT_NE(box.integrator(), Integrator::PATH) << "a ball of the same glass makes caustics";
+}
+
 TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     // A lamp in a tube: nearly all that is seen comes off a small spot of the ceiling, and what paths from
     // the eye would scatter by is told by connections to it.
