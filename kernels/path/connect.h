@@ -27,7 +27,7 @@ static CLRT_NOINLINE real path_slab_pdf_w(const Scene* scene, const RenderParams
     const real distance = vector_length(way);
     const real3 straight = way / distance;
     const real cosines = vector_dot(straight, surface->normal_g) / vector_dot(wo, -surface->normal_g);
-    if (!(vector_dot(turn, turn) <= SLAB_SAME_DIRECTION * SLAB_SAME_DIRECTION) || !(cosines > REAL(0.0)) ||
+    if (!(vector_dot(turn, turn) <= slab_same_square(surface->offset, distance)) || !(cosines > REAL(0.0)) ||
         !slab_is_ahead(path->slab_facet, straight, bend.wi))
         return REAL(0.0);
     const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
@@ -56,7 +56,8 @@ static inline real3 path_emission(const Scene* scene, const RenderParams* params
     const real3 emitted = material_emitted(scene, surface, wo);
     const real pdf_w = path->pdf_w;
     if (pdf_w == REAL(0.0))
-        return emitted * path_delta_weight(scene, params, surface, path, wo, rays);
+        return vector_is_black(emitted) ? emitted
+                                        : emitted * path_delta_weight(scene, params, surface, path, wo, rays);
     if (!emitter_is_met(path->lift, path->hit.t))
         return (real3)(REAL(0.0));
     const real pdf_a = light_probability_of_emitter(scene, params, &path->view, surface->emitter);
@@ -154,11 +155,14 @@ static CLRT_NOINLINE bool path_bend_light(const Scene* scene, const RenderParams
     if (!slab_find_stack(scene, params, most, shadow, light->target, &stack, rays))
         return false;
     if (stack.facets == 0u) {
-        if (!HAS(EFFECTS_PASSED))
+        if (!HAS(EFFECTS_PASSED)) {
             shadow->t_max = REAL(0.0); /* it has been seen that nothing is in between */
+            --rays->shadow;            /* the connection is counted again */
+        }
         return true;
     }
-    if (!slab_bend(&stack, light->target - shadow->origin, &bend) ||
+    const real3 way = light->target - shadow->origin;
+    if (!slab_bend(&stack, way, &bend) ||
         !slab_is_ahead(light->reflects ? surface->normal_g : -surface->normal_g, light->wi, bend.wi))
         return false;
     real3 p0, p1, p2;
@@ -168,6 +172,11 @@ static CLRT_NOINLINE bool path_bend_light(const Scene* scene, const RenderParams
     Ray ray = surface_ray(surface, light->reflects, bend.wi);
     if (!(cosines > REAL(0.0)) || !slab_follow(scene, params, stack.facets, &ray, &light->radiance, rays))
         return false;
+    const real3 left = light->target - ray.origin;
+    const real3 miss = left - vector_dot(left, ray.direction) * ray.direction;
+    const real square = vector_dot(way, way);
+    if (!(vector_dot(miss, miss) <= slab_same_square(surface->offset, real_sqrt(square)) * square))
+        return false;
     light->wi = bend.wi;
     light->pdf_w *= cosines * bend.spread;
     ray_end_at(light->target, &ray);
@@ -176,14 +185,19 @@ static CLRT_NOINLINE bool path_bend_light(const Scene* scene, const RenderParams
 }
 #endif
 
-/* Prepares the shadow ray to a sampled light. Where nothing but slabs is in between, it is what is left of the
-   way behind them, and the sample is what their bending makes of it; false where the light cannot be seen. */
+/* Prepares the shadow ray to a sampled light. Where nothing but slabs is in between, it is what is left of
+   the way behind them, and the sample is what their bending makes of it; false where the light cannot be
+   seen. */
 static inline bool path_see_light(const Scene* scene, const RenderParams* params, uint segment,
-                                  const Surface* surface, LightSample* light, Ray* shadow, PixelRays* rays)
+                                  const Surface* surface, const Bsdf* bsdf, LightSample* light, Ray* shadow,
+                                  PixelRays* rays)
 {
     *shadow = light_shadow_ray(surface, light);
 #if LAMPS_BEHIND_SLABS
+    if (!light->reflects && !vector_is_black(bsdf_light_normal(bsdf)))
+        return false; /* nothing is scattered from there */
     if (light->triangle != NO_INDEX && !surface_is_lifted(surface, light->reflects, light->wi) &&
+        slab_can_begin(surface, light->reflects) &&
         solid_beside(scene, surface, light->reflects) == NO_INDEX)
         return path_bend_light(scene, params, params->max_depth - 1u - segment, surface, light, shadow, rays);
 #endif
@@ -204,7 +218,7 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     solid_dim_light(scene, surface, &light);
     Ray shadow;
     const bool is_seen = light.pdf_w != REAL(0.0) &&
-                         path_see_light(scene, params, segment, surface, &light, &shadow, rays);
+                         path_see_light(scene, params, segment, surface, bsdf, &light, &shadow, rays);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);
     if (!is_seen)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lamps behind plane-parallel slabs of clear glass (slab.h). The path from a vertex to a point on the lamp has
-// one direction outside the slabs, at an angle t to their normal, and is shifted within them: manifold
+// Lamps behind plane-parallel slabs of clear glass (slab.h). The path from a vertex to a point on the lamp
+// has one direction outside the slabs, at an angle t to their normal, and is shifted within them: manifold
 // next-event estimation (Hanika, Droske and Fascione 2015) by an equation of one unknown. With h the slabs'
 // thickness together, n their index over that of what is around them and H the rest of the way along the
 // normal, the way across it is
@@ -18,11 +18,15 @@
 #include "slab.h"
 
 #if LAMPS_BEHIND_SLABS
-/* A path and the connection to what it has met are the same if they leave the vertex within so many
-   radians. */
+/* A path and the connection to what it has met are the same if they leave the vertex within so many radians,
+   and a connection has arrived if its end is seen within so many: other slabs, through which the bent segment
+   went and the straight one did not, turn it by more. */
 #define SLAB_SAME_DIRECTION REAL(1e-3)
-/* Of Newton's method from the straight segment on: it comes nearer from one side, twice the digits a step. */
-#define SLAB_BEND_STEPS 8
+/* But for these, over the distance: steps off facets, which shift rays, in steps off the surface at hand. */
+#define SLAB_OFFSETS REAL(64.0)
+/* Of Newton's method from the straight segment on: it comes nearer from one side, in the end by twice the
+   digits a step. */
+#define SLAB_BEND_STEPS 12
 
 /* The slabs that a straight segment crosses. */
 typedef struct {
@@ -37,17 +41,6 @@ typedef struct {
     real3 wi;
     real spread; /* cos t (R / sin t) (dR / dt) over the squared straight distance */
 } SlabBend;
-
-/* The rest of the straight way from a ray's origin to a point, a few roundings short. */
-static inline Ray slab_straight(const Ray* begun, real3 target)
-{
-    Ray ray = *begun;
-    const real3 way = target - ray.origin;
-    const real distance = vector_length(way);
-    ray.direction = way / distance;
-    ray.t_max = distance * (REAL(1.0) - REAL(8.0) * FLOAT_ROUNDING);
-    return ray;
-}
 
 /* Takes a facet that the straight segment meets; false if it is not of a slab like those before it. */
 static inline bool slab_stack_add(const Scene* scene, const Surface* surface, real* entered, SlabStack* stack)
@@ -78,7 +71,8 @@ static CLRT_NOINLINE bool slab_find_stack(const Scene* scene, const RenderParams
     stack->normal = (real3)(REAL(0.0));
     stack->thickness = stack->index = REAL(0.0);
     stack->facets = 0u;
-    Ray ray = slab_straight(begun, target);
+    Ray ray = *begun;
+    ray_end_at(target, &ray);
     real entered = REAL(0.0);
     real3 unused = (real3)(REAL(1.0));
     for (;;) {
@@ -92,8 +86,8 @@ static CLRT_NOINLINE bool slab_find_stack(const Scene* scene, const RenderParams
         const Surface surface = surface_at(scene, &hit, &ray);
         if (!slab_stack_add(scene, &surface, &entered, stack))
             return false;
-        const Ray behind = surface_ray(&surface, false, ray.direction);
-        ray = slab_straight(&behind, target);
+        ray = surface_ray(&surface, false, ray.direction);
+        ray_end_at(target, &ray);
     }
 }
 
@@ -124,6 +118,20 @@ static inline bool slab_bend(const SlabStack* stack, real3 way, SlabBend* bend)
     const real3 forward = stack->normal * (along > REAL(0.0) ? REAL(1.0) : REAL(-1.0));
     bend->wi = across > REAL(0.0) ? (forward + aside * (tangent / across)) / one : forward;
     return true;
+}
+
+/* True if a vertex may be connected through slabs on one side: on the far side of a curved facet the plane
+   does not tell what is in front of it. */
+static inline bool slab_can_begin(const Surface* surface, bool reflects)
+{
+    return !(HAS(EFFECT_SMOOTH_NORMALS) && surface->is_curved && !reflects);
+}
+
+/* The largest square of a turn, or of a miss over the distance, by which directions are the same. */
+static inline real slab_same_square(real offset, real distance)
+{
+    const real angle = SLAB_SAME_DIRECTION + SLAB_OFFSETS * offset / distance;
+    return angle * angle;
 }
 
 /* True if a connection leaves a vertex on the same side of its facet as the straight segment does: `facet` is

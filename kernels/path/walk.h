@@ -208,6 +208,8 @@ static inline void path_look(const Scene* scene, const Surface* surface, const B
 #if LAMPS_BEHIND_SLABS
     path->slab_origin = path->ray.origin;
     path->slab_facet = next->reflects ? surface->normal_g : -surface->normal_g;
+    if (!slab_can_begin(surface, next->reflects))
+        path->slab_facet = (real3)(REAL(0.0)); /* slab_is_ahead of nothing */
 #endif
     path->view = lights_view(surface, bsdf_light_normal(bsdf));
 }

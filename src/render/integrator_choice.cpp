@@ -7,6 +7,7 @@
 #include "render/guide_choice.h"
 #include "render/render_params.h"
 #include "render/reuse_choice.h"
+#include "scene/slabs.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -160,7 +162,7 @@ bool has_light_tree(const PlannedScene& planned) {
 /// Whether path does what candidates do without: their samples tell what it would be without, too, and its
 /// own pilot must tell.
 bool is_measured_alone(const PlannedScene& planned) {
-    return has_light_tree(planned) || path_connects_to_caustics(planned);
+    return has_light_tree(planned) || has_slabs_before_lamps(planned.scene);
 }
 
 /// Path's errors by caustics, which path+light's splats tell of, and they alone: a pilot of path's own meets
@@ -196,8 +198,11 @@ double gain_beside_caustics(const std::optional<ReusePilots>& pilots, const Squa
 }
 
 /// Up to which told efficiency a candidate is compared with path that reuses paths, which gains less than the
-/// number of its pixels; a light tree gained up to 4 in rooms of many lamps.
+/// number of its pixels; a light tree gained up to 4 in rooms of many lamps. What connections through slabs
+/// gain has no bound.
 double most_of_path(const PlannedScene& planned) {
+    if (has_slabs_before_lamps(planned.scene))
+        return std::numeric_limits<double>::infinity();
     return REUSE_PIXELS * (has_light_tree(planned) ? 4 : 1);
 }
 
@@ -293,7 +298,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         }
         IntegratorPrice price = price_of(candidate, pilot, planned->options);
         if (measured)
-            measure(*measured, {}, planned->options, price); // there are no caustics
+            measure(*measured, {}, planned->options, price); // there are no other caustics
         choice.prices.push_back(price);
         const PathPilot unguided{pilot.own, pilot.eye_rays, pilot.trimmed, pilot.mean};
         IntegratorPrice& told = choice.prices.back();

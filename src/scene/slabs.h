@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glass that connections to distant light cross (kernels/path/slab.h).
+// Glass that connections cross to light from outside (kernels/path/slab.h) and to lamps (slab_bend.h).
 #pragma once
 
 #include "scene/scene.h"
