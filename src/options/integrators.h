@@ -201,7 +201,7 @@ bool takes_option(Integrator integrator, IntegratorOption option);
 /// Kinds of light (KIND_*) among which the light tree chooses; 0: there is none.
 unsigned light_tree_kinds(Integrator integrator);
 
-/// Whether its connections to light at infinity and to lamps cross panes of glass (scene/slabs.h).
+/// Whether its connections to light at infinity cross panes of glass (scene/slabs.h).
 bool connects_through_slabs(Integrator integrator);
 
 /// Whether it walks Markov chains (render/metropolis.h): a sample then follows from those before it.

@@ -45,8 +45,7 @@ struct PathPlan {
 /// large.
 PathPlan plan_paths(const Scene& scene, const Options& options);
 
-/// Whether the integrator connects to lamps through slabs of glass (kernels/path/slab_bend.h): there are
-/// such, and paths are not told apart.
+/// Whether the integrator connects to lamps through slabs of glass (kernels/path/slab_bend.h).
 bool finds_lamps_behind_slabs(const Scene& scene, const Options& options);
 
 /// The automaton as the kernels take it (kernels/shared/path_types.h).
