@@ -145,18 +145,6 @@ TEST(SlabLamp, PathsThatMeetTheLampAreWeighted) {
     }
 }
 
-// Where the straight segment goes through one pane, the bent one may go through its neighbour.
-TEST(SlabLamp, NeighboursOfOtherThicknessAreToldApart) {
-    LampOutside room("");
-    room.build.material("glass", "Ni 1.9\nillum 7").use("glass");
-    for (const auto& [z, thickness] : {std::pair(-0.9, 0.6), std::pair(-0.3, 0.02), std::pair(0.1, 0.5)})
-        room.build.box({2.1, 0.6, z + 1e-4}, {2.1 + thickness, 2.6, z + 0.4});
-    Options alone = room.options;
-    alone.sampling.spp = 16384;
-    expect_equal(tile_means(room, room.options, Integrator::PATH, ""),
-                 tile_means(room, alone, Integrator::LIGHT, ""), 0.03);
-}
-
 // Paths that are asked for by an expression are not connected through slabs.
 TEST(SlabLamp, IsQuieterThanPathsThatMeetTheLampByChance) {
     LampOutside room("Ni 1.5\nillum 7");
