@@ -56,8 +56,8 @@ REPORT = [
      "there where pilots found them to at least halve the squared error or, beside other lights, to lower it."),
     ("slabs", "Materials whose facets make plane-parallel slabs, such as panes that have a thickness. Light of sky and suns behind them "
      "goes on in the direction that it had, so it is found by next-event estimation through the glass as through an open window; "
-     "what is reflected within the glass is left to paths that meet the light by themselves, and to paths from the light. Lamps behind "
-     "them are found as well: one equation tells in which direction light comes that the glass has shifted. --paths and --aov NAME=EXPR go without either."),
+     "what is reflected within the glass is left to paths that meet the light by themselves, and to paths from the light. Integrator path "
+     "finds lamps behind them as well: one equation tells in which direction light comes that the glass has shifted. --paths and --aov NAME=EXPR go without either."),
     ("reuse", "Where light comes by detours, paths are expensive and what they find is light for the pixels around as well: what leaves "
      "the second vertex of a path, if that is on a matte surface, is also connected to the first vertices of seven paths of pixels "
      "nearby (multiple importance sampling; without bias). It is so where pilots tell that it lowers squared error times rays, or by "

@@ -30,7 +30,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     path_absorb(scene, &surface, path);
     splat_eye_meets(params, sampler, segment, path->hit.t, &surface, wo, weights);
     if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX && !pixel_has_seen(sample)) {
-        const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights, rays);
+        const real3 emitted = splat_emission(scene, params, &surface, path, wo, weights);
         vertex_add(scene, path->throughput * emitted, &sample->radiance);
 #if FILM_MOMENTS
         alone_emission(scene, params, &surface, path, wo, emitted, &sample->moments);
@@ -48,9 +48,9 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     Guide guide = guide_of(scene, &bsdf, &path->guided);
     const BsdfSample next = path_sample(scene, &surface, &bsdf, true, &guide, path);
     pixel_leave(segment, next.pdf_w, sample);
-    splat_connect(scene, params, segment, &surface, &bsdf, wo, weights, path, rays);
+    splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS
-    alone_connect(scene, params, segment, &surface, &bsdf, wo, path, &sample->moments);
+    alone_connect(scene, params, &surface, &bsdf, wo, path, &sample->moments);
 #endif
     if (!next.is_valid)
         return;

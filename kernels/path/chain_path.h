@@ -40,23 +40,22 @@ static inline Ray chain_camera_ray(const RenderParams* params, const Sampler* sa
 
 /* Light that the last segment of a path from the eye meets. */
 static inline real3 chain_hit(const Scene* scene, const RenderParams* params, const Surface* surface,
-                              const Path* path, const SplatWeights* weights, PixelRays* rays)
+                              const Path* path, const SplatWeights* weights)
 {
     if (path->hit.triangle == NO_INDEX)
         return path->throughput * splat_escape(scene, params, path, weights);
     if (!HAS(EFFECT_AREA_LIGHT) || surface->emitter == NO_INDEX)
         return (real3)(REAL(0.0));
-    const real3 wo = -path->ray.direction;
-    return path->throughput * splat_emission(scene, params, surface, path, wo, weights, rays);
+    return path->throughput * splat_emission(scene, params, surface, path, -path->ray.direction, weights);
 }
 
 /* Connects the last vertex but one of a path from the eye to a light. */
-static CLRT_NOINLINE real3 chain_connect(const Scene* scene, const RenderParams* params, uint segment,
+static CLRT_NOINLINE real3 chain_connect(const Scene* scene, const RenderParams* params,
                                          const Surface* surface, const Bsdf* bsdf,
                                          const SplatWeights* weights, Path* path, PixelRays* rays)
 {
     path->is_connected = false;
-    splat_connect(scene, params, segment, surface, bsdf, -path->ray.direction, weights, path, rays);
+    splat_connect(scene, params, surface, bsdf, -path->ray.direction, weights, path);
     if (!path->is_connected)
         return (real3)(REAL(0.0));
     ++rays->shadow;
@@ -97,14 +96,14 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
             found->watched += nan_of_miss(&path.hit);
             path_absorb(scene, 0, &path);
             if (connected == 0u && segment == length)
-                found->radiance = chain_hit(scene, params, 0, &path, &weights, rays);
+                found->radiance = chain_hit(scene, params, 0, &path, &weights);
             break;
         }
         const Surface surface = visible_surface(scene, params, &path.ray, &path.hit);
         path_absorb(scene, &surface, &path);
         splat_eye_meets(params, sampler, segment, path.hit.t, &surface, -path.ray.direction, &weights);
         if (segment == length) {
-            found->radiance = chain_hit(scene, params, &surface, &path, &weights, rays);
+            found->radiance = chain_hit(scene, params, &surface, &path, &weights);
             if (length == params->max_depth)
                 path_cut(scene, params, sampler, segment, &surface, &path, rays);
             break;
@@ -115,7 +114,7 @@ static CLRT_NOINLINE void chain_from_eye(const Scene* scene, const RenderParams*
         if (bsdf.lobes == 0u)
             break;
         if (segment + connected == length) {
-            found->radiance = chain_connect(scene, params, segment, &surface, &bsdf, &weights, &path, rays);
+            found->radiance = chain_connect(scene, params, &surface, &bsdf, &weights, &path, rays);
             break;
         }
         if (!chain_leave(scene, params, sampler, segment, &surface, &bsdf, &step, &weights, &path))

@@ -146,61 +146,62 @@ static inline uint path_connection_facets(const Path* path)
 
 #if LAMPS_BEHIND_SLABS
 /* Sees a lamp's point straight or through slabs, as path_see_light says. */
-static CLRT_NOINLINE uint path_bend_light(const Scene* scene, const RenderParams* params, uint most,
+static CLRT_NOINLINE bool path_bend_light(const Scene* scene, const RenderParams* params, uint most,
                                           const Surface* surface, LightSample* light, Ray* shadow,
                                           PixelRays* rays)
 {
     SlabStack stack;
     SlabBend bend;
     if (!slab_find_stack(scene, params, most, shadow, light->target, &stack, rays))
-        return LIGHT_HIDDEN;
+        return false;
     if (stack.facets == 0u) {
         if (!HAS(EFFECTS_PASSED)) {
             shadow->t_max = REAL(0.0); /* it has been seen that nothing is in between */
             --rays->shadow;            /* the connection is counted again */
         }
-        return LIGHT_STRAIGHT;
+        return true;
     }
     const real3 way = light->target - shadow->origin;
     if (!slab_bend(&stack, way, &bend) ||
         !slab_is_ahead(light->reflects ? surface->normal_g : -surface->normal_g, light->wi, bend.wi))
-        return LIGHT_HIDDEN;
+        return false;
     real3 p0, p1, p2;
     surface_corners(scene, scene->triangles + light->triangle, &p0, &p1, &p2);
     const real3 normal = surface_cross(p1 - p0, p2 - p0);
     const real cosines = vector_dot(light->wi, normal) / vector_dot(bend.wi, normal);
     Ray ray = surface_ray(surface, light->reflects, bend.wi);
     if (!(cosines > REAL(0.0)) || !slab_follow(scene, params, stack.facets, &ray, &light->radiance, rays))
-        return LIGHT_HIDDEN;
+        return false;
     const real3 left = light->target - ray.origin;
     const real3 miss = left - vector_dot(left, ray.direction) * ray.direction;
     const real square = vector_dot(way, way);
     if (!(vector_dot(miss, miss) <= slab_same_square(surface->offset, real_sqrt(square)) * square))
-        return LIGHT_HIDDEN;
+        return false;
     light->wi = bend.wi;
     light->pdf_w *= cosines * bend.spread;
     ray_end_at(light->target, &ray);
     *shadow = ray;
-    return LIGHT_BENT;
+    return true;
 }
 #endif
 
 /* Prepares the shadow ray to a sampled light. Where nothing but slabs is in between, it is what is left of
-   the way behind them, and the sample is what their bending makes of it. LIGHT_*. */
-static inline uint path_see_light(const Scene* scene, const RenderParams* params, uint segment,
+   the way behind them, and the sample is what their bending makes of it; false where the light cannot be
+   seen. */
+static inline bool path_see_light(const Scene* scene, const RenderParams* params, uint segment,
                                   const Surface* surface, const Bsdf* bsdf, LightSample* light, Ray* shadow,
                                   PixelRays* rays)
 {
     *shadow = light_shadow_ray(surface, light);
 #if LAMPS_BEHIND_SLABS
     if (!light->reflects && !vector_is_black(bsdf_light_normal(bsdf)))
-        return LIGHT_HIDDEN; /* nothing is scattered from there */
+        return false; /* nothing is scattered from there */
     if (light->triangle != NO_INDEX && !surface_is_lifted(surface, light->reflects, light->wi) &&
         slab_can_begin(surface, light->reflects) &&
         solid_beside(scene, surface, light->reflects) == NO_INDEX)
         return path_bend_light(scene, params, params->max_depth - 1u - segment, surface, light, shadow, rays);
 #endif
-    return LIGHT_STRAIGHT;
+    return true;
 }
 
 /* Samples a light and prepares the shadow ray to it; its contribution is weighted against BSDF sampling.
@@ -216,12 +217,11 @@ static inline void path_connect(const Scene* scene, const RenderParams* params, 
     LightSample light = path_light(scene, params, surface, bsdf, path);
     solid_dim_light(scene, surface, &light);
     Ray shadow;
-    uint seen = LIGHT_HIDDEN;
-    if (light.pdf_w != REAL(0.0))
-        seen = path_see_light(scene, params, segment, surface, bsdf, &light, &shadow, rays);
+    const bool is_seen = light.pdf_w != REAL(0.0) &&
+                         path_see_light(scene, params, segment, surface, bsdf, &light, &shadow, rays);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);
-    if (seen == LIGHT_HIDDEN)
+    if (!is_seen)
         return;
     light.pdf_w *= (real)path_light_samples(path);
     BsdfValue eval = bsdf_eval(bsdf, light.wi);

@@ -95,8 +95,7 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
 #if HAS_SLABS
     slab_begin(&path->slabs);
     const bool is_sky = path->emission.light == light_of_sky(params);
-    const bool is_lamp = LAMPS_BEHIND_SLABS && path->emission.light < params->emitter_count;
-    if (!(path->emission.is_distant || is_lamp) || (is_sky && !slab_sky_is_sampled(params)))
+    if (!path->emission.is_distant || (is_sky && !slab_sky_is_sampled(params)))
         slab_end(&path->slabs);
 #endif
     TRACE_CHOICE(scene, TRACE_LIGHT_KIND, emission_kind(scene, params, path->emission.light));
@@ -216,10 +215,7 @@ static inline bool light_path_is_behind_slabs(const Scene* scene, const RenderPa
                                               const Surface* met, const LightPath* path)
 {
 #if HAS_SLABS
-    const bool is_left = path->emission.is_distant ? (params->path_choices & SLABS_ARE_CROSSED) != 0u
-                                                   : LAMPS_BEHIND_SLABS;
-    return is_left &&
-           slab_is_straight(&path->slabs, path->emission.ray.direction, path->ray.direction) &&
+    return slab_is_behind(params, &path->slabs, path->emission.ray.direction, path->ray.direction) &&
            solid_beside(scene, met, true) == NO_INDEX;
 #else
     return false;

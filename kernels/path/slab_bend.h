@@ -11,17 +11,11 @@
 //
 // The straight segment tells which slabs to go through. It must meet nothing else: then there is a connection
 // for each point that next-event estimation samples, and a path that is refracted there by chance can tell
-// the density of it (multiple importance sampling, Veach 1997). Paths from lamps leave what goes through slabs
-// to both.
+// the density of it (multiple importance sampling, Veach 1997).
 #ifndef CLRT_PATH_SLAB_BEND_H
 #define CLRT_PATH_SLAB_BEND_H
 
 #include "slab.h"
-
-/* How a vertex sees a light that it has sampled. */
-#define LIGHT_HIDDEN 0u
-#define LIGHT_STRAIGHT 1u /* unless a shadow ray meets something */
-#define LIGHT_BENT 2u     /* through slabs; the same */
 
 #if LAMPS_BEHIND_SLABS
 /* A path and the connection to what it has met are the same if they leave the vertex within so many radians,

@@ -9,14 +9,12 @@
 
 #if FILM_MOMENTS
 /* Notes what the present vertex of the path is connected to. */
-static inline void alone_connect(const Scene* scene, const RenderParams* params, uint segment,
-                                 const Surface* surface, const Bsdf* bsdf, real3 wo, const Path* path,
-                                 Moments* moments)
+static inline void alone_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                 const Bsdf* bsdf, real3 wo, const Path* path, Moments* moments)
 {
     const SplatWeights none = splat_weights_none();
-    PixelRays uncounted = {0u, 0u, 0u, 0ul, 0u};
     Path alone = *path;
-    splat_connect(scene, params, segment, surface, bsdf, wo, &none, &alone, &uncounted);
+    splat_connect(scene, params, surface, bsdf, wo, &none, &alone);
     moments->connection = alone.connection;
 }
 
@@ -25,8 +23,7 @@ static inline void alone_emission(const Scene* scene, const RenderParams* params
                                   const Path* path, real3 wo, real3 emitted, Moments* moments)
 {
     const SplatWeights none = splat_weights_none();
-    PixelRays uncounted = {0u, 0u, 0u, 0ul, 0u};
-    const real3 alone = splat_emission(scene, params, surface, path, wo, &none, &uncounted);
+    const real3 alone = splat_emission(scene, params, surface, path, wo, &none);
     moments_gather(path->throughput * emitted, path->throughput * alone, moments);
 }
 

@@ -92,16 +92,11 @@ static inline real splat_hit_weight(const Path* path, const SplatWeights* weight
     return REAL(1.0) / (REAL(1.0) + connection + weights->closed * emission_pdf);
 }
 
-/* Weighted emission of the surface that was hit. That behind slabs light paths leave to hits and next-event
-   estimation. */
+/* Weighted emission of the surface that was hit. */
 static inline real3 splat_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
-                                   const Path* path, real3 wo, const SplatWeights* weights, PixelRays* rays)
+                                   const Path* path, real3 wo, const SplatWeights* weights)
 {
     const real3 emitted = material_emitted(scene, surface, wo);
-#if LAMPS_BEHIND_SLABS
-    if (slab_is_straight(&path->slabs, path->before_slabs, path->ray.direction))
-        return emitted * path_delta_weight(scene, params, surface, path, wo, rays);
-#endif
     real light_pdf_w = REAL(0.0);
     if (path->pdf_w > REAL(0.0)) {
         if (!emitter_is_met(path->lift, path->hit.t))
@@ -192,22 +187,17 @@ static inline real splat_sample_pdf(const Scene* scene, const RenderParams* para
 }
 
 /* Samples a light and prepares the shadow ray to it, weighted against hits and splats. */
-static inline void splat_connect(const Scene* scene, const RenderParams* params, uint segment,
-                                 const Surface* surface, const Bsdf* bsdf, real3 wo,
-                                 const SplatWeights* weights, Path* path, PixelRays* rays)
+static inline void splat_connect(const Scene* scene, const RenderParams* params, const Surface* surface,
+                                 const Bsdf* bsdf, real3 wo, const SplatWeights* weights, Path* path)
 {
     if (!bsdf_has_smooth_lobe(bsdf))
         return;
     LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), path->numbers.light,
                                       path->numbers.alias);
     solid_dim_light(scene, surface, &light);
-    Ray shadow;
-    uint seen = LIGHT_HIDDEN;
-    if (light.pdf_w != REAL(0.0))
-        seen = path_see_light(scene, params, segment, surface, bsdf, &light, &shadow, rays);
     light_record(scene, &light);
     nan_watch(scene, light.wi, &path->watched);
-    if (seen == LIGHT_HIDDEN)
+    if (light.pdf_w == REAL(0.0))
         return;
     const BsdfValue eval = bsdf_eval(bsdf, light.wi);
     const real3 arriving = eval.value * light.radiance;
@@ -217,7 +207,7 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
     if (vector_is_black(arriving))
         return;
     real splat = REAL(0.0);
-    if (seen == LIGHT_STRAIGHT && splat_joins(bsdf, weights) && splat_can_pass(bsdf, wo, light.wi))
+    if (splat_joins(bsdf, weights) && splat_can_pass(bsdf, wo, light.wi))
         splat = splat_weights_at(bsdf, light.wi, weights) * splat_cosine(surface->normal_g, light.wi) *
                 splat_sample_pdf(scene, params, surface, &light);
     const real hit = light.is_delta ? REAL(0.0) : eval.pdf_w;
@@ -225,7 +215,7 @@ static inline void splat_connect(const Scene* scene, const RenderParams* params,
     path->connection = path->throughput * arriving / (light.pdf_w + hit + splat);
     TRACE_NUMBER(scene, TRACE_LIGHT_WEIGHT, light.pdf_w / (light.pdf_w + hit + splat));
     TRACE_VECTOR(scene, TRACE_CONNECTION, path->connection);
-    path->shadow = shadow;
+    path->shadow = light_shadow_ray(surface, &light);
     path_note_connection(scene, surface, &light, (light.pdf_w + hit) / (light.pdf_w + hit + splat), path);
 }
 

@@ -8,6 +8,7 @@
 #include "scene/sky_table.h"
 #include "scene/slabs.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -73,6 +74,17 @@ void plan_light_tree(PlannedScene& planned) {
 
 bool has_caustics(const PlannedScene& planned) {
     return casts_caustics(planned.scene, planned.options);
+}
+
+bool path_connects_to_caustics(const PlannedScene& planned) {
+    const Scene& scene = planned.scene;
+    const bool has_points = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                        [](const Light& light) { return light.kind == LIGHT_POINT; });
+    return !has_points && has_slabs_before_lamps(scene) &&
+           std::all_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& triangle) {
+               const Material& material = scene.materials[triangle.material];
+               return (material.flags & MATERIAL_SLAB) || !is_caster(material);
+           });
 }
 
 void take_integrator(Integrator integrator, PlannedScene& planned) {

@@ -33,6 +33,10 @@ void plan_light_tree(PlannedScene& planned);
 /// (L(S|G)+(D|G)E) within --max-depth.
 bool has_caustics(const PlannedScene& planned);
 
+/// Whether path is connected to the lamps whose light makes them: slabs alone cast any (scene/slabs.h), but for
+/// what they reflect.
+bool path_connects_to_caustics(const PlannedScene& planned);
+
 /// Plans for another integrator of those that connect to one light, as if the options had named it: what is
 /// prepared from the plan by then must not be used any more, but for the tree.
 void take_integrator(Integrator integrator, PlannedScene& planned);

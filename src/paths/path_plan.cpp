@@ -245,7 +245,7 @@ PathPlan plan_paths(const Scene& scene, const Options& options) {
 }
 
 bool finds_lamps_behind_slabs(const Scene& scene, const Options& options) {
-    return connects_through_slabs(options.transport.integrator) && options.transport.paths.empty() &&
+    return options.transport.integrator == Integrator::PATH && options.transport.paths.empty() &&
            options.output.path_layers.empty() && has_slabs_before_lamps(scene);
 }
 

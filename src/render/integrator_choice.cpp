@@ -7,6 +7,7 @@
 #include "render/guide_choice.h"
 #include "render/render_params.h"
 #include "render/reuse_choice.h"
+#include "scene/slabs.h"
 #include "seconds.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -80,11 +82,16 @@ double light_paths_a_sample(const Options& options) {
 /// have more than so many times its efficiency none is tried.
 constexpr double LARGEST_GAIN_OF_GUIDE = 20;
 
+/// Whether there may be caustics that path meets by chance alone.
+bool has_hard_caustics(const PlannedScene& planned) {
+    return has_caustics(planned) && !path_connects_to_caustics(planned);
+}
+
 /// The candidates between whom pilots decide.
 std::vector<Candidate> candidates_of(const PlannedScene& planned) {
     std::vector<Candidate> candidates;
     for (const Candidate& candidate : CANDIDATES)
-        if (candidate.integrator != Integrator::PATH_LIGHT || has_caustics(planned))
+        if (candidate.integrator != Integrator::PATH_LIGHT || has_hard_caustics(planned))
             candidates.push_back(candidate);
     return candidates;
 }
@@ -132,7 +139,7 @@ void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned
 /// looks clean without them.
 bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                    IntegratorChoice& choice) {
-    if (has_caustics(*planned))
+    if (has_hard_caustics(*planned))
         return false;
     const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
     choice.unguided = run_path_pilot(prepared, choice.pilot);
@@ -147,10 +154,15 @@ bool is_out(const Candidate& candidate, const Options& options, const Integrator
            choice.prices[0].errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR;
 }
 
-/// Whether path chooses lights by a tree, which candidates do without: what their samples tell of path is
-/// what it would be without, too, and its own pilot must tell.
+/// Whether path chooses lights by a tree, which candidates do without.
 bool has_light_tree(const PlannedScene& planned) {
     return !planned.scene.light_tree.nodes.empty();
+}
+
+/// Whether path does what candidates do without: their samples tell what it would be without, too, and its
+/// own pilot must tell.
+bool is_measured_alone(const PlannedScene& planned) {
+    return has_light_tree(planned) || has_slabs_before_lamps(planned.scene);
 }
 
 /// Path's errors by caustics, which path+light's splats tell of, and they alone: a pilot of path's own meets
@@ -186,8 +198,11 @@ double gain_beside_caustics(const std::optional<ReusePilots>& pilots, const Squa
 }
 
 /// Up to which told efficiency a candidate is compared with path that reuses paths, which gains less than the
-/// number of its pixels; a light tree gained up to 4 in rooms of many lamps.
+/// number of its pixels; a light tree gained up to 4 in rooms of many lamps. What connections through slabs
+/// gain has no bound.
 double most_of_path(const PlannedScene& planned) {
+    if (has_slabs_before_lamps(planned.scene))
+        return std::numeric_limits<double>::infinity();
     return REUSE_PIXELS * (has_light_tree(planned) ? 4 : 1);
 }
 
@@ -207,7 +222,7 @@ std::string try_path_again(const Device& device, const std::shared_ptr<PlannedSc
     const double gain = gain_beside_caustics(pilots, caustics, options);
     if (gain == 0)
         return "";
-    if (has_light_tree(*planned))
+    if (is_measured_alone(*planned))
         measure(pilots->alone, caustics, options, price);
     const bool reuses = gain * gain_of_adaptive(options) >= price.efficiency;
     if (reuses || price.efficiency <= smallest_gain(price, is_guided, options)) {
@@ -253,9 +268,11 @@ std::shared_ptr<GuideProgress> guide_to_hits(const PreparedScene& prepared, cons
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             const std::vector<Candidate>& candidates, PreparedParts& parts, IntegratorChoice& choice) {
     const std::optional<int> asked = planned->options.transport.max_depth;
-    const bool is_guided = planned->options.transport.guide == Toggle::AUTO && may_guide(planned->options);
+    // What is lit through slabs no guide was better for, in three rooms.
+    const bool is_guided = planned->options.transport.guide == Toggle::AUTO && may_guide(planned->options) &&
+                           !path_connects_to_caustics(*planned);
     const std::optional<PathPilot> measured =
-        has_light_tree(*planned) ? choice.unguided : std::optional<PathPilot>();
+        is_measured_alone(*planned) ? choice.unguided : std::optional<PathPilot>();
     double best = WORTHWHILE_GAIN;
     size_t chosen = 0; // of the prices
     for (const Candidate& candidate : candidates) {
@@ -281,7 +298,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
         }
         IntegratorPrice price = price_of(candidate, pilot, planned->options);
         if (measured)
-            measure(*measured, {}, planned->options, price); // there are no caustics
+            measure(*measured, {}, planned->options, price); // there are no other caustics
         choice.prices.push_back(price);
         const PathPilot unguided{pilot.own, pilot.eye_rays, pilot.trimmed, pilot.mean};
         IntegratorPrice& told = choice.prices.back();

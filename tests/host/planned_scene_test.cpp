@@ -65,6 +65,20 @@ TEST(PlannedScene, CausticsFallOnWhateverHasADensity) {
         }
 }
 
+TEST(PlannedScene, PathConnectsToWhatPanesAloneCast) {
+    TestScene scene;
+    scene.build.material("lamp", "Kd 0 0 0\nKe 1 1 1").material("glass", "Ni 1.5\nillum 7");
+    scene.build.use("glass").box({-1, 1, -1}, {1, 1.1, 1});
+    EXPECT_FALSE(path_connects_to_caustics(*plan_scene(scene.load(), scene.options))) << "no lamps";
+    scene.build.use("lamp").floor(1, 2);
+    EXPECT_TRUE(path_connects_to_caustics(*plan_scene(scene.load(), scene.options)));
+    scene.options.light.points.push_back({{0, 3, 0}, {1, 1, 1}});
+    EXPECT_FALSE(path_connects_to_caustics(*plan_scene(scene.load(), scene.options))) << "no ray meets points";
+    scene.options.light.points.clear();
+    scene.build.material("mirror", "Kd 0 0 0\nKs 1 1 1\nillum 3").use("mirror").floor(1, 3);
+    EXPECT_FALSE(path_connects_to_caustics(*plan_scene(scene.load(), scene.options)));
+}
+
 TEST(PlannedScene, PathsThatAreNotToldApartAreAll) {
     MirrorScene scene;
     scene.options.transport.paths = "LaDE";

@@ -90,7 +90,7 @@ TEST(Slabs, AreCrossedTowardsLamps) {
     EXPECT_FALSE(finds_lamps_behind_slabs(scene, options)) << "there are none";
     scene.emitters.push_back({});
     EXPECT_TRUE(finds_lamps_behind_slabs(scene, options));
-    for (const Integrator integrator : {Integrator::LIGHT, Integrator::MLT, Integrator::WHITTED}) {
+    for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT, Integrator::WHITTED}) {
         options.transport.integrator = integrator;
         EXPECT_FALSE(finds_lamps_behind_slabs(scene, options)) << name_of(integrator);
     }
