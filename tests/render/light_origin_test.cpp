@@ -35,8 +35,7 @@ public:
         const std::string combined = "return emitted * mis_weight(pdf_w, light_pdf_w);";
         write(files, "light", combined, "return (real3)(REAL(0.0));",
               "light.is_delta ? REAL(1.0) : mis_weight(light.pdf_w, eval.pdf_w);", "REAL(1.0);");
-        write(files, "bsdf", combined, "return emitted;", "if (light.pdf_w == REAL(0.0))\n        return;",
-              "return;");
+        write(files, "bsdf", combined, "return emitted;", "if (!is_seen)\n        return;", "return;");
     }
     std::string light() const { return folder_.file("light"); }
     std::string bsdf() const { return folder_.file("bsdf"); }
