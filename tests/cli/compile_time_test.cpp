@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a first start costs: processor seconds of the whole command. Neighbours on the same cores make the
-// same command take up to 1.6 times as many, so that what counts is the least of a few tries.
+// same command take up to 1.6 times as many, and come and go within seconds: it is judged beside another
+// compilation right after it, and one try of a few has to keep the bound.
 #include "clrt_command.h"
 
-#include <algorithm>
-#include <cmath>
+#include <iostream>
 #include <sys/resource.h>
 
 namespace clrt {
 
 namespace {
 
-/// What the program of all effects may cost, and that of a matte square.
-constexpr double FULL_SECONDS = 8, NEEDED_SECONDS = 3;
-/// On slower processors, as multiples of what clang takes for a text that has nothing to do with ours: 5.4 s
-/// of an EPYC (Zen 3, 2.45 GHz), where they are 11.4 to 12.4 s and 3.7 s.
-constexpr double FULL_SHARE = 2.4, NEEDED_SHARE = 0.8;
+/// Seconds that a program may cost, and on slower processors a multiple of what clang takes for a text that
+/// has nothing to do with ours: 5.4 s of an EPYC (Zen 3, 2.45 GHz), where the program of all effects
+/// takes 11.4 to 12.4 s and that of a matte square 3.7 s.
+struct Bound {
+    double seconds, share_of_other;
+};
+constexpr Bound FULL = {8, 2.4}, NEEDED = {3, 0.8};
 const char* const OTHER_TEXT =
     "#include <regex>\n"
     "bool f(const char* s) { return std::regex_match(s, std::regex(\"a(b|c)*\")); }\n";
@@ -35,24 +37,28 @@ protected:
         EXPECT_EQ(clrt(arguments).exit_code, 0);
         return seconds_of_commands() - before;
     }
-    /// The least of up to five tries; those after one below `enough` are saved.
-    double least_seconds_of(const std::vector<std::string>& arguments, double enough) const {
-        double least = seconds_of(arguments);
-        for (int again = 0; again < 4 && is_pocl() && least >= enough; ++again)
-            least = std::min(least, seconds_of(arguments));
-        return least;
-    }
-    /// The least of three tries at OTHER_TEXT.
+    /// Seconds of clang for OTHER_TEXT.
     double other_seconds() const {
         const std::string file = folder.write("other.cpp", OTHER_TEXT);
-        double least = HUGE_VAL;
-        for (int again = 0; again < 3; ++again) {
-            const double before = seconds_of_commands();
-            EXPECT_EQ(run_command({CLRT_CLANG, "-std=c++17", "-O2", "-c", "-o", "/dev/null", file}).exit_code,
-                      0);
-            least = std::min(least, seconds_of_commands() - before);
+        const double before = seconds_of_commands();
+        EXPECT_EQ(run_command({CLRT_CLANG, "-std=c++17", "-O2", "-c", "-o", "/dev/null", file}).exit_code, 0);
+        return seconds_of_commands() - before;
+    }
+    /// Whether one of six tries keeps the bound; says in the test's record, as `name`, what the last one
+    /// took.
+    bool is_quick(const std::string& name, const std::vector<std::string>& arguments, Bound bound) {
+        for (int tries = 0; tries < 6; ++tries) {
+            const double seconds = seconds_of(arguments);
+            RecordProperty(name, std::to_string(seconds));
+            if (seconds < bound.seconds || !is_pocl())
+                return true;
+            const double other = other_seconds();
+            RecordProperty(name + "_other", std::to_string(other));
+            if (seconds < bound.share_of_other * other)
+                return true;
+            std::cout << name << ": " << seconds << " s beside " << other << " s of another text\n";
         }
-        return least;
+        return false;
     }
     /// Times are promised for PoCL; other devices only have to work.
     static bool is_pocl() { return test_device_name() == "pocl"; }
@@ -66,16 +72,8 @@ TEST_F(CompileTime, APathProgramIsCompiledInSeconds) {
     std::vector<std::string> all = path, needed = path;
     all.emplace_back("all");
     needed.emplace_back("auto");
-    const double full_seconds = least_seconds_of(all, FULL_SECONDS);
-    const double needed_seconds = least_seconds_of(needed, NEEDED_SECONDS);
-    RecordProperty("full", std::to_string(full_seconds));
-    RecordProperty("needed", std::to_string(needed_seconds));
-    if (is_pocl()) {
-        const bool is_quick = full_seconds < FULL_SECONDS && needed_seconds < NEEDED_SECONDS;
-        const double other = is_quick ? 0 : other_seconds();
-        EXPECT_LT(full_seconds, std::max(FULL_SECONDS, FULL_SHARE * other));
-        EXPECT_LT(needed_seconds, std::max(NEEDED_SECONDS, NEEDED_SHARE * other));
-    }
+    EXPECT_TRUE(is_quick("full", all, FULL));
+    EXPECT_TRUE(is_quick("needed", needed, NEEDED));
 }
 
 TEST_F(CompileTime, ASecondStartTakesTheProgramFromTheDriversCache) {

@@ -66,7 +66,7 @@ add_dependencies(studio_command_test clrt-merge)
 clrt_command_test(time_limit_test)
 target_compile_definitions(time_limit_test PRIVATE CLRT_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
 # It compares with seconds of wall time, which are only its own while nothing else runs.
-set_tests_properties(cli.time_limit_test PROPERTIES RUN_SERIAL TRUE)
+set_tests_properties(cli.compile_time_test cli.time_limit_test PROPERTIES RUN_SERIAL TRUE)
 if(TARGET clrt-bench)
   clrt_test(cli bench_command_test)
   target_compile_definitions(bench_command_test PRIVATE
