@@ -41,7 +41,7 @@ typedef struct {
     uint solid; /* as in Path */
 #endif
 #if HAS_SLABS
-    SlabChain slabs; /* since it has begun */
+    SlabChain slabs; /* since it has begun at what connections through slabs find */
 #endif
     SplatWeights weights;
 #if PATH_GUIDE
@@ -95,7 +95,8 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
 #if HAS_SLABS
     slab_begin(&path->slabs);
     const bool is_sky = path->emission.light == light_of_sky(params);
-    if (!path->emission.is_distant || (is_sky && !slab_sky_is_sampled(params)))
+    const bool is_lamp = LAMPS_BEHIND_SLABS && path->emission.light < params->emitter_count;
+    if (!(path->emission.is_distant || is_lamp) || (is_sky && !slab_sky_is_sampled(params)))
         slab_end(&path->slabs);
 #endif
     TRACE_CHOICE(scene, TRACE_LIGHT_KIND, emission_kind(scene, params, path->emission.light));
@@ -209,16 +210,33 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
    caustics, and nothing else is looked for. */
 static inline bool light_path_is_at_caster(uint segment) { return EMISSION_IS_AIMED && segment == 1u; }
 
-/* Whether paths from the eye are left to find what comes from where this one has, by lobes with a density at
-   the surface that it has met (slab.h). */
+/* Whether paths from the eye are left to find what comes from outside where this one has, by lobes with a
+   density at the surface that it has met (slab.h). */
 static inline bool light_path_is_behind_slabs(const Scene* scene, const RenderParams* params,
                                               const Surface* met, const LightPath* path)
 {
 #if HAS_SLABS
-    return slab_is_behind(params, &path->slabs, path->emission.ray.direction, path->ray.direction) &&
+    return path->emission.is_distant &&
+           slab_is_behind(params, &path->slabs, path->emission.ray.direction, path->ray.direction) &&
            solid_beside(scene, met, true) == NO_INDEX;
 #else
     return false;
+#endif
+}
+
+/* Behind slabs the next-event estimation of path finds the lamp, too, where that of these integrators does
+   not: for a pilot, with the density that it would have without the glass, which bends little. */
+static inline void light_path_open_alone(const Scene* scene, const RenderParams* params,
+                                         const LightVertex* vertex, LightPath* path)
+{
+#if FILM_MOMENTS && LAMPS_BEHIND_SLABS
+    if (path->emission.light >= params->emitter_count || !bsdf_has_smooth_lobe(&vertex->bsdf) ||
+        !slab_is_straight(&path->slabs, path->emission.ray.direction, path->ray.direction) ||
+        solid_beside(scene, &vertex->surface, true) != NO_INDEX)
+        return;
+    const LightView view = lights_view(&vertex->surface, bsdf_light_normal(&vertex->bsdf));
+    path->alone.open = splat_light_pdf(scene, params, &path->emission, &view) * path->emission.cosine /
+                       (path->emission.pdf * splat_cosine(vertex->surface.normal_g, path->ray.direction));
 #endif
 }
 
@@ -247,6 +265,7 @@ static inline bool light_path_meet(const Scene* scene, const RenderParams* param
             path->alone = path->weights;
         else
             splat_weights_meet(&vertex->surface, wo, &path->alone);
+        light_path_open_alone(scene, params, vertex, path);
 #endif
     }
     return true;

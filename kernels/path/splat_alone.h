@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a path from the eye would gather if there were no splats and no inner connections: for a pilot
-// (film/moments.h).
+// What a path from the eye would gather if there were no splats and no inner connections, and if it were path's
+// own, which is connected to lamps through slabs: for a pilot (film/moments.h).
 #ifndef CLRT_PATH_SPLAT_ALONE_H
 #define CLRT_PATH_SPLAT_ALONE_H
 
@@ -23,7 +23,10 @@ static inline void alone_emission(const Scene* scene, const RenderParams* params
                                   const Path* path, real3 wo, real3 emitted, Moments* moments)
 {
     const SplatWeights none = splat_weights_none();
-    const real3 alone = splat_emission(scene, params, surface, path, wo, &none);
+    real3 alone = splat_emission(scene, params, surface, path, wo, &none);
+    PixelRays unused = {0u, 0u, 0u, 0ul, 0u};
+    if (path->pdf_w == REAL(0.0) && !vector_is_black(alone))
+        alone *= path_delta_weight(scene, params, surface, path, wo, &unused);
     moments_gather(path->throughput * emitted, path->throughput * alone, moments);
 }
 

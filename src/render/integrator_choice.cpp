@@ -136,14 +136,16 @@ void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned
 }
 
 /// Whether path finds the light by itself, as its pilot tells. Caustics it may find so seldom that its pilot
-/// looks clean without them.
+/// looks clean without them: there it is only asked for what it spends on slabs.
 bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                    IntegratorChoice& choice) {
-    if (has_hard_caustics(*planned))
+    const bool is_hard = has_hard_caustics(*planned);
+    if (is_hard && !has_slabs_before_lamps(planned->scene))
         return false;
     const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
     choice.unguided = run_path_pilot(prepared, choice.pilot);
-    return choice.unguided->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR || stop_signal();
+    const bool is_clean = choice.unguided->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR;
+    return (is_clean && !is_hard) || stop_signal();
 }
 
 /// Whether the pilots so far have told that a candidate is not worth one, nor the program that is compiled
@@ -165,14 +167,12 @@ bool is_measured_alone(const PlannedScene& planned) {
     return has_light_tree(planned) || has_slabs_before_lamps(planned.scene);
 }
 
-/// Path's errors by caustics, which path+light's splats tell of, and they alone: a pilot of path's own meets
-/// them too seldom to tell.
-SquaredErrors caustic_errors(const IntegratorChoice& choice) {
+/// Path's errors by caustics, of which a pilot of path+light tells by its splats, and they alone: a pilot of
+/// path's own meets them too seldom.
+SquaredErrors caustic_errors(const PilotResult& pilot) {
     SquaredErrors errors{};
-    for (const IntegratorPrice& price : choice.prices)
-        if (price.integrator == Integrator::PATH_LIGHT)
-            for (size_t i = 0; i < errors.size(); ++i)
-                errors[i] = std::max(0., price.path[i] - price.errors[i]);
+    for (size_t i = 0; i < errors.size(); ++i)
+        errors[i] = std::max(0., pilot.path[i] - pilot.own[i]);
     return errors;
 }
 
@@ -218,12 +218,11 @@ std::string try_path_again(const Device& device, const std::shared_ptr<PlannedSc
     const std::optional<ReusePilots> pilots = run_reuse_pilots(device, planned, parts);
     planned->options.run.pixel = pixel;
     const Options& options = planned->options;
-    const SquaredErrors caustics = caustic_errors(choice);
-    const double gain = gain_beside_caustics(pilots, caustics, options);
+    const double gain = gain_beside_caustics(pilots, choice.caustics, options);
     if (gain == 0)
         return "";
     if (is_measured_alone(*planned))
-        measure(pilots->alone, caustics, options, price);
+        measure(pilots->alone, choice.caustics, options, price);
     const bool reuses = gain * gain_of_adaptive(options) >= price.efficiency;
     if (reuses || price.efficiency <= smallest_gain(price, is_guided, options)) {
         choice.integrator = Integrator::PATH;
@@ -268,9 +267,9 @@ std::shared_ptr<GuideProgress> guide_to_hits(const PreparedScene& prepared, cons
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             const std::vector<Candidate>& candidates, PreparedParts& parts, IntegratorChoice& choice) {
     const std::optional<int> asked = planned->options.transport.max_depth;
-    // What is lit through slabs no guide was better for, in three rooms.
+    // Where lamps are behind slabs no guide was better, in five rooms.
     const bool is_guided = planned->options.transport.guide == Toggle::AUTO && may_guide(planned->options) &&
-                           !path_connects_to_caustics(*planned);
+                           !has_slabs_before_lamps(planned->scene);
     const std::optional<PathPilot> measured =
         is_measured_alone(*planned) ? choice.unguided : std::optional<PathPilot>();
     double best = WORTHWHILE_GAIN;
@@ -291,14 +290,17 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             choice.reason = "a pilot finds no light";
             break;
         }
+        IntegratorPrice price = price_of(candidate, pilot, planned->options);
+        if (candidate.integrator == Integrator::PATH_LIGHT)
+            choice.caustics = caustic_errors(pilot);
+        if (measured)
+            measure(*measured, choice.caustics, planned->options, price);
         if (choice.prices.empty()) {
             const double trimmed = choice.unguided ? choice.unguided->trimmed : pilot.trimmed;
-            choice.unguided = PathPilot{pilot.path, pilot.eye_rays, trimmed, pilot.mean};
-            choice.prices.push_back({Integrator::PATH, pilot.path, pilot.path, pilot.eye_rays});
+            const double rays = measured ? measured->rays : pilot.eye_rays;
+            choice.unguided = PathPilot{price.path, rays, trimmed, pilot.mean};
+            choice.prices.push_back({Integrator::PATH, price.path, price.path, rays});
         }
-        IntegratorPrice price = price_of(candidate, pilot, planned->options);
-        if (measured)
-            measure(*measured, {}, planned->options, price); // there are no other caustics
         choice.prices.push_back(price);
         const PathPilot unguided{pilot.own, pilot.eye_rays, pilot.trimmed, pilot.mean};
         IntegratorPrice& told = choice.prices.back();

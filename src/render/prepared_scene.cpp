@@ -93,8 +93,13 @@ Program build_escape_program(const PreparedScene& prepared) {
 
 Program build_pilot_program(const PreparedScene& prepared) {
     const PlannedScene& planned = *prepared.planned;
+    // It tells of path, which may find what the integrator at hand does not.
+    Options of_path = planned.options;
+    of_path.transport.integrator = Integrator::PATH;
+    PathPlan paths = planned.effects.paths;
+    paths.are_lamps_behind_slabs = finds_lamps_behind_slabs(planned.scene, of_path);
     return build_pilot_program(prepared.device, planned.options, planned.effects.mask,
-                               prepared.tree->bvh.layout, planned.effects.paths);
+                               prepared.tree->bvh.layout, paths);
 }
 
 Program build_replay_program(const PreparedScene& prepared, Precision precision) {

@@ -226,6 +226,31 @@ TEST(IntegratorChoice, LampsBehindPanesAreLeftToPath) {
     EXPECT_NE(box.integrator(), Integrator::PATH) << "a ball of the same glass makes caustics";
 }
 
+// Nor does a mirror that hardly matters make path look as noisy as if it were not connected through slabs:
+// light paths that came straight through them tell of path with its connections, and so do paths from the eye
+// that hit lamps behind them, of which the larger one is often hit. That what a path gathers at several
+// vertices is correlated they do not tell.
+TEST(IntegratorChoice, BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes) {
+    for (const double side : {0.2, 0.9}) {
+        Box box;
+        box.add_lamp(side);
+        box.build.use("glass").box({-1, 2.6, -1}, {1, 2.65, 1});
+        box.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror");
+        box.build.icosphere({1.2, 0.1, 0.5}, 0.1, 3, Facing::OUTWARD, Shading::SMOOTH);
+        box.options.sampling.spp = 4096;
+        const Chosen chosen = box.choose();
+        EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
+        const double path = squared_error(box, Integrator::PATH);
+        for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT}) {
+            take_integrator(integrator, *chosen.planned);
+            const PreparedScene prepared = prepare_scene(test_device(), chosen.planned, {});
+            const double told = run_pilot(prepared, chosen.choice.pilot).path[size_t(ErrorMeasure::RELATIVE)];
+            EXPECT_GT(told, 0.33 * path) << name_of(integrator) << ", lamp " << side;
+            EXPECT_LT(told, 1.5 * path) << name_of(integrator) << ", lamp " << side;
+        }
+    }
+}
+
 TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     // A lamp in a tube: nearly all that is seen comes off a small spot of the ceiling, and what paths from
     // the eye would scatter by is told by connections to it.
