@@ -110,4 +110,8 @@ CAUGHT_BY = {
     "a lobe not recorded": "Replay.LongPathsAreRecordedWhole",
     "bad samples of a pixel not counted": "Replay.PlantedFaultsAreFoundWhereTheyArePlanted",
     "the sampled direction not recorded": "Replay.LongPathsAreRecordedWhole",
+    "a pilot's light paths from lamps behind slabs do not know path's connections":
+        "IntegratorChoice.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
+    "a pilot's hits behind slabs not weighed against path's connections":
+        "IntegratorChoice.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
 }
