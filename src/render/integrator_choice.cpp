@@ -267,7 +267,7 @@ std::shared_ptr<GuideProgress> guide_to_hits(const PreparedScene& prepared, cons
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             const std::vector<Candidate>& candidates, PreparedParts& parts, IntegratorChoice& choice) {
     const std::optional<int> asked = planned->options.transport.max_depth;
-    // Where lamps are behind slabs no guide was better, in five rooms.
+    // Where lamps are behind slabs no guide was better, in the three rooms where one was tried.
     const bool is_guided = planned->options.transport.guide == Toggle::AUTO && may_guide(planned->options) &&
                            !has_slabs_before_lamps(planned->scene);
     const std::optional<PathPilot> measured =

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which integrator renders the picture, where none is named or --integrator is auto.
 //
-// What it must be able to do decides first: options that only path takes, light that path cannot find, a film
-// that is gone on with. Where several could, each but path takes a pilot (render/pilot.h), all together at
-// most PILOT_SHARE of the render's work, and the integrator with the least squared error times work wins:
+// What it must be able to do decides first: options that only path takes, light that path cannot find, a
+// film that is gone on with. Where several could, each but path takes a pilot (render/pilot.h), all together
+// at most PILOT_SHARE of the render's work, and the integrator with the least squared error times work wins:
 // each is compared with what its own samples tell of path, or, where path chooses lights by a tree or finds
 // lamps behind slabs, which others do without, with a pilot of path's own, caustics apart: it hardly meets
 // them, and path+light's samples tell their noise, without what path is connected to through slabs. Where
 // none is named and the scene cannot have caustics but of slabs, path takes a pilot before them, and where
 // that finds the light no other is compiled; nor is bdpt where path+light's pilot tells that path finds it
-// but for caustics. Work is counted in rays, each weighing what it was measured to cost, never in seconds:
-// the same picture comes out everywhere. The pilots' samples are dropped, so that the picture is, bit for
-// bit, that of the integrator by name, unless both differ over a guide: a pilot of a candidate judges here
-// whether one is worth it, a pilot of the integrator itself where it is named, and near the bound they need
-// not agree.
+// but for caustics. Nor do candidates spend what path does on lamps behind slabs, beside other caustics too:
+// there that pilot tells path's work.
+// Work is counted in rays, each weighing what it was measured to cost, never in seconds: the same picture
+// comes out everywhere. The pilots' samples are dropped, so that the picture is, bit for bit, that of the
+// integrator by name, unless both differ over a guide: a pilot of a candidate judges here whether one is
+// worth it, a pilot of the integrator itself where it is named, and near the bound they need not agree.
 //
 // Where another one than path wins, path that reuses paths gets a pilot as well (render/reuse_choice.h), and
 // the plan is for that if it gains as much.
