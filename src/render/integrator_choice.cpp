@@ -97,8 +97,10 @@ std::vector<Candidate> candidates_of(const PlannedScene& planned) {
 }
 
 /// Samples of path that a sample of every pilot costs, path's own included.
-double pilot_work(const std::vector<Candidate>& candidates, const Options& options) {
-    double work = options.transport.choose == Toggle::AUTO ? 1 : 0;
+double pilot_work(const std::vector<Candidate>& candidates, const PlannedScene& planned) {
+    const Options& options = planned.options;
+    const bool has_own = options.transport.choose == Toggle::AUTO || has_slabs_before_lamps(planned.scene);
+    double work = has_own ? 1 : 0;
     for (const Candidate& candidate : candidates)
         work += candidate.pilot_eye + candidate.pilot_light * light_paths_a_sample(options);
     return work;
@@ -135,17 +137,18 @@ void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned
     take_integrator(integrator, planned);
 }
 
-/// Whether path finds the light by itself, as its pilot tells. Caustics it may find so seldom that its pilot
-/// looks clean without them: there it is only asked for what it spends on slabs.
+/// Whether path finds the light by itself, as its pilot tells, and no other is asked about. Caustics it may
+/// find so seldom that its pilot looks clean without them: there it only tells what path spends on slabs.
 bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& planned, PreparedParts& parts,
                    IntegratorChoice& choice) {
-    const bool is_hard = has_hard_caustics(*planned);
-    if (is_hard && !has_slabs_before_lamps(planned->scene))
+    const bool may_suffice =
+        planned->options.transport.choose == Toggle::AUTO && !has_hard_caustics(*planned);
+    if (!may_suffice && !has_slabs_before_lamps(planned->scene))
         return false;
     const PreparedScene prepared = prepare_path_pilot(device, planned, parts);
     choice.unguided = run_path_pilot(prepared, choice.pilot);
     const bool is_clean = choice.unguided->errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR;
-    return (is_clean && !is_hard) || stop_signal();
+    return may_suffice && (is_clean || stop_signal());
 }
 
 /// Whether the pilots so far have told that a candidate is not worth one, nor the program that is compiled
@@ -336,16 +339,17 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
 }
 
 /// Size of the pilots of all candidates; none where so small ones tell nothing.
-std::optional<PilotSize> pilots_of(const std::vector<Candidate>& candidates, const Options& options) {
-    return size_of_pilots(pilot_work(candidates, options), options);
+std::optional<PilotSize> pilots_of(const std::vector<Candidate>& candidates, const PlannedScene& planned) {
+    return size_of_pilots(pilot_work(candidates, planned), planned.options);
 }
 
 /// Whether others than path are looked at where none is named: not for short renders, nor for parts of a
 /// picture, which are to be of one integrator however long they are. A film says what it goes on with.
-bool may_try(const std::vector<Candidate>& candidates, const Options& options) {
-    if (!options.film_file.resume_path.empty())
+bool may_try(const std::vector<Candidate>& candidates, const PlannedScene& planned) {
+    if (!planned.options.film_file.resume_path.empty())
         return true;
-    return options.run.given.count("--first-sample") == 0 && pilots_of(candidates, options).has_value();
+    return planned.options.run.given.count("--first-sample") == 0 &&
+           pilots_of(candidates, planned).has_value();
 }
 
 /// The integrator of a film that one of those chosen from has rendered; else path, which the film refuses.
@@ -384,7 +388,7 @@ bool decide_by_facts(PlannedScene& planned, const std::vector<Candidate>& candid
         choice.integrator = Integrator::PATH_LIGHT;
         choice.reason = fmt::format("path does not see {} ({})", planned.effects.paths.blind_spots[0].paths,
                                     planned.effects.paths.blind_spots[0].cause);
-    } else if (const auto size = pilots_of(candidates, planned.options)) {
+    } else if (const auto size = pilots_of(candidates, planned)) {
         choice.pilot = *size;
         return false;
     } else
@@ -395,7 +399,7 @@ bool decide_by_facts(PlannedScene& planned, const std::vector<Candidate>& candid
 } // namespace
 
 std::optional<PilotSize> pilot_size(const PlannedScene& planned) {
-    return pilots_of(candidates_of(planned), planned.options);
+    return pilots_of(candidates_of(planned), planned);
 }
 
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,
@@ -407,14 +411,14 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     if (wish == Toggle::OFF)
         return choice;
     const std::vector<Candidate> candidates = candidates_of(*planned);
-    if (wish == Toggle::AUTO && !may_try(candidates, planned->options))
+    if (wish == Toggle::AUTO && !may_try(candidates, *planned))
         return choice;
     choice.is_told = wish == Toggle::ON;
     if (decide_by_facts(*planned, candidates, choice))
         take_integrator(choice.integrator, *planned);
     else {
         progress.update({"pilot", -1, 0, -1, -1});
-        if (wish == Toggle::ON || !path_suffices(device, planned, parts, choice)) {
+        if (!path_suffices(device, planned, parts, choice)) {
             decide(device, planned, candidates, parts, choice);
             choice.is_told = true;
         }

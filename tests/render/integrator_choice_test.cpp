@@ -244,7 +244,9 @@ TEST(IntegratorChoice, BesideOtherCastersPilotsTellOfPathWithItsConnectionsThrou
         for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT}) {
             take_integrator(integrator, *chosen.planned);
             const PreparedScene prepared = prepare_scene(test_device(), chosen.planned, {});
-            const double told = run_pilot(prepared, chosen.choice.pilot).path[size_t(ErrorMeasure::RELATIVE)];
+            const PilotResult pilot = run_pilot(prepared, chosen.choice.pilot);
+            EXPECT_GT(chosen.choice.prices[0].work, 1.2 * pilot.eye_rays) << "path alone spends on slabs";
+            const double told = pilot.path[size_t(ErrorMeasure::RELATIVE)];
             EXPECT_GT(told, 0.33 * path) << name_of(integrator) << ", lamp " << side;
             EXPECT_LT(told, 1.5 * path) << name_of(integrator) << ", lamp " << side;
         }
