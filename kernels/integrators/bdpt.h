@@ -91,7 +91,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     pixel_leave(segment, next.pdf_w, sample);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS
-    alone_connect(scene, params, &surface, &bsdf, wo, path, &sample->moments);
+    alone_notes(scene, params, segment, &surface, &bsdf, wo, weights, path, &sample->moments);
 #endif
     bdpt_connect(scene, params, segment, eye, kept, path->throughput, sample, rays);
     if (!next.is_valid)

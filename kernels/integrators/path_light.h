@@ -50,7 +50,7 @@ static CLRT_NOINLINE void path_light_vertex(const Scene* scene, const RenderPara
     pixel_leave(segment, next.pdf_w, sample);
     splat_connect(scene, params, &surface, &bsdf, wo, weights, path);
 #if FILM_MOMENTS
-    alone_connect(scene, params, &surface, &bsdf, wo, path, &sample->moments);
+    alone_notes(scene, params, segment, &surface, &bsdf, wo, weights, path, &sample->moments);
 #endif
     if (!next.is_valid)
         return;

@@ -18,6 +18,44 @@ static inline void alone_connect(const Scene* scene, const RenderParams* params,
     moments->connection = alone.connection;
 }
 
+#if LAMPS_BEHIND_SLABS
+/* Notes light through slabs that nothing but hits finds of what arrives at the present vertex. The chance of
+   a hit to be refracted at all facets counts as 1. */
+static CLRT_NOINLINE void alone_miss(const Scene* scene, const RenderParams* params, uint segment,
+                                     const Surface* surface, const Bsdf* bsdf, const SplatWeights* weights,
+                                     const Path* path, Moments* moments)
+{
+    if (!splat_is_alone(weights) || !bsdf_has_smooth_lobe(bsdf))
+        return;
+    LightSample light = lights_sample(scene, params, surface, bsdf_light_normal(bsdf), path->numbers.light,
+                                      path->numbers.alias);
+    if (light.pdf_w == REAL(0.0))
+        return;
+    const real3 straight = light.wi;
+    Ray shadow;
+    PixelRays unused = {0u, 0u, 0u, 0ul, 0u};
+    if (!path_see_light(scene, params, segment, surface, bsdf, &light, &shadow, &unused) ||
+        vector_is_zero(light.wi - straight))
+        return;
+    const BsdfValue eval = bsdf_eval(bsdf, light.wi);
+    if (eval.pdf_w > REAL(0.0))
+        moments_miss(path->throughput * eval.value * light.radiance / light.pdf_w *
+                         visible_share(scene, params, &shadow),
+                     light.pdf_w / eval.pdf_w, moments);
+}
+#endif
+
+/* Notes what is told at the present vertex of the path. */
+static inline void alone_notes(const Scene* scene, const RenderParams* params, uint segment,
+                               const Surface* surface, const Bsdf* bsdf, real3 wo,
+                               const SplatWeights* weights, const Path* path, Moments* moments)
+{
+    alone_connect(scene, params, surface, bsdf, wo, path, moments);
+#if LAMPS_BEHIND_SLABS
+    alone_miss(scene, params, segment, surface, bsdf, weights, path, moments);
+#endif
+}
+
 /* Gathers the emission of the surface that was hit, which is `emitted` as weighted against the others. */
 static inline void alone_emission(const Scene* scene, const RenderParams* params, const Surface* surface,
                                   const Path* path, real3 wo, real3 emitted, Moments* moments)

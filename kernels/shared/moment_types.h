@@ -10,7 +10,9 @@
 #define MOMENTS_SPLATTED 1  /* squares: of what such a path gathers, and of each splat */
 #define MOMENTS_ALONE 2     /* squares of what a path from the eye would gather alone */
 #define MOMENTS_RAYS 3      /* counts: rays of paths from the lights, from them to the camera, between both */
-#define MOMENTS_PLANES 4
+#define MOMENTS_HIDDEN 4    /* radiance of lamps behind slabs that nothing but hits finds, as path finds it */
+#define MOMENTS_MISSED 5    /* and by how much more the squares of those hits are */
+#define MOMENTS_PLANES 6
 
 /* A square of 2^12 squared quanta counts 1: of the level, the power of two nearest the mean radiance
    (film/film.h), a square is told to 2^-28. */

@@ -10,7 +10,8 @@
 // none is named and the scene cannot have caustics but of slabs, path takes a pilot before them, and where
 // that finds the light no other is compiled; nor is bdpt where path+light's pilot tells that path finds it
 // but for caustics. Nor do candidates spend what path does on lamps behind slabs, beside other caustics too:
-// there that pilot tells path's work.
+// there that pilot tells path's work. What they are left with, light of such lamps that hits alone find, their
+// pilots tell by connections as path's: hits are too rare.
 // Work is counted in rays, each weighing what it was measured to cost, never in seconds: the same picture
 // comes out everywhere. The pilots' samples are dropped, so that the picture is, bit for bit, that of the
 // integrator by name, unless both differ over a guide: a pilot of a candidate judges here whether one is

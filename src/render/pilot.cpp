@@ -143,7 +143,8 @@ public:
             sum += double(render_.film.sums[at]);
         return sum / samples_ * quantum_;
     }
-    double gathered(size_t i) const { return of_layer(MOMENTS_GATHERED, i) * quantum_; }
+    /// Of a layer of radiance.
+    double of(size_t layer, size_t i) const { return of_layer(layer, i) * quantum_; }
     double square(size_t layer, size_t i) const {
         return of_layer(layer, i) * MOMENT_UNIT * quantum_ * quantum_;
     }
@@ -183,7 +184,7 @@ void set_errors(const RenderProgress& render, ErrorMeasure measure, PilotResult&
             continue;
         // A squared mean is too large by the variance of a sample over their number. Splats are many and
         // rare: the variance of their sum is the sum of their squares.
-        const double gathered = means.gathered(i), radiance = means.radiance(i);
+        const double gathered = means.of(MOMENTS_GATHERED, i), radiance = means.radiance(i);
         const double with = (means.square(MOMENTS_SPLATTED, i) - gathered * gathered) * n / (n - 1);
         const double without = means.square(MOMENTS_ALONE, i) - radiance * radiance + with / n;
         more += weights.of(i) * (without - with);
@@ -198,6 +199,32 @@ void set_errors(const RenderProgress& render, ErrorMeasure measure, PilotResult&
     result.mean = mean / count;
     result.own[size_t(measure)] = errors;
     result.path[size_t(measure)] = errors + more * count / (mean * mean);
+}
+
+/// The film with what only hits find behind slabs, as path finds it, of which its samples may lack nearly
+/// all.
+Film film_with_hidden(const RenderProgress& render) {
+    Film film = render.film;
+    const std::vector<std::int64_t>& hidden = render.path_layers[MOMENTS_HIDDEN].sums;
+    for (size_t i = 0; i < hidden.size(); ++i)
+        film.sums[i] += hidden[i];
+    return film;
+}
+
+/// Squared error of a sample by what only hits find behind slabs.
+double missed_error(const RenderProgress& render, const Film& film, ErrorMeasure measure) {
+    const PixelChoice choice(film, ErrorPixels::SCENE);
+    const ErrorWeights weights(film, choice, measure);
+    const Means means(render);
+    double missed = 0, mean = 0, count = 0;
+    for (size_t i = 0; i < film_plane(film); ++i) {
+        if (!choice.has(i / 3))
+            continue;
+        missed += weights.of(i) * means.square(MOMENTS_MISSED, i);
+        mean += means.radiance(i) + means.of(MOMENTS_HIDDEN, i);
+        count += 1;
+    }
+    return mean > 0 ? missed * count / (mean * mean) : 0;
 }
 
 /// Rays and light paths of a sample.
@@ -264,9 +291,13 @@ double path_pilot_error(const PreparedScene& prepared, const PilotSize& size) {
 PilotResult run_pilot(const PreparedScene& prepared, const PilotSize& size) {
     const PilotRender pilot = render_pilot(prepared, size);
     const RenderProgress& render = pilot.render;
+    const Film with_hidden = film_with_hidden(render);
     PilotResult result;
-    for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE})
+    for (const ErrorMeasure measure : {ErrorMeasure::MSE, ErrorMeasure::RELATIVE}) {
         set_errors(render, measure, result);
+        double& own = result.own[size_t(measure)];
+        own = std::max(own, missed_error(render, with_hidden, measure));
+    }
     result.trimmed = trimmed_sample_error(render.film);
     count_rays(pilot, result);
     return result;

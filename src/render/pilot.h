@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small picture by an integrator that has path's techniques and more: what its noise is, and what that of
-// path would be (kernels/film/moments.h).
+// path would be (kernels/film/moments.h). Where path is connected to lamps through slabs, the integrator's
+// includes that of light which hits alone find there.
 #pragma once
 
 #include "film/film.h"

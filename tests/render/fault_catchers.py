@@ -114,4 +114,6 @@ CAUGHT_BY = {
         "IntegratorChoice.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
     "a pilot's hits behind slabs not weighed against path's connections":
         "IntegratorChoice.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
+    "a pilot does not miss what hits alone find behind slabs":
+        "IntegratorChoice.ConnectionsThroughPanesTellWhatCandidatesHitTooSeldom",
 }

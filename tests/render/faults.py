@@ -287,6 +287,8 @@ FAULTS = [
     ("a pilot's hits behind slabs not weighed against path's connections", "path/splat_alone.h",
      "        alone *= path_delta_weight(scene, params, surface, path, wo, &unused);\n", "        (void)unused;\n",
      "integrator_choice_test"),
+    ("a pilot does not miss what hits alone find behind slabs", "path/splat_alone.h",
+     "    alone_miss(scene, params, segment, surface, bsdf, weights, path, moments);\n", "", "integrator_choice_test"),
     ("connections through slabs weighed against light paths", "path/connect.h",
      "    path->connection /= path->connects_with_others;\n", "", "slab_test"),
     ("slabs reflect nothing of what is connected through them", "path/slab.h", " * (REAL(1.0) - f);", ";", "slab_test"),

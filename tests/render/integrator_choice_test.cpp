@@ -253,6 +253,24 @@ TEST(IntegratorChoice, BesideOtherCastersPilotsTellOfPathWithItsConnectionsThrou
     }
 }
 
+// What is seen behind a pane itself, in the light of a small lamp that shines through it, the candidates find
+// by hits alone, which their pilots hardly make; connections through the pane tell how noisy those are.
+TEST(IntegratorChoice, ConnectionsThroughPanesTellWhatCandidatesHitTooSeldom) {
+    Box box;
+    box.add_lamp(0.1);
+    box.build.use("glass").box({-1.8, 0.3, -1.9}, {1.8, 2.6, -1.85});
+    box.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror");
+    box.build.icosphere({1.2, 0.2, 0.5}, 0.2, 3, Facing::OUTWARD, Shading::SMOOTH);
+    const Chosen chosen = box.choose();
+    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
+    for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT}) {
+        const double told = price_of(chosen.choice, integrator).errors[size_t(ErrorMeasure::RELATIVE)];
+        const double share = told / squared_error(box, integrator);
+        EXPECT_GT(share, 0.33) << name_of(integrator); // 1.2; without them a 400th
+        EXPECT_LT(share, 1.5) << name_of(integrator);
+    }
+}
+
 TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     // A lamp in a tube: nearly all that is seen comes off a small spot of the ceiling, and what paths from
     // the eye would scatter by is told by connections to it.
