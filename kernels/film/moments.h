@@ -15,8 +15,8 @@
 // squares of y_i alone are left to the samples of all techniques, each with its share.
 //
 // The other way round, path's next-event estimation finds lamps behind slabs (path/slab_bend.h) that these
-// integrators may have nothing but hits for, too rare to tell their own noise. Where it would contribute h =
-// f / p_connect, squares of hits have the mean of h^2 p_connect / p_hit.
+// integrators may have nothing but hits for, too rare to tell their own noise. Where it contributes h =
+// f / p_connect, the mean square of hits exceeds its own by the mean of h^2 (p_connect / p_hit - 1).
 #ifndef CLRT_FILM_MOMENTS_H
 #define CLRT_FILM_MOMENTS_H
 
@@ -30,11 +30,6 @@
 #define FILM_MOMENTS 0
 #endif
 
-/* Whether path finds lamps behind slabs (path/slab.h). */
-#ifndef LAMPS_BEHIND_SLABS
-#define LAMPS_BEHIND_SLABS 0
-#endif
-
 /* What a path from the eye would have gathered alone, and what the others beside it have cost. */
 typedef struct {
     real3 radiance;
@@ -42,18 +37,14 @@ typedef struct {
     real3 connection;             /* of the present vertex, if nothing is in between */
     uint light_rays, camera_rays; /* of the paths from the lights; from those to the camera */
     uint inner_rays;              /* of inner connections */
-#if LAMPS_BEHIND_SLABS
-    real3 hidden, missed; /* as the planes of that name */
-#endif
+    real3 hidden, missed;         /* as the planes of that name */
 } Moments;
 
 static inline void moments_begin(Moments* moments)
 {
     moments->light_rays = moments->camera_rays = moments->inner_rays = 0u;
     moments->radiance = moments->shared = moments->connection = (real3)(REAL(0.0));
-#if LAMPS_BEHIND_SLABS
     moments->hidden = moments->missed = (real3)(REAL(0.0));
-#endif
 }
 
 /* Light that is weighted against splats and inner connections, and the same without them. */
@@ -71,14 +62,12 @@ static inline void moments_connect(real3 light, real count, real excess, Moments
     moments->shared -= light * light * (count * fmin(excess, MOMENT_RIVALLED));
 }
 
-#if LAMPS_BEHIND_SLABS
 /* Light that nothing but hits finds, as next-event estimation does; `rarity`: its density over theirs. */
 static inline void moments_miss(real3 light, real rarity, Moments* moments)
 {
     moments->hidden += light;
     moments->missed += light * light * clamp(rarity - REAL(1.0), REAL(0.0), MOMENT_RIVALLED);
 }
-#endif
 
 /* A square as a number to be added. */
 static inline long moments_round(const RenderParams* params, real square, uint word)
@@ -113,13 +102,11 @@ static inline void moments_add_sample(const RenderParams* params, global long* f
     moments_add(params, film, slot, MOMENTS_SPLATTED, word, radiance * radiance);
     moments_add(params, film, slot, MOMENTS_ALONE, word,
                 moments->radiance * moments->radiance - moments->shared);
-#if LAMPS_BEHIND_SLABS
-    if (film_fault(params, moments->hidden) != COUNT_WORDS)
+    if (vector_is_zero(moments->hidden) || film_fault(params, moments->hidden) != COUNT_WORDS)
         return;
     global long* hidden = film_plane_sums(params, film, slot, params->film_replicates + MOMENTS_HIDDEN);
     film_add_rounded(params, hidden, word, moments->hidden);
     moments_add(params, film, slot, MOMENTS_MISSED, word, moments->missed);
-#endif
 }
 
 /* Adds a good splat, number `number` of its sample. `excess`: all densities over those of hit and next-event

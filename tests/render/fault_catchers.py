@@ -111,9 +111,9 @@ CAUGHT_BY = {
     "bad samples of a pixel not counted": "Replay.PlantedFaultsAreFoundWhereTheyArePlanted",
     "the sampled direction not recorded": "Replay.LongPathsAreRecordedWhole",
     "a pilot's light paths from lamps behind slabs do not know path's connections":
-        "IntegratorChoice.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
+        "SlabPilot.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
     "a pilot's hits behind slabs not weighed against path's connections":
-        "IntegratorChoice.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
+        "SlabPilot.BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes",
     "a pilot does not miss what hits alone find behind slabs":
-        "IntegratorChoice.ConnectionsThroughPanesTellWhatCandidatesHitTooSeldom",
+        "SlabPilot.ConnectionsThroughPanesTellWhatCandidatesHitTooSeldom",
 }

@@ -1,85 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The choice of an integrator: what decides, that a pilot's figures are those of the integrators, and that
 // the picture is that of the one that is chosen.
-#include "film/film_error.h"
-#include "render/integrator_choice.h"
 #include "render/reuse_choice.h"
 #include "support/adjoining_rooms.h"
-#include "support/render_scene.h"
+#include "support/choice_box.h"
 #include "support/sunlit_basin.h"
 
 #include <gtest/gtest.h>
 
 namespace clrt {
-
-namespace {
-
-/// A choice, and the plan that it leaves.
-struct Chosen {
-    IntegratorChoice choice;
-    std::shared_ptr<PlannedScene> planned;
-    PreparedParts parts;
-};
-
-Chosen choose(const TestScene& scene) {
-    Chosen chosen{{}, plan_loaded(test_device(), scene.load(), scene.options), {}};
-    Progress silent(Toggle::OFF, true);
-    chosen.choice = choose_integrator(test_device(), chosen.planned, chosen.parts, silent);
-    EXPECT_EQ(chosen.planned->options.transport.integrator, chosen.choice.integrator);
-    return chosen;
-}
-
-/// A box with a lamp under its ceiling, and spheres on its floor.
-struct Box : TestScene {
-    Box() {
-        build.material("matte", "Kd 0.6 0.6 0.6").material("lamp", "Kd 0 0 0\nKe 9 8 7");
-        build.material("glass", "Ni 1.5\nillum 7");
-        build.use("matte").floor(2);
-        build.polygon({{-2, 0, -2}, {2, 0, -2}, {2, 3, -2}, {-2, 3, -2}});
-        look({0, 1.5, 4}, {0, 1, 0}, 50);
-        options.film.size = {64, 48};
-        options.sampling.spp = 512; // with pilots of two integrators
-        options.sampling.replicates = 4;
-        options.light.environment = glm::dvec3(0);
-        options.transport.choose = Toggle::ON;
-    }
-    void add_lamp(double side) {
-        build.use("lamp").polygon(
-            {{-side, 2.9, -side}, {side, 2.9, -side}, {side, 2.9, side}, {-side, 2.9, side}});
-    }
-    void add_glass() { build.use("glass").icosphere({0, 0.8, 0}, 0.5, 3, Facing::OUTWARD, Shading::SMOOTH); }
-    /// A small lamp whose light is gathered by glass.
-    void add_caustic() {
-        add_lamp(0.05);
-        add_glass();
-    }
-
-    Chosen choose() const { return clrt::choose(*this); }
-    Integrator integrator() const { return choose().choice.integrator; }
-};
-
-/// Squared error of a sample a pixel by an integrator, over many.
-double squared_error(const Box& box, Integrator integrator) {
-    Options options = box.options;
-    options.transport.integrator = integrator;
-    options.transport.choose = Toggle::OFF;
-    options.sampling.spp = 512;
-    options.sampling.replicates = 64; // 8 samples each: nets as of a pilot
-    const auto error =
-        film_error(render_loaded(box.load(), options).film, ErrorPixels::SCENE, ErrorMeasure::RELATIVE);
-    return error ? error->relative_rmse * error->relative_rmse * 512 : 0;
-}
-
-/// What a pilot says of an integrator; the choice has asked one.
-IntegratorPrice price_of(const IntegratorChoice& choice, Integrator integrator) {
-    for (const IntegratorPrice& price : choice.prices)
-        if (price.integrator == integrator)
-            return price;
-    ADD_FAILURE() << name_of(integrator) << ": " << choice.reason;
-    return {};
-}
-
-} // namespace
 
 TEST(IntegratorChoice, CausticsAreLeftToLightPaths) {
     Box box;
@@ -209,65 +138,6 @@ TEST(IntegratorChoice, WherePathFindsTheLightBdptIsNotTriedUnasked) {
         const IntegratorChoice choice = box.choose().choice;
         EXPECT_EQ(choice.integrator, Integrator::PATH);
         EXPECT_EQ(choice.prices.size(), choose == Toggle::AUTO ? 2u : 3u) << choice.reason;
-    }
-}
-
-// Of what only hits find without it (kernels/path/slab_bend.h) the candidates' samples tell nothing.
-TEST(IntegratorChoice, LampsBehindPanesAreLeftToPath) {
-    Box box;
-    box.add_lamp(0.2);
-    box.build.use("glass").box({-1, 2.6, -1}, {1, 2.65, 1});
-    for (const Toggle choose : {Toggle::AUTO, Toggle::ON}) {
-        box.options.transport.choose = choose;
-        const IntegratorChoice choice = box.choose().choice;
-        EXPECT_EQ(choice.integrator, Integrator::PATH) << choice.reason;
-    }
-    box.build.icosphere({0, 0.8, 0}, 0.5, 3, Facing::OUTWARD, Shading::SMOOTH);
-    EXPECT_NE(box.integrator(), Integrator::PATH) << "a ball of the same glass makes caustics";
-}
-
-// Nor does a mirror that hardly matters make path look as noisy as if it were not connected through slabs:
-// light paths that came straight through them tell of path with its connections, and so do paths from the eye
-// that hit lamps behind them, of which the larger one is often hit. That what a path gathers at several
-// vertices is correlated they do not tell.
-TEST(IntegratorChoice, BesideOtherCastersPilotsTellOfPathWithItsConnectionsThroughPanes) {
-    for (const double side : {0.2, 0.9}) {
-        Box box;
-        box.add_lamp(side);
-        box.build.use("glass").box({-1, 2.6, -1}, {1, 2.65, 1});
-        box.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror");
-        box.build.icosphere({1.2, 0.1, 0.5}, 0.1, 3, Facing::OUTWARD, Shading::SMOOTH);
-        box.options.sampling.spp = 4096;
-        const Chosen chosen = box.choose();
-        EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
-        const double path = squared_error(box, Integrator::PATH);
-        for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT}) {
-            take_integrator(integrator, *chosen.planned);
-            const PreparedScene prepared = prepare_scene(test_device(), chosen.planned, {});
-            const PilotResult pilot = run_pilot(prepared, chosen.choice.pilot);
-            EXPECT_GT(chosen.choice.prices[0].work, 1.2 * pilot.eye_rays) << "path alone spends on slabs";
-            const double told = pilot.path[size_t(ErrorMeasure::RELATIVE)];
-            EXPECT_GT(told, 0.33 * path) << name_of(integrator) << ", lamp " << side;
-            EXPECT_LT(told, 1.5 * path) << name_of(integrator) << ", lamp " << side;
-        }
-    }
-}
-
-// What is seen behind a pane itself, in the light of a small lamp that shines through it, the candidates find
-// by hits alone, which their pilots hardly make; connections through the pane tell how noisy those are.
-TEST(IntegratorChoice, ConnectionsThroughPanesTellWhatCandidatesHitTooSeldom) {
-    Box box;
-    box.add_lamp(0.1);
-    box.build.use("glass").box({-1.8, 0.3, -1.9}, {1.8, 2.6, -1.85});
-    box.build.material("mirror", "Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3").use("mirror");
-    box.build.icosphere({1.2, 0.2, 0.5}, 0.2, 3, Facing::OUTWARD, Shading::SMOOTH);
-    const Chosen chosen = box.choose();
-    EXPECT_EQ(chosen.choice.integrator, Integrator::PATH) << chosen.choice.reason;
-    for (const Integrator integrator : {Integrator::PATH_LIGHT, Integrator::BDPT}) {
-        const double told = price_of(chosen.choice, integrator).errors[size_t(ErrorMeasure::RELATIVE)];
-        const double share = told / squared_error(box, integrator);
-        EXPECT_GT(share, 0.33) << name_of(integrator); // 1.2; without them a 400th
-        EXPECT_LT(share, 1.5) << name_of(integrator);
     }
 }
 
