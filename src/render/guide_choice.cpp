@@ -57,9 +57,8 @@ double error_of_hits(const Scene& scene, const PathPilot& unguided) {
 }
 
 /// The squared error of a sample that decides.
-double error_to_lower(const PlannedScene& planned, const PathPilot& unguided) {
-    return planned.options.transport.integrator == Integrator::BDPT ? error_of_hits(planned.scene, unguided)
-                                                                    : error_of_paths(unguided);
+double error_to_lower(const PlannedScene& planned, Integrator integrator, const PathPilot& unguided) {
+    return integrator == Integrator::BDPT ? error_of_hits(planned.scene, unguided) : error_of_paths(unguided);
 }
 
 /// Size of the pilot that teaches; none: the picture's own samples do. Light paths teach bdpt so much at once
@@ -78,10 +77,10 @@ std::optional<PilotSize> teaching_pilot(const Options& options, double error) {
 
 } // namespace
 
-bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided) {
+bool is_guide_promising(const PlannedScene& planned, Integrator integrator, const PathPilot& unguided) {
     const Options& options = planned.options;
     const double rays = expected_samples(options) * unguided.rays;
-    const double error = error_to_lower(planned, unguided);
+    const double error = error_to_lower(planned, integrator, unguided);
     return is_open(options) && std::isfinite(error) && error >= worthwhile_guide_error(options) &&
            rays >= RAYS_BEYOND_LEARNING * options.transport.guide_after_rays;
 }
@@ -89,7 +88,7 @@ bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided) 
 GuideProgress first_guide(const PreparedScene& prepared, const PathPilot& unguided) {
     const Options& options = prepared.planned->options;
     const int replicates = options.sampling.replicates;
-    const double error = error_to_lower(*prepared.planned, unguided);
+    const double error = error_to_lower(*prepared.planned, options.transport.integrator, unguided);
     std::optional<PilotSize> teaching = teaching_pilot(options, error);
     if (!teaching)
         return untaught_guide(replicates, error);
@@ -108,7 +107,7 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
         size = in_tiles(*size);
     const bool has_none = options.transport.integrator == Integrator::BDPT && !has_casters(planned->scene);
     if (parts.guide || has_none || !is_open(options) || planned->effects.paths.is_empty ||
-        (unguided ? !is_guide_promising(*planned, *unguided) : !size))
+        (unguided ? !is_guide_promising(*planned, options.transport.integrator, *unguided) : !size))
         return;
     progress.update({"pilot", -1, 0, -1, -1});
     if (unguided)
@@ -117,7 +116,7 @@ void choose_guide(const Device& device, const std::shared_ptr<PlannedScene>& pla
     parts = {prepared.tree, prepared.programs, nullptr};
     if (!unguided)
         unguided = run_path_pilot(prepared, *size, shares);
-    if (is_guide_promising(*planned, *unguided) && !stop_signal())
+    if (is_guide_promising(*planned, options.transport.integrator, *unguided) && !stop_signal())
         parts.guide = std::make_shared<GuideProgress>(first_guide(prepared, *unguided));
     progress.finish();
 }

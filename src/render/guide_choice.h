@@ -17,8 +17,8 @@ namespace clrt {
 
 /// Whether a guide may be worth its learning, where the options leave it open: light is hard to find, and
 /// there is time. Of path and path+light a pilot must have found some; bdpt is guided to what a pilot hardly
-/// can find. `unguided`: what a pilot has told of the plan's integrator.
-bool is_guide_promising(const PlannedScene& planned, const PathPilot& unguided);
+/// can find. `integrator`: whom it would guide, planned or not; `unguided`: what a pilot has told of it.
+bool is_guide_promising(const PlannedScene& planned, Integrator integrator, const PathPilot& unguided);
 
 /// What a picture begins with whose guide is promising: what a pilot has learnt and judged, or what its own
 /// samples are to teach. Throws as choose_integrator.

@@ -44,12 +44,14 @@ constexpr double HARD_LIGHT_ERROR = 2;
 
 /// What is expected to gain less than this is not taken: pilots were up to a third off.
 constexpr double WORTHWHILE_GAIN = 1.1;
-/// The same of bdpt where path may be guided or reuse paths, and its error without either is as in
-/// HARD_LIGHT_ERROR. That makes path 1.2 to 4 times as efficient there, which no pilot so small can tell. It
-/// said 3.2 of a door ajar and 2.7 of a stairwell, where .7 and 1.6 of what path came to were true; 5.1, 6.5
-/// and 12 of hidden strips and of lamps in shades, where 4.9, 9 and 5 were; and less than 1 of what is lit
-/// from the sky.
+/// The same of bdpt where a guide of path is promising. With it, or by reusing paths, path is 1.2 to 4 times
+/// as efficient there, which no pilot so small can tell. It said 3.2 of a door ajar and 2.7 of a stairwell,
+/// where .7 and 1.6 of what path came to were true; 5.1, 6.5 and 12 of hidden strips and of lamps in shades,
+/// where 4.9, 9 and 5 were; and less than 1 of what is lit from the sky.
 constexpr double WORTHWHILE_GAIN_OVER_GUIDE = 4;
+
+/// What a guide adds to reusing paths, where it is promising beside that: 1 to 1.8 in two rooms.
+constexpr double GAIN_OF_GUIDE_BESIDE_REUSE = 1.8;
 
 /// What path gains by samples that --adaptive has taken where they count, by ErrorMeasure; others take them
 /// evenly. It was 1.2 to 3.4 by mse and 1.2 to 1.7 by relative in a Cornell box, over spheres on a plane and
@@ -122,10 +124,10 @@ double gain_of_adaptive(const Options& options) {
     return options.sampling.adaptive ? GAIN_OF_ADAPTIVE[size_t(*options.sampling.adaptive)] : 1;
 }
 
-/// The efficiency that an integrator must have over path's to be taken; `is_guided`: path may be guided.
+/// The efficiency that an integrator must have over path's to be taken; `is_guided`: a guide of path is
+/// promising.
 double smallest_gain(const IntegratorPrice& price, bool is_guided, const Options& options) {
-    const bool rivals_guide = is_guided && price.integrator == Integrator::BDPT &&
-                              deciding_error(price.path, options) >= HARD_LIGHT_ERROR;
+    const bool rivals_guide = is_guided && price.integrator == Integrator::BDPT;
     return rivals_guide ? WORTHWHILE_GAIN_OVER_GUIDE : WORTHWHILE_GAIN * gain_of_adaptive(options);
 }
 
@@ -209,6 +211,21 @@ double most_of_path(const PlannedScene& planned) {
     return REUSE_PIXELS * (has_light_tree(planned) ? 4 : 1);
 }
 
+/// Whether path may be as much better as a guide makes it, of which no pilot tells. Where lamps are behind
+/// slabs no guide was better, in the three rooms where one was tried.
+bool guides_path(const PlannedScene& planned, const PathPilot& unguided) {
+    return !has_slabs_before_lamps(planned.scene) && is_guide_promising(planned, Integrator::PATH, unguided);
+}
+
+/// What path gains that reuses paths, over what pilots tell of that, where a guide may add to it: over bdpt,
+/// which is not guided to the same light.
+double gain_of_guide(PlannedScene& planned, const PathPilot& reusing, Integrator rival) {
+    const Toggle reuse = std::exchange(planned.options.transport.path_reuse, Toggle::ON);
+    const bool is_guided = rival == Integrator::BDPT && guides_path(planned, reusing);
+    planned.options.transport.path_reuse = reuse;
+    return is_guided ? GAIN_OF_GUIDE_BESIDE_REUSE : 1;
+}
+
 /// Goes back from the chosen candidate to path where reusing paths gains as much there, by pilots, or where
 /// these find path better than was told; says what they tell of reuse, or nothing. Path is planned then and
 /// `parts` are its own.
@@ -226,7 +243,8 @@ std::string try_path_again(const Device& device, const std::shared_ptr<PlannedSc
         return "";
     if (is_measured_alone(*planned))
         measure(pilots->alone, choice.caustics, options, price);
-    const bool reuses = gain * gain_of_adaptive(options) >= price.efficiency;
+    const double guided = gain * gain_of_guide(*planned, pilots->reusing, price.integrator);
+    const bool reuses = guided * gain_of_adaptive(options) >= price.efficiency;
     if (reuses || price.efficiency <= smallest_gain(price, is_guided, options)) {
         choice.integrator = Integrator::PATH;
         choice.unguided.reset();
@@ -257,7 +275,7 @@ std::string told_text(const IntegratorChoice& choice, const std::string& reuse) 
 std::shared_ptr<GuideProgress> guide_to_hits(const PreparedScene& prepared, const PathPilot& unguided,
                                              double best, IntegratorPrice& price) {
     if (price.integrator != Integrator::BDPT || price.efficiency * LARGEST_GAIN_OF_GUIDE <= best ||
-        !is_guide_promising(*prepared.planned, unguided))
+        !is_guide_promising(*prepared.planned, Integrator::BDPT, unguided))
         return nullptr;
     const auto guide = std::make_shared<GuideProgress>(first_guide(prepared, unguided));
     if (!guide->error)
@@ -270,9 +288,7 @@ std::shared_ptr<GuideProgress> guide_to_hits(const PreparedScene& prepared, cons
 void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             const std::vector<Candidate>& candidates, PreparedParts& parts, IntegratorChoice& choice) {
     const std::optional<int> asked = planned->options.transport.max_depth;
-    // Where lamps are behind slabs no guide was better, in the three rooms where one was tried.
-    const bool is_guided = planned->options.transport.guide == Toggle::AUTO && may_guide(planned->options) &&
-                           !has_slabs_before_lamps(planned->scene);
+    bool is_guided = false; // whether a guide of path is promising
     const std::optional<PathPilot> measured =
         is_measured_alone(*planned) ? choice.unguided : std::optional<PathPilot>();
     double best = WORTHWHILE_GAIN;
@@ -303,6 +319,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             const double rays = measured ? measured->rays : pilot.eye_rays;
             choice.unguided = PathPilot{price.path, rays, trimmed, pilot.mean};
             choice.prices.push_back({Integrator::PATH, price.path, price.path, rays});
+            is_guided = guides_path(*planned, *choice.unguided);
         }
         choice.prices.push_back(price);
         const PathPilot unguided{pilot.own, pilot.eye_rays, pilot.trimmed, pilot.mean};

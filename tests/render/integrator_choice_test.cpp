@@ -162,31 +162,54 @@ TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     EXPECT_LT(share, 2.1); // above 1: light paths are ended sooner than those from the eye
 }
 
+namespace {
+
+/// A lamp of this half side below a ceiling that it shines at, and a screen that is wider still below it.
+void add_screened_lamp(Box& box, double side) {
+    box.add_lamp(side);
+    const double w = side + 0.3;
+    box.build.use("matte").polygon({{-w, 2.7, -w}, {-w, 2.7, w}, {w, 2.7, w}, {w, 2.7, -w}});
+    box.build.polygon({{-2, 3.3, -2}, {2, 3.3, -2}, {2, 3.3, 2}, {-2, 3.3, 2}});
+}
+
+} // namespace
+
 // Light that comes round a wide screen: the wider, the less paths from both ends gain, and a guide is to be
-// had as well.
+// had as well if there is time for it.
 TEST(IntegratorChoice, WherePathMayBeGuidedBdptMustGainMore) {
     struct Case {
         double side;
         Toggle guide;
+        std::uint64_t spp;
         Integrator expected;
     };
     for (const Case& c :
-         {Case{0.8, Toggle::AUTO, Integrator::BDPT}, Case{1.35, Toggle::OFF, Integrator::BDPT},
-          Case{1.35, Toggle::AUTO, Integrator::PATH}}) {
+         {Case{0.8, Toggle::AUTO, 8192, Integrator::BDPT}, Case{1.35, Toggle::OFF, 8192, Integrator::BDPT},
+          Case{1.35, Toggle::AUTO, 8192, Integrator::PATH},
+          Case{1.35, Toggle::AUTO, 512, Integrator::BDPT}}) {
         Box box;
-        box.options.sampling.spp = 1024;
+        box.options.sampling.spp = c.spp;
         box.options.transport.guide = c.guide;
         box.options.transport.path_reuse = Toggle::OFF;
-        box.add_lamp(c.side);
-        const double w = c.side + 0.3;
-        box.build.use("matte").polygon({{-w, 2.7, -w}, {-w, 2.7, w}, {w, 2.7, w}, {w, 2.7, -w}});
-        box.build.polygon({{-2, 3.3, -2}, {2, 3.3, -2}, {2, 3.3, 2}, {-2, 3.3, 2}});
+        add_screened_lamp(box, c.side);
         const IntegratorChoice choice = box.choose().choice;
-        EXPECT_EQ(choice.integrator, c.expected) << c.side << ": " << choice.reason; // told 5.9, 2.4, 2.4
+        EXPECT_EQ(choice.integrator, c.expected) << c.side << ": " << choice.reason; // told 5.9, 2.4, ...
     }
 }
 
-// A tree chooses path's lights, and tables those of bdpt, whose pilot cannot tell what a tree gains.
+// The same light, as bdpt and paths that are reused find it: with a guide these are worth more than told.
+TEST(IntegratorChoice, WherePathMayBeGuidedAndReusedBdptMustGainMoreThanBoth) {
+    for (const Toggle guide : {Toggle::AUTO, Toggle::OFF}) {
+        Box box;
+        box.options.sampling.spp = 8192;
+        box.options.transport.guide = guide;
+        add_screened_lamp(box, 0.8);
+        const IntegratorChoice choice = box.choose().choice; // told 5.9 and 4.7
+        EXPECT_EQ(choice.integrator, guide == Toggle::AUTO ? Integrator::PATH : Integrator::BDPT)
+            << choice.reason;
+    }
+}
+
 // Pilots meet no such sun by way of water: path+light looks as good as bdpt, for less work.
 TEST(IntegratorChoice, BdptIsTakenForTheSakeOfItsGuide) {
     TestScene basin;
@@ -202,6 +225,7 @@ TEST(IntegratorChoice, BdptIsTakenForTheSakeOfItsGuide) {
     }
 }
 
+// A tree chooses path's lights, and tables those of bdpt, whose pilot cannot tell what a tree gains.
 TEST(IntegratorChoice, WhereATreeChoosesLightsAPilotOfPathsOwnTellsOfPath) {
     for (const bool has_several_lamps : {false, true}) {
         TestScene scene;
