@@ -148,12 +148,15 @@ void CompileAhead::expect(const ProgramRequest& request, const std::string& kern
                                  {"program", program_json(request)}};
     const std::lock_guard<std::mutex> lock(mutex_);
     try {
-        jobs_.push_back({request.name, program_text(request), json.dump()});
+        const std::string program = program_text(request);
+        if (std::any_of(jobs_.begin(), jobs_.end(), [&](const Job& job) { return job.program == program; }))
+            return;
+        jobs_.push_back({request.name, program, json.dump()});
     } catch (const nlohmann::json::type_error&) { // the cache's folder has a name that is no UTF-8
         return;
     }
     try {
-        if (workers_.size() < std::min<size_t>(processes_, jobs_.size()))
+        if (workers_.size() < std::min<size_t>(processes_ + 1, jobs_.size()))
             workers_.emplace_back([this] { work(); });
     } catch (const std::system_error&) { // no thread to be had: then it is compiled when it is wanted
     }
@@ -169,7 +172,10 @@ std::unique_ptr<CompileAhead::Turn> CompileAhead::take(const ProgramRequest& req
                 continue;
             if (job.stage == Stage::WAITING)
                 job.stage = Stage::DONE;
+            ++waiting_;
+            changed_.notify_all();
             changed_.wait(lock, [&] { return job.stage == Stage::DONE; });
+            --waiting_;
         }
     }
     return std::make_unique<Turn>(*this);
@@ -197,6 +203,7 @@ void CompileAhead::forget_all_but(const std::string& program) {
     for (Job& job : jobs_) {
         if (job.program == program)
             continue;
+        job.program.clear();
         if (job.stage == Stage::RUNNING)
             kill(job.process, SIGKILL);
         else
@@ -209,14 +216,14 @@ unsigned CompileAhead::started() const {
     return started_;
 }
 
-/// The next job, once somebody has compiled for long; null at the end.
+/// The next job, once somebody has compiled for long and a process may run; null at the end.
 CompileAhead::Job* CompileAhead::next_job(std::unique_lock<std::mutex>& lock) {
     while (!is_over_) {
         const auto now = std::chrono::steady_clock::now();
         is_needed_ = is_needed_ || (begun_ && now >= *begun_ + PATIENCE);
-        const auto job = std::find_if(jobs_.begin(), jobs_.end(),
+        const auto job = std::find_if(jobs_.rbegin(), jobs_.rend(),
                                       [](const Job& each) { return each.stage == Stage::WAITING; });
-        if (is_needed_ && job != jobs_.end())
+        if (is_needed_ && job != jobs_.rend() && running_ < processes_ + waiting_)
             return &*job;
         if (!is_needed_ && begun_)
             changed_.wait_until(lock, *begun_ + PATIENCE);
@@ -234,12 +241,14 @@ void CompileAhead::run(Job& job, std::unique_lock<std::mutex>& lock) {
     job.stage = job.process != 0 ? Stage::RUNNING : Stage::DONE;
     if (job.stage == Stage::RUNNING) {
         ++started_;
+        ++running_;
         lock.unlock();
         stream.close_end(1);
         send_text(stream.ends[0], job.text);
         stream.close_end(0);
         wait_for_end(job.process);
         lock.lock();
+        --running_;
         job.stage = Stage::DONE;
         int status = 0;
         waitpid(job.process, &status, 0);

@@ -24,14 +24,16 @@ namespace clrt {
 /// to be cached: it is compiled for long. Any thread may call. What is compiled decides about seconds only.
 class CompileAhead {
 public:
-    /// `helper`: the path of clrt-compile, of which at most so many processes run at once.
+    /// `helper`: the path of clrt-compile, of which at most so many processes run at once, and another in the
+    /// place of each thread that waits for one.
     CompileAhead(const DeviceInfo& device, std::string helper, unsigned processes);
     /// Ends the processes.
     ~CompileAhead();
     CompileAhead(const CompileAhead&) = delete;
     CompileAhead& operator=(const CompileAhead&) = delete;
 
-    /// Has a program compiled, and a kernel of it, after those that were expected before.
+    /// Has a program compiled, and a kernel of it, before those that were expected earlier and still wait:
+    /// what is known later is surer.
     void expect(const ProgramRequest& request, const std::string& kernel);
 
     /// While it lives, somebody compiles.
@@ -60,7 +62,7 @@ private:
     enum class Stage { WAITING, RUNNING, DONE };
     struct Job {
         std::string name;    ///< for messages
-        std::string program; ///< what take() knows it by
+        std::string program; ///< what it is known by; empty: it was forgotten
         std::string text;    ///< what the process reads
         Stage stage = Stage::WAITING;
         pid_t process = 0;
@@ -77,6 +79,8 @@ private:
     std::condition_variable changed_;
     std::list<Job> jobs_;                                        ///< grows only
     int builders_ = 0;                                           ///< that compile now
+    unsigned waiting_ = 0;                                       ///< for a process
+    unsigned running_ = 0;                                       ///< processes
     std::optional<std::chrono::steady_clock::time_point> begun_; ///< when the first of them began
     bool is_needed_ = false, is_over_ = false;
     unsigned started_ = 0;

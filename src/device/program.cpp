@@ -225,6 +225,7 @@ Program build_program(const Device& device, const ProgramRequest& request) {
         spdlog::debug("the compiler about the program {}:\n{}", request.name,
                       first_lines(program->log, LOG_LINES_SHOWN));
     program->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    spdlog::debug("the program {} was there after {:.1f} s", request.name, program->seconds);
     return std::move(*program);
 }
 

@@ -38,8 +38,8 @@ struct Candidate {
 constexpr Candidate CANDIDATES[] = {{Integrator::PATH_LIGHT, 1.35, 1, 0, 1.3, 1.7, 1.5},
                                     {Integrator::BDPT, 1.25, 1.2, 1, 1.3, 1.7, 1.5}};
 
-/// Squared relative error of one sample of path from which on others are tried where none is named. Below it
-/// light is found without them, caustics apart, which path+light finds as well as bdpt.
+/// Squared relative error of one sample of path, or of path+light, from which on others are tried where none
+/// is named. Below it light is found without them, caustics apart, which path+light finds as well as bdpt.
 constexpr double HARD_LIGHT_ERROR = 2;
 
 /// What is expected to gain less than this is not taken: pilots were up to a third off.
@@ -131,12 +131,23 @@ double smallest_gain(const IntegratorPrice& price, bool is_guided, const Options
     return rivals_guide ? WORTHWHILE_GAIN_OVER_GUIDE : WORTHWHILE_GAIN * gain_of_adaptive(options);
 }
 
-/// Has the plan rendered by an integrator, by paths as long as path's.
+/// The longest path of an integrator: as long as path's, where no length is asked for.
+std::optional<int> depth_of(Integrator integrator, std::optional<int> asked) {
+    return asked || integrator_row(integrator).depth.usual >= USUAL_PATH_DEPTH ? asked : USUAL_PATH_DEPTH;
+}
+
+/// Has the plan rendered by an integrator.
 void take(Integrator integrator, std::optional<int> asked, PlannedScene& planned) {
-    planned.options.transport.max_depth = asked;
-    if (!asked && integrator_row(integrator).depth.usual < USUAL_PATH_DEPTH)
-        planned.options.transport.max_depth = USUAL_PATH_DEPTH;
+    planned.options.transport.max_depth = depth_of(integrator, asked);
     take_integrator(integrator, planned);
+}
+
+/// Has the program of a candidate's pilot compiled ahead, for a plan that is path's still.
+void expect_pilot_of(Integrator candidate, const Device& device, const PlannedScene& planned) {
+    Options options = planned.options;
+    options.transport.integrator = candidate;
+    options.transport.max_depth = depth_of(candidate, options.transport.max_depth);
+    expect_pilot(device, planned, options);
 }
 
 /// Whether path finds the light by itself, as its pilot tells, and no other is asked about. Caustics it may
@@ -156,9 +167,11 @@ bool path_suffices(const Device& device, const std::shared_ptr<PlannedScene>& pl
 /// Whether the pilots so far have told that a candidate is not worth one, nor the program that is compiled
 /// for it.
 bool is_out(const Candidate& candidate, const Options& options, const IntegratorChoice& choice) {
+    const auto finds_light = [](const IntegratorPrice& price) {
+        return price.errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR;
+    };
     return candidate.integrator == Integrator::BDPT && options.transport.choose == Toggle::AUTO &&
-           !choice.prices.empty() &&
-           choice.prices[0].errors[size_t(ErrorMeasure::RELATIVE)] < HARD_LIGHT_ERROR;
+           std::any_of(choice.prices.begin(), choice.prices.end(), finds_light);
 }
 
 /// Whether path chooses lights by a tree, which candidates do without.
@@ -331,6 +344,7 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
             parts.guide = guide_to_hits(prepared, unguided, least, told);
         planned->options.run.pixel = pixel;
         if (told.efficiency > least || parts.guide) {
+            expect_program(device, *planned);
             best = std::max(told.efficiency, told.guided);
             chosen = choice.prices.size() - 1;
             choice.integrator = told.integrator;
@@ -341,8 +355,6 @@ void decide(const Device& device, const std::shared_ptr<PlannedScene>& planned,
     std::string reuse;
     if (choice.integrator != Integrator::PATH && choice.reason.empty() && best < most_of_path(*planned) &&
         !(guide && has_light_tree(*planned))) {
-        take(choice.integrator, asked, *planned);
-        expect_program(device, *planned);
         IntegratorPrice guided = choice.prices[chosen];
         guided.efficiency = best;
         reuse = try_path_again(device, planned, asked, is_guided, guide ? guided : choice.prices[chosen],
@@ -417,6 +429,17 @@ bool decide_by_facts(PlannedScene& planned, const std::vector<Candidate>& candid
 
 std::optional<PilotSize> pilot_size(const PlannedScene& planned) {
     return pilots_of(candidates_of(planned), planned);
+}
+
+void expect_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned) {
+    const std::vector<Candidate> candidates = candidates_of(*planned);
+    const Toggle wish = planned->options.transport.choose;
+    expect_program(device, *planned);
+    expect_reuse(device, planned);
+    IntegratorChoice facts;
+    const bool is_open = wish == Toggle::ON || (wish == Toggle::AUTO && may_try(candidates, *planned));
+    if (is_open && has_hard_caustics(*planned) && !decide_by_facts(*planned, candidates, facts))
+        expect_pilot_of(candidates[0].integrator, device, *planned);
 }
 
 IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<PlannedScene>& planned,

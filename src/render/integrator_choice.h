@@ -8,14 +8,14 @@
 // lamps behind slabs, which others do without, with a pilot of path's own, caustics apart: it hardly meets
 // them, and path+light's samples tell their noise, without what path is connected to through slabs. Where
 // none is named and the scene cannot have caustics but of slabs, path takes a pilot before them, and where
-// that finds the light no other is compiled; nor is bdpt where path+light's pilot tells that path finds it
-// but for caustics. Nor do candidates spend what path does on lamps behind slabs, beside other caustics too:
-// there that pilot tells path's work. What they are left with, light of such lamps that hits alone find, their
-// pilots tell by connections as path's: hits are too rare.
-// Work is counted in rays, each weighing what it was measured to cost, never in seconds: the same picture
-// comes out everywhere. The pilots' samples are dropped, so that the picture is, bit for bit, that of the
-// integrator by name, unless both differ over a guide: a pilot of a candidate judges here whether one is
-// worth it, a pilot of the integrator itself where it is named, and near the bound they need not agree.
+// that finds the light no other is compiled; nor is bdpt where path+light's pilot tells that it finds the
+// light, or path does but for caustics. Nor do candidates spend what path does on lamps behind slabs, beside
+// other caustics too: there that pilot tells path's work. What they are left with, light of such lamps that
+// hits alone find, their pilots tell by connections as path's: hits are too rare. Work is counted in rays,
+// each weighing what it was measured to cost, never in seconds: the same picture comes out everywhere. The
+// pilots' samples are dropped, so that the picture is, bit for bit, that of the integrator by name, unless
+// both differ over a guide: a pilot of a candidate judges here whether one is worth it, a pilot of the
+// integrator itself where it is named, and near the bound they need not agree.
 //
 // Where another one than path wins, path that reuses paths gets a pilot as well (render/reuse_choice.h), and
 // the plan is for that if it gains as much.
@@ -56,6 +56,9 @@ struct IntegratorChoice {
 
 /// Size of the pilots of a render; none where so small ones tell nothing.
 std::optional<PilotSize> pilot_size(const PlannedScene& planned);
+
+/// Has programs compiled ahead that choose_integrator will want, or whoever plans for what it chooses.
+void expect_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned);
 
 /// Chooses, unless an integrator is named, says so, and plans for what is chosen. `parts` are those of the
 /// plan that are there; what the pilots made and the render can use is added. Throws DeviceError,

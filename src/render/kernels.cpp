@@ -199,15 +199,15 @@ Program build_escape_program(const Device& device, const Options& options, Effec
                                               options, effects, layout));
 }
 
-Program build_pilot_program(const Device& device, const Options& options, EffectMask effects,
-                            BvhLayout layout, const PathPlan& paths) {
+ProgramRequest pilot_request(const Device& device, const Options& options, EffectMask effects,
+                             BvhLayout layout, const PathPlan& paths) {
     std::vector<std::string> defines = picture_defines(device, options, paths);
     defines.emplace_back("FILM_MOMENTS=1");
     ProgramRequest request =
         launched_request(device, kernel_files(options.device.kernels_folder),
                          integrator_stem(options.transport.integrator), options, effects, layout, defines);
     request.name += PILOT_ENDING;
-    return build_program(device, request);
+    return request;
 }
 
 Program build_replay_program(const Device& device, const Options& options, Precision precision,

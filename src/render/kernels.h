@@ -66,9 +66,10 @@ RenderPrograms build_render_programs(const Device& device, const Options& option
 Program build_escape_program(const Device& device, const Options& options, EffectMask effects,
                              BvhLayout layout);
 
-/// Compiles path+light so that it sums the moments of its samples (kernels/film/moments.h).
-Program build_pilot_program(const Device& device, const Options& options, EffectMask effects,
-                            BvhLayout layout, const PathPlan& paths);
+/// The same integrator, path+light or bdpt, so that it sums the moments of its samples
+/// (kernels/film/moments.h).
+ProgramRequest pilot_request(const Device& device, const Options& options, EffectMask effects,
+                             BvhLayout layout, const PathPlan& paths);
 
 /// Compiles the same integrator so that it records what single samples do (kernels/trace), in a precision of
 /// its own.

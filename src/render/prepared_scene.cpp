@@ -32,6 +32,15 @@ ProgramRequest planned_guide(const Device& device, const PlannedScene& planned) 
                           planned.effects.paths);
 }
 
+ProgramRequest planned_pilot(const Device& device, const PlannedScene& planned, const Options& options,
+                             PathPlan paths) {
+    // It tells of path, which may find what the integrator at hand does not.
+    Options of_path = options;
+    of_path.transport.integrator = Integrator::PATH;
+    paths.are_lamps_behind_slabs = finds_lamps_behind_slabs(planned.scene, of_path);
+    return pilot_request(device, options, planned.effects.mask, layout_of(device.info, planned), paths);
+}
+
 } // namespace
 
 std::shared_ptr<const SceneTree> plan_tree(const DeviceInfo& device, const PlannedScene& planned) {
@@ -49,6 +58,12 @@ void expect_program(const Device& device, const PlannedScene& planned, bool is_g
         return;
     device.ahead->expect(is_guided ? planned_guide(device, planned) : planned_picture(device, planned),
                          integrator_kernel(planned.options.transport.integrator));
+}
+
+void expect_pilot(const Device& device, const PlannedScene& planned, const Options& options) {
+    if (device.ahead && !planned.effects.paths.is_empty)
+        device.ahead->expect(planned_pilot(device, planned, options, plan_paths(planned.scene, options)),
+                             integrator_kernel(options.transport.integrator));
 }
 
 std::shared_ptr<const RenderPrograms> plan_programs(const Device& device, const PlannedScene& planned) {
@@ -93,13 +108,8 @@ Program build_escape_program(const PreparedScene& prepared) {
 
 Program build_pilot_program(const PreparedScene& prepared) {
     const PlannedScene& planned = *prepared.planned;
-    // It tells of path, which may find what the integrator at hand does not.
-    Options of_path = planned.options;
-    of_path.transport.integrator = Integrator::PATH;
-    PathPlan paths = planned.effects.paths;
-    paths.are_lamps_behind_slabs = finds_lamps_behind_slabs(planned.scene, of_path);
-    return build_pilot_program(prepared.device, planned.options, planned.effects.mask,
-                               prepared.tree->bvh.layout, paths);
+    return build_program(prepared.device,
+                         planned_pilot(prepared.device, planned, planned.options, planned.effects.paths));
 }
 
 Program build_replay_program(const PreparedScene& prepared, Precision precision) {

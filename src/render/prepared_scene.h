@@ -51,6 +51,9 @@ std::shared_ptr<const SceneTree> plan_tree(const DeviceInfo& device, const Plann
 /// Has the program of the picture compiled ahead, or the one that guides its paths, if the device does so.
 void expect_program(const Device& device, const PlannedScene& planned, bool is_guided = false);
 
+/// Likewise the program of a pilot (render/pilot.h). `options`: the plan's, but of the pilot's integrator.
+void expect_pilot(const Device& device, const PlannedScene& planned, const Options& options);
+
 /// Of all that is compiled ahead so far, nothing but the program of the picture is wanted any more.
 void expect_no_other(const Device& device, const PlannedScene& planned);
 
@@ -72,7 +75,7 @@ Program build_guided_program(const PreparedScene& prepared);
 /// Compiles what finds ways out of the scene.
 Program build_escape_program(const PreparedScene& prepared);
 
-/// Compiles path+light, which the scene is planned for, so that it sums the moments of its samples.
+/// Compiles the integrator, path+light or bdpt, so that it sums the moments of its samples.
 Program build_pilot_program(const PreparedScene& prepared);
 
 /// Compiles the same integrator so that it records what single samples do, in a precision of its own.

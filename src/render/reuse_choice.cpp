@@ -65,14 +65,12 @@ std::optional<PilotSize> size_of_path_pilots(const PlannedScene& planned) {
     return size ? std::optional(in_tiles(*size)) : std::nullopt;
 }
 
-void expect_path_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned) {
-    Toggle& reuse = planned->options.transport.path_reuse;
-    if (is_open(*planned)) {
-        reuse = Toggle::ON;
-        expect_program(device, *planned);
-        reuse = Toggle::AUTO;
-    }
+void expect_reuse(const Device& device, const std::shared_ptr<PlannedScene>& planned) {
+    if (!is_open(*planned))
+        return;
+    planned->options.transport.path_reuse = Toggle::ON;
     expect_program(device, *planned);
+    planned->options.transport.path_reuse = Toggle::AUTO;
 }
 
 PreparedScene prepare_path_pilot(const Device& device, const std::shared_ptr<PlannedScene>& planned,

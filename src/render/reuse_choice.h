@@ -26,9 +26,8 @@ struct ReusePilots {
     double gain = 0; ///< of squared error times work by reuse; 0 where a signal stops them
 };
 
-/// Has the programs compiled ahead that a plan of path will probably want: with reuse where that is open, and
-/// without.
-void expect_path_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned);
+/// Has the program compiled ahead that a plan of path will want first: with reuse, where that is open.
+void expect_reuse(const Device& device, const std::shared_ptr<PlannedScene>& planned);
 
 /// Prepares a plan of path for pilots. Where reuse is open they are rendered by programs that reuse paths
 /// where they are told to (PATHS_ARE_SHARED), so that pilots with and without it, and the picture

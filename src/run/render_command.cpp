@@ -194,7 +194,7 @@ std::optional<PathPilot> unguided_pilot(const Job& job, const std::optional<Reus
 void choose_by_pilots(Job& job, Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     const Device& device = job.devices.front();
-    expect_path_programs(device, job.planned);
+    expect_programs(device, job.planned);
     choose_portals(device, job.planned, job.parts, progress);
     job.choice = choose_integrator(device, job.planned, job.parts, progress);
     const bool is_other_sky = choose_sky_table(device, job.planned, job.parts, progress);

@@ -71,6 +71,23 @@ TEST_F(CompileAheadTest, WhoWantsAProgramWaitsForTheProcessThatCompilesIt) {
     EXPECT_TRUE(is_done());
 }
 
+// Who waits for a process leaves a processor idle.
+TEST_F(CompileAheadTest, AnotherProcessRunsInThePlaceOfAThreadThatWaits) {
+    CompileAhead ahead({}, helper("sleep 2"), 1);
+    ahead.expect(program("other"), "render");
+    ahead.expect(program("next"), "render");
+    ahead.expect(program("next"), "render"); // as it is already
+    {
+        const auto turn = ahead.take(program("first"));
+        EXPECT_TRUE(comes_true([&] { return ahead.started() == 1; }));
+        std::this_thread::sleep_for(200ms);
+        EXPECT_EQ(ahead.started(), 1u);
+    }
+    ahead.take(program("next")); // expected last, begun first
+    EXPECT_TRUE(is_done());
+    EXPECT_EQ(ahead.started(), 2u);
+}
+
 TEST_F(CompileAheadTest, NothingIsStartedWhereProgramsAreCached) {
     CompileAhead ahead({}, helper(""), 1);
     ahead.expect(program("next"), "render");

@@ -10,6 +10,18 @@
 
 namespace clrt {
 
+namespace {
+
+/// A lamp of this half side below a ceiling that it shines at, and a screen that is wider still below it.
+void add_screened_lamp(Box& box, double side) {
+    box.add_lamp(side);
+    const double w = side + 0.3;
+    box.build.use("matte").polygon({{-w, 2.7, -w}, {-w, 2.7, w}, {w, 2.7, w}, {w, 2.7, -w}});
+    box.build.polygon({{-2, 3.3, -2}, {2, 3.3, -2}, {2, 3.3, 2}, {-2, 3.3, 2}});
+}
+
+} // namespace
+
 TEST(IntegratorChoice, CausticsAreLeftToLightPaths) {
     Box box;
     box.add_caustic();
@@ -108,16 +120,25 @@ TEST(IntegratorChoice, LightBehindAScreenIsLeftToPathsFromBothEnds) {
 }
 
 TEST(IntegratorChoice, WhereNoneIsNamedOthersAreTriedWherePathMayNotSuffice) {
-    for (const bool is_hard : {false, true}) {
+    struct Case {
+        const char* light;
+        Integrator expected;
+        size_t prices; // path's among them
+    };
+    for (const Case& c : {Case{"lamp", Integrator::PATH, 0}, Case{"caustic", Integrator::PATH_LIGHT, 2},
+                          Case{"screened", Integrator::BDPT, 3}}) {
         Box box;
         box.options.transport.choose = Toggle::AUTO;
-        box.add_lamp(is_hard ? 0.05 : 1.2);
-        if (is_hard)
+        if (c.light == std::string("screened"))
+            add_screened_lamp(box, 0.2);
+        else
+            box.add_lamp(c.prices == 0 ? 1.2 : 0.05);
+        if (c.prices > 0)
             box.add_glass(); // whose caustics so short a pilot of path would hardly find
         const Chosen chosen = box.choose();
-        EXPECT_EQ(chosen.choice.integrator, is_hard ? Integrator::PATH_LIGHT : Integrator::PATH);
-        EXPECT_EQ(chosen.choice.is_told, is_hard) << chosen.choice.reason;
-        EXPECT_EQ(chosen.choice.prices.size(), is_hard ? 3u : 0u);
+        EXPECT_EQ(chosen.choice.integrator, c.expected) << c.light;
+        EXPECT_EQ(chosen.choice.is_told, c.prices > 0) << chosen.choice.reason;
+        EXPECT_EQ(chosen.choice.prices.size(), c.prices) << chosen.choice.reason;
         EXPECT_TRUE(chosen.parts.tree) << "path's pilot has one";
         const std::uint32_t spp = *box.options.sampling.spp;
         box.options.run.given["--first-sample"] = ""; // a part, which is to be as the others
@@ -161,18 +182,6 @@ TEST(IntegratorChoice, InnerConnectionsTellWhatPathsFromTheEyeSeldomMeet) {
     EXPECT_GT(share, 1.4); // 1.70; less than this without the excess of what inner connections find
     EXPECT_LT(share, 2.1); // above 1: light paths are ended sooner than those from the eye
 }
-
-namespace {
-
-/// A lamp of this half side below a ceiling that it shines at, and a screen that is wider still below it.
-void add_screened_lamp(Box& box, double side) {
-    box.add_lamp(side);
-    const double w = side + 0.3;
-    box.build.use("matte").polygon({{-w, 2.7, -w}, {-w, 2.7, w}, {w, 2.7, w}, {w, 2.7, -w}});
-    box.build.polygon({{-2, 3.3, -2}, {2, 3.3, -2}, {2, 3.3, 2}, {-2, 3.3, 2}});
-}
-
-} // namespace
 
 // Light that comes round a wide screen: the wider, the less paths from both ends gain, and a guide is to be
 // had as well if there is time for it.
