@@ -8,6 +8,9 @@
 // (Grittmann, Yazici, Georgiev, Slusallek 2022). So light paths tell the variance of light that paths from
 // the eye meet too seldom to tell it themselves, and the noise of the comparison is common to both.
 //
+// Roulette ends light paths that are connected to paths from the eye sooner than path ends its own: that they
+// are rarer by this must not look as if path were noisier (path/roulette.h).
+//
 // What one path from the eye gathers at several vertices is correlated. If y_i is what it would gather at a
 // vertex by hits and next-event estimation alone, and x_i = (1 - w_i) y_i what it does, its part of the
 // second moment without the others is

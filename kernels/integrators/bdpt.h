@@ -40,7 +40,10 @@ static CLRT_NOINLINE void bdpt_connect(const Scene* scene, const RenderParams* p
     vertex_add(scene, throughput * connection.light * share, &sample->radiance);
     bdpt_book(params, light_vertices_segment(&kept->at[chosen]) + 1u, segment + 1u, sample);
 #if FILM_MOMENTS
-    moments_connect(throughput * connection.light * (share / ways), ways, connection.excess,
+    const KeptVertex* light = &kept->at[chosen];
+    const real rarity = roulette_rarity(segment + light_vertices_segment(light) + 1u, params->roulette_depth,
+                                        vector_max_component(throughput), light->size, light->survived);
+    moments_connect(throughput * connection.light * (share / ways), ways, connection.excess * rarity,
                     &sample->moments);
 #endif
 }

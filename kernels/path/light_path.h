@@ -49,6 +49,7 @@ typedef struct {
 #endif
 #if FILM_MOMENTS
     SplatWeights alone; /* the same without inner connections */
+    real survived;      /* the probability with which roulette has let it live so far */
 #endif
 } LightPath;
 
@@ -86,6 +87,9 @@ static inline bool light_path_begin(const Scene* scene, const RenderParams* para
     if (HAS(EFFECT_NESTED) && !path->emission.is_distant)
         visible_find_nest(scene, params, &path->ray);
     path->throughput = (real3)(REAL(1.0));
+#if FILM_MOMENTS
+    path->survived = REAL(1.0);
+#endif
 #if PATH_GUIDE
     path->is_specular = true;
 #endif
@@ -114,6 +118,14 @@ static inline real light_path_nan_of(const CameraConnection* camera)
         nan += real_is_nan(numbers[i]) ? numbers[i] : REAL(0.0);
     return nan;
 }
+
+#if FILM_MOMENTS
+/* Its throughput without roulette. */
+static inline real light_path_size(const LightPath* path)
+{
+    return vector_max_component(path->throughput) * path->survived;
+}
+#endif
 
 /* What a vertex sends to the camera: radiance as one of a pass's light paths brings it, and where to. */
 typedef struct {
@@ -167,6 +179,8 @@ static CLRT_NOINLINE bool light_path_connect(const Scene* scene, const RenderPar
     arriving->slot = slot;
     arriving->excess = (REAL(1.0) + splat_rivals(params, vertex, wi, camera.pdf_a, &path->weights)) /
                        splat_rivals(params, vertex, wi, camera.pdf_a, &path->alone);
+    arriving->excess *= roulette_rarity(segment + 1u, params->roulette_depth, REAL(1.0),
+                                        light_path_size(path), path->survived);
 #endif
     return true;
 }
@@ -203,6 +217,9 @@ static inline bool light_path_survives(const Scene* scene, const RenderParams* p
     const bool survives = !(sampler_number(&path->sampler, segment, SAMPLE_ROULETTE) >= survival);
     TRACE_CHOICE(scene, TRACE_SURVIVES, survives ? 1u : 0u);
     path->throughput /= survival;
+#if FILM_MOMENTS
+    path->survived *= survival;
+#endif
     return survives;
 }
 
@@ -331,6 +348,8 @@ static inline void light_path_keep(uint segment, const Hit* hit, const LightPath
     kept->weights = path->weights;
 #if FILM_MOMENTS
     kept->alone = path->alone;
+    kept->survived = path->survived;
+    kept->size = light_path_size(path);
 #endif
 }
 

@@ -33,6 +33,7 @@ typedef struct {
     SplatWeights weights; /* of the path up to the vertex */
 #if FILM_MOMENTS
     SplatWeights alone; /* the same without inner connections */
+    real survived, size; /* the probability of surviving roulette up to here, and the throughput without */
 #endif
 } KeptVertex;
 

@@ -21,4 +21,15 @@ static inline real roulette_survival(real weight)
     return clamp(weight / ROULETTE_THRESHOLD, ROULETTE_SMALLEST_SURVIVAL, REAL(1.0));
 }
 
+/* How much rarer a light path's roulette makes a path of `segments` than that of path would, which ends none
+   of at most `depth` segments. Survivors keep the threshold's weight, so that all that path has survived goes
+   by what it would weigh without. `eye`: its weight where the light path is connected to it; `ahead`: what the
+   light path has kept without roulette; `survived`: the probability of that. */
+static inline real roulette_rarity(uint segments, uint depth, real eye, real ahead, real survived)
+{
+    const real alone = segments > depth ? clamp(eye * ahead / ROULETTE_THRESHOLD, REAL(1e-3), REAL(1.0))
+                                        : REAL(1.0);
+    return survived / alone;
+}
+
 #endif

@@ -44,14 +44,10 @@ constexpr double HARD_LIGHT_ERROR = 2;
 
 /// What is expected to gain less than this is not taken: pilots were up to a third off.
 constexpr double WORTHWHILE_GAIN = 1.1;
-/// The same of bdpt where a guide of path is promising. With it, or by reusing paths, path is 1.2 to 4 times
-/// as efficient there, which no pilot so small can tell. It said 3.2 of a door ajar and 2.7 of a stairwell,
-/// where .7 and 1.6 of what path came to were true; 5.1, 6.5 and 12 of hidden strips and of lamps in shades,
-/// where 4.9, 9 and 5 were; and less than 1 of what is lit from the sky.
-constexpr double WORTHWHILE_GAIN_OVER_GUIDE = 4;
-
-/// What a guide adds to reusing paths, where it is promising beside that: 1 to 1.8 in two rooms.
-constexpr double GAIN_OF_GUIDE_BESIDE_REUSE = 1.8;
+/// The same of bdpt where a guide of path is promising. With it path is 1.2 to 4 times as efficient there,
+/// which no pilot so small can tell: of a door ajar one says 1.8 and of a corridor that is lit round a
+/// corner 2.4.
+constexpr double WORTHWHILE_GAIN_OVER_GUIDE = 2.4;
 
 /// What path gains by samples that --adaptive has taken where they count, by ErrorMeasure; others take them
 /// evenly. It was 1.2 to 3.4 by mse and 1.2 to 1.7 by relative in a Cornell box, over spheres on a plane and
@@ -230,15 +226,6 @@ bool guides_path(const PlannedScene& planned, const PathPilot& unguided) {
     return !has_slabs_before_lamps(planned.scene) && is_guide_promising(planned, Integrator::PATH, unguided);
 }
 
-/// What path gains that reuses paths, over what pilots tell of that, where a guide may add to it: over bdpt,
-/// which is not guided to the same light.
-double gain_of_guide(PlannedScene& planned, const PathPilot& reusing, Integrator rival) {
-    const Toggle reuse = std::exchange(planned.options.transport.path_reuse, Toggle::ON);
-    const bool is_guided = rival == Integrator::BDPT && guides_path(planned, reusing);
-    planned.options.transport.path_reuse = reuse;
-    return is_guided ? GAIN_OF_GUIDE_BESIDE_REUSE : 1;
-}
-
 /// Goes back from the chosen candidate to path where reusing paths gains as much there, by pilots, or where
 /// these find path better than was told; says what they tell of reuse, or nothing. Path is planned then and
 /// `parts` are its own.
@@ -256,8 +243,7 @@ std::string try_path_again(const Device& device, const std::shared_ptr<PlannedSc
         return "";
     if (is_measured_alone(*planned))
         measure(pilots->alone, choice.caustics, options, price);
-    const double guided = gain * gain_of_guide(*planned, pilots->reusing, price.integrator);
-    const bool reuses = guided * gain_of_adaptive(options) >= price.efficiency;
+    const bool reuses = gain * gain_of_adaptive(options) >= price.efficiency;
     if (reuses || price.efficiency <= smallest_gain(price, is_guided, options)) {
         choice.integrator = Integrator::PATH;
         choice.unguided.reset();

@@ -320,6 +320,8 @@ FAULTS = [
      "bdpt_test"),
     ("inner connections through walls", "integrators/bdpt.h", "slab_straight_share(scene, params, &connection.shadow)", "REAL(1.0)", "bdpt_test"),
     ("the depth of each end alone bounded", "integrators/bdpt.h", "params->max_depth - 1u - segment", "params->max_depth", "bdpt_test"),
+    ("roulette of light paths taken for path's", "integrators/bdpt.h", "connection.excess * rarity", "connection.excess",
+     "integrator_choice_test"),
     ("inner connections without their excess", "film/moments.h", "moments->shared -= light * light * (count * fmin(excess, MOMENT_RIVALLED));",
      "", "integrator_choice_test"),
     ("the power of a kept vertex without its throughput", "path/light_path.h", "path->emission.power * path->throughput, vertices",
