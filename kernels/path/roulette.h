@@ -14,6 +14,9 @@
 /* Nothing survives with less than this: a weight grows at most twentyfold. */
 #define ROULETTE_SMALLEST_SURVIVAL REAL(0.05)
 
+/* The least probability of surviving many times that roulette_rarity tells apart. */
+#define ROULETTE_SMALLEST_IN_ALL REAL(1e-3)
+
 /* The probability with which a path of this weight survives. `weight`: of what it may still find, over that
    of what it could find when it set out. */
 static inline real roulette_survival(real weight)
@@ -27,8 +30,8 @@ static inline real roulette_survival(real weight)
    light path has kept without roulette; `survived`: the probability of that. */
 static inline real roulette_rarity(uint segments, uint depth, real eye, real ahead, real survived)
 {
-    const real alone = segments > depth ? clamp(eye * ahead / ROULETTE_THRESHOLD, REAL(1e-3), REAL(1.0))
-                                        : REAL(1.0);
+    const real in_all = clamp(eye * ahead / ROULETTE_THRESHOLD, ROULETTE_SMALLEST_IN_ALL, REAL(1.0));
+    const real alone = segments > depth ? in_all : REAL(1.0);
     return survived / alone;
 }
 

@@ -418,6 +418,8 @@ std::optional<PilotSize> pilot_size(const PlannedScene& planned) {
 }
 
 void expect_programs(const Device& device, const std::shared_ptr<PlannedScene>& planned) {
+    if (!device.ahead)
+        return;
     const std::vector<Candidate> candidates = candidates_of(*planned);
     const Toggle wish = planned->options.transport.choose;
     expect_program(device, *planned);
