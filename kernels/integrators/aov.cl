@@ -59,6 +59,9 @@ static CLRT_NOINLINE void aov_sample(const Scene* scene, const RenderParams* par
     aov_add(sums->values + AOV_ALBEDO, bsdf_albedo(&bsdf));
     aov_add(sums->values + AOV_NORMAL, bsdf.frame.z);
     aov_add(sums->values + AOV_POSITION, surface.position);
+    if (HAS(EFFECT_AREA_LIGHT) && surface.emitter != NO_INDEX)
+        sums->values[AOV_EMISSION] += aov_fixed(
+            vector_luminance(carried * material_emitted(scene, &surface, wo)) / (real)AOV_EMISSION_UNIT);
     const uint object = surface_object(scene, &hit);
     if (sums->words[AOV_HITS]++ == 0u) {
         sums->words[AOV_OBJECT] = object;

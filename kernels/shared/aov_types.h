@@ -12,7 +12,8 @@ SHARED_BEGIN
 #define AOV_ALBEDO 0u   /* r, g, b */
 #define AOV_NORMAL 3u   /* x, y, z: for shading, unit */
 #define AOV_POSITION 6u /* x, y, z: normalised frame, within 2 of its origin; on a ground within 64 */
-#define AOV_SUMS 9u
+#define AOV_EMISSION 9u /* luminance that is emitted towards the camera, over AOV_EMISSION_UNIT */
+#define AOV_SUMS 10u
 
 /* 32-bit words. */
 #define AOV_HITS 0u     /* samples that hit something */
@@ -36,6 +37,8 @@ SHARED_BEGIN
    fit, more than a film of 64 replicates holds. */
 #define AOV_BITS 31
 #define AOV_LARGEST 64
+/* Of emission: lamps are bright, and faint ones count for nothing. */
+#define AOV_EMISSION_UNIT 65536
 
 SHARED_END
 

@@ -9,7 +9,8 @@ namespace clrt {
 
 namespace {
 
-/// Pixels around each one whose squared errors decide for it, and among which choices blend.
+/// Pixels around each one whose squared errors decide for it, and among which choices blend: of those that
+/// are lit as it is, so that the rim of a lamp does not decide for the wall beside it.
 constexpr int DECIDING_RADIUS = 24, BLENDING_RADIUS = 2;
 /// The same of DenoisedHalf::expected: as few as tell the rim of a lamp from what is beside it.
 constexpr int EXPECTING_RADIUS = 3;
@@ -39,7 +40,7 @@ DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<Denois
     for (const DenoiseCandidate& candidate : candidates)
         errors.push_back(squared_errors(candidate.quarter, half.quarter));
     for (const Pixels& of_candidate : errors)
-        deciding.push_back(smooth_binomial(of_candidate, half.width, half.height, 1, DECIDING_RADIUS));
+        deciding.push_back(smooth_alike(of_candidate, half.lit, half.width, half.height, 1, DECIDING_RADIUS));
 
     // Take the least error at every pixel.
     Pixels shares(count * pixels, 0.0f); // of every candidate in each pixel
@@ -52,7 +53,7 @@ DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<Denois
     }
 
     // Blend between the pixels.
-    shares = smooth_binomial(shares, half.width, half.height, int(count), BLENDING_RADIUS);
+    shares = smooth_alike(shares, half.lit, half.width, half.height, int(count), BLENDING_RADIUS);
     DenoisedHalf result;
     result.radiance.resize(half.mean.size());
     for (Pixels* values : {&result.expected, &result.noisy})

@@ -23,7 +23,7 @@ struct DenoisedHalf {
 };
 
 /// Takes of the candidates and the half itself, which is the first one, what has the least squared error
-/// around each pixel, by what each quarter tells of the other one's result.
+/// around each pixel, by what each quarter tells of the other one's result. Lit pixels decide for lit ones.
 DenoisedHalf choose_candidates(const HalfPicture& half, const std::vector<DenoiseCandidate>& candidates);
 
 } // namespace clrt

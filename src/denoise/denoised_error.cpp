@@ -25,6 +25,8 @@ struct SquaredErrors {
     std::vector<size_t> pixels; ///< in order
     std::vector<double> raw, denoised;
     std::vector<double> expected; ///< by which the worst are told: larger is worse
+    std::vector<size_t> blocks;   ///< of the film's squares of pixels, that which each one is in
+    size_t block_count = 0;
 };
 
 /// The mean of (f - x_k)(f - x_l) over pairs k != l of `count` values.
@@ -65,6 +67,15 @@ Pixels expected_errors(const Film& film, const std::array<DenoisedHalf, 2>& halv
     return expected;
 }
 
+/// Finds which of the film's blocks each pixel is in.
+void find_blocks(const Film& film, SquaredErrors& errors) {
+    const size_t side = size_t(std::max(film.block, 1)), width = size_t(film.width);
+    const size_t across = (width + side - 1) / side;
+    errors.block_count = across * ((size_t(film.height) + side - 1) / side);
+    for (const size_t pixel : errors.pixels)
+        errors.blocks.push_back(pixel / width / side * across + pixel % width / side);
+}
+
 SquaredErrors measure_pixels(const Film& film, const std::array<DenoisedHalf, 2>& halves,
                              const PixelChoice& choice, const ErrorWeights& weights) {
     const ReplicateMeans replicates(film);
@@ -73,6 +84,7 @@ SquaredErrors measure_pixels(const Film& film, const std::array<DenoisedHalf, 2>
     for (size_t pixel = 0; pixel < film_plane(film) / 3; ++pixel)
         if (choice.has(pixel))
             errors.pixels.push_back(pixel);
+    find_blocks(film, errors);
     for (std::vector<double>* values : {&errors.raw, &errors.denoised, &errors.expected})
         values->resize(errors.pixels.size());
     tbb::parallel_for(size_t(0), errors.pixels.size(), [&](size_t n) {
@@ -115,8 +127,11 @@ DenoisedError errors_over(const SquaredErrors& errors, const std::vector<size_t>
         sum += errors.denoised[n];
     }
     const double count = double(chosen.size()), values = 3 * count;
-    for (const size_t n : chosen) {
-        const double square = std::pow(errors.denoised[n] - sum / count, 2);
+    std::vector<double> deviations(errors.block_count, 0.0);
+    for (const size_t n : chosen)
+        deviations[errors.blocks[n]] += errors.denoised[n] - sum / count;
+    for (const double deviation : deviations) {
+        const double square = deviation * deviation;
         squares += square;
         fourths += square * square;
     }

@@ -10,8 +10,9 @@
 //     |m - t|^2 = (|f_A - t|^2 + |f_B - t|^2) / 2 - |f_A - f_B|^2 / 4,
 //
 // of which the last term is known: the estimate has no bias. |f_A - f_B| alone sees what noise is left, not
-// what is smeared. The pixels' estimates are taken as a sample, which gives the interval of their mean, 95 %
-// by Student's distribution. Few pixels often decide, such as the rim of a lamp: the degrees of freedom are
+// what is smeared. The pixels' estimates, or where paths serve several pixels those of the film's blocks
+// (film/film_error.h), are taken as a sample, which gives the interval of their mean, 95 % by Student's
+// distribution. Few pixels often decide, such as the rim of a lamp: the degrees of freedom are
 // those of the sum of squared deviations, (sum of squares)^2 / sum of fourth powers (Satterthwaite 1946), 2
 // to 5 on pictures of 64 x 48 pixels of the Cornell box and a caustic, where 1.96 standard errors hold 87 %
 // of the errors and the interval holds 94 %. It is wider than it would have to be where the error itself

@@ -21,6 +21,10 @@ constexpr int GUIDE_RADIUS = 2;
 /// A launch has this many work-items or fewer, so that no watchdog fires.
 constexpr size_t LARGEST_LAUNCH = size_t(1) << 18;
 
+/// Added to the share of the samples that hit something where a pixel is lit, so that it looks like none that
+/// is not.
+constexpr float APART = 8;
+
 /// Rows of the regression (denoise_types.h).
 std::vector<float> make_rows(const HalfPicture& half) {
     const size_t pixels = half.mean.size() / 3, width = size_t(half.width);
@@ -31,7 +35,7 @@ std::vector<float> make_rows(const HalfPicture& half) {
         row[DENOISE_PLACE + 1] = float(pixel / width) / DENOISE_RADIUS;
         std::copy_n(&half.albedo[3 * pixel], 3, row + DENOISE_ALBEDO);
         std::copy_n(&half.normal[3 * pixel], 3, row + DENOISE_NORMAL);
-        row[DENOISE_SHARE] = half.share[pixel];
+        row[DENOISE_SHARE] = half.share[pixel] + (half.lit[pixel] ? APART : 0);
         std::copy_n(&half.quarter[0][3 * pixel], 3, row + DENOISE_COLOURS);
         std::copy_n(&half.quarter[1][3 * pixel], 3, row + DENOISE_COLOURS + 3);
     }
@@ -76,8 +80,9 @@ std::vector<vec4> make_guide(const HalfPicture& half, size_t quarter) {
         const float difference = half.quarter[0][i] - half.quarter[1][i];
         variance[i / 3] += 0.5f * difference * difference;
     }
-    variance = smooth_binomial(variance, half.width, half.height, 1, 2 * GUIDE_RADIUS);
-    const Pixels colour = smooth_binomial(half.quarter[quarter], half.width, half.height, 3, GUIDE_RADIUS);
+    variance = smooth_alike(variance, half.lit, half.width, half.height, 1, 2 * GUIDE_RADIUS);
+    const Pixels colour =
+        smooth_alike(half.quarter[quarter], half.lit, half.width, half.height, 3, GUIDE_RADIUS);
     const float left = float(binomial_variance(GUIDE_RADIUS));
     std::vector<vec4> guide(pixels);
     for (size_t pixel = 0; pixel < pixels; ++pixel)

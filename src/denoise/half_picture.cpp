@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "denoise/half_picture.h"
 
+#include "colour.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace clrt {
 
 namespace {
+
+/// Part of a pixel's luminance from which on what its primary hits emit is most of it.
+constexpr double LIT_SHARE = 0.5;
 
 /// The mean of replicates [begin, end).
 float mean_of(const std::vector<double>& replicates, size_t begin, size_t end) {
@@ -38,6 +43,7 @@ void read_features(const Film& film, const HitSums& hits, size_t half, HalfPictu
     for (Pixels* of_three : {&picture.albedo, &picture.normal, &picture.position})
         of_three->resize(3 * pixels);
     picture.share.resize(pixels);
+    picture.lit.resize(pixels);
     tbb::parallel_for(size_t(0), pixels, [&](size_t pixel) {
         const PixelHits seen = pixel_hits_of_half(hits, film, half, pixel);
         const glm::dvec3 albedo = seen.share * seen.mean(AOV_ALBEDO);
@@ -49,6 +55,9 @@ void read_features(const Film& film, const HitSums& hits, size_t half, HalfPictu
             picture.position[3 * pixel + size_t(c)] = float(position[c]);
         }
         picture.share[pixel] = float(seen.share);
+        const double emitted = seen.share * seen.means[AOV_EMISSION] * AOV_EMISSION_UNIT;
+        const float* mean = &picture.mean[3 * pixel];
+        picture.lit[pixel] = emitted > 0 && emitted >= LIT_SHARE * luminance({mean[0], mean[1], mean[2]});
     });
 }
 

@@ -53,6 +53,26 @@ Pixels smooth_binomial(const Pixels& values, int width, int height, int channels
     return twice;
 }
 
+Pixels smooth_alike(const Pixels& values, const std::vector<char>& kinds, int width, int height, int channels,
+                    int radius) {
+    if (std::find(kinds.begin(), kinds.end(), 1) == kinds.end())
+        return smooth_binomial(values, width, height, channels, radius);
+    const size_t across = size_t(channels);
+    Pixels result(values.size());
+    for (const char kind : {0, 1}) {
+        Pixels of_kind(values.size(), 0.0f), counted(kinds.size(), 0.0f);
+        for (size_t i = 0; i < values.size(); ++i)
+            if (kinds[i / across] == kind)
+                of_kind[i] = values[i], counted[i / across] = 1;
+        of_kind = smooth_binomial(of_kind, width, height, channels, radius);
+        counted = smooth_binomial(counted, width, height, 1, radius);
+        for (size_t i = 0; i < values.size(); ++i)
+            if (kinds[i / across] == kind)
+                result[i] = of_kind[i] / counted[i / across];
+    }
+    return result;
+}
+
 double binomial_variance(int radius) {
     double sum = 0;
     for (const double weight : binomial_weights(radius))

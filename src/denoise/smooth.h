@@ -11,6 +11,10 @@ namespace clrt {
 /// double in a fixed order: the same bits everywhere.
 Pixels smooth_binomial(const Pixels& values, int width, int height, int channels, int radius);
 
+/// The same over the pixels of each one's own kind, 0 or 1.
+Pixels smooth_alike(const Pixels& values, const std::vector<char>& kinds, int width, int height, int channels,
+                    int radius);
+
 /// The sum of the squares of those weights within the picture: the variance of a mean of independent pixels
 /// over that of one.
 double binomial_variance(int radius);

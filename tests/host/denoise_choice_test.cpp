@@ -27,6 +27,7 @@ HalfPicture noisy_half(double deviation) {
     half.width = WIDTH;
     half.height = HEIGHT;
     half.mean.resize(3 * WIDTH * HEIGHT);
+    half.lit.assign(WIDTH * HEIGHT, 0);
     for (Pixels& quarter : half.quarter)
         for (size_t i = 0; i < half.mean.size(); ++i)
             quarter.push_back(float(truth(i / 3) + noise(random)));
@@ -80,6 +81,34 @@ TEST(DenoiseChoice, WhatIsExpectedIsTheErrorOnFlatParts) {
     for (const float expected : chosen.expected)
         mean += double(expected) / double(chosen.expected.size());
     EXPECT_NEAR(mean, 3 * 0.2 * 0.2 / 2, 0.003) << "the variance of the mean of two, in three channels";
+}
+
+TEST(DenoiseChoice, LampsDecideForNoOtherPixel) {
+    HalfPicture half = noisy_half(0.2);
+    const DenoiseCandidate wall = smoothed(half, 6);
+    const size_t lamp = 16 * WIDTH + 8; // on the flat part
+    half.lit[lamp] = 1;
+    for (size_t i = 3 * lamp; i < 3 * lamp + 3; ++i)
+        half.quarter[0][i] = 900, half.quarter[1][i] = 1100, half.mean[i] = 1000;
+    const DenoisedHalf chosen = choose_candidates(half, {wall});
+    EXPECT_EQ(chosen.radiance[3 * lamp], 1000);
+    EXPECT_EQ(chosen.noisy[lamp], 1);
+    for (const size_t beside : {lamp - 1, lamp + 1, lamp - WIDTH, lamp + WIDTH}) {
+        EXPECT_EQ(chosen.noisy[beside], 0);
+        EXPECT_FLOAT_EQ(chosen.radiance[3 * beside], wall.half[3 * beside]);
+    }
+}
+
+TEST(SmoothBinomial, MixesNoKinds) {
+    Pixels values(WIDTH * HEIGHT, 2.5f);
+    std::vector<char> kinds(values.size(), 0);
+    for (const size_t pixel : {size_t(0), size_t(10 * WIDTH + 20), size_t(10 * WIDTH + 21)})
+        values[pixel] = 1e6f, kinds[pixel] = 1;
+    const Pixels smooth = smooth_alike(values, kinds, WIDTH, HEIGHT, 1, 2);
+    for (size_t pixel = 0; pixel < smooth.size(); ++pixel)
+        EXPECT_FLOAT_EQ(smooth[pixel], values[pixel]);
+    kinds.assign(values.size(), 0);
+    EXPECT_EQ(smooth_alike(values, kinds, WIDTH, HEIGHT, 1, 2), smooth_binomial(values, WIDTH, HEIGHT, 1, 2));
 }
 
 TEST(SmoothBinomial, KeepsConstantsAndLowersVarianceAsItSays) {

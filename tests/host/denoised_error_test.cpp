@@ -154,6 +154,33 @@ TEST(DenoisedError, HoldsWhereFewPixelsDecide) {
     EXPECT_GE(held, 0.9 * 2 * TRIALS) << "1.96 standard errors hold 0.86";
 }
 
+TEST(DenoisedError, HoldsWherePixelsOfABlockHaveOneNoise) {
+    // As where paths serve all pixels of a tile.
+    constexpr int SIDE = 4;
+    NoisyPictures pictures(4);
+    pictures.film.block = SIDE;
+    const size_t plane = pictures.truth.size();
+    int held = 0;
+    for (int trial = 0; trial < 2 * TRIALS; ++trial) {
+        pictures.fill();
+        for (size_t i = 0; i < pictures.film.sums.size(); ++i) {
+            const size_t value = i % plane, x = value / 3 % WIDTH, y = value / 3 / WIDTH;
+            const size_t first = 3 * (y / SIDE * SIDE * WIDTH + x / SIDE * SIDE) + value % 3;
+            const double noise = double(pictures.film.sums[i - value + first]) / pictures.truth[first];
+            if (value > first)
+                pictures.film.sums[i] = std::llround(noise * pictures.truth[value]);
+        }
+        const std::array halves = {pictures.smoothed_half(0, 1), pictures.smoothed_half(1, 1)};
+        const DenoisedError error = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
+        const double mean = film_squared_error(pictures.film)->mean_radiance;
+        const double own =
+            std::sqrt(true_square(pictures, halves)) * std::abs(mean_of(pictures.truth) / mean);
+        held += error.low <= own && own <= error.high;
+    }
+    std::printf("held %d of %d\n", held, 2 * TRIALS);
+    EXPECT_GE(held, 0.92 * 2 * TRIALS);
+}
+
 TEST(DenoisedError, IsNeverNoneByNoiseAlone) {
     // Replicates of a half that lie on both sides of what the other half says make its squared error
     // negative.

@@ -35,6 +35,7 @@ HalfPicture wall() {
             half.normal.insert(half.normal.end(), {0, 0, 1});
             half.position.insert(half.position.end(), {0.01f * float(x), 0.01f * float(y), 0});
             half.share.push_back(1);
+            half.lit.push_back(0);
         }
     return half;
 }
@@ -133,6 +134,18 @@ TEST(DenoiseFilter, BrightNoiseDoesNotSpreadToWhatIsDark) {
         for (int x = 20; x < 32; ++x)
             error = std::max(error, std::abs(double(filtered[size_t(3 * (y * WIDTH + x))]) - 1));
     EXPECT_LT(error, 0.05) << "0.12 by the larger noise of two pixels";
+}
+
+TEST(DenoiseFilter, LampsDoNotSpread) {
+    HalfPicture half = wall();
+    const auto is_lamp = [](int x, int y) { return x >= 18 && x < 21 && y >= 10 && y < 12; };
+    shine(half, 0.02, [&](int x, int y, int) { return is_lamp(x, y) ? 300.0 + 100 * x : 1.0; });
+    for (int i = 0; i < WIDTH * HEIGHT; ++i)
+        half.lit[size_t(i)] = is_lamp(i % WIDTH, i / WIDTH);
+    for (const DenoiseCandidate& candidate : filter().candidates(half))
+        for (int i = 0; i < WIDTH * HEIGHT; ++i)
+            if (!half.lit[size_t(i)])
+                ASSERT_NEAR(candidate.half[size_t(3 * i)], 1, 0.05) << i % WIDTH << ", " << i / WIDTH;
 }
 
 TEST(DenoiseFilter, SurfacesAtOtherDepthsAreOthers) {

@@ -13,7 +13,7 @@ namespace clrt {
 
 namespace {
 
-constexpr int SEEDS = 12;
+constexpr int SEEDS = 16;
 constexpr std::uint32_t SPP = 32, REFERENCE_SPP = 1024, REFERENCE_SEED = 1000;
 
 /// A room with a lamp in view, a block, and a mirror.
@@ -141,6 +141,26 @@ TEST_F(DenoiseRender, EndsWhereTheDenoisedErrorIsReachedAndIsHonest) {
         EXPECT_EQ(denoised(picture).radiance, picture.denoised->radiance) << "of the film that is left";
     }
     EXPECT_EQ(early, 0);
+}
+
+TEST_F(DenoiseRender, LampsStayAsTheyWereRendered) {
+    const Render render = this->render(1, SPP, Denoiser::FILTER);
+    const std::vector<char> first = half_picture(render.film, render.hits, 0).lit,
+                            second = half_picture(render.film, render.hits, 1).lit;
+    const std::vector<float> raw = film_mean(render.film);
+    const Pixels smooth = denoised(render).radiance;
+    size_t lit = 0, smoothed = 0;
+    for (size_t pixel = 0; pixel < first.size(); ++pixel) {
+        if (first[pixel] && second[pixel]) {
+            ++lit;
+            EXPECT_NEAR(smooth[3 * pixel], raw[3 * pixel], 1e-5 * double(raw[3 * pixel])) << pixel;
+            EXPECT_GT(raw[3 * pixel], 0.5) << pixel;
+        } else
+            smoothed += smooth[3 * pixel] != raw[3 * pixel];
+    }
+    EXPECT_GT(lit, first.size() / 100);
+    EXPECT_LT(lit, first.size() / 4);
+    EXPECT_GT(smoothed, first.size() / 2);
 }
 
 TEST_F(DenoiseRender, StatesItsError) {
