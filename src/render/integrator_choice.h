@@ -24,23 +24,13 @@
 #pragma once
 
 #include "console/progress.h"
-#include "render/pilot.h"
+#include "render/integrator_price.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace clrt {
-
-/// What pilots say of an integrator, a sample a pixel.
-struct IntegratorPrice {
-    Integrator integrator = Integrator::PATH;
-    SquaredErrors errors{}; ///< squared, by ErrorMeasure
-    SquaredErrors path{};   ///< those of path, by the same samples or by path's own pilot, caustics apart
-    double work = 0;        ///< in rays of path
-    double efficiency = 1;  ///< 1 / (squared error times work), path's being 1
-    double guided = 0;      ///< bdpt's with a guide that a pilot has judged; 0: none has
-};
 
 /// Which integrator renders, and why.
 struct IntegratorChoice {
