@@ -343,6 +343,7 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
     const std::vector<Candidate> candidates = candidates_of(*planned);
     if (wish == Toggle::AUTO && !may_try(candidates, *planned))
         return choice;
+    choice.integrator = Integrator::PATH; // until another is found better
     choice.is_told = wish == Toggle::ON;
     if (decide_by_facts(*planned, candidates, choice))
         take_integrator(choice.integrator, *planned);
