@@ -64,6 +64,14 @@ double chosen_exposure_ev(const OutputOptions& options, const std::vector<float>
     return options.auto_exposure ? rounded(auto_exposure_ev(rgb) + options.exposure_ev) : options.exposure_ev;
 }
 
+std::string exposure_hint(const std::vector<float>& rgb) {
+    const double stops = auto_exposure_ev(rgb);
+    if (!(std::abs(stops) >= STRIKING_STOPS))
+        return "";
+    return fmt::format("8-bit pictures come out {}: --exposure auto would show this one with {:+g} stops",
+                       stops > 0 ? "dark" : "bright", stops);
+}
+
 std::string exposure_notice(double exposure_ev) {
     return fmt::format("exposure by the picture's tones: --exposure {:g}", exposure_ev);
 }

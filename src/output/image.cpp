@@ -74,6 +74,11 @@ bool is_layered_output(const std::string& path) {
     return kind_of(path) == Kind::EXR;
 }
 
+bool is_display_output(const std::string& path) {
+    const Kind kind = kind_of(path);
+    return kind == Kind::PNG || kind == Kind::DISPLAY;
+}
+
 bool can_hold_alpha(const std::string& path) {
     const std::string format = output_format(path);
     return format == "png" || format == "tga" || format == "tif" || format == "tiff" || format == "exr";

@@ -56,6 +56,9 @@ void check_output_path(const std::string& path);
 /// Whether such a picture holds layers beside the picture itself.
 bool is_layered_output(const std::string& path);
 
+/// Whether such a picture has 8 bits, with exposure and tone map.
+bool is_display_output(const std::string& path);
+
 /// Whether such a picture holds the coverage of --background transparent: unassociated alpha, but for EXR.
 bool can_hold_alpha(const std::string& path);
 

@@ -53,6 +53,18 @@ Picture picture_within_memory(const Report& report, FinalFiles& files) {
     }
 }
 
+/// Says which stops were chosen, or which would show a picture of which as it is little is seen.
+void tell_exposure(const Report& report, const std::vector<float>& rgb) {
+    const Options& options = report.options;
+    const std::vector<std::string>& files = options.output.files;
+    if (options.output.auto_exposure)
+        spdlog::info("{}", exposure_notice(report.exposure_ev));
+    else if (options.run.given.count("--exposure") == 0 &&
+             std::any_of(files.begin(), files.end(), is_display_output))
+        if (const std::string hint = exposure_hint(rgb); !hint.empty())
+            spdlog::info("{}", hint);
+}
+
 } // namespace
 
 std::string output_name(const std::string& name, const Options& options, const Film& film) {
@@ -93,8 +105,7 @@ void write_outputs(Report& report, FinalFiles& files) {
     Picture picture = picture_within_memory(report, files);
     report.exposure_ev = chosen_exposure_ev(options.output, picture.layers[picture.displayed].values);
     picture.metadata = report_metadata(report);
-    if (options.output.auto_exposure)
-        spdlog::info("{}", exposure_notice(report.exposure_ev));
+    tell_exposure(report, picture.layers[picture.displayed].values);
     warn_of_lost_alpha(picture, options.output.files);
     const Film& film = report.render.film;
     for (const std::string& name : options.output.files) {

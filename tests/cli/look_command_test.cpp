@@ -61,6 +61,22 @@ TEST_F(LookCommand, AutoExposureIsSaidAsAFlagThatGivesTheSamePicture) {
               2);
 }
 
+TEST_F(LookCommand, WhereLittleIsSeenStopsAreOffered) {
+    folder.write("dim.mtl", "newmtl glow\nKd 0 0 0\nKe 0.005 0.005 0.005\n");
+    folder.write("dim.obj",
+                 "mtllib dim.mtl\nusemtl glow\nv -9 0 9\nv 9 0 9\nv 9 0 -9\nv -9 0 -9\nf 1 2 3 4\n");
+    const auto dim = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {"dim.obj", "--eye", "0,3,0", "--at", "0,0,0", "--up", "z"});
+        return clrt(quick(arguments)).err;
+    };
+    const std::string hint =
+        "8-bit pictures come out dark: --exposure auto would show this one with +5.17 stops";
+    EXPECT_TRUE(holds(dim({"-o", "a.png"}), {hint}));
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"-o", "a.exr"}, {"-o", "a.png", "--exposure", "0"}, {"-o", "a.png", "-q"}})
+        EXPECT_EQ(dim(arguments).find("8-bit pictures"), std::string::npos);
+}
+
 TEST_F(LookCommand, ClayKeepsLightAndCoverageAndNothingElse) {
     write_room();
     folder.write("scene.clrt", "--eye 0,1.2,6\n--material clay\n");

@@ -80,6 +80,17 @@ TEST(AutoExposure, BlackBackdropsFirefliesAndOddNumbersCountForNothing) {
     EXPECT_EQ(auto_exposure_ev({}), 0);
 }
 
+TEST(AutoExposure, AHintSaysWhereLittleIsSeen) {
+    EXPECT_EQ(exposure_hint(greys({0.18})), "");
+    EXPECT_EQ(exposure_hint(greys({0.18 / 7})), "") << "a dim room is one";
+    EXPECT_EQ(exposure_hint(greys({0.18 * 7})), "");
+    EXPECT_EQ(exposure_hint(greys({0, 0})), "") << "that it is black is said elsewhere";
+    EXPECT_EQ(exposure_hint(greys({0.18 / 16})),
+              "8-bit pictures come out dark: --exposure auto would show this one with +4 stops");
+    EXPECT_EQ(exposure_hint(greys({0.18 * 32})),
+              "8-bit pictures come out bright: --exposure auto would show this one with -5 stops");
+}
+
 TEST(AutoExposure, ItIsAWholeNumberOfHundredthsToWhichStopsAreAdded) {
     const std::vector<float> rgb = greys(even_tones(-6.1234, 2));
     OutputOptions options;
