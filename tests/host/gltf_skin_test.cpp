@@ -62,6 +62,16 @@ TEST(GltfSkin, VerticesFollowTheirJointsAndNotTheirNode) {
     expect_near(file.corner(2), {7, 2.5, 0});
 }
 
+TEST(GltfSkin, InstancesOfASkinnedMeshAreSaidAndLeftOut) {
+    SkinnedFile file;
+    EXPECT_FALSE(ReadGltf(file.glb()).notes("EXT_mesh_gpu_instancing"));
+    Json& places = file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    places["TRANSLATION"] = file.add<float>({1, 0, 0, 2, 0, 0}, "VEC3", 3);
+    const ReadGltf read(file.glb());
+    EXPECT_EQ(read.mesh().triangles.size(), 1u);
+    EXPECT_TRUE(read.notes("EXT_mesh_gpu_instancing is ignored where a skin places the mesh"));
+}
+
 TEST(GltfSkin, NormalsTurnWithTheJoints) {
     SkinnedFile file; // a quarter turn about x, around the place where it was bound: +z becomes -y
     file.json["nodes"][2]["rotation"] = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)};

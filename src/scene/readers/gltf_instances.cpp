@@ -203,9 +203,12 @@ std::vector<GltfInstance> find_gltf_instances(const std::vector<GltfNode>& nodes
         mesh.object_names.push_back(node.name.empty() ? shape.text("name") : node.name);
         const std::optional<JsonValue> extensions = node.json.find("extensions");
         const auto places = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-        if (node.json.find("skin")) // in the world's frame already
+        if (const auto skin = node.json.find("skin")) { // in the world's frame already
             add({primitives, glm::dmat4(1), object});
-        else if (!places)
+            if (places)
+                context.notices.add("EXT_mesh_gpu_instancing is ignored where a skin places the mesh",
+                                    skin->place());
+        } else if (!places)
             add({primitives, node.world, object});
         else
             for (const glm::dmat4& place : gpu_instances(*places, buffers))
