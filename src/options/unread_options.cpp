@@ -43,6 +43,9 @@ std::vector<std::string> unread_options(const Options& options) {
     if (is_on_command_line(options, "--env-scale") && !light.environment && light.environment_file.empty() &&
         !light.sky)
         unread.emplace_back("--env-scale changes nothing: there is no --env or --sky");
+    const CameraOptions& camera = options.camera;
+    if (is_on_command_line(options, "--camera") && (camera.eye || camera.at || camera.view))
+        unread.emplace_back("--camera changes nothing: --eye, --at or --view place the camera");
     return unread;
 }
 

@@ -44,4 +44,15 @@ TEST(UnreadOptions, AnEnvironmentMustBeThereToBeTurned) {
     EXPECT_THAT(unread_options(parse({"--sky", "30,0", "--env-scale", "2"})), IsEmpty());
 }
 
+TEST(UnreadOptions, ACameraThatIsPlacedIsNoneOfTheFile) {
+    EXPECT_THAT(unread_options(parse({"--camera", "1"})), IsEmpty());
+    for (const std::vector<std::string>& place :
+         {std::vector<std::string>{"--eye", "1,2,3"}, {"--view", "front"}})
+        EXPECT_THAT(unread_options(parse({"--camera", "1", place[0], place[1]})),
+                    ElementsAre("--camera changes nothing: --eye, --at or --view place the camera"));
+    Options options = parse({"--camera", "1", "--at", "0,0,0"});
+    options.run.given["--camera"] = "scene.clrt:3";
+    EXPECT_THAT(unread_options(options), IsEmpty());
+}
+
 } // namespace clrt
