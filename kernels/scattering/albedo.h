@@ -63,17 +63,30 @@ static inline real albedo_block(constant ushort* codes, uint first, uint slice, 
                       z.part);
 }
 
-/* The coordinate of a cosine: c^(3/4) with c = cos (1 + alpha) / (cos + alpha). */
-static inline real albedo_cosine(real cos_w, real alpha)
+/* A cosine beside a roughness alpha. */
+typedef struct {
+    real cosine, alpha;
+    real inverse; /* 1 / (cosine + alpha) */
+} AlbedoAngle;
+
+static inline AlbedoAngle albedo_angle(const AlbedoRoughness* rough, real3 w)
 {
-    const real root = real_sqrt(cos_w * (REAL(1.0) + alpha) / (cos_w + alpha));
+    const real cosine = fmin(fabs(w.z), REAL(1.0));
+    const AlbedoAngle angle = {cosine, rough->alpha, REAL(1.0) / (cosine + rough->alpha)};
+    return angle;
+}
+
+/* Its coordinate: c^(3/4) with c = cos (1 + alpha) / (cos + alpha). */
+static inline real albedo_coordinate(const AlbedoAngle* angle)
+{
+    const real root = real_sqrt(angle->cosine * (REAL(1.0) + angle->alpha) * angle->inverse);
     return root * real_sqrt(root);
 }
 
 /* h -> the loss z^2 h with z = alpha / (cos + alpha). */
-static inline real albedo_loss(real h, real cos_w, real alpha)
+static inline real albedo_loss(real h, const AlbedoAngle* angle)
 {
-    const real z = alpha / (cos_w + alpha);
+    const real z = angle->alpha * angle->inverse;
     return z * z * h;
 }
 
@@ -95,11 +108,11 @@ static inline AlbedoRoughness albedo_roughness(real alpha_x, real alpha_y)
 }
 
 /* Loss and Schlick's part from h, k and the cosine. */
-static inline Albedo albedo_of(real h, real k, real cos_w, real alpha)
+static inline Albedo albedo_of(real h, real k, const AlbedoAngle* angle)
 {
     Albedo albedo;
-    albedo.loss = albedo_loss(h, cos_w, alpha);
-    const real m = clamp(REAL(1.0) - fma(alpha, k, cos_w), REAL(0.0), REAL(1.0));
+    albedo.loss = albedo_loss(h, angle);
+    const real m = clamp(REAL(1.0) - fma(angle->alpha, k, angle->cosine), REAL(0.0), REAL(1.0));
     const real m2 = m * m;
     albedo.schlick = (REAL(1.0) - albedo.loss) * (m2 * m2 * m);
     return albedo;
@@ -109,7 +122,7 @@ static inline Albedo albedo_of(real h, real k, real cos_w, real alpha)
    azimuth. */
 static CLRT_NOINLINE Albedo albedo_stretched(const AlbedoRoughness* rough, real3 w)
 {
-    const real cos_w = fmin(fabs(w.z), REAL(1.0));
+    const AlbedoAngle angle = albedo_angle(rough, w);
     const real across = fma(w.x, w.x, w.y * w.y);
     const real wide = rough->wide * (rough->is_wide_x ? w.x : w.y);
     const real narrow = rough->narrow * (rough->is_wide_x ? w.y : w.x);
@@ -120,7 +133,7 @@ static CLRT_NOINLINE Albedo albedo_stretched(const AlbedoRoughness* rough, real3
     const AlbedoPlace spread =
         albedo_place((along - rough->narrow) / (rough->wide - rough->narrow), ALBEDO_STRETCHED_SPREADS);
     const AlbedoPlace y = albedo_place(rough->root, ALBEDO_STRETCHED_ALPHAS);
-    const AlbedoPlace x = albedo_place(albedo_cosine(cos_w, rough->alpha), ALBEDO_STRETCHED_COSINES);
+    const AlbedoPlace x = albedo_place(albedo_coordinate(&angle), ALBEDO_STRETCHED_COSINES);
     const uint row = ALBEDO_STRETCHED_COSINES, slice = row * ALBEDO_STRETCHED_ALPHAS;
     const uint block = slice * ALBEDO_STRETCHED_SPREADS;
     const uint first = aspect.node * block + spread.node * slice + y.node * row + x.node;
@@ -131,7 +144,28 @@ static CLRT_NOINLINE Albedo albedo_stretched(const AlbedoRoughness* rough, real3
         albedo_mix(albedo_block(ALBEDO_STRETCHED_K, first, slice, row, spread, y, x),
                    albedo_block(ALBEDO_STRETCHED_K, first + block, slice, row, spread, y, x), aspect.part);
     return albedo_of(fma(h, ALBEDO_STRETCHED_H_STEP, ALBEDO_STRETCHED_H_LOW),
-                     fma(k, ALBEDO_STRETCHED_K_STEP, ALBEDO_STRETCHED_K_LOW), cos_w, rough->alpha);
+                     fma(k, ALBEDO_STRETCHED_K_STEP, ALBEDO_STRETCHED_K_LOW), &angle);
+}
+
+/* Where in the tables of round facets an angle is. */
+typedef struct {
+    uint first;
+    AlbedoPlace y, x;
+} AlbedoCell;
+
+static inline AlbedoCell albedo_cell(const AlbedoRoughness* rough, const AlbedoAngle* angle)
+{
+    AlbedoCell cell;
+    cell.y = albedo_place(rough->root, ALBEDO_REFLECTION_ALPHAS);
+    cell.x = albedo_place(albedo_coordinate(angle), ALBEDO_REFLECTION_COSINES);
+    cell.first = cell.y.node * ALBEDO_REFLECTION_COSINES + cell.x.node;
+    return cell;
+}
+
+static inline real albedo_reflection_h(const AlbedoCell* cell)
+{
+    return fma(albedo_plane(ALBEDO_REFLECTION_H, cell->first, ALBEDO_REFLECTION_COSINES, cell->y, cell->x),
+               ALBEDO_REFLECTION_H_STEP, ALBEDO_REFLECTION_H_LOW);
 }
 
 /* Reflection of light from a local direction. */
@@ -139,16 +173,22 @@ static inline Albedo albedo_reflection(const AlbedoRoughness* rough, real3 w)
 {
     if (rough->aspect != REAL(0.0))
         return albedo_stretched(rough, w);
-    const real cos_w = fmin(fabs(w.z), REAL(1.0));
-    const AlbedoPlace y = albedo_place(rough->root, ALBEDO_REFLECTION_ALPHAS);
-    const AlbedoPlace x = albedo_place(albedo_cosine(cos_w, rough->alpha), ALBEDO_REFLECTION_COSINES);
+    const AlbedoAngle angle = albedo_angle(rough, w);
+    const AlbedoCell cell = albedo_cell(rough, &angle);
     const uint row = ALBEDO_REFLECTION_COSINES;
-    const uint first = y.node * row + x.node;
-    return albedo_of(fma(albedo_plane(ALBEDO_REFLECTION_H, first, row, y, x), ALBEDO_REFLECTION_H_STEP,
-                         ALBEDO_REFLECTION_H_LOW),
-                     fma(albedo_plane(ALBEDO_REFLECTION_K, first, row, y, x), ALBEDO_REFLECTION_K_STEP,
-                         ALBEDO_REFLECTION_K_LOW),
-                     cos_w, rough->alpha);
+    const real k = fma(albedo_plane(ALBEDO_REFLECTION_K, cell.first, row, cell.y, cell.x),
+                       ALBEDO_REFLECTION_K_STEP, ALBEDO_REFLECTION_K_LOW);
+    return albedo_of(albedo_reflection_h(&cell), k, &angle);
+}
+
+/* The loss alone. */
+static inline real albedo_reflection_loss(const AlbedoRoughness* rough, real3 w)
+{
+    if (rough->aspect != REAL(0.0))
+        return albedo_stretched(rough, w).loss;
+    const AlbedoAngle angle = albedo_angle(rough, w);
+    const AlbedoCell cell = albedo_cell(rough, &angle);
+    return albedo_loss(albedo_reflection_h(&cell), &angle);
 }
 
 /* Interpolates means along alpha, and along alpha and another axis. */
@@ -198,7 +238,8 @@ static inline real albedo_dielectric_loss(const AlbedoRoughness* rough, real eta
 {
     const AlbedoPlace z = albedo_place(albedo_contrast(eta), ALBEDO_DIELECTRIC_CONTRASTS);
     const AlbedoPlace y = albedo_place(rough->root, ALBEDO_DIELECTRIC_ALPHAS);
-    const AlbedoPlace x = albedo_place(albedo_cosine(cos_w, rough->alpha), ALBEDO_DIELECTRIC_COSINES);
+    const AlbedoAngle angle = {cos_w, rough->alpha, REAL(1.0) / (cos_w + rough->alpha)};
+    const AlbedoPlace x = albedo_place(albedo_coordinate(&angle), ALBEDO_DIELECTRIC_COSINES);
     const uint row = ALBEDO_DIELECTRIC_COSINES, slice = row * ALBEDO_DIELECTRIC_ALPHAS;
     const uint first = z.node * slice + y.node * row + x.node;
     const real h = eta > REAL(1.0) ? fma(albedo_block(ALBEDO_INSIDE_H, first, slice, row, z, y, x),
@@ -206,7 +247,7 @@ static inline real albedo_dielectric_loss(const AlbedoRoughness* rough, real eta
                                    : fma(albedo_block(ALBEDO_OUTSIDE_H, first, slice, row, z, y, x),
                                          ALBEDO_OUTSIDE_H_STEP, ALBEDO_OUTSIDE_H_LOW);
     const real excess = z.node == 0u ? ALBEDO_DIELECTRIC_EXCESS * (REAL(1.0) - z.part) : REAL(0.0);
-    return albedo_loss(h, cos_w, rough->alpha) * (REAL(1.0) - excess);
+    return albedo_loss(h, &angle) * (REAL(1.0) - excess);
 }
 
 /* Its mean. */

@@ -74,11 +74,25 @@ static inline bool bsdf_sides_agree(const Bsdf* bsdf, real3 wi_world, real3 wi)
     return bsdf_reflects(bsdf, wi_world) == (wi.z > REAL(0.0));
 }
 
+/* The matte lobe and the rough reflection that it is coupled to, by one albedo of both. */
+static inline void bsdf_add_coupled(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
+{
+    const Albedo albedo = bsdf_energy_albedo(bsdf, wi);
+    sum->value += bsdf_matte_uncoupled(bsdf, wi) * bsdf_energy_coupling_by(bsdf, albedo);
+    sum->pdf_w += bsdf->choose[LOBE_ROW_MATTE] * bsdf_matte_pdf_w(wi);
+    bsdf_glossy_add_by(bsdf, albedo.loss, wi, sum);
+}
+
 /* Sum of some of the lobes, as if nothing covered them, and their share of the mixture's density; wi local,
    sides already compared. */
 static inline BsdfValue bsdf_eval_uncovered(const Bsdf* bsdf, uint lobes, real3 wi)
 {
     BsdfValue sum = bsdf_value_none();
+    const uint coupled = LOBE_MATTE | LOBE_GLOSSY;
+    if (HAS(EFFECT_GLOSSY) && (lobes & coupled) == coupled && bsdf_energy_is_coupled(bsdf)) {
+        bsdf_add_coupled(bsdf, wi, &sum);
+        lobes &= ~coupled;
+    }
 #define ADD_VALUE(NAME, name, effect, letters, delta_letters, absent)                                        \
     if (BSDF_HAS(lobes, NAME, effect))                                                                       \
         bsdf_##name##_add(bsdf, wi, &sum);

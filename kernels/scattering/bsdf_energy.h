@@ -81,10 +81,16 @@ static inline bool bsdf_energy_is_coupled(const Bsdf* bsdf)
     return HAS(EFFECT_GLOSSY | EFFECT_MIRROR) && (bsdf->flags & BSDF_COUPLED);
 }
 
-/* What the reflection above leaves of the matte lobe towards wi. */
+/* What the reflection above, of which this is the albedo towards wi, leaves of the matte lobe. */
+static inline real3 bsdf_energy_coupling_by(const Bsdf* bsdf, Albedo albedo)
+{
+    return bsdf->passing * bsdf_energy_passing(bsdf, albedo);
+}
+
+/* The same where it is not known. */
 static inline real3 bsdf_energy_coupling(const Bsdf* bsdf, real3 wi)
 {
-    return bsdf->passing * bsdf_energy_passing(bsdf, bsdf_energy_albedo(bsdf, wi));
+    return bsdf_energy_coupling_by(bsdf, bsdf_energy_albedo(bsdf, wi));
 }
 
 /* True if this rough lobe holds the light of more than one facet: where glass is as rough as the reflection
@@ -104,10 +110,17 @@ static inline real bsdf_energy_multiple_choice(const Bsdf* bsdf, uint lobe)
     return bsdf_energy_has_multiple(bsdf, lobe) ? bsdf->choose_multiple : REAL(0.0);
 }
 
-/* Light that leaves by way of opaque lobes after more than one facet: BSDF times cos_i, for wi.z > 0. */
+/* Light that leaves by way of opaque lobes after more than one facet: BSDF times cos_i, for wi.z > 0, where
+   the loss is L(wi). */
+static inline real3 bsdf_energy_multiple_by(const Bsdf* bsdf, real loss, real3 wi)
+{
+    return bsdf->multiple * (loss * wi.z * REAL_INVERSE_PI);
+}
+
+/* The same where it is not known. */
 static inline real3 bsdf_energy_multiple_reflection(const Bsdf* bsdf, real3 wi)
 {
-    return bsdf->multiple * (albedo_reflection(&bsdf->rough, wi).loss * wi.z * REAL_INVERSE_PI);
+    return bsdf_energy_multiple_by(bsdf, albedo_reflection_loss(&bsdf->rough, wi), wi);
 }
 
 /* By way of the glass, and of the reflection beside it: BSDF times |cos_i|. */
@@ -116,7 +129,7 @@ static inline real3 bsdf_energy_multiple_glass(const Bsdf* bsdf, real3 wi)
     const real cos_i = fabs(wi.z);
     real loss;
     if (HAS(EFFECT_THIN_WALL) && (bsdf->lobes & LOBE_PANE))
-        loss = albedo_reflection(&bsdf->rough, wi).loss;
+        loss = albedo_reflection_loss(&bsdf->rough, wi);
     else {
         const real eta = wi.z > REAL(0.0) ? bsdf->eta : REAL(1.0) / bsdf->eta;
         loss = albedo_dielectric_loss(&bsdf->rough, eta, fmin(cos_i, REAL(1.0)));
@@ -133,6 +146,32 @@ static inline real3 bsdf_energy_multiple_glass(const Bsdf* bsdf, real3 wi)
 static inline real3 bsdf_energy_multiple_sample(real2 u) { return warp_hemisphere(u); }
 
 static inline real bsdf_energy_multiple_pdf_w(void) { return warp_hemisphere_pdf_w(); }
+
+/* What is needed of the reflection's albedo: without a matte lobe below it the loss alone. */
+static inline Albedo bsdf_energy_needed_albedo(const Bsdf* bsdf, bool is_coupled, real3 w)
+{
+    if (is_coupled)
+        return bsdf_energy_albedo(bsdf, w);
+    Albedo albedo;
+    albedo.loss = albedo_reflection_loss(&bsdf->rough, w);
+    albedo.schlick = REAL(0.0);
+    return albedo;
+}
+
+/* The sizes of what the matte lobe and several facets reflect towards a direction with this albedo, once the
+   rest is set. */
+static inline real bsdf_energy_matte_size(const Bsdf* bsdf, Albedo albedo)
+{
+    if (!bsdf_energy_is_coupled(bsdf))
+        return bsdf->matte_size;
+    const real3 left = ((real3)(REAL(1.0)) - bsdf->specular) * bsdf_energy_passing(bsdf, albedo);
+    return vector_color_size(bsdf->matte * left);
+}
+
+static inline real bsdf_energy_multiple_size(const Bsdf* bsdf, Albedo albedo)
+{
+    return bsdf->multiple_color * albedo.loss;
+}
 
 /* Of the reflection lobes: the colour of what is reflected more than once, F_avg^2 (1 - l) / (1 - F_avg l)
    with the mean loss l (Kulla and Conty 2017), and the matte lobe's coupling. */
@@ -154,9 +193,10 @@ static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
         mean = albedo_reflection_mean(&bsdf->rough);
         color = facet * facet * (REAL(1.0) - mean.loss) / (one - facet * mean.loss);
     }
-    const Albedo albedo = bsdf_energy_albedo(bsdf, bsdf->wo);
+    const Albedo albedo = bsdf_energy_needed_albedo(bsdf, is_coupled, bsdf->wo);
     bsdf->multiple = color * (albedo.loss / mean.loss);
-    bsdf->multiple_size = vector_color_size(color) * albedo.loss;
+    bsdf->multiple_color = vector_color_size(color);
+    bsdf->multiple_size = bsdf_energy_multiple_size(bsdf, albedo);
     if (bsdf_is_part_glass(bsdf)) {
         bsdf->multiple *= REAL(1.0) - bsdf->glass;
         bsdf->multiple_size *= REAL(1.0) - bsdf->glass;
@@ -168,9 +208,9 @@ static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
     const real seen = REAL(1.0) - mean.loss;
     bsdf->passing_loss =
         (REAL(1.0) - FRESNEL_SCHLICK_MEAN) * (one + facet * seen) / (one - facet * mean.loss) - one;
-    const real3 albedo_left = (one - bsdf->specular) * bsdf_energy_passing(bsdf, albedo);
-    bsdf->passing = albedo_left / bsdf_energy_passing(bsdf, mean);
-    bsdf->matte_size = vector_color_size(bsdf->matte * albedo_left);
+    bsdf->passing =
+        (one - bsdf->specular) * bsdf_energy_passing(bsdf, albedo) / bsdf_energy_passing(bsdf, mean);
+    bsdf->matte_size = bsdf_energy_matte_size(bsdf, albedo);
 }
 
 /* Adds the glass's light of more than one facet, `loss`, of which `reflects` stays on wo's side, to that of
@@ -208,7 +248,7 @@ static inline void bsdf_energy_set_dielectric(Bsdf* bsdf)
 static inline void bsdf_energy_set_pane(Bsdf* bsdf)
 {
     bsdf->rough = albedo_roughness(bsdf->alpha_x, bsdf->alpha_y);
-    const real loss = albedo_reflection(&bsdf->rough, bsdf->wo).loss;
+    const real loss = albedo_reflection_loss(&bsdf->rough, bsdf->wo);
     const real mean = albedo_reflection_mean(&bsdf->rough).loss;
     const real reflects = fresnel_dielectric_mean(bsdf->eta);
     bsdf->multiple_glass = bsdf_glass_color(bsdf) * (reflects * loss / mean);
@@ -223,7 +263,7 @@ static inline void bsdf_energy_set(Bsdf* bsdf)
     bsdf->rough.alpha = REAL(0.0);
     bsdf->multiple = bsdf->multiple_glass = bsdf->multiple_through = (real3)(REAL(0.0));
     bsdf->multiple_reflects = REAL(1.0);
-    bsdf->multiple_size = REAL(0.0);
+    bsdf->multiple_color = bsdf->multiple_size = REAL(0.0);
     if (HAS(EFFECT_PART_GLASS | EFFECT_COAT | EFFECT_SHEEN))
         bsdf->matte_size = vector_color_size(bsdf->matte);
     if (HAS(EFFECT_GLOSSY | EFFECT_MIRROR) && (bsdf->lobes & (LOBE_GLOSSY | LOBE_MIRROR)))

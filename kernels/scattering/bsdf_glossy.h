@@ -37,17 +37,34 @@ static inline BsdfValue bsdf_glossy_eval_single(const Bsdf* bsdf, real3 wi)
     return result;
 }
 
-static inline void bsdf_glossy_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
+/* The density alone, of finding the one local direction by one facet as seen from the other. */
+static inline real bsdf_glossy_pdf_w_single(const Bsdf* bsdf, real3 wo, real3 wi)
+{
+    if (!(wo.z > MICROFACET_SMALLEST_COS && wi.z > REAL(0.0)))
+        return REAL(0.0);
+    const real d_over_4_cos =
+        microfacet_d(vector_normalize(wo + wi), bsdf->alpha_x, bsdf->alpha_y) / (REAL(4.0) * wo.z);
+    return d_over_4_cos / (REAL(1.0) + microfacet_lambda(wo, bsdf->alpha_x, bsdf->alpha_y));
+}
+
+/* Adds the lobe with a known loss L(wi). */
+static inline void bsdf_glossy_add_by(const Bsdf* bsdf, real loss, real3 wi, BsdfValue* sum)
 {
     BsdfValue lobe = bsdf_glossy_eval_single(bsdf, wi);
     const real multiple = bsdf_energy_multiple_choice(bsdf, LOBE_GLOSSY);
     lobe.pdf_w *= bsdf->choose[LOBE_ROW_GLOSSY] - multiple;
     if (wi.z > REAL(0.0) && bsdf_energy_has_multiple(bsdf, LOBE_GLOSSY)) {
-        lobe.value += bsdf_energy_multiple_reflection(bsdf, wi);
+        lobe.value += bsdf_energy_multiple_by(bsdf, loss, wi);
         lobe.pdf_w = fma(multiple, bsdf_energy_multiple_pdf_w(), lobe.pdf_w);
     }
     sum->value += lobe.value;
     sum->pdf_w += lobe.pdf_w;
+}
+
+static inline void bsdf_glossy_add(const Bsdf* bsdf, real3 wi, BsdfValue* sum)
+{
+    const bool is_needed = wi.z > REAL(0.0) && bsdf_energy_has_multiple(bsdf, LOBE_GLOSSY);
+    bsdf_glossy_add_by(bsdf, is_needed ? albedo_reflection_loss(&bsdf->rough, wi) : REAL(0.0), wi, sum);
 }
 
 /* A direction reflected by one facet; z <= 0 means that none was found. */

@@ -17,10 +17,16 @@ static inline real3 bsdf_matte_albedo(const Bsdf* bsdf)
     return (bsdf->flags & BSDF_COUPLED) ? bsdf->matte * ((real3)(REAL(1.0)) - bsdf->specular) : bsdf->matte;
 }
 
+/* BSDF times cos_i, as if nothing reflected above it. */
+static inline real3 bsdf_matte_uncoupled(const Bsdf* bsdf, real3 wi)
+{
+    return bsdf->matte * (fmax(wi.z, REAL(0.0)) * REAL_INVERSE_PI);
+}
+
 /* BSDF times cos_i. */
 static inline real3 bsdf_matte_eval(const Bsdf* bsdf, real3 wi)
 {
-    const real3 value = bsdf->matte * (fmax(wi.z, REAL(0.0)) * REAL_INVERSE_PI);
+    const real3 value = bsdf_matte_uncoupled(bsdf, wi);
     return bsdf_energy_is_coupled(bsdf) ? value * bsdf_energy_coupling(bsdf, wi) : value;
 }
 
