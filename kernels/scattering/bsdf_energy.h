@@ -158,19 +158,13 @@ static inline Albedo bsdf_energy_needed_albedo(const Bsdf* bsdf, bool is_coupled
     return albedo;
 }
 
-/* The sizes of what the matte lobe and several facets reflect towards a direction with this albedo, once the
-   rest is set. */
+/* The size of what the matte lobe reflects towards a direction with this albedo, once the rest is set. */
 static inline real bsdf_energy_matte_size(const Bsdf* bsdf, Albedo albedo)
 {
     if (!bsdf_energy_is_coupled(bsdf))
         return bsdf->matte_size;
     const real3 left = ((real3)(REAL(1.0)) - bsdf->specular) * bsdf_energy_passing(bsdf, albedo);
     return vector_color_size(bsdf->matte * left);
-}
-
-static inline real bsdf_energy_multiple_size(const Bsdf* bsdf, Albedo albedo)
-{
-    return bsdf->multiple_color * albedo.loss;
 }
 
 /* Of the reflection lobes: the colour of what is reflected more than once, F_avg^2 (1 - l) / (1 - F_avg l)
@@ -196,7 +190,7 @@ static inline void bsdf_energy_set_reflection(Bsdf* bsdf)
     const Albedo albedo = bsdf_energy_needed_albedo(bsdf, is_coupled, bsdf->wo);
     bsdf->multiple = color * (albedo.loss / mean.loss);
     bsdf->multiple_color = vector_color_size(color);
-    bsdf->multiple_size = bsdf_energy_multiple_size(bsdf, albedo);
+    bsdf->multiple_size = bsdf->multiple_color * albedo.loss;
     if (bsdf_is_part_glass(bsdf)) {
         bsdf->multiple *= REAL(1.0) - bsdf->glass;
         bsdf->multiple_size *= REAL(1.0) - bsdf->glass;

@@ -47,7 +47,7 @@ static CLRT_NOINLINE real bsdf_reverse_pdf_w_opaque(const Bsdf* bsdf, real3 wi)
     const bool is_matte = (bsdf->lobes & LOBE_MATTE) != 0u;
     real matte = is_matte ? bsdf_energy_matte_size(bsdf, albedo) : REAL(0.0);
     real single = vector_color_size(bsdf_reflection_color(bsdf, wi.z));
-    const real multiple = bsdf_energy_multiple_size(bsdf, albedo);
+    const real multiple = bsdf->multiple_color * albedo.loss;
     if (matte + single + multiple == REAL(0.0)) /* as bsdf_choose_lobes */
         *(is_matte ? &matte : &single) = REAL(1.0);
     return (matte * bsdf_matte_pdf_w(bsdf->wo) + single * bsdf_glossy_pdf_w_single(bsdf, wi, bsdf->wo) +

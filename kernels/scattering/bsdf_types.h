@@ -66,6 +66,7 @@ typedef struct {
     uint fresnel;            /* FRESNEL_* */
     uint flags;              /* MATERIAL_*, BSDF_*, TRANSPORT_* */
     AlbedoRoughness rough;   /* alpha 0: nothing rough */
+    real multiple_color;     /* size of the colour of light of more than one facet */
     real3 passing;           /* coupling of the matte lobe but for what depends on wi */
     real3 passing_loss;      /* how it grows with what rough facets lose */
     real3 multiple;          /* light of more than one facet but for what depends on wi: reflected */
@@ -73,8 +74,7 @@ typedef struct {
     real3 multiple_through;  /* and let through, with the squared index ratio */
     real multiple_reflects;  /* the reflected share of it */
     real matte_size;         /* of the albedo of the matte lobe, */
-    real multiple_size;      /* and of that of the light of more than one facet: for opaque lobes the loss */
-    real multiple_color;     /* times the size of this colour */
+    real multiple_size;      /* and of that of the light of more than one facet */
     real choose[LOBE_COUNT]; /* probabilities of the lobes, by LOBE_ROW_*; 0 where it has none */
     real choose_multiple;    /* the part of the rough lobe's that goes to the light of more than one facet */
 #if CLRT_EFFECTS & (EFFECT_COAT | EFFECT_SHEEN)
