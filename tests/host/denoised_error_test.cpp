@@ -84,6 +84,14 @@ double true_square(const NoisyPictures& pictures, const std::array<DenoisedHalf,
     return sum / (mean_of(pictures.truth) * mean_of(pictures.truth));
 }
 
+/// Whether a film's interval holds the error that two halves have.
+bool holds(const NoisyPictures& pictures, const std::array<DenoisedHalf, 2>& halves) {
+    const DenoisedError error = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
+    const double mean = film_squared_error(pictures.film)->mean_radiance;
+    const double own = std::sqrt(true_square(pictures, halves)) * std::abs(mean_of(pictures.truth) / mean);
+    return error.low <= own && own <= error.high;
+}
+
 /// What a film's estimate says, over many trials.
 struct Calibration {
     double true_mean = 0, stated_mean = 0; ///< of squared errors
@@ -144,11 +152,7 @@ TEST(DenoisedError, HoldsWhereFewPixelsDecide) {
                 pictures.film.sums[i] = std::llround(pictures.truth[value] * (100 * noise(random) - 99) /
                                                      pictures.film.scale.quantum);
         const std::array halves = {pictures.smoothed_half(0, 0), pictures.smoothed_half(1, 0)};
-        const DenoisedError error = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
-        const double mean = film_squared_error(pictures.film)->mean_radiance;
-        const double own =
-            std::sqrt(true_square(pictures, halves)) * std::abs(mean_of(pictures.truth) / mean);
-        held += error.low <= own && own <= error.high;
+        held += holds(pictures, halves);
     }
     std::printf("held %d of %d\n", held, 2 * TRIALS);
     EXPECT_GE(held, 0.9 * 2 * TRIALS) << "1.96 standard errors hold 0.86";
@@ -171,11 +175,7 @@ TEST(DenoisedError, HoldsWherePixelsOfABlockHaveOneNoise) {
                 pictures.film.sums[i] = std::llround(noise * pictures.truth[value]);
         }
         const std::array halves = {pictures.smoothed_half(0, 1), pictures.smoothed_half(1, 1)};
-        const DenoisedError error = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
-        const double mean = film_squared_error(pictures.film)->mean_radiance;
-        const double own =
-            std::sqrt(true_square(pictures, halves)) * std::abs(mean_of(pictures.truth) / mean);
-        held += error.low <= own && own <= error.high;
+        held += holds(pictures, halves);
     }
     std::printf("held %d of %d\n", held, 2 * TRIALS);
     EXPECT_GE(held, 0.92 * 2 * TRIALS);
