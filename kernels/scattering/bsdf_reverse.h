@@ -35,7 +35,8 @@ static CLRT_NOINLINE void bsdf_set_reversed(const Bsdf* bsdf, real3 wi, Bsdf* re
 /* True where there is a rough reflection and, below it or not, a matte lobe, and nothing else. */
 static inline bool bsdf_reverse_is_opaque(const Bsdf* bsdf)
 {
-    return HAS(EFFECT_GLOSSY) && (bsdf->lobes & BSDF_LOBES & ~LOBE_MATTE) == LOBE_GLOSSY;
+    return HAS(EFFECT_GLOSSY) && (bsdf->lobes & BSDF_LOBES & ~LOBE_MATTE) == LOBE_GLOSSY &&
+           !bsdf_is_part_glass(bsdf);
 }
 
 /* The density of sampling wo from a local direction wi where that is so. */

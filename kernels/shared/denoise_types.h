@@ -10,7 +10,7 @@
 #define DENOISE_PLACE 1    /* column and row of the pixel over DENOISE_RADIUS */
 #define DENOISE_ALBEDO 3   /* r, g, b */
 #define DENOISE_NORMAL 6   /* x, y, z */
-#define DENOISE_SHARE 9    /* of the samples that hit something */
+#define DENOISE_SHARE 9    /* of the samples that hit something; far more where a lamp is seen */
 #define DENOISE_COLOURS 10 /* r, g, b of the first and of the second quarter */
 #define DENOISE_ROW 16
 

@@ -110,33 +110,51 @@ double relative_root(double sum, double values, double mean) {
     return std::sqrt(std::max(sum / values, 0.0)) / mean;
 }
 
-/// How far a sum reaches to either side with 95 %, whose terms are off their mean by squares of these sums:
-/// Student's quantile of as many degrees of freedom as terms decide (Satterthwaite 1946).
-double reach_of(double squares, double fourths) {
-    if (!(squares > 0))
-        return 0;
-    const double degrees = std::clamp(squares * squares / fourths, 1.0, MOST_DEGREES);
-    return std::sqrt(f_quantile(0.95, 1, degrees) * squares);
-}
-
-/// The errors over the pixels of `chosen`, places in the lists of `errors`.
-DenoisedError errors_over(const SquaredErrors& errors, const std::vector<size_t>& chosen, double mean) {
-    double raw = 0, sum = 0, squares = 0, fourths = 0;
-    for (const size_t n : chosen) {
-        raw += errors.raw[n];
-        sum += errors.denoised[n];
-    }
-    const double count = double(chosen.size()), values = 3 * count;
-    std::vector<double> deviations(errors.block_count, 0.0);
-    for (const size_t n : chosen)
-        deviations[errors.blocks[n]] += errors.denoised[n] - sum / count;
+/// How far a sum reaches to either side with 95 %, given how far its terms are off their mean: Student's
+/// quantile of as many degrees of freedom as terms decide (Satterthwaite 1946).
+double reach_of(const std::vector<double>& deviations) {
+    double squares = 0, fourths = 0;
     for (const double deviation : deviations) {
         const double square = deviation * deviation;
         squares += square;
         fourths += square * square;
     }
+    const double free = double(deviations.size()) - 1; // one is lost to the mean
+    if (!(squares > 0) || free < 1)
+        return 0;
+    const double degrees = std::clamp(squares * squares / fourths, 1.0, std::min(free, MOST_DEGREES));
+    return std::sqrt(f_quantile(0.95, 1, degrees) * squares * (free + 1) / free);
+}
+
+/// How far the sums over blocks are off what the mean over all pixels makes them. Where all pixels are in one
+/// block they are taken one by one: nothing tells what they have in common.
+std::vector<double> deviations_of(const SquaredErrors& errors, const std::vector<size_t>& chosen,
+                                  double mean) {
+    std::vector<double> sums(errors.block_count, 0.0), pixels;
+    std::vector<char> has_any(errors.block_count, 0);
+    for (const size_t n : chosen) {
+        pixels.push_back(errors.denoised[n] - mean);
+        sums[errors.blocks[n]] += pixels.back();
+        has_any[errors.blocks[n]] = 1;
+    }
+    std::vector<double> blocks;
+    for (size_t block = 0; block < sums.size(); ++block)
+        if (has_any[block])
+            blocks.push_back(sums[block]);
+    return blocks.size() > 1 ? blocks : pixels;
+}
+
+/// The errors over the pixels of `chosen`, places in the lists of `errors`.
+DenoisedError errors_over(const SquaredErrors& errors, const std::vector<size_t>& chosen, double mean) {
+    double raw = 0, sum = 0;
+    for (const size_t n : chosen) {
+        raw += errors.raw[n];
+        sum += errors.denoised[n];
+    }
+    const double count = double(chosen.size()), values = 3 * count;
     // Noise may make the sum negative; the errors of which it is the sum are not.
-    const double reach = reach_of(squares, fourths), high = std::max(sum, 0.0) + reach;
+    const double reach = reach_of(deviations_of(errors, chosen, sum / count));
+    const double high = std::max(sum, 0.0) + reach;
     return {relative_root(raw, values, mean), relative_root(sum, values, mean),
             relative_root(sum - reach, values, mean), relative_root(high, values, mean)};
 }

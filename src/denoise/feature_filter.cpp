@@ -21,8 +21,8 @@ constexpr int GUIDE_RADIUS = 2;
 /// A launch has this many work-items or fewer, so that no watchdog fires.
 constexpr size_t LARGEST_LAUNCH = size_t(1) << 18;
 
-/// Added to the share of the samples that hit something where a pixel is lit, so that it looks like none that
-/// is not.
+/// Added to the share of the samples that hit something where a pixel is lit: it looks unlike all that are
+/// not.
 constexpr float APART = 8;
 
 /// Rows of the regression (denoise_types.h).

@@ -24,7 +24,7 @@ struct HalfPicture {
     /// Of the primary hits of the half's samples: albedo (r, g, b) and normal (x, y, z) as means over all
     /// samples, misses as 0; mean position of the hits; share of the samples that hit something.
     Pixels albedo, normal, position, share;
-    /// 1 where most of the radiance is what primary hits emit, else 0: lamps, and pixels that their rims
+    /// 1 where primary hits emit as much as most of the radiance, else 0: lamps, and pixels that their rims
     /// cross.
     std::vector<char> lit;
 };

@@ -64,9 +64,10 @@ double chosen_exposure_ev(const OutputOptions& options, const std::vector<float>
     return options.auto_exposure ? rounded(auto_exposure_ev(rgb) + options.exposure_ev) : options.exposure_ev;
 }
 
-std::string exposure_hint(const std::vector<float>& rgb) {
+std::string exposure_hint(const OutputOptions& options, const std::vector<float>& rgb) {
     const double stops = auto_exposure_ev(rgb);
-    if (!(std::abs(stops) >= STRIKING_STOPS))
+    const bool is_mapped = stops < 0 && options.tonemap != Tonemap::NONE;
+    if (!(std::abs(stops) >= STRIKING_STOPS) || is_mapped || 2 * log_luminances(rgb).size() < rgb.size() / 3)
         return "";
     return fmt::format("8-bit pictures come out {}: --exposure auto would show this one with {:+g} stops",
                        stops > 0 ? "dark" : "bright", stops);

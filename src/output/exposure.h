@@ -22,9 +22,10 @@ double auto_exposure_ev(const std::vector<float>& rgb);
 /// The stops that the options ask for, for this picture; with auto exposure, a whole number of hundredths.
 double chosen_exposure_ev(const OutputOptions& options, const std::vector<float>& rgb);
 
-/// What is said where a picture is shown as it is and is nearly black, or nearly white: the stops that would
-/// show it. Empty where the tones ask for less than STRIKING_STOPS.
-std::string exposure_hint(const std::vector<float>& rgb);
+/// What is said where a picture without stops is dark, or bright and no tone map shows it: those that would
+/// show it. Empty where its tones ask for less than STRIKING_STOPS, and where light is in less than half of
+/// it: they are the tones of something before a black backdrop.
+std::string exposure_hint(const OutputOptions& options, const std::vector<float>& rgb);
 
 /// From here on, up or down, little of a picture is seen without them.
 constexpr double STRIKING_STOPS = 3;

@@ -185,7 +185,7 @@ private:
         if (price.efficiency <= least)
             guide = guide_to_hits(prepared, unguided, least, price);
         choice_.prices.push_back(price);
-        if (price.efficiency <= least && !guide)
+        if (!(price.efficiency > least) && !guide) // nor where a pilot without noise makes it no number
             return;
         expect_program(device_, *planned_);
         best_ = std::max(price.efficiency, price.guided);

@@ -61,8 +61,12 @@ void tell_exposure(const Report& report, const std::vector<float>& rgb) {
         spdlog::info("{}", exposure_notice(report.exposure_ev));
     else if (options.run.given.count("--exposure") == 0 &&
              std::any_of(files.begin(), files.end(), is_display_output))
-        if (const std::string hint = exposure_hint(rgb); !hint.empty())
-            spdlog::info("{}", hint);
+        try {
+            if (const std::string hint = exposure_hint(options.output, rgb); !hint.empty())
+                spdlog::info("{}", hint);
+        } catch (const std::bad_alloc&) {
+            // a hint is not worth the picture
+        }
 }
 
 } // namespace

@@ -159,26 +159,39 @@ TEST(DenoisedError, HoldsWhereFewPixelsDecide) {
 }
 
 TEST(DenoisedError, HoldsWherePixelsOfABlockHaveOneNoise) {
-    // As where paths serve all pixels of a tile.
-    constexpr int SIDE = 4;
-    NoisyPictures pictures(4);
-    pictures.film.block = SIDE;
-    const size_t plane = pictures.truth.size();
-    int held = 0;
-    for (int trial = 0; trial < 2 * TRIALS; ++trial) {
-        pictures.fill();
-        for (size_t i = 0; i < pictures.film.sums.size(); ++i) {
-            const size_t value = i % plane, x = value / 3 % WIDTH, y = value / 3 / WIDTH;
-            const size_t first = 3 * (y / SIDE * SIDE * WIDTH + x / SIDE * SIDE) + value % 3;
-            const double noise = double(pictures.film.sums[i - value + first]) / pictures.truth[first];
-            if (value > first)
-                pictures.film.sums[i] = std::llround(noise * pictures.truth[value]);
+    // As where paths serve all pixels of a tile; of the larger blocks the picture has four.
+    for (const size_t side : {size_t(4), size_t(20)}) {
+        NoisyPictures pictures(4);
+        pictures.film.block = int(side);
+        const size_t plane = pictures.truth.size();
+        int held = 0;
+        for (int trial = 0; trial < 2 * TRIALS; ++trial) {
+            pictures.fill();
+            for (size_t i = 0; i < pictures.film.sums.size(); ++i) {
+                const size_t value = i % plane, x = value / 3 % WIDTH, y = value / 3 / WIDTH;
+                const size_t first = 3 * (y / side * side * WIDTH + x / side * side) + value % 3;
+                const double noise = double(pictures.film.sums[i - value + first]) / pictures.truth[first];
+                if (value > first)
+                    pictures.film.sums[i] = std::llround(noise * pictures.truth[value]);
+            }
+            const std::array halves = {pictures.smoothed_half(0, 1), pictures.smoothed_half(1, 1)};
+            held += holds(pictures, halves);
         }
-        const std::array halves = {pictures.smoothed_half(0, 1), pictures.smoothed_half(1, 1)};
-        held += holds(pictures, halves);
+        std::printf("held %d of %d\n", held, 2 * TRIALS);
+        EXPECT_GE(held, 0.92 * 2 * TRIALS);
     }
-    std::printf("held %d of %d\n", held, 2 * TRIALS);
-    EXPECT_GE(held, 0.92 * 2 * TRIALS);
+}
+
+TEST(DenoisedError, TakesPixelsWhereAllAreInOneBlock) {
+    NoisyPictures pictures(4);
+    pictures.fill();
+    const std::array halves = {pictures.smoothed_half(0, 1), pictures.smoothed_half(1, 1)};
+    const DenoisedError by_pixel = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
+    pictures.film.block = WIDTH;
+    const DenoisedError by_block = denoised_errors(pictures.film, halves, ErrorMeasure::MSE)->all;
+    EXPECT_LT(by_pixel.low, by_pixel.high);
+    EXPECT_EQ(by_block.low, by_pixel.low);
+    EXPECT_EQ(by_block.high, by_pixel.high);
 }
 
 TEST(DenoisedError, IsNeverNoneByNoiseAlone) {

@@ -81,14 +81,21 @@ TEST(AutoExposure, BlackBackdropsFirefliesAndOddNumbersCountForNothing) {
 }
 
 TEST(AutoExposure, AHintSaysWhereLittleIsSeen) {
-    EXPECT_EQ(exposure_hint(greys({0.18})), "");
-    EXPECT_EQ(exposure_hint(greys({0.18 / 7})), "") << "a dim room is one";
-    EXPECT_EQ(exposure_hint(greys({0.18 * 7})), "");
-    EXPECT_EQ(exposure_hint(greys({0, 0})), "") << "that it is black is said elsewhere";
-    EXPECT_EQ(exposure_hint(greys({0.18 / 16})),
-              "8-bit pictures come out dark: --exposure auto would show this one with +4 stops");
-    EXPECT_EQ(exposure_hint(greys({0.18 * 32})),
+    OutputOptions options;
+    const auto hint = [&](const std::vector<double>& tones) { return exposure_hint(options, greys(tones)); };
+    EXPECT_EQ(hint({0.18}), "");
+    EXPECT_EQ(hint({0.18 / 7}), "") << "a dim room is one";
+    EXPECT_EQ(hint({0.18 * 7}), "");
+    EXPECT_EQ(hint({0, 0}), "") << "that it is black is said elsewhere";
+    EXPECT_EQ(hint({17, 0, 0}), "") << "a lamp before nothing";
+    const std::string dark =
+        "8-bit pictures come out dark: --exposure auto would show this one with +4 stops";
+    EXPECT_EQ(hint({0.18 / 16}), dark);
+    EXPECT_EQ(hint({0.18 * 32}),
               "8-bit pictures come out bright: --exposure auto would show this one with -5 stops");
+    options.tonemap = Tonemap::AGX;
+    EXPECT_EQ(hint({0.18 * 32}), "");
+    EXPECT_EQ(hint({0.18 / 16}), dark);
 }
 
 TEST(AutoExposure, ItIsAWholeNumberOfHundredthsToWhichStopsAreAdded) {
