@@ -47,6 +47,9 @@ typedef struct {
 #if CLRT_EFFECTS & EFFECT_MAPPED_EMISSION
     bool has_emitter_parts;
 #endif
+#if CLRT_EFFECTS & EFFECT_SECOND_UV
+    bool has_second_uvs;
+#endif
 #ifdef CLRT_COUNT_VISITS
     uint* visits; /* of the rays so far: nodes, leaves, triangles; to be set by whoever counts */
 #endif
@@ -101,6 +104,9 @@ static inline Scene scene_make(SceneHeap heap0, SceneHeap heap1, SceneHeap heap2
 #endif
 #if CLRT_EFFECTS & EFFECT_MAPPED_EMISSION
     scene.has_emitter_parts = places->emitter_parts.is_empty == 0u;
+#endif
+#if CLRT_EFFECTS & EFFECT_SECOND_UV
+    scene.has_second_uvs = places->second_uvs.is_empty == 0u;
 #endif
 #ifdef CLRT_COUNT_VISITS
     scene.visits = 0;

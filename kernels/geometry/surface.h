@@ -9,6 +9,7 @@
 #include "ray.h"
 #include "scene.h"
 #include "shared/flat_facet.h"
+#include "uv.h"
 
 typedef struct {
     real3 position;   /* on the triangle */
@@ -18,7 +19,7 @@ typedef struct {
     real3 bitangent;  /* direction of growing texture v */
     real3 bulge;      /* from position to the curved surface that the corner normals describe, on wo's side;
                          0 where flat */
-    float2 uv;
+    Uv uv;
     real b1, b2;      /* barycentric weights of corners 1 and 2, */
     uint triangle;    /* of this triangle */
     real offset;      /* bound of position's distance to the plane that the triangle test sees */
@@ -33,7 +34,7 @@ typedef struct {
 #if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
     real width;       /* of the ray's cone here, across the ray, */
     real spread;      /* and its solid angle (ray_cone.h) */
-    float uv_area;    /* of its footprint, in texture coordinates; surface_uv_area */
+    UvArea uv_area;   /* of its footprint, in texture coordinates; surface_uv_area */
 #endif
 #if CLRT_EFFECTS & EFFECT_DISPERSION
     uint wave;        /* of that ray */
@@ -181,12 +182,11 @@ static inline void surface_uv(const Scene* scene, global const Triangle* triangl
 {
     if (triangle->t0 == NO_INDEX)
         return;
-    const float2 t0 = scene->uvs[triangle->t0];
-    const float2 d1 = scene->uvs[triangle->t1] - t0;
-    const float2 d2 = scene->uvs[triangle->t2] - t0;
-    surface->uv = t0 + (float)b1 * d1 + (float)b2 * d2;
+    surface->uv = uv_at(scene, triangle, b1, b2);
     if (!HAS(EFFECT_NORMAL_MAP | EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL))
         return;
+    Uv d1, d2;
+    uv_edges(scene, triangle, &d1, &d2);
     /* Solve e1 = d1.u tangent + d1.v bitangent, e2 alike; no tangent where the map is degenerate. */
     const real det = real_difference_of_products(d1.x, d2.y, d1.y, d2.x);
     if (det == REAL(0.0))
@@ -244,12 +244,12 @@ static inline bool surface_winding_is_reversed(const Scene* scene, global const 
 }
 
 /* The area of the footprint of the ray's cone, in texture coordinates: 0 where lookups are not filtered. */
-static inline float surface_uv_area(const Surface* surface)
+static inline UvArea surface_uv_area(const Surface* surface)
 {
 #if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
     return surface->uv_area;
 #else
-    return 0.0f;
+    return UV_NO_AREA;
 #endif
 }
 
@@ -264,17 +264,21 @@ static inline void surface_set_footprint(const Scene* scene, global const Triang
 #if CLRT_EFFECTS & EFFECT_TEXTURE_FILTER
     surface->spread = ray->spread;
     surface->width = ray->width + real_sqrt(ray->spread) * t;
-    surface->uv_area = 0.0f;
+    surface->uv_area = UV_NO_AREA;
     if (surface->width == REAL(0.0) || triangle->t0 == NO_INDEX || !(across > REAL(0.0)))
         return;
-    const float2 t0 = scene->uvs[triangle->t0];
-    const float2 d1 = scene->uvs[triangle->t1] - t0;
-    const float2 d2 = scene->uvs[triangle->t2] - t0;
-    const real density = fabs(real_difference_of_products(d1.x, d2.y, d1.y, d2.x)) *
-                         (SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE) / across;
     const real cosine = fmax(fabs(vector_dot(surface->normal_g, ray->direction)),
                              SURFACE_SMALLEST_FOOTPRINT_COS);
-    surface->uv_area = (float)(surface->width * surface->width * density / cosine);
+    const real part = surface->width * surface->width * (SURFACE_EDGE_SCALE * SURFACE_EDGE_SCALE) /
+                      (across * cosine); /* of twice the triangle's area */
+    Uv d1, d2;
+    uv_edges(scene, triangle, &d1, &d2);
+#if CLRT_EFFECTS & EFFECT_SECOND_UV
+    surface->uv_area = (UvArea)((float)(part * fabs(real_difference_of_products(d1.x, d2.y, d1.y, d2.x))),
+                                (float)(part * fabs(real_difference_of_products(d1.z, d2.w, d1.w, d2.z))));
+#else
+    surface->uv_area = (float)(part * fabs(real_difference_of_products(d1.x, d2.y, d1.y, d2.x)));
+#endif
 #endif
 }
 
@@ -313,7 +317,7 @@ CLRT_GIVES_STRUCT Surface surface_at(const Scene* scene, const Hit* hit, const R
     surface.bitangent = (real3)(REAL(0.0));
     surface.bulge = (real3)(REAL(0.0));
     surface.is_curved = false;
-    surface.uv = (float2)(0.0f);
+    surface.uv = (Uv)(0.0f);
     surface.b1 = hit->b1;
     surface.b2 = hit->b2;
     surface.triangle = hit->triangle;

@@ -3,7 +3,7 @@
 #ifndef CLRT_GEOMETRY_TEXTURE_H
 #define CLRT_GEOMETRY_TEXTURE_H
 
-#include "scene.h"
+#include "uv.h"
 
 #define TEXTURE_LUMINANCE 4u /* Texture.channel of maps read as grey */
 
@@ -133,20 +133,22 @@ static CLRT_NOINLINE float4 texture_filtered(const Scene* scene, global const Te
 
 /* (r, g, b, a) at uv, where (0, 0) is the lower left corner of the picture; base + gain * value. `uv_area`:
    of the footprint over which it is filtered, 0 where it is not. */
-static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, float2 uv, float uv_area)
+static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, Uv uv, UvArea uv_area)
 {
     global const Texture* texture = scene->textures + index;
+    const float2 at = uv_of(texture, uv);
     const uint wrap_u = texture->wrap_u;
     const uint wrap_v = texture->wrap_v;
-    const float at_u = fma(uv.x, texture->scale_u, fma(uv.y, texture->shear_u, texture->offset_u));
-    const float at_v = fma(uv.y, texture->scale_v, fma(uv.x, texture->shear_v, texture->offset_v));
+    const float at_u = fma(at.x, texture->scale_u, fma(at.y, texture->shear_u, texture->offset_u));
+    const float at_v = fma(at.y, texture->scale_v, fma(at.x, texture->shear_v, texture->offset_v));
     if (texture_is_outside(at_u, wrap_u) || texture_is_outside(at_v, wrap_v))
         return (float4)(0.0f);
     const float u = texture_inside(at_u, wrap_u);
     const float v = texture_inside(at_v, wrap_v);
     if (HAS(EFFECT_TEXTURE_FILTER)) {
         const float turned = texture->scale_u * texture->scale_v - texture->shear_u * texture->shear_v;
-        const float texels = uv_area * fabs(turned) * (float)texture->width * (float)texture->height;
+        const float texels = uv_area_of(texture, uv_area) * fabs(turned) * (float)texture->width *
+                             (float)texture->height;
         if (texels > 1.0f)
             return texture->base + texture->gain * texture_filtered(scene, texture, u, v, texels);
     }
@@ -155,17 +157,17 @@ static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, float
 }
 
 /* A colour, not negative; a NaN stays one. */
-static inline real3 texture_color(const Scene* scene, uint index, float2 uv, float uv_area)
+static inline real3 texture_color(const Scene* scene, uint index, Uv uv, UvArea uv_area)
 {
     const real3 color = convert_real3(texture_lookup(scene, index, uv, uv_area).xyz);
     return color < (real3)(REAL(0.0)) ? (real3)(REAL(0.0)) : color;
 }
 
 /* The channel a scalar map asks for. */
-static inline real texture_scalar(const Scene* scene, uint index, float2 uv, float uv_area)
+static inline real texture_scalar(const Scene* scene, uint index, Uv uv, UvArea uv_area)
 {
     const float4 value = texture_lookup(scene, index, uv, uv_area);
-    const uint channel = scene->textures[index].channel;
+    const uint channel = TEXTURE_CHANNEL(scene->textures[index]);
     if (channel == TEXTURE_LUMINANCE)
         return vector_luminance(convert_real3(value.xyz));
     return (real)(channel == 0u ? value.x : channel == 1u ? value.y : channel == 2u ? value.z : value.w);

@@ -90,11 +90,7 @@ static CLRT_NOINLINE Emission emission_of_triangle(const Scene* scene, const Ren
     else
         emission_leave(scene, params, direction, &emission);
     emission.ray.origin = emission.point + emission.normal_g * surface_offset_bound(p0, p1, p2);
-    float2 uv = (float2)(0.0f);
-    if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
-        const float2 t0 = scene->uvs[triangle->t0];
-        uv = t0 + (float)b.x * (scene->uvs[triangle->t1] - t0) + (float)b.y * (scene->uvs[triangle->t2] - t0);
-    }
+    const Uv uv = uv_at(scene, triangle, b.x, b.y);
     real3 radiance = material_emission(scene, triangle->material, uv, emission.cosine);
     if (HAS(EFFECT_CUT_OUT) && (material->flags & MATERIAL_CUT_OUT))
         radiance *= material_coverage(scene, material, uv);

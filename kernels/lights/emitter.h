@@ -74,11 +74,7 @@ CLRT_GIVES_STRUCT LightSample emitter_sample_chosen(const Scene* scene, uint cho
     sample.pdf_w = solid_angle > REAL(0.0) ? emitter_pdf_of_angle(pdf_a, part_normal, solid_angle)
                                            : pdf_a * distance * distance *
                                                  (distance * vector_length(normal) / fabs(facing));
-    float2 uv = (float2)(0.0f);
-    if (HAS(EFFECT_TEXTURES) && triangle->t0 != NO_INDEX) {
-        const float2 t0 = scene->uvs[triangle->t0];
-        uv = t0 + (float)b.x * (scene->uvs[triangle->t1] - t0) + (float)b.y * (scene->uvs[triangle->t2] - t0);
-    }
+    const Uv uv = uv_at(scene, triangle, b.x, b.y);
     sample.radiance = material_emission(scene, triangle->material, uv,
                                         facing / (distance * vector_length(normal)));
     /* What a cut-out leaves of itself: rays that hit it by chance are passed as often. */

@@ -17,13 +17,7 @@ static inline real visibility_coverage(const Scene* scene, const Hit* hit)
     global const Material* material = scene->materials + triangle->material;
     if (!(material->flags & MATERIAL_CUT_OUT))
         return REAL(1.0);
-    float2 uv = (float2)(0.0f);
-    if (triangle->t0 != NO_INDEX) {
-        const float2 t0 = scene->uvs[triangle->t0];
-        uv = t0 + (float)hit->b1 * (scene->uvs[triangle->t1] - t0) +
-             (float)hit->b2 * (scene->uvs[triangle->t2] - t0);
-    }
-    return material_coverage(scene, material, uv);
+    return material_coverage(scene, material, uv_at(scene, triangle, hit->b1, hit->b2));
 }
 
 /* True if light crosses the surface at a hit straight on, beside what its lobes scatter. */

@@ -15,11 +15,11 @@
 #define MATERIAL_SMALLEST_ALPHA REAL(1e-4)
 
 /* Coverage in [0, 1]: 0 lets everything pass. */
-static inline real material_coverage(const Scene* scene, global const Material* material, float2 uv)
+static inline real material_coverage(const Scene* scene, global const Material* material, Uv uv)
 {
     real coverage = (real)MATERIAL_COVERAGE(*material);
     if (HAS(EFFECT_TEXTURES) && material->map_coverage != NO_INDEX)
-        coverage *= texture_scalar(scene, material->map_coverage, uv, 0.0f);
+        coverage *= texture_scalar(scene, material->map_coverage, uv, UV_NO_AREA);
     return real_unit(coverage);
 }
 
@@ -42,10 +42,10 @@ static inline real3 material_bump_normal(const Scene* scene, global const Materi
         1.0f / ((float)texture->width * fmax(fabs(texture->scale_u), MATERIAL_SMALLEST_MAP_SCALE));
     const float dv =
         1.0f / ((float)texture->height * fmax(fabs(texture->scale_v), MATERIAL_SMALLEST_MAP_SCALE));
-    const float2 uv = surface->uv;
-    const real height = texture_scalar(scene, material->map_bump, uv, 0.0f);
-    const real along_u = texture_scalar(scene, material->map_bump, (float2)(uv.x + du, uv.y), 0.0f);
-    const real along_v = texture_scalar(scene, material->map_bump, (float2)(uv.x, uv.y + dv), 0.0f);
+    const Uv uv = surface->uv;
+    const real height = texture_scalar(scene, material->map_bump, uv, UV_NO_AREA);
+    const real along_u = texture_scalar(scene, material->map_bump, uv + uv_make(du, 0.0f), UV_NO_AREA);
+    const real along_v = texture_scalar(scene, material->map_bump, uv + uv_make(0.0f, dv), UV_NO_AREA);
     const real scale = (real)material->bump_scale;
     /* Displaced tangents; their cross product is the new normal. */
     const real3 tu = surface->tangent + n * (scale * (along_u - height) / (real)du);
@@ -63,7 +63,7 @@ static inline real3 material_bump_normal(const Scene* scene, global const Materi
 static inline real3 material_mapped_normal(const Scene* scene, global const Material* material,
                                            const Surface* surface, real3 n)
 {
-    const real3 rgb = convert_real3(texture_lookup(scene, material->map_normal, surface->uv, 0.0f).xyz);
+    const real3 rgb = convert_real3(texture_lookup(scene, material->map_normal, surface->uv, UV_NO_AREA).xyz);
     const real3 m = REAL(2.0) * rgb - (real3)(REAL(1.0));
     const Frame frame = frame_make_tangent(n, surface->tangent);
     /* Green grows with v, also where the texture coordinates are mirrored. */
@@ -120,15 +120,16 @@ static inline real3 material_reflectance(const Scene* scene, uint map, const Sur
 }
 
 /* A constant times its map. */
-static inline real material_scaled(const Scene* scene, float constant_part, uint map, float2 uv)
+static inline real material_scaled(const Scene* scene, float constant_part, uint map, Uv uv)
 {
     const real value = (real)constant_part;
-    return HAS(EFFECT_TEXTURES) && map != NO_INDEX ? value * real_unit(texture_scalar(scene, map, uv, 0.0f))
-                                                   : value;
+    return HAS(EFFECT_TEXTURES) && map != NO_INDEX
+               ? value * real_unit(texture_scalar(scene, map, uv, UV_NO_AREA))
+               : value;
 }
 
 /* Weight and alpha of a material's coat at uv. */
-static inline real2 material_coat(const Scene* scene, uint material, float2 uv)
+static inline real2 material_coat(const Scene* scene, uint material, Uv uv)
 {
     global const MaterialExtension* extension = scene->extensions + material;
     const real root = material_scaled(scene, 1.0f, extension->map_coat_roughness, uv);
@@ -244,7 +245,7 @@ static inline void material_parameters(const Scene* scene, global const Material
     real metallic = (real)MATERIAL_METALLIC(*material);
     real roughness = REAL(1.0);
     if (HAS(EFFECT_TEXTURES)) {
-        const float uv_area = surface_uv_area(surface);
+        const UvArea uv_area = surface_uv_area(surface);
         if (material->map_matte != NO_INDEX)
             bsdf->matte *= material_reflectance(scene, material->map_matte, surface);
         if (material->map_specular != NO_INDEX)
@@ -274,12 +275,12 @@ static inline void material_parameters(const Scene* scene, global const Material
 /* Emitted radiance at uv, both sides alike, towards a direction of this cosine on the facet; the caller knows
    the side. A coat above dims it by what it sends back inward (KHR_materials_clearcoat): along the facet's
    normal, which every way to find a light knows, be it met, sampled or left. */
-static inline real3 material_emission(const Scene* scene, uint index, float2 uv, real cos_o)
+static inline real3 material_emission(const Scene* scene, uint index, Uv uv, real cos_o)
 {
     global const Material* material = scene->materials + index;
     real3 emission = vector_from(material->emission);
     if (HAS(EFFECT_TEXTURES) && material->map_emission != NO_INDEX)
-        emission *= texture_color(scene, material->map_emission, uv, 0.0f);
+        emission *= texture_color(scene, material->map_emission, uv, UV_NO_AREA);
     if (HAS(EFFECT_COAT) && (material->lobes & LOBE_COAT)) {
         const real2 coat = material_coat(scene, index, uv);
         const real cosine = fmin(fabs(cos_o), REAL(1.0));

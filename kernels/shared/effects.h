@@ -49,9 +49,10 @@ using EffectMask = std::uint64_t;
 #define EFFECT_ROTATION EFFECT_BIT(0x40000000)    /* highlights stretched askew to the texture coordinates */
 #define EFFECT_TEXTURE_FILTER EFFECT_BIT(0x80000000) /* lookups over the ray's footprint (ray_cone.h) */
 #define EFFECT_MEASURED EFFECT_BIT(0x100000000) /* measured BRDFs */
+#define EFFECT_SECOND_UV EFFECT_BIT(0x200000000) /* two sets of texture coordinates (geometry/uv.h) */
 #define EFFECT_ALL                                                                                           \
     (EFFECT_BIT(0xffffff) | EFFECT_DISPERSION | EFFECT_NESTED | EFFECT_MAPPED_EMISSION | EFFECT_INSTANCES |  \
-     EFFECT_THIN_WALL | EFFECT_ROTATION | EFFECT_TEXTURE_FILTER | EFFECT_MEASURED)
+     EFFECT_THIN_WALL | EFFECT_ROTATION | EFFECT_TEXTURE_FILTER | EFFECT_MEASURED | EFFECT_SECOND_UV)
 
 /* Effects that read the array of material extensions. */
 #define EFFECTS_EXTENSION                                                                                    \

@@ -25,6 +25,7 @@
     ROW(vec4, normals, normals)                                                                              \
     ROW(vec4, normal_moves, normal_moves)                                                                    \
     ROW(vec2, uvs, uvs)                                                                                      \
+    ROW(vec2, second_uvs, second_uvs)                                                                        \
     ROW(Triangle, triangles, triangles)                                                                      \
     ROW(Instance, instances, instances)                                                                      \
     ROW(Material, materials, materials)                                                                      \

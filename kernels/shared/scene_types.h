@@ -9,8 +9,8 @@
 
 SHARED_BEGIN
 
-/* Corner indices into the position, normal and uv arrays. Normals or uvs are given for all three corners or
-   for none (all three NO_INDEX). */
+/* Corner indices into the position, normal and uv arrays, the second uvs beside the first. Normals or uvs are
+   given for all three corners or for none (all three NO_INDEX). */
 typedef struct {
     u32 v0, v1, v2;
     u32 n0, n1, n2;
@@ -126,11 +126,15 @@ typedef struct {
     float shear_u, shear_v;
     float base, gain;
     u32 wrap_u, wrap_v; /* WRAP_* */
-    u32 channel;     /* for scalar maps: 0..3 = r, g, b, a; 4 = luminance (-imfchan) */
+    u32 channel;     /* TEXTURE_CHANNEL for scalar maps: 0..3 = r, g, b, a; 4 = luminance (-imfchan). And
+                        TEXTURE_SECOND_UV, where it is looked up at the second texture coordinates */
     u32 vertex_word; /* first texel word of the colours of vertices that multiply a reflectance: three words a
                         vertex (index as in positions), r, g, b as floats; 0: none */
 } Texture;
 ASSERT_SIZE(Texture, 64);
+
+#define TEXTURE_CHANNEL(texture) ((texture).channel & 7u)
+#define TEXTURE_SECOND_UV 8u
 
 /* An emissive triangle, or one of the parts of one, which follow each other. Choosing: i = floor(u n); keep i where the second random word is below `threshold`,
    else take `alias` (Walker 1977, Vose 1991). */

@@ -64,6 +64,8 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_TEXTURE_FILTER, "texture filter", EFFECT_TEXTURES, 0,
          "textures are read at a point, as by --texture-filter none"},
         {EFFECT_MEASURED, "measured reflection", 0, 0, "materials with a measured BRDF are black"},
+        {EFFECT_SECOND_UV, "second texture coordinates", EFFECT_TEXTURES, 0,
+         "all textures of a material are read by its first set of texture coordinates"},
     };
     return table;
 }

@@ -225,6 +225,17 @@ void find_material_effects(const Scene& scene, const Options& options, EffectFin
     });
 }
 
+/// One set of texture coordinates is the first, whatever its number in the file.
+void find_second_uvs(const Scene& scene, EffectFinder& finder) {
+    finder.map(EFFECT_SECOND_UV, "no material reads two sets of texture coordinates", [&](size_t i) {
+        std::vector<u32> maps;
+        for (const u32 map : maps_of(scene, i))
+            if (map != NO_INDEX && (scene.textures[map].channel & TEXTURE_SECOND_UV))
+                maps.push_back(map);
+        return maps;
+    });
+}
+
 /// Pictures alone have levels; what lies between vertices is as smooth as it looks.
 void find_texture_filter(const Scene& scene, const Options& options, EffectFinder& finder) {
     const char* const option = "--texture-filter";
@@ -386,6 +397,7 @@ Effects find_effects(const Scene& scene, const Options& options) {
     find_conductors(finder);
     find_instances(scene, options, finder);
     find_interreflection(scene, options, finder);
+    find_second_uvs(scene, finder);
     find_texture_filter(scene, options, finder);
 
     effects.list = finder.take();

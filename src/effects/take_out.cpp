@@ -163,6 +163,12 @@ void take_out_smooth_normals(Scene& scene) {
     }
 }
 
+void take_out_second_uvs(Scene& scene) {
+    scene.second_uvs.clear();
+    for (Texture& texture : scene.textures)
+        texture.channel &= ~TEXTURE_SECOND_UV;
+}
+
 void take_out_motion(Scene& scene) {
     scene.camera.end.reset();
     scene.position_moves.clear();
@@ -220,6 +226,8 @@ void take_out_effects(EffectMask effects, Scene& scene, Options& options) {
     take_out_lobes(effects, scene);
     if (effects & EFFECT_TEXTURES)
         take_out_textures(scene);
+    if (effects & EFFECT_SECOND_UV)
+        take_out_second_uvs(scene);
     if (effects & EFFECT_MAPPED_EMISSION)
         unite_emitters(scene);
     if (effects & EFFECT_NORMAL_MAP)

@@ -77,6 +77,15 @@ void note_count(NoticeList& notices, size_t count, const std::string& path, cons
         notices.add_line(fmt::format("{}: {} {}", path, count, what));
 }
 
+void assemble_uvs(std::vector<glm::vec2>& from, std::vector<float>& to) {
+    to.resize(2 * from.size());
+    for_each_index(from.size(), [&](size_t i) {
+        to[2 * i] = from[i].x;
+        to[2 * i + 1] = from[i].y;
+    });
+    release(from);
+}
+
 void assemble_vertices(Mesh& mesh, const Normalisation& frame, Scene& scene) {
     scene.positions.resize(mesh.positions.size());
     for_each_index(mesh.positions.size(), [&](size_t i) {
@@ -106,12 +115,8 @@ void assemble_vertices(Mesh& mesh, const Normalisation& frame, Scene& scene) {
     }
     release(mesh.normals);
     release(mesh.end_normals);
-    scene.uvs.resize(2 * mesh.uvs.size());
-    for_each_index(mesh.uvs.size(), [&](size_t i) {
-        scene.uvs[2 * i] = mesh.uvs[i].x;
-        scene.uvs[2 * i + 1] = mesh.uvs[i].y;
-    });
-    release(mesh.uvs);
+    assemble_uvs(mesh.uvs, scene.uvs);
+    assemble_uvs(mesh.second_uvs, scene.second_uvs);
     scene.vertex_colours = std::move(mesh.colours);
 }
 
@@ -152,7 +157,10 @@ void assemble_geometry(Mesh& mesh, const Bounds& bounds, const Normalisation& fr
               NO_INDEX,  NO_INDEX,  NO_INDEX,  from.material, NO_INDEX, from.object};
         const auto has_direction = [&](u32 n) { return !is_zero(scene.normals[n]); };
         const auto is_finite = [&](u32 t) {
-            return std::isfinite(scene.uvs[2 * t]) && std::isfinite(scene.uvs[2 * t + 1]);
+            const auto has_pair = [t](const std::vector<float>& uvs) {
+                return uvs.empty() || (std::isfinite(uvs[2 * t]) && std::isfinite(uvs[2 * t + 1]));
+            };
+            return has_pair(scene.uvs) && has_pair(scene.second_uvs);
         };
         const Attribute normals = check_attribute(from.n, has_direction),
                         uvs = check_attribute(from.t, is_finite);

@@ -254,9 +254,9 @@ private:
         first.v1 = second.v0 = middle;
         if (first.t0 != NO_INDEX) {
             const u32 from = 2 * first.t0, to = 2 * first.t1;
-            for (const u32 i : {0u, 1u})
-                scene_.uvs.push_back(
-                    float((double(scene_.uvs[from + i]) + double(scene_.uvs[to + i])) * 0.5));
+            for (std::vector<float>* uvs : {&scene_.uvs, &scene_.second_uvs})
+                for (u32 i = 0; i < 2 && !uvs->empty(); ++i)
+                    uvs->push_back(float((double((*uvs)[from + i]) + double((*uvs)[to + i])) * 0.5));
             first.t1 = second.t0 = u32(scene_.uvs.size() / 2 - 1);
         }
         if (t < first_added_)

@@ -117,8 +117,9 @@ EmissionMap::EmissionMap(const Scene& scene, const Material& material)
     const Texture& coverage = scene.textures[material.map_coverage];
     maps_.emplace_back(scene, coverage, [&](const vec4& texel) {
         const double channels[4] = {texel.x, texel.y, texel.z, texel.w};
-        const double value =
-            coverage.channel == CHANNEL_LUMINANCE ? luminance(to_dvec3(texel)) : channels[coverage.channel];
+        const double value = TEXTURE_CHANNEL(coverage) == CHANNEL_LUMINANCE
+                                 ? luminance(to_dvec3(texel))
+                                 : channels[TEXTURE_CHANNEL(coverage)];
         return std::min(not_negative(double(coverage.base) + double(coverage.gain) * value), 1.0);
     });
 }

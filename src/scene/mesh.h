@@ -26,6 +26,7 @@ struct Mesh {
     std::vector<glm::dvec3> end_positions;
     std::vector<glm::vec3> end_normals;
     std::vector<glm::vec2> uvs;          ///< (0,0) is the lower left corner of a picture
+    std::vector<glm::vec2> second_uvs;   ///< beside each of them; empty where no texture reads them
     std::vector<glm::vec3> colours;      ///< of each position, linear; empty if no material asks for them
     std::vector<MeshTriangle> triangles; ///< in the file's order
     std::vector<u32> smoothing; ///< each triangle's smoothing group, NO_INDEX for none; empty if none has any

@@ -117,6 +117,12 @@ void append_part(const Scene& part, u32 object, Scene& scene) {
     scene.positions.insert(scene.positions.end(), part.positions.begin(), part.positions.end());
     scene.normals.insert(scene.normals.end(), part.normals.begin(), part.normals.end());
     scene.uvs.insert(scene.uvs.end(), part.uvs.begin(), part.uvs.end());
+    if (!part.second_uvs.empty()) {
+        scene.second_uvs.resize(2 * uvs);
+        scene.second_uvs.insert(scene.second_uvs.end(), part.second_uvs.begin(), part.second_uvs.end());
+    }
+    if (!scene.second_uvs.empty())
+        scene.second_uvs.resize(scene.uvs.size());
     scene.statistics.degenerate_triangles += part.statistics.degenerate_triangles;
 }
 

@@ -100,6 +100,7 @@ struct Scene {
     /// From the shutter's opening to its closing, of each position and normal; empty where no triangle moves.
     std::vector<vec4> position_moves, normal_moves;
     std::vector<float> uvs;            ///< u, v pairs
+    std::vector<float> second_uvs;     ///< beside them, or empty where no texture reads them
     std::vector<Triangle> triangles;   ///< the scene's own, then those of prototypes, in frames of their own
     std::vector<Prototype> prototypes; ///< of the meshes that instances share
     std::vector<Instance> instances;   ///< the first stands for the scene itself; empty without prototypes

@@ -42,10 +42,14 @@ struct MappedTriangle {
     std::vector<Part> parts{};
 };
 
+/// At which its map is looked up.
 std::array<glm::dvec2, 3> uvs_of(const Scene& scene, const Triangle& t) {
     if (t.t0 == NO_INDEX)
         return {};
-    const auto at = [&](u32 i) { return glm::dvec2(scene.uvs[2 * size_t(i)], scene.uvs[2 * size_t(i) + 1]); };
+    const u32 map = scene.materials[t.material].map_emission;
+    const bool by_second = map != NO_INDEX && (scene.textures[map].channel & TEXTURE_SECOND_UV);
+    const std::vector<float>& uvs = by_second ? scene.second_uvs : scene.uvs;
+    const auto at = [&](u32 i) { return glm::dvec2(uvs[2 * size_t(i)], uvs[2 * size_t(i) + 1]); };
     return {at(t.t0), at(t.t1), at(t.t2)};
 }
 

@@ -86,6 +86,8 @@ u32 TextureStore::add(const TextureUse& use, TextureRole role, NoticeList& notic
                                                                         : CHANNEL_LUMINANCE;
     if (use.channel)
         texture.channel = *use.channel;
+    if (use.by_second_uvs)
+        texture.channel |= TEXTURE_SECOND_UV;
     return add_record(texture, use);
 }
 

@@ -38,6 +38,7 @@ struct TextureUse {
     double base = 0, gain = 1;
     TextureWrap wrap_u = TextureWrap::REPEAT, wrap_v = TextureWrap::REPEAT;
     std::optional<u32> channel; ///< of a scalar: 0..3 = r, g, b, a; 4 = luminance; absent: by role and file
+    bool by_second_uvs = false; ///< looked up at Mesh::second_uvs in the place of Mesh::uvs
     bool by_vertex = false;     ///< no picture but Mesh::colours
     bool times_vertex = false;  ///< Mesh::colours multiply the picture, where it is of a reflectance
     /// The picture's file itself, where it lies within another file; `file` only names it then.

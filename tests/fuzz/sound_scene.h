@@ -25,15 +25,23 @@ inline void check_sound_triangle(const Mesh& mesh, const MeshTriangle& triangle,
     promise(triangle.object < scene.mesh.object_names.size(), "objects are in range");
 }
 
+inline void check_sound_coordinates(const Mesh& mesh) {
+    promise(mesh.second_uvs.empty() || mesh.second_uvs.size() == mesh.uvs.size(),
+            "second coordinates lie beside the first");
+}
+
 inline void check_sound(const SceneDescription& scene) {
     const Mesh& mesh = scene.mesh;
     promise(!mesh.triangles.empty() || !scene.instances.empty(), "a scene has triangles");
+    check_sound_coordinates(mesh);
     promise(mesh.colours.empty() || mesh.colours.size() == mesh.positions.size(), "colours are of positions");
     for (const MeshTriangle& triangle : mesh.triangles)
         check_sound_triangle(mesh, triangle, scene);
-    for (const Mesh& prototype : scene.prototypes)
+    for (const Mesh& prototype : scene.prototypes) {
+        check_sound_coordinates(prototype);
         for (const MeshTriangle& triangle : prototype.triangles)
             check_sound_triangle(prototype, triangle, scene);
+    }
     for (const MeshInstance& instance : scene.instances) {
         promise(instance.prototype < scene.prototypes.size() && instance.object < mesh.object_names.size(),
                 "instances are of prototypes and objects");

@@ -111,6 +111,8 @@ TEST(CutVast, TextureCoordinatesAndLabelsGoWithThePlace) {
     for (u32 i = 0; i < 4; ++i) {
         scene.uvs.push_back(scene.positions[i].x * 2);
         scene.uvs.push_back(scene.positions[i].z - 1);
+        scene.second_uvs.push_back(scene.positions[i].z + 1);
+        scene.second_uvs.push_back(scene.positions[i].x * 4);
     }
     for (u32 i = 0; i < 2; ++i) {
         Triangle& t = scene.triangles[i];
@@ -128,6 +130,8 @@ TEST(CutVast, TextureCoordinatesAndLabelsGoWithThePlace) {
         for (const auto& [v, uv] : {std::pair(t.v0, t.t0), {t.v1, t.t1}, {t.v2, t.t2}}) {
             EXPECT_EQ(scene.uvs[2 * uv], scene.positions[v].x * 2);
             EXPECT_EQ(scene.uvs[2 * uv + 1], scene.positions[v].z - 1);
+            EXPECT_EQ(scene.second_uvs[2 * uv], scene.positions[v].z + 1);
+            EXPECT_EQ(scene.second_uvs[2 * uv + 1], scene.positions[v].x * 4);
         }
     }
 }

@@ -32,7 +32,7 @@ TEST(EffectTable, ImpliedEffectsComeAndGoTogether) {
     EXPECT_EQ(with_implied(EFFECT_MATTE), EFFECT_MATTE);
     EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_TEXTURES),
               EVERY_EFFECT & ~EffectMask(EFFECT_TEXTURES | EFFECT_NORMAL_MAP | EFFECT_MAPPED_EMISSION |
-                                         EFFECT_TEXTURE_FILTER));
+                                         EFFECT_TEXTURE_FILTER | EFFECT_SECOND_UV));
     EXPECT_EQ(without_effects(EVERY_EFFECT, EFFECT_ENVIRONMENT_MAP), EVERY_EFFECT & ~EFFECT_ENVIRONMENT_MAP);
     EXPECT_FALSE(is_permitted(EFFECT_ENVIRONMENT_MAP));
     EXPECT_FALSE(is_permitted(EFFECT_TEXTURES)) << "a map of nothing";

@@ -63,6 +63,7 @@ TEST_F(FilmIdentityTest, EveryPartOfTheSceneIsInItsHash) {
             s.normal_moves.push_back({0, 1, 0, 0});
         },
         [](Scene& s) { s.uvs.push_back(0); },
+        [](Scene& s) { s.second_uvs.push_back(0); },
         [](Scene& s) { s.triangles[0].material = 1; },
         [](Scene& s) { s.triangles.pop_back(); },
         [](Scene& s) { s.materials[0].matte.x = 0.51f; },

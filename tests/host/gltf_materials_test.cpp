@@ -3,6 +3,7 @@
 #include "gltf_support.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace clrt {
@@ -107,12 +108,70 @@ TEST(GltfMaterials, TheSetOfCoordinatesIsThatOfTheTextures) {
     EXPECT_EQ(
         uv(R"({"emissiveTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"texCoord": 1}}}})"),
         glm::vec2(0.2f, 1));
-    const ReadGltf both(with_material(R"({"emissiveTexture": {"index": 0, "texCoord": 1},
-                                          "normalTexture": {"index": 0}})")
-                            .glb());
-    EXPECT_TRUE(both.notes("by one set of coordinates"));
     EXPECT_TRUE(ReadGltf(with_material(R"({"emissiveTexture": {"index": 0, "texCoord": 2}})").glb())
                     .notes("textures without TEXCOORD_2"));
+}
+
+TEST(GltfMaterials, TheTexturesOfAMaterialReadTwoSetsOfCoordinates) {
+    const ReadGltf both(
+        with_material(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1},
+                                              "metallicRoughnessTexture": {"index": 0}},
+                                          "normalTexture": {"index": 0}})")
+            .glb());
+    const MaterialDescription& m = both.scene.materials.at(0);
+    EXPECT_EQ(both.mesh().uvs.at(2), glm::vec2(0, 0)) << "those of the normal map, with its directions";
+    EXPECT_EQ(both.mesh().second_uvs.at(2), glm::vec2(0.2f, 1));
+    EXPECT_TRUE(m.base.map->by_second_uvs);
+    EXPECT_FALSE(m.normal_map->by_second_uvs || m.roughness.map->by_second_uvs ||
+                 m.metallic.map->by_second_uvs);
+    EXPECT_FALSE(both.notes("sets of coordinates"));
+    EXPECT_TRUE(
+        ReadGltf(with_material(R"({"emissiveTexture": {"index": 0}})").glb()).mesh().second_uvs.empty());
+
+    const ReadGltf three(with_material(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+                                               "metallicRoughnessTexture": {"index": 0, "texCoord": 1}},
+                                           "emissiveTexture": {"index": 0, "texCoord": 2}})")
+                             .glb());
+    EXPECT_TRUE(three.notes("by two sets of coordinates"));
+    EXPECT_FALSE(three.scene.materials[0].emission.map->by_second_uvs);
+    EXPECT_TRUE(three.scene.materials[0].roughness.map->by_second_uvs);
+}
+
+TEST(GltfMaterials, SetsOfCoordinatesThatAMeshLacksAreZero) {
+    const auto with_sets = [](int base, int emission) {
+        return with_material(fmt::format(
+            R"({{"pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0, "texCoord": {}}}}},
+                 "emissiveTexture": {{"index": 0, "texCoord": {}}}}})",
+            base, emission));
+    };
+    const ReadGltf no_first(with_sets(2, 1).glb());
+    EXPECT_TRUE(no_first.notes("textures without TEXCOORD_2"));
+    EXPECT_EQ(no_first.mesh().uvs, std::vector<glm::vec2>(3, glm::vec2(0)));
+    EXPECT_EQ(no_first.mesh().second_uvs.at(2), glm::vec2(0.2f, 1));
+    const ReadGltf no_second(with_sets(1, 2).glb());
+    EXPECT_EQ(no_second.mesh().uvs.at(2), glm::vec2(0.2f, 1));
+    EXPECT_TRUE(no_second.mesh().second_uvs.empty());
+
+    // Between meshes of one set: the second lie beside the first.
+    GltfBuilder file = with_sets(0, 1);
+    Json mesh = file.json["meshes"][0];
+    for (const char* name : {"TEXCOORD_1", "TEXCOORD_0"}) {
+        mesh["primitives"][0]["attributes"].erase(name);
+        file.json["meshes"].push_back(mesh);
+        file.json["nodes"].push_back({{"mesh", file.json["meshes"].size() - 1}});
+        file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size() - 1);
+    }
+    file.json["meshes"].push_back(file.json["meshes"][0]);
+    file.json["nodes"].push_back({{"mesh", file.json["meshes"].size() - 1}});
+    file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size() - 1);
+    const ReadGltf several(file.glb());
+    const Mesh& read = several.mesh();
+    ASSERT_EQ(read.triangles.size(), 4u);
+    EXPECT_EQ(read.second_uvs.size(), read.uvs.size());
+    const glm::vec2 expected[] = {{0.2f, 1}, {0, 0}, {}, {0.2f, 1}};
+    for (const size_t i : {0u, 1u, 3u})
+        EXPECT_EQ(read.second_uvs.at(read.triangles[i].t[2]), expected[i]) << i;
+    EXPECT_EQ(read.triangles[2].t[2], NO_INDEX);
 }
 
 TEST(GltfMaterials, AlphaIsCoverageOrAThreshold) {

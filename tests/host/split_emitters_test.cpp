@@ -104,6 +104,28 @@ TEST(SplitEmitters, PartsAreChosenByWhatTheMapSendsFromThem) {
     }
 }
 
+TEST(SplitEmitters, AMapThatReadsTheSecondCoordinatesMakesTheirParts) {
+    const auto turned = [](const std::vector<float>& uvs) {
+        std::vector<float> other;
+        for (size_t i = 0; i < uvs.size(); ++i)
+            other.push_back(uvs[i ^ 1]);
+        return other;
+    };
+    Scene first = MappedLamp().load();
+    unite_emitters(first);
+    Scene second = first;
+    first.uvs = turned(first.uvs);
+    second.second_uvs = turned(second.uvs);
+    for (Texture& texture : second.textures)
+        texture.channel |= TEXTURE_SECOND_UV;
+    split_emitters(first);
+    split_emitters(second);
+    ASSERT_GT(first.emitters.size(), 20u);
+    ASSERT_EQ(first.emitters.size(), second.emitters.size());
+    for (size_t i = 0; i < first.emitters.size(); ++i)
+        EXPECT_EQ(first.emitters[i].pdf_a, second.emitters[i].pdf_a) << i;
+}
+
 TEST(SplitEmitters, EvenMapsLeaveTheTablesAsTheyAre) {
     const Scene spots = MappedLamp().load();
     Scene united = spots;

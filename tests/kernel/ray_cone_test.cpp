@@ -27,17 +27,19 @@ SceneProbe& probe() {
                  "= REAL(0.25);"
                  "const Surface surface = surface_at(scene, &hit, &ray);"
                  "const Ray next = surface_ray(&surface, true, surface.normal_g);"
-                 "first = (vec4)(surface_uv_area(&surface), surface.width, next.width, next.spread);");
+                 "first = (vec4)(surface_uv_area(&surface).x, surface.width, next.width, next.spread);"
+                 "second.x = surface_uv_area(&surface).y;");
         return made;
     }();
     return instance;
 }
 
-/// A triangle of area 2 whose part of the texture has the area 8.
+/// A triangle of area 2 whose part of the texture has the area 8, and 0.5 by its second coordinates.
 Scene textured_triangle() {
     Scene scene;
     scene.positions = {{0, 0, 0, 0}, {2, 0, 0, 0}, {0, 2, 0, 0}};
     scene.uvs = {0, 0, 4, 0, 0, 4};
+    scene.second_uvs = {0, 0, 1, 0, 0, 1};
     Triangle triangle{0, 1, 2, NO_INDEX, NO_INDEX, NO_INDEX, 0, 1, 2, 0, NO_INDEX, 0};
     scene.triangles = {triangle};
     scene.materials.resize(1);
@@ -86,8 +88,10 @@ TEST(RayCone, FootprintsGrowWithTheSquareOfTheDistanceAndOneOverTheCosine) {
             a.push_back({float(std::sqrt(1 - cosine * cosine)), 0, float(-cosine), distance});
             b.push_back({0, float(angle * angle), 0, 0});
         }
-    const std::vector<vec4> got = probe().run("footprint", textured_triangle(), filtering(), a, b).first;
+    const SceneProbe::Outputs run = probe().run("footprint", textured_triangle(), filtering(), a, b);
+    const std::vector<vec4>& got = run.first;
     for (size_t i = 0; i < a.size(); ++i) {
+        EXPECT_NEAR(run.second[i].x / got[i].x, 0.0625, 1e-7) << "by the second coordinates";
         const double width = angle * double(a[i].w), cosine = i % 2 ? slant : 1;
         EXPECT_NEAR(got[i].y / width, 1, 1e-6);
         EXPECT_NEAR(got[i].x / (width * width * 4 / cosine), 1, 1e-5) << "texture area over area";

@@ -22,9 +22,10 @@ SceneProbe& probe() {
     static SceneProbe instance = [] {
         SceneProbe made(test_device(), {"geometry/texture.h"});
         made.add("lookup",
-                 "first = texture_lookup(scene, 0u, (float2)(a.x, a.y), a.z);"
-                 "second = probe_vec4(texture_color(scene, 0u, (float2)(a.x, a.y), a.z), REAL(0.0));"
-                 "third.x = texture_scalar(scene, 0u, (float2)(a.x, a.y), a.z);");
+                 "first = texture_lookup(scene, 0u, uv_make(a.x, a.y), (UvArea)(a.z));"
+                 "second = probe_vec4(texture_color(scene, 0u, uv_make(a.x, a.y), (UvArea)(a.z)), REAL(0.0));"
+                 "third.x = texture_scalar(scene, 0u, uv_make(a.x, a.y), (UvArea)(a.z));");
+        made.add("pairs", "first = texture_lookup(scene, 0u, (Uv)(a), (UvArea)(b.x, b.y));");
         return made;
     }();
     return instance;
@@ -399,6 +400,28 @@ TEST(TextureFilter, AnEvenPictureHasOneColourAtAnyFootprint) {
     for (const double texels : {0.0, 1.5, 7.0, 60.0, 1e4, 1e30})
         for (const vec4& got : picture.lookup(with_footprint(uv, picture, texels)).first)
             EXPECT_TRUE(same_values(got, expected)) << texels;
+}
+
+TEST(Texture, ATextureReadsItsPairOfCoordinatesAndItsFootprint) {
+    Picture picture = random_picture(8, 4, TEXEL_SRGB8);
+    append_levels(TEXEL_SRGB8, 8, 4, picture.scene.texel_words);
+    const std::vector<vec4> first = {{0.3f, 0.7f, 0, 0}}, second = {{0.6f, 0.2f, 0, 0}},
+                            pairs = {{0.3f, 0.7f, 0.6f, 0.2f}};
+    for (const float area : {0.f, 0.5f}) {
+        const auto look_at = [&](vec4 uv) {
+            uv.z = area;
+            return picture.lookup({uv}).first[0].x;
+        };
+        const auto look_at_pairs = [&](const vec4& areas) {
+            return probe().run("pairs", picture.scene, RenderParams{}, pairs, {areas}).first[0].x;
+        };
+        picture.use().channel = LUMINANCE;
+        const float grey = picture.lookup(second).third[0].x;
+        EXPECT_EQ(look_at_pairs({area, 9, 0, 0}), look_at(first[0]));
+        picture.use().channel = LUMINANCE | TEXTURE_SECOND_UV;
+        EXPECT_EQ(look_at_pairs({9, area, 0, 0}), look_at(second[0]));
+        EXPECT_EQ(picture.lookup(second).third[0].x, grey) << "the channel is that without the flag";
+    }
 }
 
 TEST(TextureLookup, GreyBytesAreColoursOfEqualChannels) {

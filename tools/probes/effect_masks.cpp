@@ -66,6 +66,15 @@ void add_two_instances(Scene& scene) {
         instance.object = 0;
 }
 
+/// All maps but those of normals are read by u and v exchanged.
+void add_second_uvs(Scene& scene) {
+    for (size_t i = 0; i < scene.uvs.size(); ++i)
+        scene.second_uvs.push_back(scene.uvs[i ^ 1]);
+    for (size_t i = 0; i < scene.textures.size(); ++i)
+        if (scene.texture_names[i] == COLOUR)
+            scene.textures[i].channel |= TEXTURE_SECOND_UV;
+}
+
 } // namespace
 
 std::vector<EffectMask> single_effects() {
@@ -135,8 +144,12 @@ SceneOfEffects::SceneOfEffects(EffectMask effects) : effects_(effects) {
     add_bodies();
     add_lights();
     look({0.2, 1.6, 3}, {0, 0.5, 0}, 50);
-    if (has(EFFECT_INSTANCES))
-        finish = add_two_instances;
+    finish = [effects](Scene& scene) {
+        if (effects & EFFECT_INSTANCES)
+            add_two_instances(scene);
+        if (effects & EFFECT_SECOND_UV)
+            add_second_uvs(scene);
+    };
     if (has(EFFECT_MOTION_BLUR))
         options.camera.end_eye = glm::dvec3(0.3, 1.7, 2.9);
     if (has(EFFECT_DEPTH_OF_FIELD))

@@ -21,8 +21,9 @@ struct Size {
 };
 
 size_t vertex_bytes(const GltfPrimitive& primitive, bool has_colours) {
-    return sizeof(glm::dvec3) + (primitive.normals.empty() ? 0 : sizeof(glm::vec3)) +
-           (primitive.uvs.empty() ? 0 : sizeof(glm::vec2)) + (has_colours ? sizeof(glm::vec3) : 0);
+    const auto bytes = [](const auto& values) { return values.empty() ? 0 : sizeof values.front(); };
+    return sizeof(glm::dvec3) + bytes(primitive.normals) + bytes(primitive.uvs) +
+           bytes(primitive.second_uvs) + (has_colours ? sizeof(glm::vec3) : 0);
 }
 
 bool is_copied(const GltfPrimitive& primitive, const GltfInstance& instance, const GltfMaterials& materials) {
@@ -61,7 +62,7 @@ public:
         for (const glm::vec3& p : primitive.positions)
             mesh_.positions.emplace_back(instance.world * glm::dvec4(glm::dvec3(p), 1));
         add_normals(primitive, normal_transform(instance.world));
-        mesh_.uvs.insert(mesh_.uvs.end(), primitive.uvs.begin(), primitive.uvs.end());
+        add_coordinates(primitive, mesh_);
         if (has_colours_)
             add_colours(primitive);
         const bool mirrored = is_mirrored(instance.world);

@@ -146,7 +146,7 @@ size_t add_primitive(const GltfPrimitive& primitive, Mesh& mesh) {
     }
     mesh.positions.insert(mesh.positions.end(), primitive.positions.begin(), primitive.positions.end());
     mesh.normals.insert(mesh.normals.end(), primitive.normals.begin(), primitive.normals.end());
-    mesh.uvs.insert(mesh.uvs.end(), primitive.uvs.begin(), primitive.uvs.end());
+    add_coordinates(primitive, mesh);
     if (!mesh.colours.empty())
         mesh.colours.resize(mesh.positions.size(), glm::vec3(1));
     size_t dropped = 0;

@@ -32,16 +32,21 @@ void GltfMaterialReader::notice(const std::string& text) const {
     context_.notices.add(text, json_.place());
 }
 
-/// Textures of one material read one set of coordinates, that of the first; the base's comes first.
+/// Textures of one material read two sets of coordinates, those of the first two textures.
 std::optional<TextureUse> GltfMaterialReader::texture(const JsonValue& owner, const char* key) {
     const std::optional<JsonValue> info = owner.find(key);
     std::optional<GltfTexture> found = info ? textures_.find(*info) : std::nullopt;
     if (!found)
         return std::nullopt;
-    if (!uv_set_)
-        uv_set_ = found->uv_set;
-    if (*uv_set_ != found->uv_set)
-        notice("a material reads all its textures by one set of coordinates, that of its first one");
+    if (std::find(uv_sets_.begin(), uv_sets_.end(), found->uv_set) == uv_sets_.end()) {
+        if (uv_sets_.size() < 2)
+            uv_sets_.push_back(found->uv_set);
+        else
+            notice(
+                "a material reads its textures by two sets of coordinates; those that ask for another read "
+                "the first");
+    }
+    found->use.by_second_uvs = uv_sets_.size() == 2 && uv_sets_[1] == found->uv_set;
     return found->use;
 }
 
@@ -52,6 +57,7 @@ MaterialDescription GltfMaterialReader::read() {
     m_.base.value = glm::dvec3(1);
     m_.metallic.value = m_.roughness.value = 1;
     m_.rule = "glTF: metallic-roughness";
+    read_normal_map();
     if (const auto gloss = extension("KHR_materials_pbrSpecularGlossiness"))
         read_specular_glossiness(*gloss);
     else if (const auto model = json_.find("pbrMetallicRoughness")) {
@@ -63,7 +69,6 @@ MaterialDescription GltfMaterialReader::read() {
     read_coat();
     read_sheen();
     read_anisotropy();
-    read_normal_map();
     read_emission();
     read_alpha();
     if (extension("KHR_materials_unlit"))

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace clrt {
 
@@ -21,8 +22,9 @@ public:
     /// Throws SceneError: JSON path, expected, found.
     MaterialDescription read();
 
-    /// TEXCOORD_n of the textures that were read; absent: there are none.
-    std::optional<size_t> uv_set() const { return uv_set_; }
+    /// TEXCOORD_n of the textures that were read, at most two, those of the normal map first: its directions
+    /// are those of the first.
+    const std::vector<size_t>& uv_sets() const { return uv_sets_; }
 
 private:
     std::optional<JsonValue> extension(const char* name) const;
@@ -49,7 +51,7 @@ private:
     const ReadContext& context_;
     MaterialDescription m_;
     double base_alpha_ = 1;
-    std::optional<size_t> uv_set_;
+    std::vector<size_t> uv_sets_;
 };
 
 } // namespace clrt

@@ -48,13 +48,12 @@ GltfSurface GltfMaterials::find(const JsonValue& primitive, bool coloured) {
 }
 
 GltfSurface GltfMaterials::describe(const std::optional<JsonValue>& json, bool coloured) {
-    GltfSurface surface{u32(descriptions_.size()), 0, false};
+    GltfSurface surface{u32(descriptions_.size()), {}};
     MaterialDescription material = default_material(buffers_.file().name());
     if (json) {
         GltfMaterialReader reader(*json, textures_, context_);
         material = reader.read();
-        surface.uv_set = reader.uv_set().value_or(0);
-        surface.has_textures = reader.uv_set().has_value();
+        surface.uv_sets = reader.uv_sets();
     }
     if (coloured)
         colour_by_vertex(material);

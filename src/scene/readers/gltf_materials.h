@@ -16,9 +16,10 @@ namespace clrt {
 
 /// A material as a primitive uses it.
 struct GltfSurface {
-    u32 material = 0;  ///< into descriptions()
-    size_t uv_set = 0; ///< TEXCOORD_n that its textures read
-    bool has_textures = false;
+    u32 material = 0; ///< into descriptions()
+    /// TEXCOORD_n that its textures read: the first and, where there is one, the second; none without
+    /// textures.
+    std::vector<size_t> uv_sets;
 };
 
 /// Describes materials as primitives ask for them.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/readers/gltf_primitives.h"
 
-#include "scene/readers/gltf_attributes.h"
-
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -122,6 +120,15 @@ void clamp_colours(std::vector<glm::vec3>& colours) {
 
 } // namespace
 
+void add_coordinates(const GltfPrimitive& primitive, Mesh& mesh) {
+    if (!primitive.second_uvs.empty())
+        mesh.second_uvs.resize(mesh.uvs.size(), glm::vec2(0));
+    mesh.uvs.insert(mesh.uvs.end(), primitive.uvs.begin(), primitive.uvs.end());
+    mesh.second_uvs.insert(mesh.second_uvs.end(), primitive.second_uvs.begin(), primitive.second_uvs.end());
+    if (!mesh.second_uvs.empty())
+        mesh.second_uvs.resize(mesh.uvs.size(), glm::vec2(0));
+}
+
 void GltfMeshes::notice(const std::string& text, const JsonValue& json) {
     notices_.add(text, json.place());
 }
@@ -146,6 +153,26 @@ std::vector<GltfPrimitive> GltfMeshes::read_mesh(const JsonValue& mesh) {
     return primitives;
 }
 
+/// One attribute of coordinates for each set; where only the second is there, the first are zero.
+void GltfMeshes::read_coordinates(const JsonValue& json, GltfAttributes& attributes,
+                                  const std::vector<size_t>& sets, GltfPrimitive& primitive) {
+    const size_t vertices = primitive.positions.size();
+    const auto read = [&](size_t set) {
+        const std::string name = fmt::format("TEXCOORD_{}", set);
+        std::vector<glm::vec2> uvs = coordinates_of(attributes.find(name.c_str(), GltfElement::VEC2));
+        check_length(json, name.c_str(), uvs, vertices);
+        if (!sets.empty() && uvs.empty())
+            notice(fmt::format("textures without {} read the corner of their picture", name), json);
+        return uvs;
+    };
+    primitive.uvs = read(sets.empty() ? 0 : sets[0]);
+    if (sets.size() < 2)
+        return;
+    primitive.second_uvs = read(sets[1]);
+    if (primitive.uvs.empty() && !primitive.second_uvs.empty())
+        primitive.uvs.assign(vertices, glm::vec2(0));
+}
+
 std::optional<GltfPrimitive> GltfMeshes::read_primitive(const JsonValue& json) {
     const size_t mode = json.whole("mode", MODE_TRIANGLES);
     if (mode >= MODE_COUNT)
@@ -161,16 +188,12 @@ std::optional<GltfPrimitive> GltfMeshes::read_primitive(const JsonValue& json) {
     }
     GltfPrimitive primitive;
     const GltfSurface surface = materials_.find(json, attributes.has("COLOR_0"));
-    const std::string uv_name = fmt::format("TEXCOORD_{}", surface.uv_set);
     primitive.material = surface.material;
     primitive.positions = vectors_of(attributes.find("POSITION", GltfElement::VEC3));
     const size_t vertices = primitive.positions.size();
     primitive.normals = vectors_of(attributes.find("NORMAL", GltfElement::VEC3));
     check_length(json, "NORMAL", primitive.normals, vertices);
-    primitive.uvs = coordinates_of(attributes.find(uv_name.c_str(), GltfElement::VEC2));
-    check_length(json, uv_name.c_str(), primitive.uvs, vertices);
-    if (surface.has_textures && primitive.uvs.empty())
-        notice(fmt::format("textures without {} read the corner of their picture", uv_name), json);
+    read_coordinates(json, attributes, surface.uv_sets, primitive);
     primitive.colours = vectors_of(attributes.find("COLOR_0", GltfElement::COLOUR));
     check_length(json, "COLOR_0", primitive.colours, vertices);
     clamp_colours(primitive.colours);

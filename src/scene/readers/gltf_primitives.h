@@ -2,7 +2,9 @@
 // The primitives of glTF meshes -> triangles with their attributes, in the mesh's own frame.
 #pragma once
 
+#include "scene/mesh.h"
 #include "scene/readers/gltf_accessors.h"
+#include "scene/readers/gltf_attributes.h"
 #include "scene/readers/gltf_materials.h"
 
 #include <glm/vec2.hpp>
@@ -28,13 +30,16 @@ struct GltfMorphTarget {
 /// Attributes are empty where absent, else one a position.
 struct GltfPrimitive {
     std::vector<glm::vec3> positions, normals;
-    std::vector<glm::vec2> uvs; ///< from the lower left
+    std::vector<glm::vec2> uvs, second_uvs; ///< from the lower left; the second only beside the first
     std::vector<glm::vec3> colours;
     std::vector<GltfInfluence> influences; ///< the same number for each position, one after the other
     std::vector<GltfMorphTarget> targets;
     std::vector<u32> corners; ///< three a triangle, below the number of positions
     u32 material = 0;
 };
+
+/// Adds the texture coordinates of a primitive's vertices.
+void add_coordinates(const GltfPrimitive& primitive, Mesh& mesh);
 
 /// Reads meshes, each once.
 class GltfMeshes {
@@ -51,6 +56,8 @@ public:
 private:
     std::vector<GltfPrimitive> read_mesh(const JsonValue& mesh);
     std::optional<GltfPrimitive> read_primitive(const JsonValue& json);
+    void read_coordinates(const JsonValue& json, GltfAttributes& attributes, const std::vector<size_t>& sets,
+                          GltfPrimitive& primitive);
     void notice(const std::string& text, const JsonValue& json);
 
     GltfBuffers& buffers_;

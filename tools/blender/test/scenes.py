@@ -99,12 +99,10 @@ def _room(width, height):
     return scene
 
 
-def balls(width=160, height=120):
-    """Materials of many lobes in a row, before a wall with a picture, under a spot and a panel."""
-    scene = _room(width, height)
-    mesh = bpy.ops.mesh
-    add(mesh.primitive_plane_add, "floor", matte("grey", (0.5, 0.5, 0.5)), size=40)
-    add(mesh.primitive_plane_add, "wall", checked("picture"), size=6, location=(0, 3, 2), rotation=(math.pi / 2, 0, 0))
+def _row_of_balls():
+    """Materials of many lobes in a row, before a wall with a picture."""
+    add(bpy.ops.mesh.primitive_plane_add, "wall", checked("picture"), size=6, location=(0, 3, 2),
+        rotation=(math.pi / 2, 0, 0))
     for i, material in enumerate((
             principled("glass", Base_Color=(0.9, 0.95, 1.0), Transmission_Weight=1.0, Roughness=0.0, IOR=1.45),
             principled("frosted", Base_Color=(1.0, 1.0, 1.0), Transmission_Weight=1.0, Roughness=0.4),
@@ -113,10 +111,33 @@ def balls(width=160, height=120):
             principled("gold", Base_Color=(1.0, 0.77, 0.34), Metallic=1.0, Roughness=0.2, Anisotropic=0.5),
             principled("rough", Base_Color=(0.8, 0.8, 0.8), Roughness=1.0))):
         ball(material.name + " ball", material, (1.1 * i - 2.75, 0.3 * (i % 2), 0.5), 0.5)
+
+
+def balls(width=160, height=120):
+    """The row of balls under a spot and a panel."""
+    scene = _room(width, height)
+    add(bpy.ops.mesh.primitive_plane_add, "floor", matte("grey", (0.5, 0.5, 0.5)), size=40)
+    _row_of_balls()
     spot = lamp(scene, "spot", "SPOT", (-3, -3, 4), 600, spot_size=math.radians(50), spot_blend=0.2, shadow_soft_size=0)
     spot.rotation_euler = (0.75, 0, -0.6)
     panel = lamp(scene, "panel", "AREA", (3, -4, 6), 500, shape="SQUARE", size=2)
     panel.rotation_euler = (0.6, 0, 0.5)
+    set_sky(scene, (1, 1, 1), 0.2)
+    set_camera(scene, (0, -8, 2.5), (78, 0, 0), lens=40)
+    return scene
+
+
+def obj_balls(width=160, height=120):
+    """The row of balls as an OBJ can have it: the panel is a mesh that shines; sun, sky and camera are options of clrt."""
+    scene = _room(width, height)
+    add(bpy.ops.mesh.primitive_plane_add, "floor", principled("grey", Base_Color=(0.5, 0.5, 0.5), Roughness=1.0,
+                                                              Specular_IOR_Level=0.0), size=40)
+    _row_of_balls()
+    panel = add(bpy.ops.mesh.primitive_plane_add, "panel",
+                principled("panel", Base_Color=(0.0, 0.0, 0.0), Specular_IOR_Level=0.0, Emission_Color=(1.0, 0.9, 0.8),
+                           Emission_Strength=12.0), size=2, location=(3, -4, 6))
+    panel.rotation_euler = (0.6 + math.pi, 0, 0.5)
+    lamp(scene, "sun", "SUN", (0, 0, 9), 1, angle=math.radians(4)).rotation_euler = (0.7, 0.5, 0)
     set_sky(scene, (1, 1, 1), 0.2)
     set_camera(scene, (0, -8, 2.5), (78, 0, 0), lens=40)
     return scene
