@@ -159,7 +159,11 @@ static CLRT_NOINLINE float4 texture_lookup(const Scene* scene, uint index, Uv uv
 /* A colour, not negative; a NaN stays one. */
 static inline real3 texture_color(const Scene* scene, uint index, Uv uv, UvArea uv_area)
 {
-    const real3 color = convert_real3(texture_lookup(scene, index, uv, uv_area).xyz);
+    const float4 value = texture_lookup(scene, index, uv, uv_area);
+    const uint flags = scene->textures[index].channel;
+    real3 color = flags & TEXTURE_WHITE ? (real3)(REAL(1.0)) : convert_real3(value.xyz);
+    if (flags & TEXTURE_TIMES_ALPHA)
+        color *= (real)value.w;
     return color < (real3)(REAL(0.0)) ? (real3)(REAL(0.0)) : color;
 }
 

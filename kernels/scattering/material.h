@@ -175,6 +175,28 @@ static inline void material_cover(const Scene* scene, global const Material* mat
     }
 }
 
+/* The texel of a map of anisotropy where the material has one; 0 where not. */
+static inline float4 material_anisotropy(const Scene* scene, const Surface* surface)
+{
+    const uint map = scene->extensions[surface->material].map_anisotropy;
+    return HAS(EFFECT_TEXTURES) && map != NO_INDEX ? texture_lookup(scene, map, surface->uv, UV_NO_AREA)
+                                                   : (float4)(0.0f);
+}
+
+/* A highlight is stretched to 1 : 10 at most. */
+#define MATERIAL_LEAST_ASPECT REAL(0.1)
+
+/* Stretches a highlight by its map: across the direction it keeps its alpha (KHR_materials_anisotropy). */
+static CLRT_NOINLINE void material_stretch(const Scene* scene, const Surface* surface, Bsdf* bsdf)
+{
+    if (scene->extensions[surface->material].map_anisotropy == NO_INDEX || bsdf->alpha_x == REAL(0.0))
+        return;
+    const real strength = (real)scene->extensions[surface->material].anisotropy *
+                          real_unit((real)material_anisotropy(scene, surface).z);
+    bsdf->alpha_x = fma(strength * strength, REAL(1.0) - bsdf->alpha_y, bsdf->alpha_y);
+    bsdf->alpha_y = fmax(bsdf->alpha_y, MATERIAL_LEAST_ASPECT * bsdf->alpha_x);
+}
+
 /* The direction along which highlights are stretched. */
 static inline real3 material_tangent(const Scene* scene, global const Material* material,
                                      const Surface* surface, real3 n)
@@ -184,7 +206,14 @@ static inline real3 material_tangent(const Scene* scene, global const Material* 
     global const MaterialExtension* extension = scene->extensions + surface->material;
     const Frame frame = frame_make_tangent(n, surface->tangent);
     const real handed = vector_dot(frame.y, surface->bitangent) < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
-    return (real)extension->turn_cos * frame.x + (handed * (real)extension->turn_sin) * frame.y;
+    real2 turn = (real2)((real)extension->turn_cos, (real)extension->turn_sin);
+    if (HAS(EFFECT_TEXTURES) && extension->map_anisotropy != NO_INDEX) {
+        const float4 texel = material_anisotropy(scene, surface);
+        const real2 way = REAL(2.0) * (real2)((real)texel.x, (real)texel.y) - (real2)(REAL(1.0));
+        turn = (real2)(turn.x * way.x - turn.y * way.y, turn.x * way.y + turn.y * way.x);
+    }
+    const real3 tangent = turn.x * frame.x + (handed * turn.y) * frame.y;
+    return vector_is_zero(tangent) ? frame.x : tangent;
 }
 
 /* Indices of a solid for the colours; all the same where it does not disperse. */
@@ -270,6 +299,8 @@ static inline void material_parameters(const Scene* scene, global const Material
         bsdf->alpha_x = x * x < MATERIAL_SMALLEST_ALPHA ? MATERIAL_SMALLEST_ALPHA : x * x;
         bsdf->alpha_y = y * y < MATERIAL_SMALLEST_ALPHA ? MATERIAL_SMALLEST_ALPHA : y * y;
     }
+    if (HAS(EFFECT_ROTATION) && HAS(EFFECT_TEXTURES) && (material->flags & MATERIAL_TURNED))
+        material_stretch(scene, surface, bsdf);
 }
 
 /* Emitted radiance at uv, both sides alike, towards a direction of this cosine on the facet; the caller knows

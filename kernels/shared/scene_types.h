@@ -92,8 +92,12 @@ typedef struct {
     float spread; /* of the index between Fraunhofer's lines C and F (scattering/dispersion.h) */
     float priority; /* of the solid: of two in one place the greater is there (geometry/nest.h) */
     u32 measured;   /* of LOBE_MEASURED: first word of its BRDF (measured_types.h) */
+    u32 map_anisotropy; /* r, g: direction along which the highlight is stretched, (-1, 1) as (0, 1); b: how
+                           much, multiplied by */
+    float anisotropy;   /* this; NO_INDEX: the highlight is stretched as alpha_x and alpha_y say */
+    u32 unused0, unused1;
 } MaterialExtension;
-ASSERT_SIZE(MaterialExtension, 80);
+ASSERT_SIZE(MaterialExtension, 96);
 
 #define EXTENSION_TRANSMISSION(extension) ((extension).attenuation.w) /* weight of the glass, in [0,1] */
 #define EXTENSION_SHEEN_ALPHA(extension) ((extension).sheen.w)        /* of its distribution, above 0 */
@@ -126,15 +130,17 @@ typedef struct {
     float shear_u, shear_v;
     float base, gain;
     u32 wrap_u, wrap_v; /* WRAP_* */
-    u32 channel;     /* TEXTURE_CHANNEL for scalar maps: 0..3 = r, g, b, a; 4 = luminance (-imfchan). And
-                        TEXTURE_SECOND_UV, where it is looked up at the second texture coordinates */
+    u32 channel;     /* TEXTURE_CHANNEL for scalar maps: 0..3 = r, g, b, a; 4 = luminance (-imfchan); and
+                        TEXTURE_* flags */
     u32 vertex_word; /* first texel word of the colours of vertices that multiply a reflectance: three words a
                         vertex (index as in positions), r, g, b as floats; 0: none */
 } Texture;
 ASSERT_SIZE(Texture, 64);
 
 #define TEXTURE_CHANNEL(texture) ((texture).channel & 7u)
-#define TEXTURE_SECOND_UV 8u
+#define TEXTURE_SECOND_UV 8u    /* it is looked up at the second texture coordinates */
+#define TEXTURE_TIMES_ALPHA 16u /* of a reflectance: its alpha multiplies it */
+#define TEXTURE_WHITE 32u       /* of a reflectance: all its colours are white */
 
 /* An emissive triangle, or one of the parts of one, which follow each other. Choosing: i = floor(u n); keep i where the second random word is below `threshold`,
    else take `alias` (Walker 1977, Vose 1991). */

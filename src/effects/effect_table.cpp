@@ -60,7 +60,7 @@ const std::vector<EffectSpec>& effect_table() {
         {EFFECT_INSTANCES, "instances", 0, 0, "meshes that are shared are not there"},
         {EFFECT_THIN_WALL, "thin walls", 0, 0, "thin walls of glass are black and opaque"},
         {EFFECT_ROTATION, "rotated highlights", 0, EFFECT_GLOSSY | EFFECT_ROUGH_REFRACTION | EFFECT_THIN_WALL,
-         "stretched highlights lie along the texture coordinates"},
+         "stretched highlights lie along the texture coordinates, and no map stretches one"},
         {EFFECT_TEXTURE_FILTER, "texture filter", EFFECT_TEXTURES, 0,
          "textures are read at a point, as by --texture-filter none"},
         {EFFECT_MEASURED, "measured reflection", 0, 0, "materials with a measured BRDF are black"},

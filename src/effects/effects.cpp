@@ -191,8 +191,8 @@ std::vector<u32> maps_of(const Scene& scene, size_t i) {
     if (scene.extensions.empty())
         return maps;
     const MaterialExtension& e = scene.extensions[i];
-    for (const u32 map :
-         {e.map_transmission, e.map_coat, e.map_sheen, e.map_coat_roughness, e.map_sheen_roughness})
+    for (const u32 map : {e.map_transmission, e.map_coat, e.map_sheen, e.map_coat_roughness,
+                          e.map_sheen_roughness, e.map_anisotropy})
         maps.push_back(map);
     return maps;
 }

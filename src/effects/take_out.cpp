@@ -123,9 +123,13 @@ void take_out_textures(Scene& scene) {
         set_cut_out_flag(material);
     }
     for (MaterialExtension& extension : scene.extensions)
-        for (u32* map : {&extension.map_transmission, &extension.map_coat, &extension.map_sheen,
-                         &extension.map_coat_roughness, &extension.map_sheen_roughness})
+        for (u32* map :
+             {&extension.map_transmission, &extension.map_coat, &extension.map_sheen,
+              &extension.map_coat_roughness, &extension.map_sheen_roughness, &extension.map_anisotropy})
             *map = NO_INDEX;
+    for (Material& material : scene.materials)
+        if (material.alpha_x == material.alpha_y) // maps alone stretched it
+            material.flags &= ~MATERIAL_TURNED;
     for (size_t i = 0; i < scene.emitted.size(); ++i)
         scene.emitted[i] = constant_emission(scene.materials[i]);
     unite_emitters(scene);

@@ -50,6 +50,7 @@ MaterialExtension empty_extension() {
     EXTENSION_SHEEN_ALPHA(e) = 1;
     e.turn_cos = 1;
     e.map_transmission = e.map_coat = e.map_sheen = e.map_coat_roughness = e.map_sheen_roughness = NO_INDEX;
+    e.map_anisotropy = NO_INDEX;
     return e;
 }
 
@@ -74,6 +75,9 @@ BuiltExtension build_extension(const MaterialDescription& from, const Material& 
         const double angle = 2 * PI * from.anisotropy_rotation;
         e.turn_cos = float(std::cos(angle));
         e.turn_sin = float(std::sin(angle));
+        if (from.anisotropy_map)
+            e.map_anisotropy = load_map(*from.anisotropy_map, TextureRole::NORMAL);
+        e.anisotropy = float(from.anisotropy_strength);
     }
     if (material.lobes & LOBE_COAT) {
         e.coat = float(load(from.coat_weight, TextureRole::SCALAR, load_map, e.map_coat));

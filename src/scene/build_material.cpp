@@ -189,7 +189,8 @@ private:
             m_.flags |= MATERIAL_NESTED;
         if (is_solid && from_.abbe > 0 && MATERIAL_INDEX(m_) > 1)
             m_.flags |= MATERIAL_DISPERSES;
-        if (m_.alpha_x != m_.alpha_y && from_.anisotropy_rotation != 0)
+        if ((m_.alpha_x != m_.alpha_y && from_.anisotropy_rotation != 0) ||
+            (m_.alpha_x > 0 && from_.anisotropy_map))
             m_.flags |= MATERIAL_TURNED;
         if (from_.coat_weight.value > 0)
             m_.lobes |= LOBE_COAT;
@@ -216,7 +217,7 @@ private:
         MATERIAL_METALLIC(m_) = float(metallic);
         const bool by_map = m_.map_metallic != NO_INDEX;
         const double dielectric = by_map || metallic < 1
-                                      ? load(from_.dielectric_f0, TextureRole::LEVEL, m_.map_specular)
+                                      ? load(from_.dielectric_f0, from_.dielectric_f0_role, m_.map_specular)
                                       : from_.dielectric_f0.value;
         const glm::dvec3 base = to_dvec3(m_.matte);
         glm::dvec3 f0 = glm::min(dielectric * from_.specular_tint, glm::dvec3(1));

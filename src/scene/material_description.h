@@ -69,17 +69,22 @@ struct MaterialDescription {
 
     Mapped<glm::dvec3> base{glm::dvec3(DEFAULT_REFLECTANCE)}; ///< matte reflectance, colour of a metal
     Reflection reflection = Reflection::NONE;
-    Mapped<glm::dvec3> specular;                 ///< of CONSTANT and SCHLICK
-    Mapped<double> metallic;                     ///< of METALLIC, in [0,1]
-    Mapped<double> dielectric_f0{DIELECTRIC_F0}; ///< of METALLIC, in [0,1]
-    Mapped<double> roughness;                    ///< in [0,1]; GGX alpha is its square, 0 a mirror
+    Mapped<glm::dvec3> specular;                         ///< of CONSTANT and SCHLICK
+    Mapped<double> metallic;                             ///< of METALLIC, in [0,1]
+    Mapped<double> dielectric_f0{DIELECTRIC_F0};         ///< of METALLIC, in [0,1]
+    TextureRole dielectric_f0_role = TextureRole::LEVEL; ///< of its map: or COLOUR
+    Mapped<double> roughness;                            ///< in [0,1]; GGX alpha is its square, 0 a mirror
     double anisotropy = 0; ///< in [0,1]; stretches the roughness along the tangent (Burley 2012, section 5.4)
     std::optional<double> phong_exponent; ///< that the roughness was made of, where no map multiplies it
     bool whitted_mirror = false;          ///< `whitted` follows its reflection as a mirror's
     double anisotropy_rotation = 0;       ///< turns of the stretched highlight, from growing u to growing v
-    glm::dvec3 specular_tint{1};          ///< of METALLIC: factor of dielectric_f0
-    double ior = DEFAULT_IOR;             ///< of DIELECTRIC and transmission_weight, above 0
-    double abbe = 0;                      ///< Abbe number of the glass, from SMALLEST_ABBE; 0: no dispersion
+    /// Stretches by KHR_materials_anisotropy, in the place of `anisotropy`, which is 0: r and g the
+    /// direction, b the factor of the strength, in [0,1].
+    std::optional<TextureUse> anisotropy_map;
+    double anisotropy_strength = 0;
+    glm::dvec3 specular_tint{1}; ///< of METALLIC: factor of dielectric_f0
+    double ior = DEFAULT_IOR;    ///< of DIELECTRIC and transmission_weight, above 0
+    double abbe = 0;             ///< Abbe number of the glass, from SMALLEST_ABBE; 0: no dispersion
     /// Of solid glass: of two solids in one place the one of greater priority is there. Where no material of
     /// a scene has one, surfaces are what they are alone.
     std::optional<double> priority;

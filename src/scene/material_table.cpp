@@ -98,7 +98,8 @@ Maps maps_of(const MaterialExtension& e) {
             {"Pc", e.map_coat},
             {"Pcr", e.map_coat_roughness},
             {"Ps", e.map_sheen},
-            {"sheen roughness", e.map_sheen_roughness}};
+            {"sheen roughness", e.map_sheen_roughness},
+            {"anisotropy", e.map_anisotropy}};
 }
 
 std::string named_maps(const Maps& maps, const Scene& scene) {

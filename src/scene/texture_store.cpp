@@ -86,8 +86,9 @@ u32 TextureStore::add(const TextureUse& use, TextureRole role, NoticeList& notic
                                                                         : CHANNEL_LUMINANCE;
     if (use.channel)
         texture.channel = *use.channel;
-    if (use.by_second_uvs)
-        texture.channel |= TEXTURE_SECOND_UV;
+    texture.channel |= (use.by_second_uvs ? TEXTURE_SECOND_UV : 0) |
+                       (use.alpha != TextureAlpha::IGNORED ? TEXTURE_TIMES_ALPHA : 0) |
+                       (use.alpha == TextureAlpha::ALONE ? TEXTURE_WHITE : 0);
     return add_record(texture, use);
 }
 

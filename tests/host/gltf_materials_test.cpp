@@ -232,6 +232,55 @@ TEST(GltfMaterials, ReflectanceHeadOnIsColouredAndNotAboveOne) {
     EXPECT_EQ(m.specular_tint.z, 0);
 }
 
+TEST(GltfMaterials, SpecularTexturesAreColoursAndAlphas) {
+    const auto with_textures = [](const std::string& textures) {
+        return ReadGltf(
+            with_material(R"({"extensions": {"KHR_materials_specular": {)" + textures + "}}}").glb());
+    };
+    const std::string colour = R"("specularColorTexture": {"index": 0})",
+                      weight = R"("specularTexture": {"index": 0})";
+    const struct {
+        std::string textures;
+        TextureAlpha alpha;
+    } cases[] = {{colour, TextureAlpha::IGNORED},
+                 {weight, TextureAlpha::ALONE},
+                 {colour + ", " + weight, TextureAlpha::MULTIPLIES}};
+    for (const auto& [textures, alpha] : cases) {
+        const ReadGltf read = with_textures(textures);
+        const MaterialDescription& m = read.scene.materials.at(0);
+        EXPECT_EQ(m.dielectric_f0.map->file, "a b.png") << textures;
+        EXPECT_EQ(m.dielectric_f0.map->alpha, alpha) << textures;
+        EXPECT_EQ(m.dielectric_f0_role, TextureRole::COLOUR);
+        EXPECT_FALSE(read.notes("specularTexture is ignored"));
+    }
+    for (const char* other :
+         {R"("specularTexture": {"index": 1})", R"("specularTexture": {"index": 0, "texCoord": 1})"}) {
+        const ReadGltf read = with_textures(colour + ", " + other);
+        EXPECT_TRUE(read.notes("specularTexture is ignored")) << other;
+        EXPECT_EQ(read.scene.materials[0].dielectric_f0.map->alpha, TextureAlpha::IGNORED);
+    }
+}
+
+TEST(GltfMaterials, GlossinessInAnAlphaIsRoughness) {
+    const auto with_texture = [](const std::string& index) {
+        return described(
+            R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {"specularFactor": [0.5, 0.25, 1],
+                "glossinessFactor": 0.75, "specularGlossinessTexture": {"index": )" +
+            index + "}}}}");
+    };
+    const MaterialDescription m = with_texture("0");
+    EXPECT_EQ(m.reflection, Reflection::SCHLICK);
+    EXPECT_EQ(m.specular.value, glm::dvec3(0.5, 0.25, 1));
+    ASSERT_TRUE(m.roughness.map);
+    EXPECT_EQ(m.roughness.map->channel, 3u);
+    EXPECT_EQ(m.roughness.value, 1);
+    EXPECT_EQ(m.roughness.map->base + m.roughness.map->gain * 0.4, 1 - 0.75 * 0.4);
+    EXPECT_EQ(m.roughness.without_map, 0.25);
+    const MaterialDescription opaque = with_texture("1");
+    EXPECT_FALSE(opaque.roughness.map);
+    EXPECT_EQ(opaque.roughness.value, 0.25);
+}
+
 TEST(GltfMaterials, CoatsAndSheensHaveTheirChannels) {
     const MaterialDescription m = described(
         R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
@@ -256,6 +305,21 @@ TEST(GltfMaterials, AnisotropyKeepsBothRoughnessesOfTheStandard) {
     EXPECT_NEAR(mean / aspect, 0.25 + 0.75 * 0.25, 1e-14) << "along: mix(a, 1, s^2)";
     EXPECT_NEAR(mean * aspect, 0.25, 1e-14) << "across";
     EXPECT_NEAR(m.anisotropy_rotation, 1.5 / 6.283185307179586, 1e-15);
+}
+
+TEST(GltfMaterials, AnAnisotropyTextureStretchesInThePlaceOfTheConstants) {
+    const MaterialDescription m = described(
+        R"({"pbrMetallicRoughness": {"roughnessFactor": 0.5}, "extensions": {"KHR_materials_anisotropy":
+            {"anisotropyStrength": 0.75, "anisotropyRotation": 1.5, "anisotropyTexture": {"index": 0}}}})");
+    EXPECT_EQ(m.anisotropy_map->file, "a b.png");
+    EXPECT_EQ(m.anisotropy_strength, 0.75);
+    EXPECT_EQ(m.anisotropy, 0);
+    EXPECT_EQ(m.roughness.value, 0.5);
+    EXPECT_NEAR(m.anisotropy_rotation, 1.5 / 6.283185307179586, 1e-15);
+    EXPECT_FALSE(
+        described(R"({"extensions": {"KHR_materials_anisotropy": {"anisotropyTexture": {"index": 0}}}})")
+            .anisotropy_map)
+        << "of no strength";
 }
 
 TEST(GltfMaterials, UnlitShinesAndReflectsNothing) {

@@ -115,7 +115,9 @@ struct ReadGltf {
                       Toggle instances = Toggle::AUTO) {
         Progress silent(Toggle::OFF, true);
         PictureFacts facts;
-        facts.has_alpha = [](const TextureUse&) { return true; };
+        facts.has_alpha = [](const TextureUse& use) {
+            return !use.bytes;
+        }; // pictures within the file have none
         scene =
             read_gltf_scene({name, bytes}, {silent, notices, facts, MtlReading::AUTO, reading, instances});
     }

@@ -198,6 +198,41 @@ TEST(Material, StretchedHighlightsFollowTheDirectionOfGrowingU) {
     EXPECT_NEAR(got.third[0].w, 1, 4 * FLOAT_U); // right-handed
 }
 
+TEST(Material, MapsOfAnisotropyStretchHighlightsAndTurnThem) {
+    Sample sample;
+    sample.material().alpha_x = sample.material().alpha_y = 0.25f;
+    sample.material().flags = MATERIAL_TURNED;
+    MaterialExtension& extension = sample.scene.extensions.emplace_back();
+    const float c = float(std::cos(0.5)), s = float(std::sin(0.5));
+    extension.map_anisotropy = sample.add_map(1, 1, {{0.5f + 0.5f * c, 0.5f + 0.5f * s, 0.8f, 1}});
+    extension.anisotropy = 0.5f;
+    extension.turn_cos = 1;
+    const auto colors = [&] { return sample.at("colors", 0.25, 0.25, UP); };
+    const auto way = [&] { return to_dvec3(sample.at("frame", 0.25, 0.25, UP).second[0]); };
+    EXPECT_NEAR(colors().first[0].w, 0.25 + 0.75 * 0.4 * 0.4, 1e-7) << "along: mix(a, 1, s^2)";
+    EXPECT_EQ(colors().second[0].w, 0.25f) << "across";
+    EXPECT_LE(glm::length(way() - dvec3(c, s, 0)), 1e-6);
+    // A constant turn is added.
+    extension.turn_cos = 0, extension.turn_sin = 1;
+    EXPECT_LE(glm::length(way() - dvec3(-s, c, 0)), 1e-6);
+    // Mirrored coordinates: u grows along -x, v still along y.
+    extension.turn_cos = 1, extension.turn_sin = 0;
+    sample.scene.uvs = {0, 0, -1, 0, 0, 1};
+    EXPECT_LE(glm::length(way() - dvec3(-c, s, 0)), 1e-6);
+    // A map of no direction leaves that of growing u, and at most 1 : 10.
+    sample.scene.uvs = {0, 0, 1, 0, 0, 1};
+    sample.material().alpha_x = sample.material().alpha_y = 0.01f;
+    extension.map_anisotropy = sample.add_map(1, 1, {{0.5f, 0.5f, 1, 1}});
+    extension.anisotropy = 1;
+    EXPECT_LE(glm::length(way() - dvec3(1, 0, 0)), 1e-6);
+    EXPECT_EQ(colors().first[0].w, 1);
+    EXPECT_NEAR(colors().second[0].w, 0.1, 1e-7);
+    // What is not stretched at all keeps its alpha.
+    extension.anisotropy = 0;
+    EXPECT_EQ(colors().first[0].w, 0.01f);
+    EXPECT_EQ(colors().second[0].w, 0.01f);
+}
+
 TEST(Material, FlatMapsLeaveTheNormal) {
     Sample sample;
     sample.material().map_normal = sample.add_map(1, 1, {{0.5f, 0.5f, 1, 1}});

@@ -55,7 +55,7 @@ const Layout MATERIAL_EXTENSION = {
     sizeof(MaterialExtension),
     {M(attenuation), M(sheen), M(coat), M(coat_alpha), M(turn_cos), M(turn_sin), M(map_transmission),
      M(map_coat), M(map_sheen), M(map_coat_roughness), M(map_sheen_roughness), M(spread), M(priority),
-     M(measured)}};
+     M(measured), M(map_anisotropy), M(anisotropy), M(unused0), M(unused1)}};
 #undef M
 #define M(name) MEMBER(MeasuredView, name)
 const Layout MEASURED_VIEW = {

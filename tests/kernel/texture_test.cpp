@@ -294,6 +294,24 @@ TEST(Texture, ScalarMapsReadTheirChannel) {
     }
 }
 
+TEST(Texture, AlphaMultipliesColoursWhereItIsAskedTo) {
+    Picture picture(1, 1, TEXEL_FLOAT);
+    picture.add_floats({0.25, 0.5, 2, 0.75});
+    const struct {
+        u32 flags;
+        double r, g, b;
+    } cases[] = {{0, 0.25, 0.5, 2},
+                 {TEXTURE_TIMES_ALPHA, 0.1875, 0.375, 1.5},
+                 {TEXTURE_TIMES_ALPHA | TEXTURE_WHITE, 0.75, 0.75, 0.75}};
+    for (const auto& [flags, r, g, b] : cases) {
+        picture.use().channel = flags;
+        const vec4 got = picture.lookup({{0.5f, 0.5f, 0, 0}}).second[0];
+        EXPECT_EQ(got.x, r);
+        EXPECT_EQ(got.y, g);
+        EXPECT_EQ(got.z, b);
+    }
+}
+
 TEST(Texture, ColoursAreNeverNegative) {
     Picture picture(1, 1, TEXEL_FLOAT);
     picture.add_floats({-0.5, 0.25, 2, 1});

@@ -24,6 +24,9 @@ constexpr double DISPERSION_TIMES_ABBE = 20;
 /// The least a / b of GGX roughnesses across and along that `anisotropy` makes.
 constexpr double LEAST_ASPECT = 0.1;
 
+/// What is smooth stays so: of this roughness a map can stretch a highlight.
+constexpr double LEAST_STRETCHED_ROUGHNESS = 0.02;
+
 } // namespace
 
 std::optional<TextureUse> GltfMaterialReader::channel(const JsonValue& owner, const char* key, u32 channel) {
@@ -48,8 +51,21 @@ void GltfMaterialReader::read_dielectric() {
     const double largest = largest_component(f0);
     m_.dielectric_f0.value = largest * weight;
     m_.specular_tint = largest > 0 ? f0 / largest : glm::dvec3(1);
-    if (specular->find("specularTexture") || specular->find("specularColorTexture"))
-        notice("the textures of KHR_materials_specular are ignored");
+    read_specular_textures(*specular);
+}
+
+/// The alpha of one multiplies the colours of the other; they are mostly one picture.
+void GltfMaterialReader::read_specular_textures(const JsonValue& specular) {
+    std::optional<TextureUse> weight = texture(specular, "specularTexture"),
+                              colour = texture(specular, "specularColorTexture");
+    if (colour && weight && !is_same_lookup(*colour, *weight)) {
+        notice("specularTexture is ignored beside a specularColorTexture of another picture");
+        weight.reset();
+    }
+    if (weight)
+        weight->alpha = colour ? TextureAlpha::MULTIPLIES : TextureAlpha::ALONE;
+    m_.dielectric_f0.map = weight ? weight : colour;
+    m_.dielectric_f0_role = TextureRole::COLOUR;
 }
 
 /// Without a volume the surface is a wall of no thickness, by the letter of the standard.
@@ -112,6 +128,14 @@ void GltfMaterialReader::read_anisotropy() {
     if (!anisotropy)
         return;
     const double strength = gltf_unit_number(*anisotropy, "anisotropyStrength", 0);
+    // The tangent's right-hand neighbour is the v that grows upwards, as ours does.
+    m_.anisotropy_rotation = anisotropy->number("anisotropyRotation", 0) / glm::two_pi<double>();
+    m_.anisotropy_map = strength > 0 ? texture(*anisotropy, "anisotropyTexture") : std::nullopt;
+    m_.anisotropy_strength = strength;
+    if (m_.anisotropy_map) {
+        m_.roughness.value = std::max(m_.roughness.value, LEAST_STRETCHED_ROUGHNESS);
+        return;
+    }
     const double across = m_.roughness.value * m_.roughness.value,
                  along = glm::mix(across, 1.0, strength * strength);
     if (!(along > 0))
@@ -119,10 +143,6 @@ void GltfMaterialReader::read_anisotropy() {
     const double aspect = std::max(across / along, LEAST_ASPECT);
     m_.anisotropy = (1 - aspect) / (1 - LEAST_ASPECT);
     m_.roughness.value = std::sqrt(std::sqrt(along * along * aspect));
-    // The tangent's right-hand neighbour is the v that grows upwards, as ours does.
-    m_.anisotropy_rotation = anisotropy->number("anisotropyRotation", 0) / glm::two_pi<double>();
-    if (anisotropy->find("anisotropyTexture"))
-        notice("anisotropyTexture is ignored");
     if (across / along < LEAST_ASPECT)
         notice("highlights are stretched to 1:10 at most");
 }

@@ -28,6 +28,10 @@ std::optional<JsonValue> GltfMaterialReader::extension(const char* name) const {
     return extensions ? extensions->find(name) : std::nullopt;
 }
 
+bool GltfMaterialReader::has_alpha(const TextureUse& use) const {
+    return context_.pictures.has_alpha && context_.pictures.has_alpha(use);
+}
+
 void GltfMaterialReader::notice(const std::string& text) const {
     context_.notices.add(text, json_.place());
 }
@@ -108,9 +112,15 @@ void GltfMaterialReader::read_specular_glossiness(const JsonValue& model) {
     m_.base.map = texture(model, "diffuseTexture");
     m_.specular.value = gltf_colour(model, "specularFactor", 1);
     m_.specular.map = texture(model, "specularGlossinessTexture");
-    m_.roughness.value = 1 - gltf_unit_number(model, "glossinessFactor", 1);
-    if (m_.specular.map)
-        notice("the glossiness in the alpha of specularGlossinessTexture is taken as 1");
+    const double glossiness = gltf_unit_number(model, "glossinessFactor", 1);
+    m_.roughness.value = 1 - glossiness;
+    if (m_.specular.map && has_alpha(*m_.specular.map))
+        m_.roughness = {1, m_.specular.map, 1 - glossiness};
+    if (m_.roughness.map) {
+        m_.roughness.map->channel = CHANNEL_ALPHA;
+        m_.roughness.map->base = 1;
+        m_.roughness.map->gain = -glossiness;
+    }
 }
 
 void GltfMaterialReader::read_normal_map() {
@@ -136,7 +146,7 @@ void GltfMaterialReader::read_alpha() {
     if (name != "MASK" && name != "BLEND")
         mode->fail("OPAQUE, MASK or BLEND");
     std::optional<TextureUse> alpha = m_.base.map;
-    if (alpha && !(context_.pictures.has_alpha && context_.pictures.has_alpha(*alpha)))
+    if (alpha && !has_alpha(*alpha))
         alpha.reset();
     if (alpha)
         alpha->channel = CHANNEL_ALPHA;

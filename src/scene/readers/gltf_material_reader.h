@@ -30,12 +30,14 @@ private:
     std::optional<JsonValue> extension(const char* name) const;
     std::optional<TextureUse> texture(const JsonValue& owner, const char* key);
     std::optional<TextureUse> channel(const JsonValue& owner, const char* key, u32 channel);
-    void notice(const std::string& text) const; ///< about this material
+    bool has_alpha(const TextureUse& use) const; ///< some texel is not opaque
+    void notice(const std::string& text) const;  ///< about this material
 
     void read_base(const JsonValue& model);
     void read_metallic_roughness(const JsonValue& model);
     void read_specular_glossiness(const JsonValue& model);
     void read_dielectric();
+    void read_specular_textures(const JsonValue& specular);
     void read_transmission();
     void read_volume();
     void read_coat();
