@@ -7,6 +7,7 @@
 #include "console/signals.h"
 #include "device/device.h"
 #include "device/device_facts.h"
+#include "device/driver_cache_folder.h"
 #include "effects/explain.h"
 #include "effects/planned_scene.h"
 #include "exit_code.h"
@@ -87,6 +88,8 @@ int run(int argc, const char* const* argv) {
     }
     const Options& options = command.options;
     set_driver_environment(options.device);
+    const auto cache_of_run =
+        options.device.cache == Toggle::OFF ? DriverCacheFolder::make_for_uncached_run() : nullptr;
     start_log(options.run.verbosity);
     if (options.run.list_devices) {
         const std::vector<PlatformInfo> platforms = list_platforms();

@@ -23,6 +23,10 @@ std::shared_ptr<const DriverCacheFolder> DriverCacheFolder::make() {
     return std::shared_ptr<const DriverCacheFolder>(new DriverCacheFolder(std::move(path)));
 }
 
+std::shared_ptr<const DriverCacheFolder> DriverCacheFolder::make_for_uncached_run() {
+    return std::getenv(VARIABLE) ? nullptr : make();
+}
+
 DriverCacheFolder::DriverCacheFolder(std::string path) : path_(std::move(path)) {
     const char* value = std::getenv(VARIABLE);
     was_set_ = value != nullptr;

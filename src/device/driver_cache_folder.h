@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A place for the cache of a driver that has none: a home that cannot be written, for example.
+// A place for the cache of a driver that has none, where a home cannot be written for example, or none of its
+// own.
 #pragma once
 
 #include <memory>
@@ -13,6 +14,10 @@ class DriverCacheFolder {
 public:
     /// Null where no folder can be made.
     static std::shared_ptr<const DriverCacheFolder> make();
+    /// For a run whose programs are not kept: PoCL compiles them in one folder for all such runs, from which
+    /// each takes its programs away when it ends, whoever else compiles them. Null where the user names a
+    /// folder, too.
+    static std::shared_ptr<const DriverCacheFolder> make_for_uncached_run();
     ~DriverCacheFolder();
     DriverCacheFolder(const DriverCacheFolder&) = delete;
     DriverCacheFolder& operator=(const DriverCacheFolder&) = delete;

@@ -71,6 +71,18 @@ TEST_F(ProgramCacheCommand, ADamagedEntryIsAMissAndNoErrorAndOffKeepsNothing) {
     EXPECT_FALSE(exists("none"));
 }
 
+TEST_F(ProgramCacheCommand, OffCompilesWhereNoOtherRunTakesProgramsAway) {
+    write_square("scene");
+    CommandSettings settings;
+    settings.environment["XDG_CACHE_HOME"] = folder.file("home");
+    settings.environment["TMPDIR"] = folder.file("temporary");
+    for (const char* name : {"home", "temporary"})
+        std::filesystem::create_directory(folder.file(name));
+    EXPECT_EQ(clrt(quick({"scene.obj", "--no-cache"}), settings).exit_code, 0);
+    EXPECT_FALSE(exists("home/pocl/uncached"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.file("temporary"))) << "nothing is left behind";
+}
+
 // A room long enough for pilots, of which several programs are wanted.
 TEST_F(ProgramCacheCommand, WhatWillBeWantedIsCompiledAheadWhereNothingIsCached) {
     write_square("scene");

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // How --threads and --cache reach the drivers: by their environment variables.
 #include "device/device.h"
+#include "device/driver_cache_folder.h"
 #include "device/program.h"
 #include "options/options.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
 #include <utility>
@@ -100,6 +102,23 @@ TEST_F(DriverQuirks, LlvmpipeGetsAnFmaOfOurs) {
     EXPECT_NE(build_options(device, Precision::SINGLE).find("-DCLRT_SOFTWARE_FMA=1"), std::string::npos);
     device.name = "AMD Radeon";
     EXPECT_EQ(build_options(device, Precision::SINGLE).find("FMA"), std::string::npos);
+}
+
+TEST_F(DriverQuirks, ARunThatKeepsNoProgramsHasAFolderOfItsOwn) {
+    const char* const name = "POCL_CACHE_DIR";
+    const char* const set_before = std::getenv(name);
+    const std::string before = set_before ? set_before : "";
+    unsetenv(name);
+    auto folder = DriverCacheFolder::make_for_uncached_run();
+    const std::string place = variable(name);
+    EXPECT_TRUE(std::filesystem::is_directory(place)) << place;
+    EXPECT_EQ(DriverCacheFolder::make_for_uncached_run(), nullptr) << "one is named";
+    EXPECT_EQ(variable(name), place);
+    folder.reset();
+    EXPECT_FALSE(std::filesystem::exists(place));
+    EXPECT_EQ(variable(name), "unset");
+    if (set_before)
+        setenv(name, before.c_str(), 1);
 }
 
 TEST_F(DriverQuirks, ThePlatformListIsMadeWithTheThreadsAskedFor) {
