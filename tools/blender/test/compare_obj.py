@@ -26,8 +26,7 @@ LARGEST_DIFFERENCE = 0.03
 # Where both mean different things by the same inputs.
 KNOWN_DIFFERENCES = {
     "velvet": 0.2,  # sheen: Cycles' fibres (LTC) against a Charlie distribution
-    "glass": 0.06,  # noise of the glass balls' light
-    "frosted": 0.04,
+    "coated": 0.1,  # how much of the base a coat leaves
 }
 # What only the keys of physically based materials can say.
 NEED_KEYS = ("glass", "frosted", "coated", "velvet")
