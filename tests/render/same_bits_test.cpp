@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures that must be the same to the last bit: two renders on one device in every test.
 #include "kernels/shared/effects.h"
+#include "probes/effect_masks.h"
 #include "probes/film_estimate.h"
 #include "probes/kernel_probe.h"
 #include "probes/merl_file.h"
@@ -74,6 +75,7 @@ void make_maps(TestScene& scene) {
     scene.options.light.environment_file = scene.folder.file("sky.exr");
     scene.options.film.filter = Filter::GAUSSIAN;
     scene.options.scene.texture_filter = TextureFilter::FOOTPRINT;
+    scene.finish = [](Scene& loaded) { read_by_second_uvs("colour.png", loaded); };
     scene.look({0, 1.2, 3}, {0, 0.5, 0}, 40);
 }
 

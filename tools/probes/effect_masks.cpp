@@ -66,15 +66,6 @@ void add_two_instances(Scene& scene) {
         instance.object = 0;
 }
 
-/// All maps but those of normals are read by u and v exchanged.
-void add_second_uvs(Scene& scene) {
-    for (size_t i = 0; i < scene.uvs.size(); ++i)
-        scene.second_uvs.push_back(scene.uvs[i ^ 1]);
-    for (size_t i = 0; i < scene.textures.size(); ++i)
-        if (scene.texture_names[i] == COLOUR)
-            scene.textures[i].channel |= TEXTURE_SECOND_UV;
-}
-
 } // namespace
 
 std::vector<EffectMask> single_effects() {
@@ -124,6 +115,14 @@ std::vector<EffectMask> all_effect_sets() {
     return {sets.begin(), sets.end()};
 }
 
+void read_by_second_uvs(const std::string& file, Scene& scene) {
+    for (size_t i = 0; i < scene.uvs.size(); ++i)
+        scene.second_uvs.push_back(scene.uvs[i ^ 1]);
+    for (size_t i = 0; i < scene.textures.size(); ++i)
+        if (scene.texture_names[i] == file)
+            scene.textures[i].channel |= TEXTURE_SECOND_UV;
+}
+
 std::string describe_effects(EffectMask effects) {
     return fmt::format("{:#x}: {}", effects, fmt::join(effect_names(effects), ","));
 }
@@ -148,7 +147,7 @@ SceneOfEffects::SceneOfEffects(EffectMask effects) : effects_(effects) {
         if (effects & EFFECT_INSTANCES)
             add_two_instances(scene);
         if (effects & EFFECT_SECOND_UV)
-            add_second_uvs(scene);
+            read_by_second_uvs(COLOUR, scene);
     };
     if (has(EFFECT_MOTION_BLUR))
         options.camera.end_eye = glm::dvec3(0.3, 1.7, 2.9);

@@ -29,6 +29,9 @@ std::vector<EffectMask> all_effect_sets();
 /// Names for messages.
 std::string describe_effects(EffectMask effects);
 
+/// Has all uses of a picture read second texture coordinates: u and v exchanged.
+void read_by_second_uvs(const std::string& file, Scene& scene);
+
 /// A scene that calls for exactly these effects, each of which shows where light and lobes allow; 16 x 16
 /// pixels.
 class SceneOfEffects : public ScratchScene {
