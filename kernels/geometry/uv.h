@@ -38,6 +38,7 @@ static inline float2 uv_of(global const Texture* texture, Uv uv)
 #endif
 }
 
+/* The area of the footprint in what a texture reads. */
 static inline float uv_area_of(global const Texture* texture, UvArea area)
 {
 #if CLRT_EFFECTS & EFFECT_SECOND_UV
