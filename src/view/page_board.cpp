@@ -91,9 +91,9 @@ void PageBoard::wait_for_question(std::chrono::milliseconds time) {
     changed_.wait_for(lock, time, [&] { return !questions_.empty() || state_.is_stopping; });
 }
 
-void PageBoard::wait_for_goodbyes(std::chrono::milliseconds time) {
+bool PageBoard::wait_for_goodbyes(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, time, [&] { return !has_watchers(false); });
+    return changed_.wait_for(lock, time, [&] { return !has_watchers(false); });
 }
 
 PageState PageBoard::look(const std::string& page, bool is_out_of_sight) {

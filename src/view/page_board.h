@@ -63,8 +63,8 @@ public:
     void answer_questions(const std::function<PathAnswer(const PathQuestion&)>& answer);
     /// Waits for a question, until the time is over.
     void wait_for_question(std::chrono::milliseconds time);
-    /// Waits until every page that looks has said goodbye, or the time is over.
-    void wait_for_goodbyes(std::chrono::milliseconds time);
+    /// Waits until every page that looks has said goodbye, or the time is over; whether all have.
+    bool wait_for_goodbyes(std::chrono::milliseconds time);
 
     // From the page's threads.
 

@@ -255,21 +255,16 @@ TEST_F(PageAnswer, SavingIsAskedForOnce) {
 }
 
 TEST_F(PageAnswer, PicturesAreMadeForPagesInSightAndTheEndWaitsForAll) {
-    using std::chrono::milliseconds;
     EXPECT_FALSE(board.is_watched());
-    const auto waits = [&] {
-        const auto begin = std::chrono::steady_clock::now();
-        board.wait_for_goodbyes(milliseconds(30));
-        return std::chrono::steady_clock::now() - begin >= milliseconds(30);
-    };
-    EXPECT_FALSE(waits()) << "for nobody";
+    const auto all_are_gone = [&] { return board.wait_for_goodbyes(std::chrono::milliseconds(30)); };
+    EXPECT_TRUE(all_are_gone()) << "nobody came";
     ask("state", {{"page", "a"}, {"away", "1"}});
     EXPECT_FALSE(board.is_watched());
-    EXPECT_TRUE(waits());
+    EXPECT_FALSE(all_are_gone());
     ask("state", {{"page", "a"}});
     EXPECT_TRUE(board.is_watched());
     ask("goodbye", {{"page", "a"}}, "POST");
-    EXPECT_FALSE(waits());
+    EXPECT_TRUE(all_are_gone());
 }
 
 TEST(ShowPace, TakesATwentiethOfTheRenderAtMost) {

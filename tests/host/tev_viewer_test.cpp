@@ -69,10 +69,10 @@ TevPatience short_patience() {
     return {milliseconds(500), milliseconds(150), milliseconds(300)};
 }
 
-/// Waits until it holds, a second at most.
+/// Waits until it holds, twenty seconds at most.
 template <class Condition>
 bool comes_true(Condition&& condition) {
-    for (int i = 0; i < 100 && !condition(); ++i)
+    for (int i = 0; i < 2000 && !condition(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return condition();
 }
