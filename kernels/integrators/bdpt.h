@@ -61,7 +61,7 @@ static CLRT_NOINLINE void bdpt_vertex(const Scene* scene, const RenderParams* pa
     if (path->hit.triangle == NO_INDEX) {
         path_absorb(scene, 0, path);
         path_skip_slabs(params, path);
-        splat_add_escape(scene, params, segment, path, weights, sample, rays);
+        splat_add_escape(scene, params, segment, path, weights, sample, &sample->radiance, rays);
         bdpt_book(params, 0u, segment + 1u, sample);
         return;
     }

@@ -19,7 +19,9 @@
 // x_j, so that max_depth leaves both as many behind. All else, such as emission that a path meets there, what
 // other lobes send, paths that leave x_j by a delta lobe, and those that come to glass, that leave x_j into
 // an absorbing solid or with one colour of three, is its own pixel's alone. Which of both a path is depends
-// on x and y only, so that every light path is counted by one of them.
+// on x and y only, so that every light path is counted by one of them. Where splats find some paths, too
+// (path_light.h), the weights of these depend on x_j: light that splats may find stays its own pixel's, which
+// depends on y and what is behind it only.
 #ifndef CLRT_INTEGRATORS_PATH_REUSE_H
 #define CLRT_INTEGRATORS_PATH_REUSE_H
 
@@ -48,12 +50,57 @@ typedef struct {
     real3 arriving;   /* throughput of the path that comes to the second vertex, */
     real3 connection, matte_connection; /* what next-event estimation has found there, and the matte share, */
     real3 matte_next;                   /* and that of what the path finds on its way on */
+#if SPLATS_ARE_WEIGHTED
+    real3 weighed; /* what it has gathered behind the second vertex with weights that depend on the first */
+    bool is_connection_weighed; /* the connection of the present vertex is such */
+#endif
 } ReusedPath;
 
 static inline void reuse_begin(ReusedPath* reused)
 {
     reused->segment = 0u;
     reused->has_second = false;
+#if SPLATS_ARE_WEIGHTED
+    reused->weighed = (real3)(REAL(0.0));
+#endif
+}
+
+/* Where a path adds what it finds: `is_weighed`: with a weight that depends on its first vertex. */
+static inline real3* reuse_sum(bool is_weighed, real3* radiance, ReusedPath* reused)
+{
+#if SPLATS_ARE_WEIGHTED
+    if (is_weighed && reused->has_second)
+        return &reused->weighed;
+#endif
+    return radiance;
+}
+
+/* All that a path has gathered since it last began to. */
+static inline real3 reuse_gathered(real3 radiance, const ReusedPath* reused)
+{
+#if SPLATS_ARE_WEIGHTED
+    return radiance + reused->weighed;
+#else
+    return radiance;
+#endif
+}
+
+/* Notes of which sort the connection is that the present vertex may make. */
+static inline void reuse_note_connection(bool is_weighed, ReusedPath* reused)
+{
+#if SPLATS_ARE_WEIGHTED
+    reused->is_connection_weighed = is_weighed;
+#endif
+}
+
+/* Where that adds its light. */
+static inline real3* reuse_connection_sum(real3* radiance, ReusedPath* reused)
+{
+#if SPLATS_ARE_WEIGHTED
+    return reuse_sum(reused->is_connection_weighed, radiance, reused);
+#else
+    return radiance;
+#endif
 }
 
 /* True if a segment leads to the second vertex of a path that has a first one. */
@@ -149,6 +196,9 @@ static inline void reuse_finish(real3* radiance, ReusedPath* reused)
         shared = reused->matte_connection * reused->connection + reused->matte_next * next;
         *radiance += reused->arriving * (rest / reused->scale);
     }
+#if SPLATS_ARE_WEIGHTED
+    *radiance += reused->arriving * (reused->weighed / reused->scale);
+#endif
     reused->light = shared / (reused->passing * reused->scale);
 }
 
@@ -236,6 +286,17 @@ typedef struct {
 } ReusedPath;
 
 static inline void reuse_begin(ReusedPath* reused) {}
+
+static inline real3* reuse_sum(bool is_weighed, real3* radiance, ReusedPath* reused)
+{
+    return radiance;
+}
+
+static inline real3 reuse_gathered(real3 radiance, const ReusedPath* reused) { return radiance; }
+
+static inline void reuse_note_connection(bool is_weighed, ReusedPath* reused) {}
+
+static inline real3* reuse_connection_sum(real3* radiance, ReusedPath* reused) { return radiance; }
 
 static inline void reuse_keep_first(const RenderParams* params, uint segment, const Surface* surface,
                                     const Bsdf* bsdf, const Guide* guide, const Path* path,

@@ -18,17 +18,17 @@ static inline void splat_take_seen(const Scene* scene, CameraSample* sample)
 #endif
 }
 
-/* Adds the light from outside the scene. */
+/* Adds the light from outside the scene to what the sample gathers in `sum`. */
 static inline void splat_add_escape(const Scene* scene, const RenderParams* params, uint segment,
                                     const Path* path, const SplatWeights* weights, CameraSample* sample,
-                                    PixelRays* rays)
+                                    real3* sum, PixelRays* rays)
 {
     rays->missed += segment == 1u ? 1u : 0u;
     if (nan_carry(scene, nan_of_miss(&path->hit), &sample->radiance))
         return;
     const real3 sky = segment == 1u ? vertex_sky(scene, params, 1u, 0, &path->ray, REAL(0.0), KINDS_ALL)
                                     : splat_escape(scene, params, path, weights);
-    vertex_add(scene, path->throughput * sky, &sample->radiance);
+    vertex_add(scene, path->throughput * sky, sum);
 #if FILM_MOMENTS
     alone_sky(scene, params, segment, path, path->throughput * sky, &sample->moments);
 #endif

@@ -61,26 +61,38 @@ static inline void splat_eye_leaves(const Bsdf* bsdf, real3 wo, const BsdfSample
 #endif
 }
 
-/* True if splats find the light at the end of a ray that leaves the last vertex by a density, 0 for a delta
-   lobe. */
-static inline bool splat_competes(real pdf_w, const SplatWeights* weights)
+/* Whether splats may find the light at the end of a ray that leaves the last vertex by a density, 0 for a
+   delta lobe: behind a path's second vertex the same for all paths that come to it. */
+static inline bool splat_may_compete(real pdf_w, const SplatWeights* weights)
 {
 #if EMISSION_IS_AIMED
-    if (pdf_w > REAL(0.0) && !weights->is_shared)
-        return false;
+    return pdf_w == REAL(0.0) || weights->is_shared;
+#else
+    return true;
 #endif
-    return weights->closed > REAL(0.0);
+}
+
+/* True if they do. */
+static inline bool splat_competes(real pdf_w, const SplatWeights* weights)
+{
+    return splat_may_compete(pdf_w, weights) && weights->closed > REAL(0.0);
 }
 
 /* The same of light from outside, which next-event estimation finds too or does not. Behind slabs it is left
    to that (slab.h), if it does. */
-static inline bool splat_competes_outside(const Path* path, bool is_connected_to, const SplatWeights* weights)
+static inline bool splat_may_compete_outside(const Path* path, bool is_connected_to,
+                                             const SplatWeights* weights)
 {
 #if HAS_SLABS
     if (path->is_behind_slabs)
-        return !is_connected_to && weights->closed > REAL(0.0);
+        return !is_connected_to;
 #endif
-    return splat_competes(path->pdf_w, weights);
+    return splat_may_compete(path->pdf_w, weights);
+}
+
+static inline bool splat_competes_outside(const Path* path, bool is_connected_to, const SplatWeights* weights)
+{
+    return splat_may_compete_outside(path, is_connected_to, weights) && weights->closed > REAL(0.0);
 }
 
 /* The weight of a hit: `light_pdf_w` is the density of next-event estimation, `emission_pdf` that of the ray

@@ -166,7 +166,7 @@ inline constexpr IntegratorRow INTEGRATOR_ROWS[] = {
      SkySampling::BY_TABLE,
      Connections::ONE_LIGHT,
      FilmAccess::SPLAT,
-     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_GUIDE | TAKES_EMISSION_RAYS},
+     TAKES_MAX_DEPTH | TAKES_ROULETTE_DEPTH | TAKES_GUIDE | TAKES_PATH_REUSE | TAKES_EMISSION_RAYS},
     {Integrator::BDPT,
      "bdpt",
      "global illumination, paths from both ends",

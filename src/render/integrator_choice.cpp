@@ -27,8 +27,6 @@ std::optional<std::string> reason_for_path(const Options& options) {
         return "--aov NAME=EXPR tells paths apart";
     if (options.transport.guide == Toggle::ON)
         return "--guide on guides paths from the eye";
-    if (options.transport.path_reuse == Toggle::ON)
-        return "--path-reuse on gives paths from the eye to several pixels";
     if (options.scene.texture_filter != TextureFilter::NONE)
         return "--texture-filter follows paths from the eye";
     return std::nullopt;
@@ -213,9 +211,11 @@ private:
 
     /// Goes back from the chosen candidate to path where reusing paths gains as much there, by pilots, or
     /// where these find path better than was told; says what they tell of reuse, or nothing. Path is planned
-    /// then, and the parts are its own.
+    /// then, and the parts are its own. Path+light gains by reuse as well, so that path stays behind it.
     std::string try_reuse() {
-        if (!chosen_ || best_ >= most_of_path(*planned_) || (guide_ && has_light_tree(*planned_)))
+        const bool is_path_light = choice_.integrator == Integrator::PATH_LIGHT;
+        if (!chosen_ || best_ >= most_of_path(*planned_) || (guide_ && has_light_tree(*planned_)) ||
+            (is_path_light && !is_measured_alone(*planned_)))
             return "";
         take(Integrator::PATH, asked_, *planned_);
         const std::optional<ReusePilots> pilots = reuse_pilots();
@@ -226,7 +226,7 @@ private:
         if (is_measured_alone(*planned_))
             price = measured_price(price, pilots->alone, choice_.caustics, options());
         best_ = std::max(price.efficiency, price.guided);
-        const bool reuses = gain * gain_of_adaptive(options()) >= best_;
+        const bool reuses = !is_path_light && gain * gain_of_adaptive(options()) >= best_;
         if (reuses || best_ <= smallest_gain(price, is_guided_, options()))
             go_back_to_path(reuses && gain >= WORTHWHILE_REUSE_GAIN);
         return fmt::format("path that reuses paths {:.2g}", gain);
@@ -305,6 +305,8 @@ bool decide_by_facts(PlannedScene& planned, const std::vector<Candidate>& candid
         choice.integrator = Integrator::PATH_LIGHT;
         choice.reason = fmt::format("path does not see {} ({})", planned.effects.paths.blind_spots[0].paths,
                                     planned.effects.paths.blind_spots[0].cause);
+    } else if (planned.options.transport.path_reuse == Toggle::ON) {
+        choice.reason = "--path-reuse on gives paths from the eye to several pixels";
     } else if (const auto size = pilots_of(candidates, planned)) {
         choice.pilot = *size;
         return false;
@@ -354,8 +356,11 @@ IntegratorChoice choose_integrator(const Device& device, const std::shared_ptr<P
             choice.is_told = true;
         }
     }
-    if (choice.integrator != Integrator::PATH)
+    if (choice.integrator != Integrator::PATH) {
         parts.programs.reset(); // path's, which pilots have taken
+        parts.reusing.reset();
+        expect_reuse(device, planned);
+    }
     if (planned->options.sampling.adaptive && !is_adaptive(planned->options))
         choice.reason += "; light paths reach all pixels, so that samples are even in spite of --adaptive";
     choice.is_told = choice.is_told || choice.integrator != Integrator::PATH;

@@ -17,8 +17,8 @@
 // both differ over a guide: a pilot of a candidate judges here whether one is worth it, a pilot of the
 // integrator itself where it is named, and near the bound they need not agree.
 //
-// Where another one than path wins, path that reuses paths gets a pilot as well (render/reuse_choice.h), and
-// the plan is for that if it gains as much.
+// Where bdpt wins, path that reuses paths gets a pilot as well (render/reuse_choice.h), and the plan is for
+// that if it gains as much. Path+light gains by reuse what path does.
 //
 // Where --max-depth is not asked for, bdpt takes as long paths as path does.
 #pragma once

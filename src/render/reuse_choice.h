@@ -26,7 +26,7 @@ struct ReusePilots {
     double gain = 0; ///< of squared error times work by reuse; 0 where a signal stops them
 };
 
-/// Has the program compiled ahead that a plan of path will want first: with reuse, where that is open.
+/// Has the program compiled ahead that a plan will want first: with reuse, where that is open.
 void expect_reuse(const Device& device, const std::shared_ptr<PlannedScene>& planned);
 
 /// Prepares a plan of path for pilots. Where reuse is open they are rendered by programs that reuse paths

@@ -143,8 +143,11 @@ TEST_F(CodeGeneration, OfPathReuse) {
             std::vector<std::string> defines = {"-DPATH_REUSE=1",
                                                 fmt::format("-DCLRT_EFFECTS={:#x}u", effects)};
             defines.insert(defines.end(), guide.begin(), guide.end());
-            expect_clean(fmt::format("path reuse, effects {:#x}, {}", effects, fmt::join(guide, " ")),
-                         entry_points({"path"}), defines);
+            const std::string what =
+                fmt::format("path reuse, effects {:#x}, {}", effects, fmt::join(guide, " "));
+            expect_clean(what, entry_points({"path"}), defines);
+            defines.push_back("-DFILM_SPLATS=1");
+            expect_clean(what + ", splats", entry_points({"path_light"}), defines);
         }
 }
 

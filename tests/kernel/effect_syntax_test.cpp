@@ -82,9 +82,13 @@ TEST(EffectSyntax, SplattingProgramsCompileTooByEitherAtomic) {
 TEST(EffectSyntax, PathReuseCompilesInEverySetOfEffects) {
     const ScratchFolder folder;
     const std::string file = folder.write("reuse.cl", "#define PATH_REUSE 1\n" + entry_points({"path"}));
+    const std::string splats = folder.write("splats.cl", "#define PATH_REUSE 1\n#define FILM_SPLATS 1\n" +
+                                                             entry_points({"path_light"}));
     for (const EffectMask mask : masks())
-        if ((mask & EFFECTS_OF_ONE_PIXEL) == 0)
+        if ((mask & EFFECTS_OF_ONE_PIXEL) == 0) {
             EXPECT_EQ(complaints(file, "CL1.2", mask), "") << describe_effects(mask);
+            EXPECT_EQ(complaints(splats, "CL1.2", mask), "") << describe_effects(mask);
+        }
 }
 
 TEST(EffectSyntax, TheDenoisingFilterCompilesToo) {

@@ -106,6 +106,7 @@ TEST(LaunchBits, DoNotDependOnTheSizesOrTheOrderOfLaunches) {
                                                  {Integrator::RAYCAST, Toggle::OFF},
                                                  {Integrator::LIGHT, Toggle::OFF},
                                                  {Integrator::PATH_LIGHT, Toggle::OFF},
+                                                 {Integrator::PATH_LIGHT, Toggle::ON},
                                                  {Integrator::BDPT, Toggle::OFF}}) {
         const LaunchedScene scene(integrator, path_reuse);
         const u32 tiles = scene.tiles();

@@ -10,6 +10,7 @@
 #include "support/drawn.h"
 #include "support/film_agrees.h"
 #include "support/lit_rooms.h"
+#include "support/with_reuse.h"
 
 #include <gtest/gtest.h>
 #include <utility>
@@ -28,51 +29,6 @@ void expect_same_light(const Room& room, double sharpness) {
     expect_equal(tile_means(room, reusing, Integrator::PATH, ""),
                  tile_means(room, alone, Integrator::PATH, ""), sharpness);
 }
-
-/// Pictures without reuse and with it, of other seeds; the second may be guided.
-std::pair<Film, Film> both_ways(TestScene& scene, Toggle guide = Toggle::OFF) {
-    scene.options.sampling.replicates = 32;
-    scene.options.transport.guide = Toggle::OFF;
-    Film alone = scene.render().film;
-    scene.options.transport.guide = guide;
-    scene.options.transport.path_reuse = Toggle::ON;
-    scene.options.sampling.seed = 1;
-    const Render reusing = scene.render();
-    EXPECT_EQ(reusing.counts.bad(), 0u);
-    return {std::move(alone), reusing.film};
-}
-
-/// The mean over pixels of their squared difference over its variance: light that is given to the wrong pixel
-/// of a tile changes no mean of the tile.
-double mean_square_z(const std::pair<Film, Film>& films) {
-    const auto& [alone, reusing] = films;
-    double sum = 0;
-    for (int y = 0; y < alone.height; ++y)
-        for (int x = 0; x < alone.width; ++x) {
-            const Estimate a = film_estimate(alone, 0, {x, y, x + 1, y + 1});
-            const Estimate b = film_estimate(reusing, 0, {x, y, x + 1, y + 1});
-            const double variance = a.error * a.error + b.error * b.error;
-            sum += variance > 0 ? (a.mean - b.mean) * (a.mean - b.mean) / variance : 0;
-        }
-    return sum / (alone.width * alone.height);
-}
-
-/// Of Student's distribution with 31 degrees of freedom or more it is at most 31 / 29; pixels have some noise
-/// in common.
-constexpr double LARGEST_MEAN_SQUARE_Z = 1.2;
-/// Of the 64 pixels of one tile: four standard deviations more than the mean.
-constexpr double LARGEST_MEAN_SQUARE_Z_OF_A_TILE = 1.8;
-
-/// A render, its squared error of a sample times its rays.
-struct Cost {
-    Render render;
-    double cost;
-    Cost(TestScene& scene, Toggle path_reuse) {
-        scene.options.transport.path_reuse = path_reuse;
-        render = scene.render();
-        cost = sample_error(render.film, ErrorMeasure::RELATIVE) * double(render.counts.rays());
-    }
-};
 
 /// A closed room with a lamp, or the same floor in the open.
 struct Lit : TestScene {
