@@ -60,7 +60,8 @@ REPORT = [
      "finds lamps behind them as well: one equation tells in which direction light comes that the glass has shifted. --paths and --aov NAME=EXPR go without either."),
     ("reuse", "Where light comes by detours, paths are expensive and what they find is light for the pixels around as well: what leaves "
      "the second vertex of a path, if that is on a matte surface, is also connected to the first vertices of seven paths of pixels "
-     "nearby (multiple importance sampling; without bias). Beside light paths, what these may find too stays its own pixel's. It is so where pilots tell that it lowers squared error times rays, or by "
+     "nearby (multiple importance sampling; without bias). Beside light paths, what these may find too stays its own pixel's. "
+     "It is so where pilots tell that it lowers squared error times rays, or by "
      "--path-reuse on. Pixels nearby then have noise in common. Mirrors and clear glass before the first vertex do not count as "
      "vertices."),
     ("lights", "Where there are many lights, and walls between them, which light is sampled is most of the noise. If pilots tell that it "

@@ -3,12 +3,24 @@
 #pragma once
 
 #include "film/film_error.h"
-#include "support/render_scene.h"
+#include "support/lit_rooms.h"
 
 #include <gtest/gtest.h>
 #include <utility>
 
 namespace clrt {
+
+/// Whether a room has the same light in every tile with and without reuse, to 8 % of the picture's mean.
+inline void expect_same_light(const Room& room, Integrator integrator) {
+    constexpr double SHARPNESS = 0.08;
+    Options alone = room.options;
+    alone.transport.guide = Toggle::OFF;
+    Options reusing = alone;
+    reusing.transport.path_reuse = Toggle::ON;
+    reusing.sampling.seed = 1;
+    expect_equal(tile_means(room, reusing, integrator, ""), tile_means(room, alone, integrator, ""),
+                 SHARPNESS);
+}
 
 /// Pictures without reuse and with it, of other seeds; the second may be guided.
 inline std::pair<Film, Film> both_ways(TestScene& scene, Toggle guide = Toggle::OFF) {
